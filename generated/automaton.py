@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 1fa1628e4fb4cd5d41f78f198265092b7ccf46e0e13e3260a384eb76b61e1362
+# Automaton sha256 1c9791c70e8f593b03cb723ee1e300c67e8c7edf5262556a53d73690f97282dc
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -115,6 +115,8 @@ SAFETY = 30.0  # least margin of a certificate in tolerances of the largest ener
 CHATTER_PHASES = 100  # number of phases beyond which a trajectory is treated as chatter
 FILM_DEPTHS = 16  # gaps in geometric sequence down to contact at which the film certificate bounds the pressure
 ATTRACTED_FILM_DEPTHS = 48  # the same with an attraction, which grows at small gaps
+APPROACH_PARTS = 24  # parts of the film, in geometric sequence, of the approach certificate
+DEEPEST_PART = 0.01  # where they end, over x0, unless solid contact is above
 LEAST_DEPTH = 1e-40  # least gap, relative to the present one, of the film certificate without contact
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 4cccd754c6ed77f066cbfe3ae925bf16a510eb0478f8afafcdc0bb953f21347d
+# Equations sha256 a4a77fe52e3381817e3ee2f288fb1969a2ce9c9c85b8d103b52fa97c3830a502
 """Head-on doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -22,6 +22,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from casadi import fmax, sqrt
+
 
 Values = Mapping[str, Any]
 
@@ -38,12 +40,14 @@ FUNCTIONS = (
     "energy_rates",
     "rebound_loss",
     "outputs",
+    "approach_step",
+    "approach_force",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "4cccd754c6ed77f066cbfe3ae925bf16a510eb0478f8afafcdc0bb953f21347d"
+DIGEST = "a4a77fe52e3381817e3ee2f288fb1969a2ce9c9c85b8d103b52fa97c3830a502"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -174,6 +178,44 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     normal_velocity = state["normal_velocity"]
     return {
         "restitution": normal_velocity,
+    }
+
+
+def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+    velocity): the part's end, the largest speed there and within it.
+
+    Total operations: 32
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    stokes = groups["stokes"]
+    adhesion = groups["adhesion"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
+    deeper = gap*part_ratio
+    largest_force = fmax(0, adhesion*laws.attraction.force(deeper)/stokes)
+    path = gap - deeper
+    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
+    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
+    return {
+        "deeper_gap": deeper,
+        "slowed": gain + fmax(0, left),
+        "fastest": gain - normal_velocity,
+    }
+
+
+def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
+
+    Total operations: 5
+    """
+    gap = state["gap"]
+    stokes = groups["stokes"]
+    adhesion = groups["adhesion"]
+    return {
+        "outward": fmax(0, -adhesion*laws.attraction.force(gap)/stokes),
     }
 
 

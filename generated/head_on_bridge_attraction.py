@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 fdaa8d7c054685e198a1c275c81db6b8fda9b61a8e80d1a85459a185a5db3e9a
+# Equations sha256 ecab4f34e8ae0345fdde68b4f5165e8cd07ec7f287b12f2e7e2880bb8540d94b
 """Head-on doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -26,6 +26,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from casadi import fmax, sqrt
 
 
 Values = Mapping[str, Any]
@@ -55,12 +57,14 @@ FUNCTIONS = (
     "energy_rates",
     "rebound_loss",
     "outputs",
+    "approach_step",
+    "approach_force",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "fdaa8d7c054685e198a1c275c81db6b8fda9b61a8e80d1a85459a185a5db3e9a"
+DIGEST = "ecab4f34e8ae0345fdde68b4f5165e8cd07ec7f287b12f2e7e2880bb8540d94b"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -209,6 +213,54 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     normal_velocity = state["normal_velocity"]
     return {
         "restitution": normal_velocity,
+    }
+
+
+def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+    velocity): the part's end, the largest speed there and within it.
+
+    Total operations: 38
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
+    deeper = gap*part_ratio
+    largest_force = (
+        fmax(0, adhesion*laws.attraction.force(deeper)/stokes + laws.bridge.force(aspect*deeper/2, volume, contact_angle)/(capillary*stokes))
+    )
+    path = gap - deeper
+    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
+    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
+    return {
+        "deeper_gap": deeper,
+        "slowed": gain + fmax(0, left),
+        "fastest": gain - normal_velocity,
+    }
+
+
+def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
+
+    Total operations: 11
+    """
+    gap = state["gap"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    adhesion = groups["adhesion"]
+    return {
+        "outward": fmax(0, -adhesion*laws.attraction.force(gap)/stokes - laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 87702fbf7a05de2f5bb8d3feac121eb6af88ee20c39c630ff8c5625d31e5f7f4
+# Equations sha256 95938d01c40c0c5041d3e48ad44255161c7e54d7b7235ee5a28caab094b39260
 """Head-on doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -25,6 +25,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from casadi import fmax, sqrt
 
 
 Values = Mapping[str, Any]
@@ -53,12 +55,14 @@ FUNCTIONS = (
     "energy_rates",
     "rebound_loss",
     "outputs",
+    "approach_step",
+    "approach_force",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "87702fbf7a05de2f5bb8d3feac121eb6af88ee20c39c630ff8c5625d31e5f7f4"
+DIGEST = "95938d01c40c0c5041d3e48ad44255161c7e54d7b7235ee5a28caab094b39260"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -199,6 +203,53 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     normal_velocity = state["normal_velocity"]
     return {
         "restitution": normal_velocity,
+    }
+
+
+def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+    velocity): the part's end, the largest speed there and within it.
+
+    Total operations: 34
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
+    deeper = gap*part_ratio
+    largest_force = fmax(0, laws.bridge.force(aspect*deeper/2, volume, contact_angle)/(capillary*stokes))
+    path = gap - deeper
+    left = (
+        - normal_velocity
+        - (laws.film.braking(deeper, aspect, volume) - laws.film.braking(gap, aspect, volume))/stokes
+    )
+    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
+    return {
+        "deeper_gap": deeper,
+        "slowed": gain + fmax(0, left),
+        "fastest": gain - normal_velocity,
+    }
+
+
+def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
+
+    Total operations: 7
+    """
+    gap = state["gap"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    return {
+        "outward": fmax(0, -laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
     }
 
 

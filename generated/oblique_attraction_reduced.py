@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 35de080ea53526a7f13591afe214e2f2482d106b6308578d82007b33ecf4173b
+# Equations sha256 7bce1a581d97c9ca1b83bb794fcf52cb101cd6bb328ac712ed86903b812f1b48
 """Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -25,7 +25,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax
+from casadi import fmax, sqrt
 
 
 Values = Mapping[str, Any]
@@ -55,13 +55,15 @@ FUNCTIONS = (
     "rebound_loss",
     "outputs",
     "attraction_margins",
+    "approach_step",
+    "approach_force",
     "orbital_margins",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "35de080ea53526a7f13591afe214e2f2482d106b6308578d82007b33ecf4173b"
+DIGEST = "7bce1a581d97c9ca1b83bb794fcf52cb101cd6bb328ac712ed86903b812f1b48"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -313,6 +315,53 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
         "hold": hold,
         "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(1 - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
+    }
+
+
+def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+    velocity): the part's end, the largest speed there and within it.
+
+    Total operations: 32
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    stokes = groups["stokes"]
+    adhesion = groups["adhesion"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
+    deeper = gap*part_ratio
+    largest_force = fmax(0, adhesion*laws.attraction.force(deeper)/stokes)
+    path = gap - deeper
+    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
+    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
+    return {
+        "deeper_gap": deeper,
+        "slowed": gain + fmax(0, left),
+        "fastest": gain - normal_velocity,
+    }
+
+
+def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
+
+    Total operations: 38
+    """
+    gap = state["gap"]
+    orbital_momentum = state["orbital_momentum"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    adhesion = groups["adhesion"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    distance = aspect*gap + 4
+    orbital_rate = orbital_momentum/distance**2
+    momentum = (aspect + 4)**2
+    spin = 5*momentum/32 - 5*orbital_momentum/32
+    return {
+        "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - adhesion*laws.attraction.force(gap)/stokes),
     }
 
 

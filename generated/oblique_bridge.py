@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 3d30f8e36719cb2aaa21a5e04cadff63a7ee0d954429a9a37c33126f0ccc8ea6
+# Equations sha256 77c987cf59d91f86f6bcf7771eb5250a3ebd5a4bcb8060fa53ceb6f52d139336
 """Oblique doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -63,13 +63,15 @@ FUNCTIONS = (
     "angular_momentum",
     "outputs",
     "attraction_margins",
+    "approach_step",
+    "approach_force",
     "orbital_margins",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "3d30f8e36719cb2aaa21a5e04cadff63a7ee0d954429a9a37c33126f0ccc8ea6"
+DIGEST = "77c987cf59d91f86f6bcf7771eb5250a3ebd5a4bcb8060fa53ceb6f52d139336"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -362,6 +364,57 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
         "hold": hold,
         "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
+    }
+
+
+def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+    velocity): the part's end, the largest speed there and within it.
+
+    Total operations: 34
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
+    deeper = gap*part_ratio
+    largest_force = fmax(0, laws.bridge.force(aspect*deeper/2, volume, contact_angle)/(capillary*stokes))
+    path = gap - deeper
+    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
+    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
+    return {
+        "deeper_gap": deeper,
+        "slowed": gain + fmax(0, left),
+        "fastest": gain - normal_velocity,
+    }
+
+
+def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
+
+    Total operations: 33
+    """
+    gap = state["gap"]
+    orbital_momentum = state["orbital_momentum"]
+    spin = state["spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    distance = aspect*gap + 4
+    orbital_rate = orbital_momentum/distance**2
+    return {
+        "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
     }
 
 

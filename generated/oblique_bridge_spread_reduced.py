@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 f5beba0ca7550d92066be57ce8caf37281560a3f6a71752bc1b5952702242761
+# Equations sha256 ab1cf9a71e4a4127faa416f6bd863522e322167b2964c263e155af516fdfa51d
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume, spin eliminated through
 the conserved angular momentum.
 
@@ -29,7 +29,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax
+from casadi import fmax, sqrt
 
 
 Values = Mapping[str, Any]
@@ -62,13 +62,15 @@ FUNCTIONS = (
     "rebound_loss",
     "outputs",
     "attraction_margins",
+    "approach_step",
+    "approach_force",
     "orbital_margins",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "f5beba0ca7550d92066be57ce8caf37281560a3f6a71752bc1b5952702242761"
+DIGEST = "ab1cf9a71e4a4127faa416f6bd863522e322167b2964c263e155af516fdfa51d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -333,6 +335,61 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
         "hold": hold,
         "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
+    }
+
+
+def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+    velocity): the part's end, the largest speed there and within it.
+
+    Total operations: 34
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
+    deeper = gap*part_ratio
+    largest_force = fmax(0, laws.bridge.force(aspect*deeper/2, volume, contact_angle)/(capillary*stokes))
+    path = gap - deeper
+    left = (
+        - normal_velocity
+        - (laws.film.braking(deeper, aspect, volume) - laws.film.braking(gap, aspect, volume))/stokes
+    )
+    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
+    return {
+        "deeper_gap": deeper,
+        "slowed": gain + fmax(0, left),
+        "fastest": gain - normal_velocity,
+    }
+
+
+def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
+
+    Total operations: 40
+    """
+    gap = state["gap"]
+    orbital_momentum = state["orbital_momentum"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    distance = aspect*gap + 4
+    orbital_rate = orbital_momentum/distance**2
+    momentum = (aspect + 4)**2
+    spin = 5*momentum/32 - 5*orbital_momentum/32
+    return {
+        "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 3253f5a6a16737c41e9e92b2bb82ed638163e7999e890d25d1557efd58bcc19a
+# Equations sha256 6a6f4dadba66ed939242b1837ad776579696c372a5deb7753ef3786eec78610e
 """Oblique unequal doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -31,6 +31,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from casadi import fmax, sqrt
 
 
 Values = Mapping[str, Any]
@@ -65,11 +67,13 @@ FUNCTIONS = (
     "rebound_loss",
     "angular_momentum",
     "outputs",
+    "approach_step",
+    "approach_force",
     "effective_potential",
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "3253f5a6a16737c41e9e92b2bb82ed638163e7999e890d25d1557efd58bcc19a"
+DIGEST = "6a6f4dadba66ed939242b1837ad776579696c372a5deb7753ef3786eec78610e"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -386,6 +390,63 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
         "final_spin_partner": partner_spin,
+    }
+
+
+def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+    velocity): the part's end, the largest speed there and within it.
+
+    Total operations: 34
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
+    deeper = gap*part_ratio
+    largest_force = fmax(0, laws.bridge.force(aspect*deeper/2, volume, contact_angle)/(capillary*stokes))
+    path = gap - deeper
+    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
+    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
+    return {
+        "deeper_gap": deeper,
+        "slowed": gain + fmax(0, left),
+        "fastest": gain - normal_velocity,
+    }
+
+
+def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
+
+    Total operations: 64
+    """
+    gap = state["gap"]
+    orbital_momentum = state["orbital_momentum"]
+    spin = state["spin"]
+    partner_spin = state["partner_spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    capillary = groups["capillary"]
+    volume = groups["volume"]
+    contact_angle = groups["contact_angle"]
+    radius_ratio = groups["radius_ratio"]
+    mass_ratio = groups["mass_ratio"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    orbital_rate = orbital_momentum/distance**2
+    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
+    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
+    return {
+        "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2))/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
     }
 
 

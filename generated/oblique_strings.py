@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 f272377e21653e3de8f31029acf68b30fa67ca15bfc078528c6f378f594add88
+# Equations sha256 8c16dfb19ac0bb5372be6ae30f4d20ff16fad45825c8323c9f8ddea89a53f355
 """Oblique doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -28,7 +28,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, fmin, pi, sin, sqrt
+from casadi import cos, fmax, fmin, pi, sin, sqrt
 
 
 Values = Mapping[str, Any]
@@ -60,9 +60,10 @@ FUNCTIONS = (
     "angular_momentum",
     "outputs",
     "pendulum_margins",
+    "approach_step",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "f272377e21653e3de8f31029acf68b30fa67ca15bfc078528c6f378f594add88"
+DIGEST = "8c16dfb19ac0bb5372be6ae30f4d20ff16fad45825c8323c9f8ddea89a53f355"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -343,10 +344,10 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def pendulum_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the pendulum certificate (lever arm at mid-gap): outward < pull, film < 0 and recoil < 0
-    exclude separation.
+    """Margins of the pendulum certificate (lever arm at mid-gap): film < 0 and recoil < 0 exclude separation,
+    with St impulse added unless outward < pull; rebound, beneath: of a gap and speed.
 
-    Total operations: 67
+    Total operations: 355
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -371,9 +372,67 @@ def pendulum_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]
     largest_pull = weight*(aspect + 8)*laws.strings.stiffness(string_ratio, aspect**2/4 + 4*aspect + 16)
     fastest = sqrt(2*largest_pull + fmin(0, normal_velocity)**2)
     reach = fmax(contact, laws.glass.reach(fastest, glass_number))
+    outward = aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
+    pull = (
+        weight*(aspect*contact + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2)
+    )
+    weighing = (
+        weight*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2)
+    )
+    turning = largest_momentum*obliquity
+    taken = 640*farthest**2*nearest**3*weighing/(aspect*(5*farthest**2 + 32))
+    final = sqrt(fmax(0, fmin(1, outward/(8*weighing) - aspect*contact/8)))
+    width = fmax(0, final**3*(pi - 2) + 2*final - rotation)/8
+    angle_0 = rotation
+    angle_1 = rotation + width
+    angle_2 = rotation + 2*width
+    angle_3 = rotation + 3*width
+    angle_4 = rotation + 4*width
+    angle_5 = rotation + 5*width
+    angle_6 = rotation + 6*width
+    angle_7 = rotation + 7*width
+    turning_0 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_0))))
+    turning_1 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_1))))
+    turning_2 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_2))))
+    turning_3 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_3))))
+    turning_4 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_4))))
+    turning_5 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_5))))
+    turning_6 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_6))))
+    turning_7 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_7))))
     return {
-        "outward": aspect*largest_momentum**2*obliquity**2/(16*nearest**3),
-        "pull": weight*(aspect*contact + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2),
-        "film": stokes*fmax(0, normal_velocity) - laws.film.stopping(gap),
+        "outward": outward,
+        "pull": pull,
+        "impulse": width*(fmax(0, (aspect*turning_0**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_0) + 4))/(4*aspect*nearest*turning_0)) + fmax(0, (aspect*turning_1**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_1) + 4))/(4*aspect*nearest*turning_1)) + fmax(0, (aspect*turning_2**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_2) + 4))/(4*aspect*nearest*turning_2)) + fmax(0, (aspect*turning_3**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_3) + 4))/(4*aspect*nearest*turning_3)) + fmax(0, (aspect*turning_4**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_4) + 4))/(4*aspect*nearest*turning_4)) + fmax(0, (aspect*turning_5**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_5) + 4))/(4*aspect*nearest*turning_5)) + fmax(0, (aspect*turning_6**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_6) + 4))/(4*aspect*nearest*turning_6)) + fmax(0, (aspect*turning_7**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_7) + 4))/(4*aspect*nearest*turning_7))),
+        "film": normal_velocity*stokes - laws.film.stopping(gap),
         "recoil": dry_restitution*fastest*stokes - laws.film.stopping(reach),
+        "rebound": -dry_restitution*normal_velocity*stokes - laws.film.stopping(gap),
+        "beneath": dry_restitution*stokes*(sqrt(2)*sqrt(gap)*sqrt(largest_pull) - normal_velocity) - laws.film.stopping(gap),
+    }
+
+
+def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+    velocity): the part's end, the largest speed there and within it.
+
+    Total operations: 37
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    weight = groups["weight"]
+    string_ratio = groups["string_ratio"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    largest_pull = weight*(aspect + 8)*laws.strings.stiffness(string_ratio, aspect**2/4 + 4*aspect + 16)
+    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
+    deeper = gap*part_ratio
+    largest_force = largest_pull
+    path = gap - deeper
+    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
+    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
+    return {
+        "deeper_gap": deeper,
+        "slowed": gain + fmax(0, left),
+        "fastest": gain - normal_velocity,
     }

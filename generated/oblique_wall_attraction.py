@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 d7448091495f58809fe9fa2886b021efe755453511153282cb4a82d06769b14c
+# Equations sha256 34772ec338d12d1419d7270b42bb7a3fec0a935c0b268ec9f762ef097db073a2
 """Oblique sphere-wall doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -25,7 +25,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import exp, sqrt
+from casadi import exp, fmax, sqrt
 
 
 Values = Mapping[str, Any]
@@ -53,12 +53,14 @@ FUNCTIONS = (
     "energy_rates",
     "rebound_loss",
     "outputs",
+    "approach_step",
+    "approach_force",
     "effective_potential",
     "rigid_rotation",
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "d7448091495f58809fe9fa2886b021efe755453511153282cb4a82d06769b14c"
+DIGEST = "34772ec338d12d1419d7270b42bb7a3fec0a935c0b268ec9f762ef097db073a2"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -237,6 +239,44 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "tangential_restitution": slide,
         "final_rotation_rate": 0,
         "final_spin": roll,
+    }
+
+
+def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+    velocity): the part's end, the largest speed there and within it.
+
+    Total operations: 32
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    stokes = groups["stokes"]
+    adhesion = groups["adhesion"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
+    deeper = gap*part_ratio
+    largest_force = fmax(0, adhesion*laws.attraction.force(deeper)/stokes)
+    path = gap - deeper
+    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
+    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
+    return {
+        "deeper_gap": deeper,
+        "slowed": gain + fmax(0, left),
+        "fastest": gain - normal_velocity,
+    }
+
+
+def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
+
+    Total operations: 5
+    """
+    gap = state["gap"]
+    stokes = groups["stokes"]
+    adhesion = groups["adhesion"]
+    return {
+        "outward": fmax(0, -adhesion*laws.attraction.force(gap)/stokes),
     }
 
 

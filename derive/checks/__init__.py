@@ -12,6 +12,7 @@ from functools import cache
 from ..physics.laws import LAWS, Law
 from ..vocabulary.quantities import gap
 from .admission import Admission, certificate, certificates
+from .approach_certificate import approach_certificate
 from .attraction_certificate import attraction_certificate
 from .attractions import law_checks
 from .base import Check
@@ -89,6 +90,7 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     yield from _once(pendulum_certificate)
     yield from _once(attraction_certificate)
     yield from _once(orbital_momentum_certificate)
+    yield from _once(approach_certificate)
     yield from certificates(own)
     yield from _once(groups_span_the_nullspace)
     yield from _once(groups_are_the_papers)

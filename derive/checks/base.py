@@ -33,10 +33,13 @@ def vanishing(name: str, statement: str, left: list[sp.Expr], figure: str = "", 
 
 
 def settled(expression: sp.Expr) -> sp.Expr:
-    """Zero if the expression vanishes identically: expanded, and simplified only if that does not suffice."""
+    """Zero if the expression vanishes identically: expanded, as one fraction, or simplified if neither shows it."""
     quick = sp.expand(expression)
     if quick == 0:
         return quick
+    top, _ = sp.fraction(sp.together(expression))  # not of the expanded form, whose terms have a denominator each
+    if sp.expand(top) == 0:
+        return sp.Integer(0)
     return sp.simplify(sp.factor(quick))
 
 

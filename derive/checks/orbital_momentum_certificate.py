@@ -103,7 +103,7 @@ def surface_takes() -> Check:
     rho = sp.Symbol("rho", positive=True)
     slope = (rest.diff(_P) / (2 * _P)).subs(_P, rho * _Q) / _Q**2
     left = sp.together(sp.cancel(rho / _FAR - slope)).subs(_FAR, rho + _REACH / (1 + _CLOSER)).subs(rho, 4 + _BEYOND)
-    top, bottom = sp.fraction(sp.cancel(left))
+    top, bottom = sp.fraction(sp.together(left))
     ok = _no_negative(top * sp.sign(bottom.subs({_CLOSER: 1, _BEYOND: 1}))) and (
         _no_negative(bottom) or _no_negative(-bottom)
     )

@@ -33,7 +33,9 @@ from ..vocabulary.quantities import (
 )
 from .base import Check, vanishing
 from .closed import emitted_rates, filled
+from .impulse import impulse_is_bounded
 from .margins import margins
+from .signs import positive
 
 _PENDULUM = Structure(oblique=True, bridge=False, strings=True)
 _HALF = sp.Symbol("half_angle_sine", nonnegative=True)  # sin(beta/2), which grows with beta up to half a turn
@@ -55,7 +57,7 @@ def momentum_falls() -> Check:
     total = _midgap(found[orbital_momentum] + sp.Rational(32, 5) * found[spin])
     lever = sp.sin(beta) * sp.Function("strings.stiffness", real=True)(string_ratio, _swing())
     share = sp.simplify(total / lever)
-    ok = bool(_positive(-share))
+    ok = bool(positive(-share))
     return Check(
         "strings only take from L", "dL/dt = -r S_t <= 0 while 0 <= beta <= pi", ok, f"dL/dt ~ {share} sin(beta)"
     )
@@ -63,17 +65,6 @@ def momentum_falls() -> Check:
 
 def _swing() -> sp.Expr:
     return dict(_model().definitions)[offset_squared].subs(DISTANCE, 4 + aspect * gap)
-
-
-def _positive(expression: sp.Expr) -> bool | None:
-    """True if a quotient of polynomials in non-negative symbols has non-negative coefficients only."""
-    top, bottom = sp.fraction(sp.together(sp.expand(expression)))
-    return all(
-        all(coefficient >= 0 for coefficient in sp.Poly(part, *sorted(part.free_symbols, key=str)).coeffs())
-        if part.free_symbols
-        else part > 0
-        for part in (sp.expand(top), sp.expand(bottom))
-    )
 
 
 def orbital_momentum_is_bounded() -> Check:
@@ -92,10 +83,7 @@ def orbital_momentum_is_bounded() -> Check:
     slope = sp.together(rigid_momentum(level, DISTANCE).diff(DISTANCE))
     rest = vanishing("", "", [identity])
     ok = (
-        rest.ok
-        and bool(_positive(-shear))
-        and bool(_positive(slope))
-        and bool(_positive(rigid_momentum(level, DISTANCE)))
+        rest.ok and bool(positive(-shear)) and bool(positive(slope)) and bool(positive(rigid_momentum(level, DISTANCE)))
     )
     return Check(
         "J stays below J_max",
@@ -118,8 +106,8 @@ def pull_grows() -> tuple[Check, ...]:
         steeper = stiffness.diff(offset_squared).subs(offset_squared, string_ratio**2 - hanging)
         swing = (aspect * gap) ** 2 / 4 + (4 + aspect * gap) * 4 * _HALF**2
         across = sp.simplify(pull / stiffness.subs(offset_squared, swing))
-        grows = [_positive(across.diff(q)) and _positive(swing.diff(q)) for q in (gap, _HALF)]
-        ok = all(grows) and bool(_positive(across)) and sp.simplify(steeper).is_nonnegative is True
+        grows = [positive(across.diff(q)) and positive(swing.diff(q)) for q in (gap, _HALF)]
+        ok = all(grows) and bool(positive(across)) and sp.simplify(steeper).is_nonnegative is True
         checks.append(
             Check(
                 f"S_n grows, {name} strings",
@@ -135,7 +123,7 @@ def centrifugal_falls() -> Check:
     """At a given J the centrifugal force decreases with the distance."""
     level = sp.Symbol("momentum", positive=True)
     slope = outward_at(level, DISTANCE).diff(DISTANCE)
-    return Check("J^2/r^3 falls", "d(J^2/r^3)/dr < 0 at fixed J", bool(_positive(-slope)), f"{sp.factor(slope)}")
+    return Check("J^2/r^3 falls", "d(J^2/r^3)/dr < 0 at fixed J", bool(positive(-slope)), f"{sp.factor(slope)}")
 
 
 def film_stops() -> Check:
@@ -186,4 +174,5 @@ def pendulum_certificate() -> tuple[Check, ...]:
         film_stops(),
         *criterion_reach(),
         *margins(),
+        *impulse_is_bounded(),
     )

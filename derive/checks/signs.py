@@ -60,3 +60,14 @@ def _sampled(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign:
                 point = ", ".join(f"{symbol} = {number}" for symbol, number in places.items())
                 return Sign(False, f"{sp.N(value, 3)} at {point}")
     return Sign(None, "no proof found, and no negative value on a grid either")
+
+
+def positive(expression: sp.Expr) -> bool | None:
+    """True if a quotient of polynomials in non-negative symbols has non-negative coefficients only."""
+    top, bottom = sp.fraction(sp.together(sp.expand(expression)))
+    return all(
+        all(coefficient >= 0 for coefficient in sp.Poly(part, *sorted(part.free_symbols, key=str)).coeffs())
+        if part.free_symbols
+        else part > 0
+        for part in (sp.expand(top), sp.expand(bottom))
+    )

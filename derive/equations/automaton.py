@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 CLOSING, OPENING = -1, 1
+APPROACH_PARTS, DEEPEST_PART = 24, 0.01
 
 
 @dataclass(frozen=True)
@@ -293,5 +294,7 @@ CONSTANTS = (
     Constant("FILM_DEPTHS", 16, "gaps in geometric sequence down to contact at which the film certificate bounds the "
              "pressure"),
     Constant("ATTRACTED_FILM_DEPTHS", 48, "the same with an attraction, which grows at small gaps"),
+    Constant("APPROACH_PARTS", APPROACH_PARTS, "parts of the film, in geometric sequence, of the approach certificate"),
+    Constant("DEEPEST_PART", DEEPEST_PART, "where they end, over x0, unless solid contact is above"),
     Constant("LEAST_DEPTH", 1e-40, "least gap, relative to the present one, of the film certificate without contact"),
 )  # fmt: skip

@@ -38,6 +38,7 @@ from ..vocabulary.quantities import (
     volume,
     weight,
 )
+from .certificates import approach
 from .certificates import attraction as attraction_certificate
 from .certificates import orbital_momentum as orbital_certificate
 from .certificates.pendulum import definitions as pendulum_definitions
@@ -84,7 +85,7 @@ class Model:
     def expanded(self, expression: sp.Expr) -> sp.Expr:
         """`expression` with every named intermediate substituted."""
         for symbol, value in reversed(self.definitions):
-            expression = expression.subs(symbol, value)
+            expression = expression.xreplace({symbol: value})
         return expression
 
 
@@ -102,6 +103,8 @@ def derive(structure: Structure) -> Model:
         definitions += pendulum_definitions()
     elif attraction_certificate.admits(structure):
         definitions += attraction_certificate.definitions(structure)
+    if approach.admits(structure):
+        definitions += approach.definitions(structure)
     if orbital_certificate.admits(structure):
         definitions += orbital_certificate.definitions(structure)
     used = _closure(functions, definitions)
@@ -247,8 +250,8 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
         functions.append(
             ModelFunction(
                 "pendulum_margins",
-                "Margins of the pendulum certificate (lever arm at mid-gap): outward < pull, film < 0 and recoil < 0 "
-                "exclude separation.",
+                "Margins of the pendulum certificate (lever arm at mid-gap): film < 0 and recoil < 0 exclude "
+                "separation, with St impulse added unless outward < pull; rebound, beneath: of a gap and speed.",
                 tuple(pendulum_margins().items()),
             )
         )
@@ -259,6 +262,23 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                 "Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): "
                 "hold > 0, escape < 0 and rebound < 0 exclude separation.",
                 tuple(attraction_certificate.margins(structure).items()),
+            )
+        )
+    if approach.admits(structure):
+        functions.append(
+            ModelFunction(
+                "approach_step",
+                "Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal "
+                "velocity): the part's end, the largest speed there and within it.",
+                tuple(approach.step().items()),
+            )
+        )
+    if approach.admits(structure) and not structure.strings:
+        functions.append(
+            ModelFunction(
+                "approach_force",
+                "Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.",
+                (("outward", approach.outward(structure)),),
             )
         )
     if orbital_certificate.admits(structure):

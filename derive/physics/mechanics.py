@@ -24,12 +24,12 @@ S_n, S_t = sp.symbols("S_n S_t", real=True)
 @cache
 def sphere_inertia() -> sp.Expr:
     """Moment of inertia of one sphere about a diameter, (2/5) M R^2 = (16/5) m a^2, integrated over its volume."""
-    radius, mass, s, polar, azimuth = sp.symbols("R M s vartheta varphi", positive=True)
+    radius, mass, s, azimuth = sp.symbols("R M s varphi", positive=True)
+    cosine = sp.Symbol("cos_vartheta", real=True)  # of the polar angle: d(cosine) = -sin d(angle)
     density = mass / (sp.Rational(4, 3) * sp.pi * radius**3)
-    lever_squared = (s * sp.sin(polar)) ** 2
-    integrand = density * lever_squared * s**2 * sp.sin(polar)
-    inertia = sp.integrate(integrand, (s, 0, radius), (polar, 0, sp.pi), (azimuth, 0, 2 * sp.pi))
-    return sp.simplify(inertia.subs({radius: 2 * a, mass: 2 * m}))
+    lever_squared = s**2 * (1 - cosine**2)
+    inertia = sp.integrate(density * lever_squared * s**2, (s, 0, radius), (cosine, -1, 1), (azimuth, 0, 2 * sp.pi))
+    return inertia.subs({radius: 2 * a, mass: 2 * m})
 
 
 @cache
@@ -64,7 +64,16 @@ def kinetic_energy() -> sp.Expr:
         sp.Rational(1, 2) * 2 * m * velocity.dot(velocity)
         + sp.Rational(1, 2) * sphere_inertia() * q.spin_angle.diff(time) ** 2
     )
-    return sp.simplify(2 * per_sphere)
+    return sp.factor(without_sines(2 * per_sphere, q.beta))
+
+
+def without_sines(expression: sp.Expr, angle: sp.Expr) -> sp.Expr:
+    """A polynomial in sine and cosine of an angle, expanded, with its squared sines as 1 - cos^2.
+
+    Lengths and products with unit vectors then no longer name the angle.
+    """
+    squared = sp.sin(angle) ** 2, 1 - sp.cos(angle) ** 2
+    return sp.expand(sp.expand(expression).subs(*squared))
 
 
 @cache
@@ -82,7 +91,7 @@ def generalised_forces() -> dict[str, sp.Expr]:
     position = (4 * a + q.x) / 2 * n
     work = {}
     for name, coordinate in (("x", q.x), ("beta", q.beta)):
-        work[name] = sp.simplify(2 * force.dot(position.diff(coordinate)))
+        work[name] = sp.factor(without_sines(2 * force.dot(position.diff(coordinate)), q.beta))
     work["spin_angle"] = 2 * F_t * arm
     return work
 
@@ -125,7 +134,8 @@ def equations_of_motion() -> EquationsOfMotion:
         conjugate = energy.diff(coordinate.diff(time))
         balance = conjugate.diff(time) - energy.diff(coordinate) - forces[name]
         second = coordinate.diff(time, 2)
-        acceleration[name] = sp.expand(settle(sp.solve(balance, second)[0]))
+        alone = sp.factor(-balance.subs(second, 0) / balance.diff(second))  # the balance is linear in it
+        acceleration[name] = sp.expand(settle(alone))
         momentum[name] = sp.expand(settle(conjugate))
         rate[name] = settle(energy.diff(coordinate) + forces[name])
     return EquationsOfMotion(

@@ -197,7 +197,7 @@ def nondimensional(expression: sp.Expr, centres: sp.Expr = EQUAL) -> sp.Expr:
 
 def _substituted(expression: sp.Expr, rules: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
     for _ in range(3):  # rotation rate -> omega0 -> v0 and the angle
-        expression = expression.subs(rules, simultaneous=True)
+        expression = expression.xreplace(rules)
     if isinstance(expression, AppliedUndef):
         return expression.func(*(sp.simplify(argument) for argument in expression.args))
     return expression

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 6b3272e96508125119537f053c024f8c88a4bcdc8de03051a220f4a29a137b9f
+# Equations sha256 6f2ed032119240a2f997e30e5132098d6c65deec3cc8f3c5b34927356fdc80eb
 """film law `cavitating`: `finite` on approach; on rebound the liquid sustains no suction and cavitates, which
 leaves no force.
 
@@ -9,6 +9,8 @@ Source: Barnocky & Davis, Phys. Fluids 31, 1324 (1988); derived: the pressure cu
 from __future__ import annotations
 
 from typing import Any
+
+from casadi import log
 
 
 def resistance(gap: Any) -> Any:
@@ -25,3 +27,11 @@ def suction(gap: Any) -> Any:
     Total operations: 0
     """
     return 0
+
+
+def braking(gap: Any) -> Any:
+    """Velocity, over v0/St, that the film takes from an approach from x0 to this gap.
+
+    Total operations: 8
+    """
+    return 2*gap - gap**2/2 - log(gap) - 1.5

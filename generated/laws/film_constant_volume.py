@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a430aabd969769af724920fcf170876eeca85525172622c2053e36559a66508f
+# Equations sha256 8d9c64ecb385998c2c8e00fa79beaf31b68745051a17bab0aeff4e213f05290a
 """film law `constant-volume`: the rim follows the bridge's liquid, H = sqrt(x^2 + V_b/(pi a)) in place of x0, at
 any gap.
 
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from casadi import pi, sqrt
+from casadi import log, pi, sqrt
 
 
 def resistance(gap: Any, aspect: Any, volume: Any) -> Any:
@@ -21,3 +21,19 @@ def resistance(gap: Any, aspect: Any, volume: Any) -> Any:
     """
     rim = sqrt(gap**2 + 8*volume/(pi*aspect**2))
     return (gap - rim)**2/(gap*rim**2)
+
+
+def braking(gap: Any, aspect: Any, volume: Any) -> Any:
+    """Velocity, over v0/St, that the film takes from an approach from x0 to this gap.
+
+    Total operations: 35
+    """
+    rim = sqrt(gap**2 + 8*volume/(pi*aspect**2))
+    result = (
+        - log(gap)
+        - log(rim)
+        + log(sqrt(1 + 8*volume/(pi*aspect**2)))
+        + 2*log(gap + rim)
+        - 2*log(sqrt(1 + 8*volume/(pi*aspect**2)) + 1)
+    )
+    return result

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 3d470e90fe424e3706551e89983e88be0b06f2174c18d9d7b2a4581c0acff8ac
+# Equations sha256 86292dc2d3ab7eaf695949e7c560a4b034ffe87a63955fef301acdb07da38acb
 """film law `finite`: Reynolds film of finite thickness, the same on approach and rebound (no cavitation).
 
 Source: Kantak & Davis, Powder Technol. 168, 42 (2006); derived: pressure integrated over the disc h < x0.
@@ -22,6 +22,14 @@ def resistance(gap: Any) -> Any:
 
 def stopping(gap: Any) -> Any:
     """Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0.
+
+    Total operations: 8
+    """
+    return 2*gap - gap**2/2 - log(gap) - 1.5
+
+
+def braking(gap: Any) -> Any:
+    """Velocity, over v0/St, that the film takes from an approach from x0 to this gap.
 
     Total operations: 8
     """

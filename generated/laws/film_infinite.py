@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 227e6ade3425ff1861e6455dd08fa217010a43e744e49f5687440666f0d08122
+# Equations sha256 932d19c493e9d982f26d99d8f6939d55c88bf99d269728fe7bec067c2c6916ba
 """film law `infinite`: no film correction: the pressure of an unbounded film, which ends where the surfaces
 leave it, x = x0.
 
@@ -23,6 +23,14 @@ def resistance(gap: Any) -> Any:
 
 def stopping(gap: Any) -> Any:
     """Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0.
+
+    Total operations: 2
+    """
+    return -log(gap)
+
+
+def braking(gap: Any) -> Any:
+    """Velocity, over v0/St, that the film takes from an approach from x0 to this gap.
 
     Total operations: 2
     """

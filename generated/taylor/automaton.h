@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 1fa1628e4fb4cd5d41f78f198265092b7ccf46e0e13e3260a384eb76b61e1362 */
+ * Automaton sha256 1c9791c70e8f593b03cb723ee1e300c67e8c7edf5262556a53d73690f97282dc */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H
@@ -65,6 +65,8 @@ static const double SAFETY = 30.0; /* least margin of a certificate in tolerance
 enum { CHATTER_PHASES = 100 }; /* number of phases beyond which a trajectory is treated as chatter */
 enum { FILM_DEPTHS = 16 }; /* gaps in geometric sequence down to contact at which the film certificate bounds the pressure */
 enum { ATTRACTED_FILM_DEPTHS = 48 }; /* the same with an attraction, which grows at small gaps */
+enum { APPROACH_PARTS = 24 }; /* parts of the film, in geometric sequence, of the approach certificate */
+static const double DEEPEST_PART = 0.01; /* where they end, over x0, unless solid contact is above */
 static const double LEAST_DEPTH = 1e-40; /* least gap, relative to the present one, of the film certificate without contact */
 
 #endif

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 1fa1628e4fb4cd5d41f78f198265092b7ccf46e0e13e3260a384eb76b61e1362
+ * Automaton sha256 1c9791c70e8f593b03cb723ee1e300c67e8c7edf5262556a53d73690f97282dc
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 1c2f620516f4a83b004a884b58bb3ef2dd14739463885e19f8589756a0782367 */
+ * Equations sha256 90ba89bc99bc8e6503c09c6d821d9ecbd0f46f1a40354a3bef5976bfb337da42 */
 
 /* Head-on doublet with a liquid bridge.
  *
@@ -73,6 +73,7 @@ typedef struct {
     vec scaled_gap_per_gap;
     vec bridge_force_per_bridge_force_law;
     vec normal_velocity_2_per_normal_velocity;
+    vec part_ratio;
     vec bridge_work_factor;
     film_resistance_constants film_resistance_law;
     bridge_force_constants bridge_force_law;
@@ -130,6 +131,8 @@ static inline void prepare(constants *c)
     c->scaled_gap_per_gap = 0.5*c->aspect;
     c->bridge_force_per_bridge_force_law = 1.0/(c->capillary*c->stokes);
     c->normal_velocity_2_per_normal_velocity = -c->dry_restitution;
+    c->part_ratio = vec_exp(0.041666666666666664*vec_log(vec_larger(vec_larger(splat(0.01), c->elastic_gap),
+        c->rough_gap)));
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
     film_resistance_prepare(&c->film_resistance_law);
     bridge_force_prepare(&c->bridge_force_law, c->volume, c->contact_angle);
@@ -269,6 +272,33 @@ static inline vec potential_slope(const constants *c, const vec *y)
     vec bridge_force = c->bridge_force_per_bridge_force_law*bridge_force_law;
     return bridge_force;
 }
+
+#if defined(FILM_BRAKING) && defined(GLASS_REACH) && defined(BRIDGE_FORCE_FALLS)
+#define APPROACH_BOUNDS 1
+/* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+ * velocity): the part's end, the largest speed there and within it. */
+static inline void approach_step(const constants *c, const vec *y, vec *deeper_gap, vec *slowed, vec *fastest)
+{
+    vec deeper = y[GAP]*c->part_ratio;
+    vec largest_force = vec_larger(splat(0.0), bridge_force_value(&c->bridge_force_law,
+        0.5*c->aspect*deeper)/(c->capillary*c->stokes));
+    vec path = y[GAP] - deeper;
+    vec left = -y[NORMAL_VELOCITY] - (film_braking(deeper) - film_braking(y[GAP]))/c->stokes;
+    vec gain = largest_force*path/vec_larger(left,
+        0.5*1.4142135623730951*vec_sqrt(largest_force)*vec_sqrt(path));
+    *deeper_gap = deeper;
+    *slowed = gain + vec_larger(splat(0.0), left);
+    *fastest = gain - y[NORMAL_VELOCITY];
+}
+/* Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state. */
+static inline void approach_force(const constants *c, const vec *y, vec *outward)
+{
+    *outward = vec_larger(splat(0.0), -bridge_force_value(&c->bridge_force_law,
+        0.5*c->aspect*y[GAP])/(c->capillary*c->stokes));
+}
+#else
+#define APPROACH_BOUNDS 0
+#endif
 
 #if !CAPILLARY_STATE
 /* Capillary work up to a gap over m v0^2, from a fixed but arbitrary gap. */

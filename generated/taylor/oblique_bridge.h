@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 3d30f8e36719cb2aaa21a5e04cadff63a7ee0d954429a9a37c33126f0ccc8ea6 */
+ * Equations sha256 77c987cf59d91f86f6bcf7771eb5250a3ebd5a4bcb8060fa53ceb6f52d139336 */
 
 /* Oblique doublet with a liquid bridge.
  *
@@ -95,6 +95,7 @@ typedef struct {
     vec contact;
     vec nearest;
     vec farthest;
+    vec part_ratio;
     vec bridge_work_factor;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
@@ -171,6 +172,8 @@ static inline void prepare(constants *c)
     c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect*c->rupture_gap + 4.0;
+    c->part_ratio = vec_exp(0.041666666666666664*vec_log(vec_larger(vec_larger(splat(0.01), c->elastic_gap),
+        c->rough_gap)));
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
@@ -509,6 +512,40 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 }
 #else
 #define ATTRACTION_MARGINS 0
+#endif
+
+#if defined(FILM_BRAKING) && defined(GLASS_REACH) && defined(BRIDGE_FORCE_FALLS)
+#define APPROACH_BOUNDS MIDGAP_ARM
+/* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+ * velocity): the part's end, the largest speed there and within it. */
+static inline void approach_step(const constants *c, const vec *y, vec *deeper_gap, vec *slowed, vec *fastest)
+{
+    vec deeper = y[GAP]*c->part_ratio;
+    vec largest_force = vec_larger(splat(0.0), bridge_force_value(&c->bridge_force_law,
+        0.5*c->aspect*deeper)/(c->capillary*c->stokes));
+    vec path = y[GAP] - deeper;
+    vec left = -y[NORMAL_VELOCITY] - (film_braking(deeper) - film_braking(y[GAP]))/c->stokes;
+    vec gain = largest_force*path/vec_larger(left,
+        0.5*1.4142135623730951*vec_sqrt(largest_force)*vec_sqrt(path));
+    *deeper_gap = deeper;
+    *slowed = gain + vec_larger(splat(0.0), left);
+    *fastest = gain - y[NORMAL_VELOCITY];
+}
+/* Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state. */
+static inline void approach_force(const constants *c, const vec *y, vec *outward)
+{
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
+    *outward = vec_larger(splat(0.0),
+        2.0*c->aspect*(distance*distance)*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
+        + 0.2*(c->obliquity*c->obliquity)*(y[SPIN]*y[SPIN]))/((c->aspect*vec_larger(c->elastic_gap,
+        c->rough_gap) + distance - c->aspect*y[GAP])*(c->aspect*vec_larger(c->elastic_gap, c->rough_gap) +
+        distance - c->aspect*y[GAP])*(c->aspect*vec_larger(c->elastic_gap, c->rough_gap) + distance -
+        c->aspect*y[GAP])) - bridge_force_value(&c->bridge_force_law,
+        0.5*c->aspect*y[GAP])/(c->capillary*c->stokes));
+}
+#else
+#define APPROACH_BOUNDS 0
 #endif
 
 #if !CAPILLARY_STATE

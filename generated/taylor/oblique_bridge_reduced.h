@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 6fb9f6e1be007a48cbce9f3584874aaa22150d93b10fd378b82ef547b7d4fa33 */
+ * Equations sha256 955308fc2baf32837a3b362010119923e902906ee6b71a0957605c6c2d1e0a7d */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *
@@ -77,6 +77,7 @@ typedef struct {
     vec nearest;
     vec farthest;
     vec spun_up;
+    vec part_ratio;
     vec bridge_work_factor;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
@@ -150,6 +151,8 @@ static inline void prepare(constants *c)
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect*c->rupture_gap + 4.0;
     c->spun_up = (c->farthest*c->farthest)*c->momentum/((c->farthest*c->farthest) + 6.4);
+    c->part_ratio = vec_exp(0.041666666666666664*vec_log(vec_larger(vec_larger(splat(0.01), c->elastic_gap),
+        c->rough_gap)));
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
@@ -379,6 +382,40 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 }
 #else
 #define ATTRACTION_MARGINS 0
+#endif
+
+#if defined(FILM_BRAKING) && defined(GLASS_REACH) && defined(BRIDGE_FORCE_FALLS)
+#define APPROACH_BOUNDS 1
+/* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+ * velocity): the part's end, the largest speed there and within it. */
+static inline void approach_step(const constants *c, const vec *y, vec *deeper_gap, vec *slowed, vec *fastest)
+{
+    vec deeper = y[GAP]*c->part_ratio;
+    vec largest_force = vec_larger(splat(0.0), bridge_force_value(&c->bridge_force_law,
+        0.5*c->aspect*deeper)/(c->capillary*c->stokes));
+    vec path = y[GAP] - deeper;
+    vec left = -y[NORMAL_VELOCITY] - (film_braking(deeper) - film_braking(y[GAP]))/c->stokes;
+    vec gain = largest_force*path/vec_larger(left,
+        0.5*1.4142135623730951*vec_sqrt(largest_force)*vec_sqrt(path));
+    *deeper_gap = deeper;
+    *slowed = gain + vec_larger(splat(0.0), left);
+    *fastest = gain - y[NORMAL_VELOCITY];
+}
+/* Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state. */
+static inline void approach_force(const constants *c, const vec *y, vec *outward)
+{
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
+    vec spin = 0.15625*c->momentum - 0.15625*y[ORBITAL_MOMENTUM];
+    *outward = vec_larger(splat(0.0),
+        2.0*c->aspect*(distance*distance)*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
+        + 0.2*(c->obliquity*c->obliquity)*(spin*spin))/((c->aspect*vec_larger(c->elastic_gap, c->rough_gap) +
+        distance - c->aspect*y[GAP])*(c->aspect*vec_larger(c->elastic_gap, c->rough_gap) + distance -
+        c->aspect*y[GAP])*(c->aspect*vec_larger(c->elastic_gap, c->rough_gap) + distance - c->aspect*y[GAP]))
+        - bridge_force_value(&c->bridge_force_law, 0.5*c->aspect*y[GAP])/(c->capillary*c->stokes));
+}
+#else
+#define APPROACH_BOUNDS 0
 #endif
 
 #if !CAPILLARY_STATE

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 f272377e21653e3de8f31029acf68b30fa67ca15bfc078528c6f378f594add88 */
+ * Equations sha256 8c16dfb19ac0bb5372be6ae30f4d20ff16fad45825c8323c9f8ddea89a53f355 */
 
 /* Oblique doublet with pendulum strings.
  *
@@ -86,6 +86,7 @@ typedef struct {
     vec contact;
     vec nearest;
     vec farthest;
+    vec part_ratio;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
     film_resistance_constants film_resistance_law;
@@ -149,6 +150,8 @@ static inline void prepare(constants *c)
     c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect + 4.0;
+    c->part_ratio = vec_exp(0.041666666666666664*vec_log(vec_larger(vec_larger(splat(0.01), c->elastic_gap),
+        c->rough_gap)));
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
     film_resistance_prepare(&c->film_resistance_law);
@@ -386,19 +389,89 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 #if defined(FILM_STOPPING) && defined(GLASS_REACH)
 #define PENDULUM MIDGAP_ARM
 /* The strings outweigh the rotation from now on if outward < pull (equations/certificates/pendulum.py). */
-static inline void pendulum_inward(const constants *c, const vec *y, vec *outward, vec *pull)
+static inline void pendulum_inward(const constants *c, const vec *y, vec *outward_margin, vec *pull_margin)
 {
     vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
     vec largest_momentum = vec_larger(y[ORBITAL_MOMENTUM], spun_up);
-    *outward =
+    vec outward =
         0.0625*c->aspect*(largest_momentum*largest_momentum)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
-    *pull = c->weight*(c->aspect*c->contact +
+    vec pull = c->weight*(c->aspect*c->contact +
         8.0*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION])))*strings_stiffness_value(&c->strings_stiffness_law,
         0.25*(c->aspect*c->aspect)*(c->contact*c->contact) + 4.0*(c->aspect*c->contact +
         4.0)*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION])));
+    *outward_margin = outward;
+    *pull_margin = pull;
 }
-/* The film then stops the opening and every rebound if film < 0 and recoil < 0. */
+/* Bound of the outward impulse of all forces but the film's from now on. */
+static inline void pendulum_impulse(const constants *c, const vec *y, vec *impulse)
+{
+    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
+    vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
+    vec largest_momentum = vec_larger(y[ORBITAL_MOMENTUM], spun_up);
+    vec outward =
+        0.0625*c->aspect*(largest_momentum*largest_momentum)*(c->obliquity*c->obliquity)/(c->nearest*c->nearest*c->nearest);
+    vec weighing = c->weight*strings_stiffness_value(&c->strings_stiffness_law,
+        0.25*(c->aspect*c->aspect)*(c->contact*c->contact) + 4.0*(c->aspect*c->contact +
+        4.0)*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION])));
+    vec turning = largest_momentum*c->obliquity;
+    vec taken =
+        640.0*(c->farthest*c->farthest)*(c->nearest*c->nearest*c->nearest)*weighing/(c->aspect*(5.0*(c->farthest*c->farthest)
+        + 32.0));
+    vec final = vec_sqrt(vec_larger(splat(0.0), vec_smaller(splat(1.0), 0.125*outward/weighing -
+        0.125*c->aspect*c->contact)));
+    vec width = 0.125*vec_larger(splat(0.0), (final*final*final)*1.1415926535897933 + 2.0*final -
+        y[ROTATION]);
+    vec angle_0 = y[ROTATION];
+    vec angle_1 = y[ROTATION] + width;
+    vec angle_2 = y[ROTATION] + 2.0*width;
+    vec angle_3 = y[ROTATION] + 3.0*width;
+    vec angle_4 = y[ROTATION] + 4.0*width;
+    vec angle_5 = y[ROTATION] + 5.0*width;
+    vec angle_6 = y[ROTATION] + 6.0*width;
+    vec angle_7 = y[ROTATION] + 7.0*width;
+    vec turning_0 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
+        vec_cos(angle_0))));
+    vec turning_1 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
+        vec_cos(angle_1))));
+    vec turning_2 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
+        vec_cos(angle_2))));
+    vec turning_3 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
+        vec_cos(angle_3))));
+    vec turning_4 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
+        vec_cos(angle_4))));
+    vec turning_5 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
+        vec_cos(angle_5))));
+    vec turning_6 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
+        vec_cos(angle_6))));
+    vec turning_7 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
+        vec_cos(angle_7))));
+    *impulse = width*(vec_larger(splat(0.0), 0.25*(c->aspect*(turning_0*turning_0) -
+        16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
+        4.0*vec_cos(angle_0)))/(c->aspect*c->nearest*turning_0)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(turning_1*turning_1) -
+        16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
+        4.0*vec_cos(angle_1)))/(c->aspect*c->nearest*turning_1)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(turning_2*turning_2) -
+        16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
+        4.0*vec_cos(angle_2)))/(c->aspect*c->nearest*turning_2)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(turning_3*turning_3) -
+        16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
+        4.0*vec_cos(angle_3)))/(c->aspect*c->nearest*turning_3)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(turning_4*turning_4) -
+        16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
+        4.0*vec_cos(angle_4)))/(c->aspect*c->nearest*turning_4)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(turning_5*turning_5) -
+        16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
+        4.0*vec_cos(angle_5)))/(c->aspect*c->nearest*turning_5)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(turning_6*turning_6) -
+        16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
+        4.0*vec_cos(angle_6)))/(c->aspect*c->nearest*turning_6)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(turning_7*turning_7) -
+        16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
+        4.0*vec_cos(angle_7)))/(c->aspect*c->nearest*turning_7)));
+}
+/* The film then stops the opening and every rebound if film < 0 and recoil < 0, the impulse added. */
 static inline void pendulum_stops(const constants *c, const vec *y, vec *film, vec *recoil)
 {
     vec largest_pull = c->weight*(c->aspect + 8.0)*strings_stiffness_value(&c->strings_stiffness_law,
@@ -406,11 +479,42 @@ static inline void pendulum_stops(const constants *c, const vec *y, vec *film, v
     vec fastest = vec_sqrt(2.0*largest_pull + (vec_smaller(splat(0.0),
         y[NORMAL_VELOCITY])*vec_smaller(splat(0.0), y[NORMAL_VELOCITY])));
     vec reach = vec_larger(c->contact, glass_reach(fastest, c->glass_number));
-    *film = c->stokes*vec_larger(splat(0.0), y[NORMAL_VELOCITY]) - film_stopping(y[GAP]);
+    *film = y[NORMAL_VELOCITY]*c->stokes - film_stopping(y[GAP]);
     *recoil = c->dry_restitution*fastest*c->stokes - film_stopping(reach);
+}
+/* It stops a rebound from this gap and speed, or one from any smaller gap, if these are negative. */
+static inline void pendulum_rebounds(const constants *c, const vec *y, vec *rebound, vec *beneath)
+{
+    vec largest_pull = c->weight*(c->aspect + 8.0)*strings_stiffness_value(&c->strings_stiffness_law,
+        0.25*(c->aspect*c->aspect) + 4.0*c->aspect + 16.0);
+    *rebound = -c->dry_restitution*y[NORMAL_VELOCITY]*c->stokes - film_stopping(y[GAP]);
+    *beneath = c->dry_restitution*c->stokes*(1.4142135623730951*vec_sqrt(y[GAP])*vec_sqrt(largest_pull) -
+        y[NORMAL_VELOCITY]) - film_stopping(y[GAP]);
 }
 #else
 #define PENDULUM 0
+#endif
+
+#if defined(FILM_BRAKING) && defined(GLASS_REACH)
+#define APPROACH_BOUNDS MIDGAP_ARM
+/* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
+ * velocity): the part's end, the largest speed there and within it. */
+static inline void approach_step(const constants *c, const vec *y, vec *deeper_gap, vec *slowed, vec *fastest)
+{
+    vec largest_pull = c->weight*(c->aspect + 8.0)*strings_stiffness_value(&c->strings_stiffness_law,
+        0.25*(c->aspect*c->aspect) + 4.0*c->aspect + 16.0);
+    vec deeper = y[GAP]*c->part_ratio;
+    vec largest_force = largest_pull;
+    vec path = y[GAP] - deeper;
+    vec left = -y[NORMAL_VELOCITY] - (film_braking(deeper) - film_braking(y[GAP]))/c->stokes;
+    vec gain = largest_force*path/vec_larger(left,
+        0.5*1.4142135623730951*vec_sqrt(largest_force)*vec_sqrt(path));
+    *deeper_gap = deeper;
+    *slowed = gain + vec_larger(splat(0.0), left);
+    *fastest = gain - y[NORMAL_VELOCITY];
+}
+#else
+#define APPROACH_BOUNDS 0
 #endif
 
 #if WITH_LEDGER

@@ -23,7 +23,6 @@ from .regions import Slab, apart, labelled, slabs
 from .survey import Survey, lattice, passes, surveyed
 from .trace import Traced, trace
 
-LINES = 33
 # Columns and rows of the lattice, and number of random collisions for verification; with the kernel, and where
 # collisions are integrated one by one.
 BY_KERNEL, BY_ROSENBROCK = (*LATTICE, 4096), (17, 49, 256)

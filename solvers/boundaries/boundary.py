@@ -17,8 +17,7 @@ from ..many.batch import checked_numbers, checked_span
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import RTOL, check_rtol
-from .atlas_curves import LINES, curves_of
-from .found import STOKES, Curves, Lines
+from .found import LINES, STOKES, Curves, Lines
 from .plane import ANGLE, check_plane
 from .trace import Traced, traces
 
@@ -198,6 +197,8 @@ def atlas(
         >>> [(one.before, one.after) for one in found.curves][0], found.points[0].kind
         (('stick', 'bounce'), 'triple point')
     """
+    from .atlas_curves import curves_of  # not needed by `boundary`
+
     loaded = Scene.load(scene)
     plane = check_plane(loaded, over, span, stokes, check_rtol(rtol))
     lines = check_whole(lines, "lines", 2, _MOST)

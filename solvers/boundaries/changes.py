@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import chain
+from typing import Any
 
 import numpy as np
 
@@ -22,8 +24,9 @@ _BESIDE = 1e-9  # relative distance at which both sides of a graze are computed
 _ACCEPTED = 1e-6  # relative distance at which collisions must confirm a change
 _LOCATED = 1e-8  # the same for one located by a smooth function; otherwise it is bracketed again by outcomes
 _NARROW = 2e-9  # width in ln St to which outcomes bracket a change
-_ROUNDS = 16  # rounds of dividing brackets; four suffice where every collision is decided
-_PARTS = 16  # subdivisions of a bracket in each round
+_ROUNDS = 48  # rounds of dividing brackets; 16 suffice where every collision is decided
+_PARTS = 16  # most subdivisions of a bracket in a round
+_AT_ONCE = 16  # collisions of a round that are worth waiting for together: two for each lane of the kernel
 
 
 @dataclass(frozen=True)
@@ -50,8 +53,9 @@ class Change:
 
 @dataclass(frozen=True)
 class _Bracket:
-    """Two Stokes numbers with different outcomes, and the rebound criterion first met at each (-1 for none)."""
+    """Two Stokes numbers of a line with different outcomes, and the criterion first met at each (-1 for none)."""
 
+    line: Line
     low: float
     high: float
     before: str
@@ -62,25 +66,71 @@ class _Bracket:
     def width(self) -> float:
         return math.log(self.high / self.low)
 
+    def divided(self, count: int) -> np.ndarray:
+        """Stokes numbers that divide it into `count` parts, even in the logarithm, without its ends."""
+        inside: np.ndarray = self.low * (self.high / self.low) ** (np.arange(1, count) / count)
+        return inside
 
-def changes_between(line: Line, look: Look, samples: np.ndarray) -> list[Change]:
-    """All changes between neighbouring samples of a line, each confirmed by collisions on both sides.
 
-    The kernel brackets them by outcomes. Where it does not complete collisions, or without a kernel, they are located
-    by functions that are smooth through a change, or bracketed by Rosenbrock's outcomes.
+def changes_along(
+    lines: Sequence[Line], look: Look, samples: Sequence[np.ndarray]
+) -> list[list[Change] | ComputationError]:
+    """All changes between neighbouring samples of each line, each confirmed by collisions on both sides.
 
-    Raises:
-        ComputationError: a change could not be located, or is contradicted by collisions beside it.
+    The kernel brackets those of all lines together by outcomes. Where it does not complete collisions, or without a
+    kernel, they are located by functions that are smooth through a change, or bracketed by Rosenbrock's outcomes.
+
+    Returns:
+        The changes of each line; or why one could not be located, or that collisions beside one contradict it.
     """
-    samples = known(samples)
-    brackets = [_bracket(low, high) for low, high in pairwise(samples) if low["outcome"] != high["outcome"]]
-    found = _enclosed(line, look, brackets, True) if look.kernel else [[] for _ in brackets]
+    samples = [known(own) for own in samples]
+    brackets = [_brackets(line, own) for line, own in zip(lines, samples, strict=True)]
+    everything = list(chain.from_iterable(brackets))
+    enclosed = iter(_enclosed(look, everything, True) if look.kernel else [[] for _ in everything])
+    found = [_attempt(_completed, line, look, own, [next(enclosed) for _ in own]) for line, own in zip(lines, brackets)]
+    good = [k for k, own in enumerate(found) if not isinstance(own, ComputationError)]
+    agrees = _confirmed(look, [(lines[k], found[k]) for k in good], _ACCEPTED)
+    for k, own in zip(good, agrees, strict=True):
+        found[k] = _attempt(_accepted, found[k], own, samples[k])
+    return found
+
+
+def _attempt(step: Callable[..., Any], *arguments: Any) -> Any:
+    """The result of a step for one line, or its error, so that the other lines go on."""
+    try:
+        return step(*arguments)
+    except ComputationError as error:
+        return error
+
+
+def _brackets(line: Line, samples: np.ndarray) -> list[_Bracket]:
+    """Neighbouring samples with different outcomes."""
+    places = np.flatnonzero(np.diff(samples["outcome"])).tolist()
+    return [_bracket(line, samples[k], samples[k + 1]) for k in places]
+
+
+def _bracket(line: Line, low: np.void, high: np.void) -> _Bracket:
+    outcomes = OUTCOMES[low["outcome"]], OUTCOMES[high["outcome"]]
+    met = int(low["reversal"]), int(high["reversal"])
+    return _Bracket(line, float(low["stokes"]), float(high["stokes"]), *outcomes, met)
+
+
+def _completed(line: Line, look: Look, brackets: list[_Bracket], found: list[list[Change]]) -> list[list[Change]]:
+    """Changes of each bracket of a line; those that are missing are located by other means."""
     missing = [k for k, own in enumerate(found) if not own]
     first = [_located(line, brackets[k]) for k in missing]
-    agrees = _confirmed(line, look, first, _LOCATED)
+    [agrees] = _confirmed(look, [(line, first)], _LOCATED)
     for k, own, good in zip(missing, first, agrees, strict=True):
-        found[k] = own if good else _enclosed(line, look, [brackets[k]], False)[0]
-    agrees = _confirmed(line, look, found, _ACCEPTED)
+        found[k] = own if good else _enclosed(look, [brackets[k]], False)[0]
+    return found
+
+
+def _accepted(found: list[list[Change]], agrees: list[bool], samples: np.ndarray) -> list[Change]:
+    """The changes of a line.
+
+    Raises:
+        ComputationError: collisions contradict one of them.
+    """
     if not all(agrees):
         at = next(one[0].stokes for one, good in zip(found, agrees, strict=True) if not good)
         raise ComputationError(
@@ -89,13 +139,6 @@ def changes_between(line: Line, look: Look, samples: np.ndarray) -> list[Change]
     changes = [one for own in found for one in own]
     _demand_agreement(changes, samples)
     return _merged(changes)
-
-
-def _bracket(low: np.void, high: np.void) -> _Bracket:
-    outcomes = OUTCOMES[low["outcome"]], OUTCOMES[high["outcome"]]
-    return _Bracket(
-        float(low["stokes"]), float(high["stokes"]), *outcomes, (int(low["reversal"]), int(high["reversal"]))
-    )
 
 
 def _located(line: Line, bracket: _Bracket) -> list[Change]:
@@ -175,30 +218,52 @@ def _escaping(line: Line, rebound: bool) -> Function:
     return function
 
 
-def _confirmed(line: Line, look: Look, groups: list[list[Change]], distance: float) -> list[bool]:
-    """For each group of changes, True if collisions at a relative distance below and above have the right outcomes."""
-    stokes = np.array([one.stokes for group in groups for one in group])
-    if not stokes.size:
-        return [bool(group) for group in groups]
+def _confirmed(look: Look, lines: Sequence[tuple[Line, list[list[Change]]]], distance: float) -> list[list[bool]]:
+    """For each group of changes of each line, True if collisions beside them have the right outcomes.
+
+    Arguments:
+        distance: relative distance of these collisions, below and above; a third of the gap where changes are close.
+    """
+    places = [_beside([one for group in groups for one in group], distance) for _, groups in lines]
+    angle = np.repeat([line.angle for line, _ in lines], [stokes.size for stokes, _ in places])
+    if not angle.size:
+        return [[bool(group) for group in groups] for _, groups in lines]
+    seen = look.outcomes(angle, np.concatenate([stokes for stokes, _ in places]))["outcome"]
+    own = np.split(seen, np.cumsum([stokes.size for stokes, _ in places])[:-1])
+    return [
+        _agreeing(groups, outcomes, narrow)
+        for (_, groups), outcomes, (_, narrow) in zip(lines, own, places, strict=True)
+    ]
+
+
+def _beside(changes: list[Change], distance: float) -> tuple[np.ndarray, np.ndarray]:
+    """Stokes numbers below and above the changes of a line, and where no collision fits between two that are merged."""
+    stokes = np.array([one.stokes for one in changes])
     gaps = np.diff(stokes, prepend=0.0, append=math.inf) / 3
     below = stokes - np.minimum(distance * stokes, gaps[:-1])
     above = stokes + np.minimum(distance * stokes, gaps[1:])
-    seen = look.outcomes(np.full(2 * stokes.size, line.angle), np.concatenate([below, above]))["outcome"]
-    agrees, k, size = [], 0, stokes.size
     narrow = 3 * gaps < MERGED * np.append(stokes, math.inf)
     narrow[[0, -1]] = False
+    return np.concatenate([below, above]), narrow
+
+
+def _agreeing(groups: list[list[Change]], seen: np.ndarray, narrow: np.ndarray) -> list[bool]:
+    """For each group of changes of a line, True if the outcomes seen below and above each are its own."""
+    agrees, k, size = [], 0, seen.size // 2
     for group in groups:
         own = range(k, k + len(group))
         k += len(group)
-        # no room for a collision between merged changes
         below_fits = [narrow[j] or seen[j] == OUTCOMES.index(one.before) for j, one in zip(own, group)]
         above_fits = [narrow[j + 1] or seen[j + size] == OUTCOMES.index(one.after) for j, one in zip(own, group)]
         agrees.append(bool(group) and all(below_fits) and all(above_fits))
     return agrees
 
 
-def _enclosed(line: Line, look: Look, brackets: list[_Bracket], kernel_only: bool) -> list[list[Change]]:
-    """Refine all brackets together by outcomes until each is narrower than _NARROW in ln St.
+def _enclosed(look: Look, brackets: Sequence[_Bracket], kernel_only: bool) -> list[list[Change]]:
+    """Refine brackets of any lines together by outcomes until each is narrower than _NARROW in ln St.
+
+    Few brackets are divided into many parts, many into two: the fewest collisions that fill the kernel's lanes. One
+    whose collisions are undecided is divided into _PARTS.
 
     Arguments:
         kernel_only: return no changes for a bracket in which the kernel decides no collision.
@@ -209,23 +274,30 @@ def _enclosed(line: Line, look: Look, brackets: list[_Bracket], kernel_only: boo
     open_ = list(enumerate(brackets))
     closed: list[list[_Bracket]] = [[] for _ in brackets]
     undecided: set[int] = set()
+    slow: set[int] = set()
     for _ in range(_ROUNDS):
-        grids = [np.geomspace(one.low, one.high, _PARTS + 1)[1:-1] for _, one in open_]
-        if not grids:
+        if not open_:
             break
-        seen = look.outcomes(np.full(sum(map(len, grids)), line.angle), np.concatenate(grids), kernel_only)
-        parts = np.split(seen, np.cumsum([len(grid) for grid in grids])[:-1])
+        parts = 1 + math.ceil(_AT_ONCE / len(open_))
+        counts = [_PARTS if k in slow else min(parts, _PARTS) for k, _ in open_]
+        grids = [one.divided(count) for (_, one), count in zip(open_, counts)]
+        sizes = [grid.size for grid in grids]
+        angle = np.repeat([one.line.angle for _, one in open_], sizes)
+        seen = np.split(look.outcomes(angle, np.concatenate(grids), kernel_only), np.cumsum(sizes)[:-1])
         narrower: list[tuple[int, _Bracket]] = []
-        for (k, one), grid, own in zip(open_, grids, parts, strict=True):
+        for (k, one), grid, own in zip(open_, grids, seen, strict=True):
             usable = own["outcome"] >= 0
             if usable.any():
                 narrower += [(k, each) for each in _parts_of(one, grid[usable], own[usable])]
             elif one.width < MERGED:  # a band narrower than the error of collisions
                 closed[k].append(one)
+            elif grid.size < _PARTS - 1:
+                slow.add(k)
+                narrower.append((k, one))
             elif kernel_only:
                 undecided.add(k)
             else:
-                reason = look.reason(line.angle, one.low, one.high)
+                reason = look.reason(one.line.angle, one.low, one.high)
                 raise ComputationError(f"a change of outcome between St {one.low:.10g} and {one.high:.10g}: {reason}")
         open_ = [(k, one) for k, one in narrower if one.width > _NARROW and k not in undecided]
         for k, one in narrower:
@@ -236,7 +308,7 @@ def _enclosed(line: Line, look: Look, brackets: list[_Bracket], kernel_only: boo
         raise ComputationError(f"a change of outcome between St {one.low:.10g} and {one.high:.10g} is not enclosed")
     undecided |= {k for k, _ in open_}
     return [
-        [] if k in undecided else [_enclosed_change(line, one) for one in sorted(own, key=lambda one: one.low)]
+        [] if k in undecided else [_enclosed_change(one) for one in sorted(own, key=lambda one: one.low)]
         for k, own in enumerate(closed)
     ]
 
@@ -247,22 +319,22 @@ def _parts_of(bracket: _Bracket, grid: np.ndarray, seen: np.ndarray) -> list[_Br
     outcomes = [bracket.before, *(OUTCOMES[k] for k in seen["outcome"]), bracket.after]
     met = [bracket.met[0], *seen["reversal"].tolist(), bracket.met[1]]
     return [
-        _Bracket(at[k], at[k + 1], outcomes[k], outcomes[k + 1], (met[k], met[k + 1]))
+        _Bracket(bracket.line, at[k], at[k + 1], outcomes[k], outcomes[k + 1], (met[k], met[k + 1]))
         for k in range(len(at) - 1)
         if outcomes[k] != outcomes[k + 1]
     ]
 
 
-def _enclosed_change(line: Line, one: _Bracket) -> Change:
-    return _change(line, math.sqrt(one.low * one.high), one.before, one.after, _kind(line, one))
+def _enclosed_change(one: _Bracket) -> Change:
+    return _change(one.line, math.sqrt(one.low * one.high), one.before, one.after, _kind(one))
 
 
-def _kind(line: Line, one: _Bracket) -> str:
+def _kind(one: _Bracket) -> str:
     """Kind of a change from its narrow bracket."""
     if STICK not in (one.before, one.after):
         return GRAZE
     stuck, at = (one.met[0], one.low) if one.before == STICK else (one.met[1], one.high)
-    rebounds = stuck >= 0 or (BOUNCE in (one.before, one.after) and line.criterion(at) >= 0)
+    rebounds = stuck >= 0 or (BOUNCE in (one.before, one.after) and one.line.criterion(at) >= 0)
     if BOUNCE in (one.before, one.after):
         return REVERSED if rebounds else GRAZE
     return GRAZE if rebounds else FREE

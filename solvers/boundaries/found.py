@@ -19,6 +19,7 @@ from .plane import ANGLE
 from .regions import Slab, labelled, slabs
 
 STOKES = (1e-4, 100.0)  # default range of Stokes numbers
+LINES = 33  # default number of seed lines of an atlas
 LATTICE = (65, 193)  # columns and rows of the search lattice, with a kernel
 
 

@@ -42,14 +42,16 @@ def sampled(angles: np.ndarray, grid: np.ndarray, sampler: Sampler) -> list[np.n
     """
     found = sampler(np.repeat(angles, grid.size), np.tile(grid, angles.size)).reshape(angles.size, grid.size)
     lines = list(found)
+    unsettled = list(range(angles.size))
     for _ in range(_ROUNDS):
-        more = [_between(line) for line in lines]
-        counts = [one.size for one in more]
-        if not any(counts):
+        more = {k: fresh for k in unsettled if (fresh := _between(lines[k])).size}
+        if not more:
             break
-        fresh = sampler(np.repeat(angles, counts), np.concatenate(more))
-        parts = np.split(fresh, np.cumsum(counts)[:-1])
-        lines = [merged(line, part) for line, part in zip(lines, parts, strict=True)]
+        unsettled = list(more)  # a line without new samples needs none in later rounds either
+        counts = [fresh.size for fresh in more.values()]
+        seen = sampler(np.repeat(angles[unsettled], counts), np.concatenate(list(more.values())))
+        for k, part in zip(unsettled, np.split(seen, np.cumsum(counts)[:-1]), strict=True):
+            lines[k] = merged(lines[k], part)
     return lines
 
 

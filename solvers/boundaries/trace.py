@@ -15,13 +15,13 @@ import numpy as np
 from ..errors import ComputationError
 from ..host.workers import lasting_workers
 from ..scene.scene import Scene
-from .changes import Change, changes_between
+from .changes import Change, changes_along
 from .line import Line
 from .look import Look, blank
 from .samples import first_grid, known, merged, sampled
 
 SHARPEST = 1e-13
-_TOGETHER = 16  # lines sampled together
+_TOGETHER = 32  # lines traced together
 _FINER, _SHARPER = 2, 1e-2  # for a line that failed once: factors of more samples and of a smaller tolerance
 _HOLE = 4.5  # most initial spacings without a completed collision
 _ROUNDED = 1.01  # factor on a spacing, for rounding
@@ -61,7 +61,7 @@ def trace(
     tell: Callable[[int], None] = lambda _done: None,
     kernel: bool | None = None,
 ) -> Traced:
-    """Changes at angles (rad), one line each: sampled together, then located and confirmed one by one.
+    """Changes at angles (rad), one line each: sampled, located and confirmed together.
 
     A line that fails is sampled again, more finely and with a tolerance a hundred times smaller; if it fails again, its
     reason is recorded.
@@ -93,24 +93,30 @@ def _block(
 ) -> tuple[list[tuple[Change, ...]], list[str]]:
     look = Look(scene, rtol, kernel)
     grid = first_grid(span, finer * look.per_decade)
-    changes: list[tuple[Change, ...]] = []
-    failures: list[str] = []
-    for angle, samples in zip(angles.tolist(), sampled(angles, grid, look), strict=True):
+    changes: list[tuple[Change, ...]] = [()] * angles.size
+    failures = [""] * angles.size
+    lines, complete, places, widths = [], [], [], []
+    for k, samples in enumerate(sampled(angles, grid, look)):
+        angle = float(angles[k])
         if kernel is None and look.creeping[angle] > _CREEPING * grid.size:
-            alone = _block(scene, np.array([angle]), span, rtol, finer, traced, False)
-            changes += alone[0]
-            failures += alone[1]
+            [changes[k]], [failures[k]] = _block(scene, angles[k : k + 1], span, rtol, finer, traced, False)
             continue
-        line = Line(scene, angle, rtol, kernel)
         try:
             samples, widest = _completed(samples, grid, look, angle)
-            changes.append(tuple(changes_between(line, look, samples)))
-            failures.append("")
-            traced.resolution = max(traced.resolution, widest)
         except ComputationError as error:
-            changes.append(())
-            failures.append(str(error))
+            failures[k] = str(error)
+            continue
+        lines.append(Line(scene, angle, rtol, kernel))
+        complete.append(samples)
+        places.append(k)
+        widths.append(widest)
+    for k, line, width, found in zip(places, lines, widths, changes_along(lines, look, complete), strict=True):
         traced.collisions += line.collisions
+        if isinstance(found, ComputationError):
+            failures[k] = str(found)
+        else:
+            changes[k] = tuple(found)
+            traced.resolution = max(traced.resolution, width)
     traced.collisions += look.collisions
     return changes, failures
 

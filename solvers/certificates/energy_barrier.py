@@ -17,6 +17,7 @@ from ...generated.automaton import SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
 from ..scene.contact import contact_gap
+from .approach import Approach, starts
 from .base import BEYOND, Certainty
 from .quadrature import panels
 
@@ -44,6 +45,7 @@ class EnergyCertificate:
         self.groups = dict(zip(model.groups, p, strict=True))
         self.theorem = model.choice.law("arm") != "surface"
         self._largest = float(sum(model.values(model.escape, model.start(p), p).values()))
+        self._approach = Approach(model, p, SAFETY * rtol)
         start = model.start(p)
         self._conserved = self._search(start) if self.theorem else ()
         self._searched = lru_cache(2)(lambda momenta: self._search(np.array([*start[:2], *momenta])))
@@ -69,7 +71,21 @@ class EnergyCertificate:
         if phase.resting and self.rests(y):
             return True
         level = self._level(y, phase, SAFETY)
-        return level is not None and self.energy(y) < level
+        return (level is not None and self.energy(y) < level) or self._held_on_approach(y, phase)
+
+    def _held_on_approach(self, y: np.ndarray, phase: Phase) -> bool:
+        """True if the film takes enough energy from an approach from initial contact before it meets a criterion."""
+        if not self._approach.covers or not starts(y, phase):
+            return False
+        beyond = [barrier.height for barrier in self.barriers(y) if barrier.gap >= y[0]]
+        if not beyond:
+            return False
+        limit = beyond[0] - SAFETY * self.rtol * (self._largest + abs(beyond[0]))
+        rest = self.energy(y) - float(y[1]) ** 2 / 2
+        outward = self._approach.outward(y)
+        return any(
+            part.slowed**2 / 2 + rest + outward * (float(y[0]) - part.gap) < limit for part in self._approach.clear(y)
+        )
 
     def rests(self, y: np.ndarray) -> bool:
         """True if a doublet at rest in its gap stays there while its slip decays.

@@ -23,6 +23,8 @@ class Bar:
         self._shown: Any = None
 
     def __call__(self, done: int, total: int | None) -> None:
+        if not _on_terminal():
+            return
         from tqdm import tqdm
 
         if self._shown is None:  # starts at the first count, because work of an earlier run would distort the speed
@@ -49,6 +51,13 @@ def bar(unit: str) -> Iterator[Bar]:
         yield shown
     finally:
         shown.close()
+
+
+def _on_terminal() -> bool:
+    try:
+        return sys.stderr.isatty()
+    except (ValueError, AttributeError):  # closed, or none
+        return False
 
 
 def _size_is_known() -> bool:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import nan
+from typing import Any
 
 from casadi import SX, densify, fmax, fmin, if_else, logic_and, vertcat
 
@@ -169,17 +172,37 @@ def _guard(row: Row, found: dict[str, SX], region: Region, motion: SX) -> SX:
     return if_else(motion == directions[0], value, 1) if directions else value
 
 
-def pendulum_margin(model: Model, margin: SX | float) -> SX:
-    """The largest of the pendulum certificate's three inequalities; negative where it holds by the relative `margin`.
+def pendulum_impulse(found: Mapping[str, Any], margin: SX | float) -> SX:
+    """Bound of the outward impulse, from the pendulum certificate's margins; zero where all forces point inward.
+
+    NaN if a force is NaN, which fmax within the bound may have hidden.
+    """
+    outward, pull = found["outward"], found["pull"]
+    inward = outward - pull + margin * (outward + pull) < 0
+    return if_else(outward + pull >= 0, if_else(inward, 0, found["impulse"]), nan)
+
+
+def pendulum_margin(model: Model, margin: SX | float, turning: bool = False) -> SX:
+    """The largest of the pendulum certificate's inequalities; negative where it holds by the relative `margin`.
 
     Not negative if one of them is NaN, which fmax would ignore.
+
+    Arguments:
+        turning: allow for the impulse of the rotation, instead of requiring that all forces point inward. It is not
+            differentiable, so an event that is watched does not.
     """
-    found = model("pendulum_margins")
+    found, stokes = model("pendulum_margins"), model.groups["stokes"]
     outward, pull = found["outward"], found["pull"]
-    slack = margin * fmax(model.groups["stokes"], 1)
-    parts = (outward - pull + margin * (outward + pull), found["film"] + slack, found["recoil"] + slack)
-    worst = fmax(fmax(parts[0], parts[1]), parts[2])
-    return if_else(logic_and(logic_and(parts[0] < 0, parts[1] < 0), parts[2] < 0), worst, fmax(worst, 0))
+    slack = margin * fmax(stokes, 1)
+    parts = [found["film"] + slack, found["recoil"] + slack]
+    if turning:
+        parts = [part + stokes * pendulum_impulse(found, margin) for part in parts]
+    else:
+        parts.append(outward - pull + margin * (outward + pull))
+    worst, holds = parts[0], parts[0] < 0
+    for part in parts[1:]:
+        worst, holds = fmax(worst, part), logic_and(holds, part < 0)
+    return if_else(holds, worst, fmax(worst, 0))
 
 
 def mechanical_energy(flow: Flow) -> SX:

@@ -25,6 +25,7 @@ STEEPEST = 85.0  # deg
 LONG = 1e4  # x0/v0; time of integration beyond the certified end
 _RTOL = 1e-8
 _PHASES = 300  # most phases of a trajectory that chatters
+_WORTH = 100  # impacts from which integrators compiled to C pay, in a first run as well
 SECONDS = 6.0  # s of CPU time; remaining impacts are counted but not integrated
 
 
@@ -105,7 +106,9 @@ def audit(
     """Sample impacts, locate each with its certificate, and continue the certified ones without it."""
     draw = np.random.default_rng(_SEED)
     found, begun = Audit(), time.process_time()
-    for _ in range(impacts if angles is None else impacts // 4):
+    count = impacts if angles is None else impacts // 4
+    compiled = count >= _WORTH
+    for _ in range(count):
         stokes = own_stokes(scene) * 10 ** draw.uniform(*DECADES)
         angle = float(math.radians(draw.uniform(0, STEEPEST)) if angles is None else draw.choice(angles))
         if time.process_time() - begun > SECONDS:
@@ -114,12 +117,12 @@ def audit(
         found.impacts += 1
         try:
             n = nondimensionalise(scene, scene.speed_of(stokes), angle)
-            path = locator(load(select_model(scene, n.oblique)), n.groups, _RTOL).run()
+            path = locator(load(select_model(scene, n.oblique)), n.groups, _RTOL, machine_code=compiled).run()
         except WetDoubletError:
             continue  # the scene has no certificate
         found.sticks += path.outcome == "stick"
         if path.outcome == "stick" and (path.certified or _ended_early(path)):
-            _without_proof(found, scene, n, path, place(stokes, angle))
+            _without_proof(found, scene, n, path, place(stokes, angle), compiled)
     return found
 
 
@@ -128,10 +131,12 @@ def _ended_early(path: EventSequence) -> bool:
     return bool(path.steps) and path.steps[-1].event is None
 
 
-def _without_proof(found: Audit, scene: Scene, n: DimensionlessGroups, path: EventSequence, where: str) -> None:
+def _without_proof(
+    found: Audit, scene: Scene, n: DimensionlessGroups, path: EventSequence, where: str, compiled: bool
+) -> None:
     found.proved += path.certified
     found.settled += not path.certified
-    locator = WithoutCertificate(load(select_model(scene, n.oblique)), n.groups, _RTOL)
+    locator = WithoutCertificate(load(select_model(scene, n.oblique)), n.groups, _RTOL, machine_code=compiled)
     try:
         on = locator.on(path.time + LONG)
     except ComputationError as failure:

@@ -59,14 +59,15 @@ def backward(group: str, sample: Sample, back: Back | None = None) -> Iterator[F
     back = returning if back is None else back
     returns: dict[str, list[_Return]] = {engine: [] for engine in PLUGINS}
     for one in _chosen(sample):
-        for engine, found in returns.items():
-            try:
-                followed = follow(sample.scene, one[0], one[1], REFERENCE, RTOL)
-            except WetDoubletError:
-                continue  # failures are reported with the sample
-            for piece in followed.replayed.pieces:
-                where = place(*one, event=piece.name)
-                found += [_returned(stretch, followed, engine, where, back) for stretch in stretches(piece, followed.p)]
+        try:
+            followed = follow(sample.scene, one[0], one[1], REFERENCE, RTOL)
+        except WetDoubletError:
+            continue  # failures are reported with the sample
+        for piece in followed.replayed.pieces:
+            where = place(*one, event=piece.name)
+            for stretch in stretches(piece, followed.p):
+                for engine, found in returns.items():
+                    found.append(_returned(stretch, followed, engine, where, back))
     for engine, found in returns.items():
         statement = (
             f"a stretch integrated forward and back returns to its start, within {_SAFETY:.0f} rtol times the norm of "

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ..collision.collide import collide
 from ..collision.result import Collision
@@ -45,16 +45,21 @@ def conserved(group: str, sample: Sample) -> Iterator[Finding]:
 def _agreement(group: str, sample: Sample) -> Iterator[Finding]:
     """Comparison of the engines in outcome and e_n: with the one that locates events, and the kernel with CVODES."""
     for engine, reference in (*((each, REFERENCE) for each in ENGINES if each != REFERENCE), ("taylor", "cvodes")):
-        judged = [
-            (_apart(one, other), _allowed(one, other), one)
-            for one, other in ((impact.get(engine), impact.get(reference)) for impact in sample.impacts)
-            if one is not None and other is not None and one.engine == engine
+        pairs = [
+            (impact[engine], impact[reference])
+            for impact in sample.impacts
+            if engine in impact and reference in impact and impact[engine].engine == engine
         ]
-        if not judged:
-            continue
-        figure, bound, one = max(judged, key=lambda found: found[0] / found[1])
-        statement = f"same outcome, and e_n apart by no more than {AGREEMENT:.0e} times its condition d ln e_n/d ln St"
-        yield bounded(group, f"{engine} = {reference}", statement, figure, bound, where(one))
+        if pairs:
+            yield agreement(group, f"{engine} = {reference}", pairs)
+
+
+def agreement(group: str, name: str, pairs: Sequence[tuple[Collision, Collision]]) -> Finding:
+    """Finding on collisions by one engine, each beside the same by another: the worst in outcome and e_n."""
+    judged = [(_apart(one, other), _allowed(one, other), one) for one, other in pairs]
+    figure, bound, one = max(judged, key=lambda found: found[0] / found[1])
+    statement = f"same outcome, and e_n apart by no more than {AGREEMENT:.0e} times its condition d ln e_n/d ln St"
+    return bounded(group, name, statement, figure, bound, where(one))
 
 
 def _residual(one: Collision) -> float:

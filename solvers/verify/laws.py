@@ -12,7 +12,7 @@ from .backward import backward
 from .closed import closed_forms
 from .conserved import conserved
 from .order import convergence
-from .region import argument, grid
+from .region import argument, beside_cvodes, grid
 from .report import Finding
 from .sample import WHOLE, Extent, collisions
 from .surface import surface_arm
@@ -42,9 +42,14 @@ def numeric(
         ("stick certificate", lambda: stick_audit(group, scene, (0.0,) if head_on else None, extent.audited)),
     ]
     if not head_on:
-        laws.append(("e_n > 1", lambda: argument(group, scene, grid(scene, extent) if budget is None else budget)))
+        laws.append(("e_n > 1", lambda: _grid(group, scene, grid(scene, extent) if budget is None else budget)))
     for name, law in laws:
         try:
             yield from law()
         except WetDoubletError as failure:
             yield Finding(group, name, "the check is completed", f"not completed: {failure}", "", False)
+
+
+def _grid(group: str, scene: Scene, data: xarray.Dataset) -> Iterator[Finding]:
+    yield from beside_cvodes(group, scene, data)
+    yield from argument(group, scene, data)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache, partial
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
@@ -50,20 +50,27 @@ def convergence(
         f" is within {SLOPES[0]} to {SLOPES[1]}, and it rises by no more than {RISE:.0f} times on the way;"
         f" or all of it is below {SMALL} rtol"
     )
+    both = [(one, cache(partial(_restitution, one, REFERENCE, _TRUTH, collide))) for one in chosen]
     collided = {engine for impact in sample.impacts for engine in impact}
     for engine in (engine for engine in ENGINES if engine in collided):
         own = [rtol for rtol in tolerances if engine != "taylor" or rtol <= LOOSEST]  # the kernel takes no looser one
-        judged = [_judged(group, statement, one, engine, own, collide) for one in chosen]
+        judged = [_judged(group, statement, one, engine, own, collide, truth) for one, truth in both]
         yield max(judged, key=lambda found: found[0])[1]
 
 
 def _judged(
-    group: str, statement: str, one: Collision, engine: str, tolerances: Sequence[float], collide: Collide
+    group: str,
+    statement: str,
+    one: Collision,
+    engine: str,
+    tolerances: Sequence[float],
+    collide: Collide,
+    truth: Callable[[], float],
 ) -> tuple[float, Finding]:
     """The finding of one trajectory, and its severity."""
     name, at = f"convergence, {engine}", place(one.stokes, one.angle)
     try:
-        errors = measured(one, engine, tolerances, collide)
+        errors = [abs(_restitution(one, engine, rtol, collide) / truth() - 1) for rtol in tolerances]
     except WetDoubletError as failure:
         return math.inf, Finding(group, name, statement, f"not completed: {failure}", "", False, at)
     slope, rise = fit(tolerances, errors)
@@ -83,12 +90,10 @@ def _judged(
     return abs(slope - 1) if math.isfinite(slope) and held else math.inf, finding
 
 
-def measured(one: Collision, engine: str, tolerances: Sequence[float], collide: Collide = collide) -> list[float]:
-    """Relative errors of e_n at each tolerance."""
-    known: dict[str, Any] = {"scene": one.scene, "stokes": one.stokes, "angle": one.angle, "ledger": False}
-    truth = collide(**known, rtol=_TRUTH, engine=REFERENCE).restitution
-    found = [collide(**known, rtol=rtol, engine=engine).restitution for rtol in tolerances]
-    return [abs(value / truth - 1) for value in found]
+def _restitution(one: Collision, engine: str, rtol: float, collide: Collide) -> float:
+    return collide(
+        scene=one.scene, stokes=one.stokes, angle=one.angle, ledger=False, rtol=rtol, engine=engine
+    ).restitution
 
 
 def fit(tolerances: Sequence[float], errors: Sequence[float]) -> tuple[float, float]:

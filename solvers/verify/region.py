@@ -4,27 +4,53 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 import xarray
 
+from ..collision.collide import collide
+from ..engines.choice import boundary_engine
 from ..scene.scene import Scene
-from .budget import LOSSES, TERMS, restitution_budget
-from .conserved import RESIDUAL
+from .budget import LOSSES, TERMS, budgeted
+from .conserved import RESIDUAL, agreement
 from .edges import Above, above_one
 from .report import Finding, bounded
-from .sample import WHOLE, Extent, own_stokes, place
+from .sample import WHOLE, Collide, Extent, own_stokes, place
 
 _DECADES = (-1.0, 1.6)  # relative to the scene's Stokes number
 _RTOL = 1e-10
+_BESIDE = 24  # points of the grid that CVODES collides as well
 _HEADS = ("released", "film", "shear", "bridge", "solids", "strings")
 _SHOWN = (30, 60, 75)  # angles of the table, deg; each with its first, middle and last separating St
 
 
 def grid(scene: Scene, extent: Extent = WHOLE) -> xarray.Dataset:
-    """The budget over the relevant angles and Stokes numbers of a scene."""
+    """The budget over the relevant angles and Stokes numbers of a scene, by the kernel where it supports the scene."""
     stokes = own_stokes(scene) * np.logspace(*_DECADES, extent.grid_points)
-    return restitution_budget(scene, stokes=stokes.tolist(), angle=np.radians(extent.grid_angles).tolist(), rtol=_RTOL)
+    return budgeted(scene, stokes.tolist(), np.radians(extent.grid_angles).tolist(), _RTOL, _fast(scene))
+
+
+def _fast(scene: Scene) -> Collide:
+    """`collide` by the fastest engine of a scene."""
+    return partial(collide, engine=boundary_engine(scene))
+
+
+def beside_cvodes(group: str, scene: Scene, data: xarray.Dataset, fast: Collide | None = None) -> Iterator[Finding]:
+    """Finding on the engine of a budget's grid: a sample of its points beside CVODES.
+
+    Arguments:
+        fast: function that computes a collision of the grid; None for the one that `grid` takes.
+    """
+    fast = fast or _fast(scene)
+    done = [(float(data["stokes"][k]), float(data["angle"][j])) for j, k in np.argwhere(data["outcome"].values >= 0)]
+    picked = np.unique(np.linspace(0, len(done) - 1, min(_BESIDE, len(done))).round().astype(int))
+    pairs = [
+        tuple(by(scene, stokes=stokes, angle=angle, rtol=_RTOL) for by in (fast, partial(collide, engine="cvodes")))
+        for stokes, angle in (done[k] for k in picked)
+    ]
+    if pairs:
+        yield agreement(group, f"{pairs[0][0].engine} = cvodes, on the grid", pairs)
 
 
 def argument(group: str, scene: Scene, data: xarray.Dataset) -> Iterator[Finding]:

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from wetdoublet.derive.checks import Check, symbolic_checks
 from wetdoublet.derive.equations.model import Model, derive
+from wetdoublet.derive.physics.laws import LAWS
 from wetdoublet.derive.physics.structure import structures
 
 from ..helpers.shared import made_once
@@ -26,9 +27,19 @@ def models() -> dict[str, Model]:
 
 
 @pytest.fixture(scope="session")
-def healthy(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Check]:
+def checked(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Check, ...]]:
+    """Every check with all laws of the library, and with one chosen in two slots; most depend on no law."""
+    chosen = {"arm": LAWS["arm"]["surface"], "shear": LAWS["shear"]["film"]}
+    made = {"all": None, "surface arm, film shear": chosen}
+    return made_once(
+        tmp_path_factory, "checks", lambda: {name: tuple(symbolic_checks(laws)) for name, laws in made.items()}
+    )
+
+
+@pytest.fixture(scope="session")
+def healthy(checked: dict[str, tuple[Check, ...]]) -> dict[str, Check]:
     """Every check of the library's derivation, by name."""
-    return made_once(tmp_path_factory, "checks", lambda: {check.name: check for check in symbolic_checks()})
+    return {check.name: check for check in checked["all"]}
 
 
 def _modules() -> list[ModuleType]:

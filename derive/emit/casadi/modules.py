@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
+from functools import cache
 
 import sympy as sp
 
@@ -86,6 +87,7 @@ def _casadi(printer: Printer) -> list[str]:
     return [f"from casadi import {', '.join(sorted(printer.imports))}"] if printer.imports else []
 
 
+@cache
 def model_digest(model: Model) -> str:
     """Digest of a structure's mathematics."""
     parts: list[object] = [model.structure.name, *model.states, *model.groups, *model.slots]

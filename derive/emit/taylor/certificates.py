@@ -13,15 +13,20 @@ from .c_text import Constants, Text
 from .law_header import moves
 from .layout import comment, function
 
-# two functions for strings, the cheap and usually decisive margin first
+# the cheap and usually decisive margins in functions of their own
 PARTS = {
     "pendulum_inward": (
         ("outward", "pull"),
         "The strings outweigh the rotation from now on if outward < pull (equations/certificates/pendulum.py).",
     ),
+    "pendulum_impulse": (("impulse",), "Bound of the outward impulse of all forces but the film's from now on."),
     "pendulum_stops": (
         ("film", "recoil"),
-        "The film then stops the opening and every rebound if film < 0 and recoil < 0.",
+        "The film then stops the opening and every rebound if film < 0 and recoil < 0, the impulse added.",
+    ),
+    "pendulum_rebounds": (
+        ("rebound", "beneath"),
+        "It stops a rebound from this gap and speed, or one from any smaller gap, if these are negative.",
     ),
 }
 
@@ -64,6 +69,19 @@ def attraction_functions(model: Model, constants: Constants, prepared: dict[tupl
         "#endif",
         "",
     ]
+
+
+def approach_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+    """The functions of the approach certificate, for laws with what it uses; arguments as above."""
+    falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]
+    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
+    lines = [f"#if {' && '.join(['defined(FILM_BRAKING)', 'defined(GLASS_REACH)', *falling])}"]
+    lines.append(f"#define APPROACH_BOUNDS {'MIDGAP_ARM' if 'arm' in model.slots else '1'}")
+    for each in (each for each in model.functions if each.name in ("approach_step", "approach_force")):
+        outputs = dict(each.outputs)
+        kept, _ = needed(list(outputs.values()), model.definitions)
+        lines += _function(each.name, each.doc, kept, outputs, moving, constants, prepared)
+    return [*lines, "#else", "#define APPROACH_BOUNDS 0", "#endif", ""]
 
 
 def _function(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from collections.abc import Set as AbstractSet
+from functools import cache
 
 import sympy as sp
 
@@ -95,12 +96,13 @@ def define_shortest(program: Program, symbol: sp.Symbol, expression: sp.Expr) ->
     program.define(symbol, min(dict.fromkeys((expression, *factored(expression))), key=cost))
 
 
-def factored(expression: sp.Expr) -> list[sp.Expr]:
+@cache
+def factored(expression: sp.Expr) -> tuple[sp.Expr, ...]:
     """Alternative forms of a sum: the common factor of all terms extracted, or that of most terms."""
     forms = [sp.factor(expression)]
     if isinstance(expression, sp.Add):
         forms += [sp.collect(expression, symbol) for symbol in sorted(expression.free_symbols, key=str)]
-    return forms
+    return tuple(forms)
 
 
 def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list[str]:

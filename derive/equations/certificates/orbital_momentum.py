@@ -38,7 +38,7 @@ UNIT = sp.Symbol("rotation_energy_unit", positive=True)  # m a^2 omega0^2 over m
 def spheres_inertia() -> sp.Expr:
     """Moment of inertia of both spheres about their own centres, over m a^2."""
     inertia = doublet_inertia() / (m * a**2)
-    return sp.simplify(inertia - (4 + x / a) ** 2)
+    return sp.expand(inertia - (4 + x / a) ** 2)
 
 
 def exchanged(distance: sp.Expr, lever: sp.Expr) -> sp.Expr:

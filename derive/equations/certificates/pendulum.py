@@ -1,18 +1,27 @@
-"""Pendulum certificate: four margins of a doublet on strings that exclude separation, with their derivation.
+"""Pendulum certificate: margins of a doublet on strings that exclude separation, with their derivation.
 
 Per unit mass, lever arm at mid-gap, strings and a film (no bridge), 0 <= beta <= pi and omega >= 0 (otherwise a
-cut-off has ended the trajectory as a stick):
+cut-off has ended the trajectory as a stick), for any spin:
 
-1. L decreases, since the strings pull back (S_t >= 0), and F_t reduces the slip omega - xi. So J = r^2 omega never
-   exceeds J_max, the larger of its present value and its share r_f^2/(r_f^2 + (32/5) a^2) of L in rigid rotation at
-   r_f.
-2. beta only grows, and S_n(r, beta) grows with both arguments. So if J_max^2/r^3 < S_n/m at the smallest gap
-   (`outward` < `pull`), all forces except lubrication point inward from now on, at every gap.
-3. Then the film alone stops an opening doublet if u St/v0 is below the integral of its resistance from the present gap
-   to x0 (`film` < 0).
-4. While closing, u^2 grows by at most 2 max(S_n/m) x0. A rebound happens at a gap of at most `reach`, the larger of the
+1. L decreases, since the strings pull back with the torque r S_t >= 0, and F_t reduces the slip omega - xi. So
+   J = r^2 omega never exceeds J_max, the larger of its present value and the share s = r_f^2/(r_f^2 + (32/5) a^2) of L,
+   that of rigid rotation at r_f. Nor does it exceed J_max - s D, where D is what the strings have taken from L: on that
+   level J > s L, so F_t reduces it, and the strings take 1 >= s of what they take from L.
+2. beta grows at the rate J/r^2, so dD/dbeta = r^3 S_t/J. With (J_max - s D) for J this integrates to
+   J^2 <= J_max^2 - 2 s r^3 S (cos(beta_0) - cos(beta)), where S_t >= S sin(beta) in contact, S at the present angle.
+3. Film and forces: u + G(x)/St, with G the film's integral, changes only by the forces other than the film's and by
+   rebounds. The outward impulse of these forces is at most the integral of (J^2/r^3 - S_n)/(J/r^2) over beta, where it
+   is positive. The integrand grows with J and falls with r and beta: in contact, with the bound of J and at the start
+   of each of PANELS equal parts up to the angle at which it has vanished, its sum is the bound `impulse`. It is zero
+   if J_max^2/r^3 < S_n in contact (`outward` < `pull`): all forces except lubrication then point inward for good.
+4. So without a rebound, u St + St impulse below the integral of the film's resistance from the present gap to x0
+   excludes separation (`film` + St impulse < 0), for a doublet that closes as for one that opens.
+5. While closing, u^2 grows by at most 2 max(S_n/m) x0. A rebound happens at a gap of at most `reach`, the larger of the
    contact gap and the gap at which the glass criterion is met at that speed. If the film stops the rebound from there
-   (`recoil` < 0), it stops every later rebound.
+   (`recoil` + St impulse < 0), it stops every later rebound.
+6. From initial contact on, the bounds of `approach` hold for every approach, the later ones too, as they start slower.
+   A rebound from a gap and speed is stopped if `rebound` + St impulse < 0; one at any smaller gap, if `beneath` +
+   St impulse < 0. If no criterion is met, or its rebound is stopped, in each part of the film, the doublet sticks.
 
 `checks.pendulum_certificate` proves the steps on the emitted equations.
 """
@@ -23,9 +32,11 @@ import sympy as sp
 
 from ...physics.forces import scaled_strings
 from ...physics.laws import slot_call
+from ...physics.laws.base import is_slot_call
 from ...physics.laws.strings import offset_squared
 from ...physics.mechanics import doublet_inertia
 from ...physics.scaling import DISTANCE, INERTIA, nondimensional
+from ...physics.structure import Structure
 from ...vocabulary.quantities import (
     a,
     aspect,
@@ -35,18 +46,27 @@ from ...vocabulary.quantities import (
     glass_number,
     m,
     normal_velocity,
+    obliquity,
     omega,
     orbital_momentum,
     r,
     stokes,
+    weight,
 )
 from ..events import contact_gap
-from ..intermediates import MOMENTUM
+from ..intermediates import MOMENTUM, ORBITAL_RATE, STRING_SIDEWAYS
+from ..rates import rates, turning_rate
 
 CONTACT, FASTEST, REACH = sp.symbols("contact fastest reach", positive=True)
 NEAREST, FARTHEST = sp.symbols("nearest farthest", positive=True)  # smallest and largest centre distance over a
 SPUN_UP, LARGEST_MOMENTUM = sp.symbols("spun_up largest_momentum", real=True)
 LARGEST_PULL = sp.Symbol("largest_pull", positive=True)
+PANELS = 8
+OUTWARD, PULL, WEIGHING, TURNING, TAKEN, FINAL, WIDTH = sp.symbols(
+    "outward pull weighing turning taken final width", nonnegative=True
+)
+ANGLES = sp.symbols(f"angle_:{PANELS}", nonnegative=True)
+TURNINGS = sp.symbols(f"turning_:{PANELS}", nonnegative=True)
 
 
 def rigid_momentum(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
@@ -68,6 +88,82 @@ def outward_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
     return force.subs({orbital_momentum: momentum, DISTANCE: distance}, simultaneous=True)
 
 
+def torque_at(at: sp.Expr, angle: sp.Expr) -> sp.Expr:
+    """What the strings take from J, over a^2 omega0 v0/x0, at this gap and angle."""
+    _, sideways, swing = scaled_strings(oblique=True)
+    rate = rates(Structure(oblique=True, bridge=False, strings=True))[orbital_momentum]
+    torque = -sp.expand(rate).coeff(STRING_SIDEWAYS) * sideways
+    whole = torque.subs(offset_squared, swing).subs(DISTANCE, 4 + aspect * gap)
+    return whole.subs({gap: at, beta: angle}, simultaneous=True)
+
+
+def share(distance: sp.Expr) -> sp.Expr:
+    """The orbital part of L in rigid rotation."""
+    return rigid_momentum(sp.Integer(1), distance)
+
+
+def turning_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
+    """D beta/dt per v0/x0 for this orbital momentum and centre distance."""
+    rate = turning_rate()
+    assert rate is not None
+    return rate.subs(ORBITAL_RATE, momentum / distance**2)
+
+
+def impulse_by_angle(turning: sp.Expr, pull: sp.Expr, distance: sp.Expr) -> sp.Expr:
+    """(centrifugal force - pull) over d beta/dt, for `turning`, which is J times the tangent of the impact angle."""
+    momentum = turning / obliquity
+    found = (outward_at(momentum, distance) - PULL) / turning_at(momentum, distance)
+    return sp.factor(found).subs(PULL, pull)  # a single quotient: -infinity, and no NaN, at the end of the rotation
+
+
+def taken_by_cosine() -> sp.Expr:
+    """Decrease of the squared `turning` over that of cos(beta), with the stiffness of the present angle."""
+    torque = torque_at(CONTACT, beta).subs(sp.sin(beta), 1) / _stiffness() / weight * WEIGHING
+    per_angle = torque * obliquity**2 / turning_at(sp.Integer(1), NEAREST)
+    return sp.simplify(2 * share(FARTHEST) * per_angle.subs(4 + aspect * CONTACT, NEAREST))
+
+
+def _pull_by_stiffness(angle: sp.Expr) -> sp.Expr:
+    """Least pull in contact at a later angle, with the stiffness of the present one (`weighing`)."""
+    across = pull_at(CONTACT, beta) / _stiffness()
+    risen = sp.expand(across / weight).subs(sp.sin(beta / 2) ** 2, (1 - sp.cos(angle)) / 2)
+    return sp.expand(risen) * WEIGHING
+
+
+def _stiffness() -> sp.Expr:
+    (call,) = (node for node in pull_at(CONTACT, beta).atoms(sp.Function) if is_slot_call(node))
+    return call
+
+
+def impulse_definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
+    """Named intermediates of the impulse, in order."""
+    level = (OUTWARD / WEIGHING - _pull_by_stiffness(sp.Integer(0)) / WEIGHING) / 8  # sin(beta/2)^2 where it vanishes
+    sine = sp.sqrt(sp.Max(0, sp.Min(1, level)))
+    return (
+        (OUTWARD, outward_at(LARGEST_MOMENTUM, NEAREST)),
+        (PULL, pull_at(CONTACT, beta)),
+        (WEIGHING, weight * _stiffness()),
+        (TURNING, LARGEST_MOMENTUM * obliquity),
+        (TAKEN, taken_by_cosine()),
+        (FINAL, sine),
+        (WIDTH, sp.Max(0, 2 * FINAL + (sp.pi - 2) * FINAL**3 - beta) / PANELS),  # arcsin z <= z + (pi/2 - 1) z^3
+        *((angle, beta + k * WIDTH) for k, angle in enumerate(ANGLES)),
+        *(
+            (later, sp.sqrt(sp.Max(0, TURNING**2 - TAKEN * (sp.cos(beta) - sp.cos(angle)))))
+            for later, angle in zip(TURNINGS, ANGLES, strict=True)
+        ),
+    )
+
+
+def impulse() -> sp.Expr:
+    """Bound of the outward impulse from now on, over m v0."""
+    parts = (
+        sp.Max(0, impulse_by_angle(later, _pull_by_stiffness(angle), NEAREST))
+        for later, angle in zip(TURNINGS, ANGLES, strict=True)
+    )
+    return WIDTH * sp.Add(*parts)
+
+
 def definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
     closing = sp.Min(normal_velocity, 0)
@@ -80,14 +176,22 @@ def definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
         (LARGEST_PULL, pull_at(sp.Integer(1), sp.pi)),
         (FASTEST, sp.sqrt(closing**2 + 2 * LARGEST_PULL)),
         (REACH, sp.Max(CONTACT, slot_call("glass", "reach", FASTEST, glass_number))),
+        *impulse_definitions(),
     )
 
 
 def margins() -> dict[str, sp.Expr]:
-    """The margins: a stick is certain if `outward` < `pull`, `film` < 0 and `recoil` < 0."""
+    """The margins: a stick is certain if `film` and `recoil` plus St times `impulse` are negative.
+
+    `impulse` counts as zero where `outward` < `pull`. `rebound` and `beneath` are of a gap and a closing speed there.
+    """
+    faster = -normal_velocity + sp.sqrt(2 * LARGEST_PULL * gap)
     return {
-        "outward": outward_at(LARGEST_MOMENTUM, NEAREST),
-        "pull": pull_at(CONTACT, beta),
-        "film": stokes * sp.Max(normal_velocity, 0) - slot_call("film", "stopping", gap),
+        "outward": OUTWARD,
+        "pull": PULL,
+        "impulse": impulse(),
+        "film": stokes * normal_velocity - slot_call("film", "stopping", gap),
         "recoil": stokes * e_dry * FASTEST - slot_call("film", "stopping", REACH),
+        "rebound": -stokes * e_dry * normal_velocity - slot_call("film", "stopping", gap),
+        "beneath": stokes * e_dry * faster - slot_call("film", "stopping", gap),
     }

@@ -19,11 +19,12 @@ def flat_pressure() -> sp.Expr:
 
     A = pi^2 C rho^2, rho the number density of either body.
     """
-    strength, density, depth, s = sp.symbols("C rho z s", positive=True)
-    on_one = sp.integrate(-strength * density * 2 * sp.pi * s / (s**2 + depth**2) ** 3, (s, 0, sp.oo))
+    strength, density, depth, squared = sp.symbols("C rho z d_squared", positive=True)
+    # over a plane of the other body: d^2 = s^2 + z^2, so 2 s ds = d(d^2)
+    on_one = sp.integrate(-strength * density * sp.pi / squared**3, (squared, depth**2, sp.oo))
     by_depth = sp.integrate(on_one, (depth, depth, sp.oo))  # a volume element at `depth` and a half-space
     per_area = sp.integrate(density * by_depth, (depth, _h, sp.oo))
-    return sp.simplify(per_area.diff(_h).subs(strength, A_H / (sp.pi * density) ** 2))
+    return per_area.diff(_h).subs(strength, A_H / (sp.pi * density) ** 2)
 
 
 @cache

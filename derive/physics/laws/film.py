@@ -83,8 +83,7 @@ def _scaled_rim() -> sp.Expr:
 def _resistance(force: sp.Expr) -> sp.Expr:
     """A force over 6 pi mu a^2 u/x0, with all lengths (also the rim) in x0."""
     viscous_scale = 6 * sp.pi * mu * a**2 * u / x0
-    scaled = sp.simplify(force / viscous_scale).subs({x: gap * x0, _rim: _rim * x0}, simultaneous=True)
-    return sp.factor(sp.simplify(scaled))
+    return sp.factor((force / viscous_scale).xreplace({x: gap * x0, _rim: _rim * x0}))
 
 
 def _stopping(force: sp.Expr) -> LawFunction:
@@ -93,6 +92,27 @@ def _stopping(force: sp.Expr) -> LawFunction:
     doc = "Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0."
     return LawFunction("stopping", (gap,), taken, doc, for_proof=True)
 
+
+def _braking(force: sp.Expr) -> LawFunction:
+    """Integral of a film's resistance to an approach, from the gap to x0: the approach velocity, times St, it takes."""
+    taken = sp.expand(sp.integrate(sp.expand(_resistance(force)), (gap, gap, 1)))
+    return LawFunction("braking", (gap,), taken, _BRAKING, for_proof=True)
+
+
+def _braking_of_constant_volume() -> LawFunction:
+    """The same for the film of constant volume; d rim/d gap = gap/rim, since rim^2 - gap^2 is constant."""
+    taken = sp.log(gap) - 2 * sp.log(gap + _rim) + sp.log(_rim)
+    slope = taken.diff(gap) + taken.diff(_rim) * gap / _rim
+    if sp.simplify(slope - _resistance(constant_volume_force())) != 0:
+        raise ArithmeticError("not an antiderivative of the resistance of a film of constant volume")
+    first = _scaled_rim().subs(gap, 1)
+    whole = taken.subs({gap: 1, _rim: first}, simultaneous=True) - taken
+    return LawFunction(
+        "braking", (gap, aspect, volume), whole, _BRAKING, definitions=((_rim, _scaled_rim()),), for_proof=True
+    )
+
+
+_BRAKING = "Velocity, over v0/St, that the film takes from an approach from x0 to this gap."
 
 FILMS = (
     Law(
@@ -109,6 +129,7 @@ FILMS = (
                 doc="Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1).",
             ),
             _stopping(normal_force()),
+            _braking(normal_force()),
         ),
     ),
     Law(
@@ -125,6 +146,7 @@ FILMS = (
                 doc="Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1).",
             ),
             _stopping(unbounded_force()),
+            _braking(unbounded_force()),
         ),
     ),
     Law(
@@ -146,6 +168,7 @@ FILMS = (
                 result=_resistance(sustained_force()),
                 doc="What of the resistance is left while opening.",
             ),
+            _braking(normal_force()),
         ),
     ),
     Law(
@@ -162,6 +185,7 @@ FILMS = (
                 doc="Normal film force over 6 pi mu a^2 u/x0.",
                 definitions=((_rim, _scaled_rim()),),
             ),
+            _braking_of_constant_volume(),
         ),
     ),
 )

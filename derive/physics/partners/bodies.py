@@ -12,7 +12,7 @@ import sympy as sp
 
 from ...vocabulary.quantities import a, m, mass_ratio, omega, partner_spin_rate, radius_ratio, u, x, xi
 from ...vocabulary.quantities import t as time
-from ..mechanics import sphere_inertia
+from ..mechanics import sphere_inertia, without_sines
 
 CENTRES = sp.Symbol("centres", positive=True)  # (R_1 + R_2)/a, named in emitted code
 F, F_t, T_1, T_2 = sp.symbols("F F_t T_1 T_2", real=True)  # along the line of centres, across it, torques
@@ -80,10 +80,10 @@ def equations_of_motion() -> PairMotion:
 
     translation = half * mass_1 * squared(first.diff(time)) + half * mass_2 * squared(second.diff(time))
     spinning = half * inertia_1 * q["alpha_1"].diff(time) ** 2 + half * inertia_2 * q["alpha_2"].diff(time) ** 2
-    across_squared = sp.sin(q["beta"]) ** 2, 1 - sp.cos(q["beta"]) ** 2
-    energy = sp.expand(sp.expand(translation).subs(*across_squared)) + spinning
+    energy = without_sines(translation, q["beta"]) + spinning
     force = -F * line - F_t * across
-    work = {name: sp.simplify(force.dot((second - first).diff(q[name]))) for name in ("X", "Y", "x", "beta")}
+    moved = second - first
+    work = {name: without_sines(force.dot(moved.diff(q[name])), q["beta"]) for name in ("X", "Y", "x", "beta")}
     work |= {"alpha_1": T_1, "alpha_2": T_2}
     plain = {
         q["x"].diff(time): u,
@@ -99,7 +99,8 @@ def equations_of_motion() -> PairMotion:
     for name, coordinate in q.items():
         conjugate = energy.diff(coordinate.diff(time))
         balance = conjugate.diff(time) - energy.diff(coordinate) - work[name]
-        accelerations[name] = settle(sp.solve(balance, coordinate.diff(time, 2))[0])
+        second = coordinate.diff(time, 2)  # the balance is linear in it
+        accelerations[name] = settle(-balance.subs(second, 0) / balance.diff(second))
         momenta[name] = settle(conjugate)
         rates[name] = settle(energy.diff(coordinate) + work[name])
     return PairMotion(accelerations, momenta, rates, settle(energy))

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 6b3272e96508125119537f053c024f8c88a4bcdc8de03051a220f4a29a137b9f */
+ * Equations sha256 6f2ed032119240a2f997e30e5132098d6c65deec3cc8f3c5b34927356fdc80eb */
 
 /* film law `cavitating`: `finite` on approach; on rebound the liquid sustains no suction and cavitates, which
  * leaves no force.
@@ -49,3 +49,10 @@ static inline vec film_resistance_work(const film_resistance_constants *c, vec g
 }
 
 #define FILM_CAVITATES 1 /* no force while opening */
+
+#define FILM_BRAKING 1
+/* Velocity, over v0/St, that the film takes from an approach from x0 to this gap. */
+static inline vec film_braking(vec gap)
+{
+    return 2.0*gap - 0.5*(gap*gap) - vec_log(gap) - 1.5;
+}

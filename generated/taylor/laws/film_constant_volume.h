@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 a430aabd969769af724920fcf170876eeca85525172622c2053e36559a66508f */
+ * Equations sha256 8d9c64ecb385998c2c8e00fa79beaf31b68745051a17bab0aeff4e213f05290a */
 
 /* film law `constant-volume`: the rim follows the bridge's liquid, H = sqrt(x^2 + V_b/(pi a)) in place of x0,
  * at any gap.
@@ -59,4 +59,14 @@ static inline vec film_resistance_value(const film_resistance_constants *c, vec 
     vec rim_squared = rim*rim;
     vec result = combination_2_squared_over_gap/rim_squared;
     return result;
+}
+
+#define FILM_BRAKING 1
+/* Velocity, over v0/St, that the film takes from an approach from x0 to this gap. */
+static inline vec film_braking(vec gap, vec aspect, vec volume)
+{
+    vec rim = vec_sqrt((gap*gap) + 8.0*volume/(3.141592653589793*(aspect*aspect)));
+    return vec_log(vec_sqrt(1.0 + 8.0*volume/(3.141592653589793*(aspect*aspect)))) + 2.0*vec_log(gap + rim) -
+        vec_log(gap) - vec_log(rim) - 2.0*vec_log(vec_sqrt(1.0 +
+        8.0*volume/(3.141592653589793*(aspect*aspect))) + 1.0);
 }

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 3d470e90fe424e3706551e89983e88be0b06f2174c18d9d7b2a4581c0acff8ac */
+ * Equations sha256 86292dc2d3ab7eaf695949e7c560a4b034ffe87a63955fef301acdb07da38acb */
 
 /* film law `finite`: Reynolds film of finite thickness, the same on approach and rebound (no cavitation).
  *
@@ -50,6 +50,13 @@ static inline vec film_resistance_work(const film_resistance_constants *c, vec g
 #define FILM_STOPPING 1
 /* Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0. */
 static inline vec film_stopping(vec gap)
+{
+    return 2.0*gap - 0.5*(gap*gap) - vec_log(gap) - 1.5;
+}
+
+#define FILM_BRAKING 1
+/* Velocity, over v0/St, that the film takes from an approach from x0 to this gap. */
+static inline vec film_braking(vec gap)
 {
     return 2.0*gap - 0.5*(gap*gap) - vec_log(gap) - 1.5;
 }

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 227e6ade3425ff1861e6455dd08fa217010a43e744e49f5687440666f0d08122 */
+ * Equations sha256 932d19c493e9d982f26d99d8f6939d55c88bf99d269728fe7bec067c2c6916ba */
 
 /* film law `infinite`: no film correction: the pressure of an unbounded film, which ends where the surfaces
  * leave it, x = x0.
@@ -46,6 +46,13 @@ static inline vec film_resistance_work(const film_resistance_constants *c, vec g
 #define FILM_STOPPING 1
 /* Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0. */
 static inline vec film_stopping(vec gap)
+{
+    return -vec_log(gap);
+}
+
+#define FILM_BRAKING 1
+/* Velocity, over v0/St, that the film takes from an approach from x0 to this gap. */
+static inline vec film_braking(vec gap)
 {
     return -vec_log(gap);
 }

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 1c2f620516f4a83b004a884b58bb3ef2dd14739463885e19f8589756a0782367 */
+ * Equations sha256 90ba89bc99bc8e6503c09c6d821d9ecbd0f46f1a40354a3bef5976bfb337da42 */
 
 /* Head-on doublet with a liquid bridge.
  *

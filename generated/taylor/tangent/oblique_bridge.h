@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 3d30f8e36719cb2aaa21a5e04cadff63a7ee0d954429a9a37c33126f0ccc8ea6 */
+ * Equations sha256 77c987cf59d91f86f6bcf7771eb5250a3ebd5a4bcb8060fa53ceb6f52d139336 */
 
 /* Oblique doublet with a liquid bridge.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 6fb9f6e1be007a48cbce9f3584874aaa22150d93b10fd378b82ef547b7d4fa33 */
+ * Equations sha256 955308fc2baf32837a3b362010119923e902906ee6b71a0957605c6c2d1e0a7d */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 f272377e21653e3de8f31029acf68b30fa67ca15bfc078528c6f378f594add88 */
+ * Equations sha256 8c16dfb19ac0bb5372be6ae30f4d20ff16fad45825c8323c9f8ddea89a53f355 */
 
 /* Oblique doublet with pendulum strings.
  *

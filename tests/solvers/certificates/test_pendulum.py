@@ -156,6 +156,7 @@ def _escapes(strings: list[Hung]) -> int:
     [
         ("none", lambda right: {}),
         ("outward", lambda right: {"outward": 0 * right["outward"]}),
+        ("impulse", lambda right: {"impulse": 0 * right["impulse"]}),
         ("film", lambda right: {"film": -1 + 0 * right["film"]}),
         ("recoil", lambda right: {"recoil": -1 + 0 * right["recoil"]}),
     ],
@@ -168,16 +169,16 @@ def test_the_sample_needs_every_margin(margin, change, strings: list[Hung], monk
     assert (escapes > 0) == (margin != "none")
 
 
-@pytest.mark.parametrize("margin", ["outward", "pull", "film", "recoil"])
+@pytest.mark.parametrize("margin", ["outward", "pull", "impulse", "film", "recoil"])
 def test_a_margin_that_is_no_number_proves_nothing(margin: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """NaN in any of the four: not proved, though all else says so."""
+    """NaN in any of the five, on the way in: not proved, though all else says so."""
     scene = Scene.load("pendulum")
     n = nondimensionalise(scene, scene.speed_of(0.3), math.radians(20))
     model = load(select_model(scene, oblique=True))
-    held = {"outward": SX(0), "pull": SX(1), "film": SX(-1), "recoil": SX(-1)}
+    held = {"outward": SX(1), "pull": SX(0), "impulse": SX(0), "film": SX(-1), "recoil": SX(-1)}
     for value, expected in ((None, True), (math.nan, False)):
         own = held if value is None else {**held, margin: SX(value)}
         with monkeypatch.context() as patch:
             _broken(patch, lambda _, own=own: own)
             one = EventLocator(model, n.groups, 1e-9)
-            assert bool(one.proof.decided(one.y, one.phase)) is expected
+            assert bool(one.proof.decided(np.array([0.9, *one.y[1:]]), one.phase)) is expected

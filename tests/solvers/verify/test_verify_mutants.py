@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -174,8 +175,8 @@ class Overeager:
 class Deceived(locate.EventLocator):
     """A trajectory that believes it."""
 
-    def __init__(self, *given: Any) -> None:
-        super().__init__(*given)
+    def __init__(self, *given: Any, **options: Any) -> None:
+        super().__init__(*given, **options)
         self.proof = Overeager()
         self.watch = replace(self.watch, certificate=None)
 
@@ -217,6 +218,17 @@ def test_a_budget_that_does_not_add_up_is_found(law, change) -> None:
     found = by_name(region.argument("g", SCENE, data))
     assert law in failures(found.values())
     assert found[law].where == "St 0.12, 60 deg"
+
+
+def test_a_grid_by_an_engine_that_is_off_is_found() -> None:
+    """A point of the grid whose e_n is off by 1e-6 differs from CVODES, by name and place; an honest grid does not."""
+    data = budget.budgeted(SCENE, [0.05, BAD["stokes"]], [BAD["angle"]], 1e-10)
+    (honest,) = region.beside_cvodes("g", SCENE, data)
+    assert honest.ok
+    off = doctored(lambda one: replace(one, restitution=one.restitution * (1 + 1e-6)), "taylor")
+    (found,) = region.beside_cvodes("g", SCENE, data, partial(off, engine="taylor"))
+    assert found.ok is False
+    assert found.where.startswith("St 0.12, 60 deg")
 
 
 def test_a_budget_with_a_failed_point_still_has_its_findings() -> None:

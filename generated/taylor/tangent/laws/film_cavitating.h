@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 6b3272e96508125119537f053c024f8c88a4bcdc8de03051a220f4a29a137b9f */
+ * Equations sha256 6f2ed032119240a2f997e30e5132098d6c65deec3cc8f3c5b34927356fdc80eb */
 
 /* Slopes of the film law `cavitating`. */
 

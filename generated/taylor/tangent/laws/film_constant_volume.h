@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 a430aabd969769af724920fcf170876eeca85525172622c2053e36559a66508f */
+ * Equations sha256 8d9c64ecb385998c2c8e00fa79beaf31b68745051a17bab0aeff4e213f05290a */
 
 /* Slopes of the film law `constant-volume`. */
 

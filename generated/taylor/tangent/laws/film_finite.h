@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 3d470e90fe424e3706551e89983e88be0b06f2174c18d9d7b2a4581c0acff8ac */
+ * Equations sha256 86292dc2d3ab7eaf695949e7c560a4b034ffe87a63955fef301acdb07da38acb */
 
 /* Slopes of the film law `finite`. */
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 227e6ade3425ff1861e6455dd08fa217010a43e744e49f5687440666f0d08122 */
+ * Equations sha256 932d19c493e9d982f26d99d8f6939d55c88bf99d269728fe7bec067c2c6916ba */
 
 /* Slopes of the film law `infinite`. */
 

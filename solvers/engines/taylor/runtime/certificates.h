@@ -102,18 +102,30 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 #endif
 
 #if PENDULUM
+/* St times the bound of the outward impulse, and the error of a margin (solvers/model/phases.py `pendulum_impulse`). */
+static vec pendulum_slack(const constants *c, const vec *y, double margin)
+{
+    vec outward, pull, impulse;
+    pendulum_inward(c, y, &outward, &pull);
+    mask inward = outward - pull + margin*(outward + pull) < 0.0;
+    vec slack = margin*vec_larger(c->stokes, splat(1.0));
+    if (!bits(~inward))
+        return slack;
+    pendulum_impulse(c, y, &impulse);
+    return slack + only(~inward, c->stokes*impulse);
+}
+
 /* Pendulum certificate: lanes where the margins of derive/equations/certificates/pendulum.py exceed their error, as in
  * solvers/model/phases.py `pendulum_margin`.
  */
 static mask held_by_strings(const constants *c, const vec *y, double tolerance)
 {
-    double margin = SAFETY*tolerance;
-    vec outward, pull, film, recoil, slack = margin*vec_larger(c->stokes, splat(1.0));
-    pendulum_inward(c, y, &outward, &pull);
-    mask held = outward - pull + margin*(outward + pull) < 0.0;
+    vec film, recoil;
+    pendulum_stops(c, y, &film, &recoil);
+    mask held = (film < 0.0) & (recoil < 0.0);
     if (!bits(held))
         return held;
-    pendulum_stops(c, y, &film, &recoil);
+    vec slack = pendulum_slack(c, y, SAFETY*tolerance);
     return held & (film + slack < 0.0) & (recoil + slack < 0.0);
 }
 #endif

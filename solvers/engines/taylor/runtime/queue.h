@@ -1,6 +1,7 @@
 /* The queue: quantities in, constants and certificates at initial contact, lanes filled and emptied, answers out. */
 #pragma once
 
+#include "approach.h"
 #include "certificates.h"
 #include "criteria.h"
 #include "energy_barrier.h"
@@ -60,6 +61,13 @@ static void fill_queue(queue *q)
         mask all = splat_mask(-1), none = splat_mask(0);
         unsigned proved = bits(proved_sticks(&f.c, y, &f.b, f.contact, all, none, q->rtol)) |
                           bits(held_sticks(&f.c, y, all, q->rtol));
+#if APPROACH_BOUNDS && STRINGS
+        if (~proved & bits(all))
+            proved |= bits(held_on_approach(&f.c, y, f.contact, q->rtol));
+#elif APPROACH_BOUNDS
+        if (~proved & bits(all))
+            proved |= bits(held_on_approach(&f.c, y, &f.b, f.contact, q->rtol));
+#endif
 #if WITH_TRAJECTORY
         proved &= bits(provable(q, splat_mask(-1)));
 #endif

@@ -1,0 +1,73 @@
+/* Approach certificate: a stick decided at initial contact, before any step (derive/equations/certificates/approach.py).
+ *
+ * Bounds of the closing speed are carried from part to part of the film. While they exclude the rebound criteria, the
+ * energy of an approach that has come so far is below a bound, and so is that of one that has turned before.
+ */
+#pragma once
+
+#include "automaton.h"
+#include "certificates.h"
+
+#if APPROACH_BOUNDS
+/* The next part of the film for bounds of the approach: a gap, and the largest speed there. */
+static inline vec next_part(const constants *c, vec *bounds)
+{
+    vec deeper, slowed, fastest;
+    approach_step(c, bounds, &deeper, &slowed, &fastest);
+    bounds[GAP] = deeper;
+    bounds[NORMAL_VELOCITY] = -slowed;
+    return fastest;
+}
+
+/* Clearance of the glass criterion in the part of the film that ends here, for the largest speed in it. */
+static inline mask clear_of_glass(const constants *c, const vec *bounds, vec fastest, double margin)
+{
+    vec there[STATES];
+    memcpy(there, bounds, sizeof there);
+    there[NORMAL_VELOCITY] = fastest*(-1.0/(1.0 - margin));
+    return glass_clearance(c, there) > 0.0;
+}
+
+#if STRINGS
+/* Lanes in which the film stops the doublet, and every rebound that a criterion may cause, for good. */
+static mask held_on_approach(const constants *c, const vec *y, vec contact, double tolerance)
+{
+    double margin = SAFETY*tolerance;
+    vec film, recoil, rebound, beneath, bounds[STATES], there[STATES];
+    vec slack = pendulum_slack(c, y, margin);
+    pendulum_stops(c, y, &film, &recoil);
+    mask sure = (contact < y[GAP]) & (film + slack < 0.0);
+    memcpy(bounds, y, sizeof bounds);
+    memcpy(there, y, sizeof there);
+    for (int part = 0; part < APPROACH_PARTS && bits(sure); part++) {
+        there[GAP] = bounds[GAP];
+        there[NORMAL_VELOCITY] = -next_part(c, bounds);
+        pendulum_rebounds(c, there, &rebound, &beneath);
+        sure &= clear_of_glass(c, bounds, -there[NORMAL_VELOCITY], margin) | (rebound + slack < 0.0);
+    }
+    pendulum_rebounds(c, bounds, &rebound, &beneath);
+    return sure & (beneath + slack < 0.0);
+}
+#else
+/* Lanes in which the energy falls below the barrier beyond the film before a criterion can be met. */
+static mask held_on_approach(const constants *c, const vec *y, const barrier *b, vec contact, double tolerance)
+{
+    double margin = SAFETY*tolerance;
+    vec none = splat(-INFINITY), outward, bounds[STATES];
+    vec height = choose(b->near_gap >= y[GAP], b->near_height, choose(b->far_gap >= y[GAP], b->far_height, none));
+    vec limit = height - margin*(b->largest + vec_abs(height)); /* NaN without a barrier: tests false */
+    vec rest = b->largest - 0.5*y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    mask sure = (contact < y[GAP]) & (rest < limit), found = splat_mask(0);
+    if (!bits(sure))
+        return found;
+    approach_force(c, y, &outward);
+    memcpy(bounds, y, sizeof bounds);
+    for (int part = 0; part < APPROACH_PARTS && bits(sure & ~found); part++) {
+        vec fastest = next_part(c, bounds), slowed = bounds[NORMAL_VELOCITY];
+        sure &= clear_of_glass(c, bounds, fastest, margin);
+        found |= sure & (0.5*slowed*slowed + rest + outward*(y[GAP] - bounds[GAP]) < limit);
+    }
+    return found;
+}
+#endif
+#endif
