@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..errors import InputError
-from ..scene.ranges import check_cells
+from ..scene.ranges import MOST, MOST_STORED, check_cells
 from ..scene.schema import FIELDS
 from ..scene.user_model import fields
 from ..settings import RTOL, check_engine, check_rtol
@@ -39,7 +39,15 @@ if TYPE_CHECKING:
 @options.rtol
 @options.engine
 @click.option(
-    "-o", "output", metavar="FILE", help="Write NetCDF (.nc) or a table (.csv); an interrupted run is continued."
+    "-o",
+    "output",
+    metavar="FILE",
+    help="Write NetCDF (.nc), a table (.csv), or Zarr chunk by chunk (.zarr); an interrupted run is continued.",
+)
+@click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    help="Compute on a Dask cluster: tcp://HOST:PORT, the scheduler's .json file, local, or local:WORKERS.",
 )
 @options.plot
 @options.debug
@@ -55,6 +63,7 @@ def command(
     rtol: str | None,
     engine: str | None,
     output: str | None,
+    scheduler: str | None,
     plot: str | None,
 ) -> None:
     """Outcomes and restitution of SCENE over impact angle, Stokes number and further varied entries.
@@ -69,10 +78,11 @@ def command(
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     chosen = check_engine(engine, "--engine")
     picture = options.check_file(plot, "--plot", options.PICTURES)
-    file = options.check_file(output, "-o", (".nc", ".csv"), replaced=True)
+    file, cluster = _outputs(output, scheduler)
     check_cells(
         {"--stokes": stokes, "--speed": speed, "--relative-speed": relative_speed, "--angle": angle}
-        | {f"--vary {each.partition('=')[0]}": each for each in vary}
+        | {f"--vary {each.partition('=')[0]}": each for each in vary},
+        MOST_STORED if _stored(file) and picture is None else MOST,
     )
     axes = _axes(stokes, speed, relative_speed, angle)
     asked = options.SceneRequest.check(source, changes, model=model)
@@ -89,8 +99,26 @@ def command(
     from ..many.batch import checked_vary
 
     checked_vary(scene, varied, "--vary")
-    data = _computed(scene, axes, varied, tolerance, chosen, file)
+    data = _computed(scene, axes, varied, tolerance, chosen, file, cluster)
     _show(data, scene, file, picture)
+
+
+def _outputs(output: str | None, scheduler: str | None) -> tuple[Path | None, str | None]:
+    """File and scheduler, checked; a Zarr store is a folder, and not every folder is one."""
+    from ..many.cluster import check_scheduler
+    from ..many.store import SUFFIX, check_store
+
+    stored = _stored(None if output is None else Path(output))
+    file = (
+        check_store(output, "-o")
+        if stored
+        else options.check_file(output, "-o", (".nc", ".csv", SUFFIX), replaced=True)
+    )
+    return file, None if scheduler is None else check_scheduler(scheduler, "--scheduler")
+
+
+def _stored(file: Path | None) -> bool:
+    return file is not None and file.suffix.lower() == ".zarr"
 
 
 def _axes(
@@ -136,18 +164,25 @@ def _computed(
     rtol: float,
     engine: str | None,
     file: Path | None,
+    scheduler: str | None,
 ) -> xarray.Dataset:
     """Compute the map and write it; after an interrupt finished collisions stay in the journal."""
+    from ..many.cluster import connected
     from ..many.csv_map import write_csv
     from ..many.journal import Journal
     from ..many.regime_map import regime_map, write
     from .bar import bar
 
+    stored = _stored(file)
     journal = None if file is None else Journal(file.with_name(file.name + ".partial"))
     done = (0, 0)
     begun = journal is None or not journal.path.exists()
     try:
-        with bar("collisions") as shown, journal.held("-o", file) if journal else nullcontext():
+        with (
+            journal.held("-o", file) if journal else nullcontext(),
+            connected(scheduler, "--scheduler") if scheduler is not None else nullcontext() as client,
+            bar("collisions") as shown,
+        ):
 
             def progress(*counts: int) -> None:
                 nonlocal done
@@ -166,8 +201,10 @@ def _computed(
                 progress=progress,
                 slow=lambda left: shown.note(f"the last {left} are slow ones"),
                 journal=journal,
+                client=client,
+                store=file if stored else None,
             )
-            if file is not None and journal is not None:
+            if file is not None and journal is not None and not stored:
                 (write_csv if file.suffix.lower() == ".csv" else write)(data, file)
                 journal.remove()
     except (KeyboardInterrupt, OSError) as error:

@@ -13,11 +13,14 @@ PICTURES = (".png", ".pdf", ".svg")
 _LONGEST = 200  # bytes of a name; file systems accept 255, and the temporary file has a longer name
 
 
-def check_file(path: object, label: str, suffixes: Sequence[str] = (), *, replaced: bool = False) -> Path:
+def check_file(
+    path: object, label: str, suffixes: Sequence[str] = (), *, replaced: bool = False, folder: bool = False
+) -> Path:
     """Return the path of an output file; InputError naming `label` if it cannot be written or has a wrong suffix.
 
     Arguments:
         replaced: the file is moved into place, so that its folder must be writable too.
+        folder: it is itself a folder, as a Zarr store is.
     """
     accepted = "a file name" + (f" ending in {', '.join(suffixes)}" if suffixes else "") + " in a folder that exists"
     text = _text(path, label, accepted)
@@ -29,7 +32,7 @@ def check_file(path: object, label: str, suffixes: Sequence[str] = (), *, replac
     meant = Path(os.path.realpath(file))  # a link may be broken
     if not (bounded.is_folder(file.parent) and bounded.is_folder(meant.parent)):
         raise InputError(label, text, accepted, "is in a folder that does not exist")
-    if bounded.is_folder(file):
+    if not folder and bounded.is_folder(file):
         raise InputError(label, text, accepted, "is a folder")
     there = bounded.exists(file)
     if (there and not os.access(file, os.W_OK)) or ((replaced or not there) and not _takes_files(meant.parent)):

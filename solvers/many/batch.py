@@ -30,6 +30,8 @@ class Batch:
 
     `texts` are choices that vary; they are split into one batch for each scene before anything is computed (`by_text`),
     and the engine is chosen for each. `asked` is the requested engine.
+    A chunk of a request has the number of collisions of the whole in `whole`, and keeps the whole's engines: `engine`,
+    and by the choices of a scene `engines`.
     """
 
     scene: Scene
@@ -42,10 +44,17 @@ class Batch:
     of: tuple[str, ...]
     asked: str | None = None
     texts: dict[str, np.ndarray] = field(default_factory=dict)
+    whole: int = 0
+    engines: Mapping[tuple[str, ...], str] = field(default_factory=dict)
 
     @property
     def size(self) -> int:
         return int(self.angle.size)
+
+    @property
+    def count(self) -> int:
+        """Number of collisions of the request that this batch is a chunk of, or of the batch itself."""
+        return self.whole or self.size
 
     def scene_of(self, k: int) -> Scene:
         """The scene of collision k; InputError if the varied entries make it impossible."""
@@ -80,8 +89,7 @@ class Batch:
             try:
                 scene = self.scene.with_entries(dict(zip(self.texts, row, strict=True)))
                 part = replace(self.part(which), scene=scene, texts={})
-                check_some_scene(part)
-                part = replace(part, engine=engine_for(part, self.size))
+                part = replace(part, engine=self.engines.get(row) or engine_for(part, self.count))
             except InputError as error:
                 yield which, error
             else:

@@ -13,6 +13,7 @@ from ..collision.outcome import open_beyond
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.layout import ANSWER, LEDGER
 from ..engines.taylor.record import run_recorded
+from ..errors import ComputationError
 from ..model.model import load, select_model
 from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
 from ..scene.entry_rules import FARTHEST
@@ -23,9 +24,8 @@ from ..settings import FEW
 from .batch import Batch
 from .columns import varied_columns
 from .results import LEDGER as OF_LEDGER
-from .results import NONE, RATES, REVERSALS, TIMES
+from .results import NONE, RATES, REVERSALS, TIMES, Block
 
-Block = dict[str, np.ndarray]
 _STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
 _MOST = 1e30  # largest magnitude of an SI quantity; its inverse is the smallest
 _NEVER = ("glass_transition_pressure", "youngs_modulus")  # set very large to disable a rebound criterion
@@ -66,9 +66,12 @@ def collide_by_kernel(
             found, books = both if both is not None else (None, None)
         else:
             found = run_kernel(
-                impacts, request.rtol, "rotation" in request.of, threads, few=request.size <= FEW, jumps=jumps
+                impacts, request.rtol, "rotation" in request.of, threads, few=request.count <= FEW, jumps=jumps
             )
         if found is None:
+            if request.whole:  # other chunks may have been computed by the kernel
+                advice = 'look at what the compiler reports, or choose another engine, as "rosenbrock"'
+                raise ComputationError("the kernel of this request cannot be compiled here", advice=advice)
             return which
         kept = found["status"] <= LAST_ANSWER
         if books is not None:  # where the ledger is open the trajectory is wrong

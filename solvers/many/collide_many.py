@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
@@ -30,6 +32,7 @@ from ..settings import FEW, RTOL
 from .batch import Batch, batch, check_outputs, check_some_scene, checked_impact, checked_vary, of_one_length
 from .broadcast import Layout, laid_out
 from .by_kernel import collide_by_kernel
+from .chunks import chunks
 from .columns import with_impacts
 from .of_impact import of_impact
 from .results import (
@@ -42,19 +45,21 @@ from .results import (
     RESULTS,
     REVERSALS,
     VALIDITY,
+    Block,
     attributes,
-    blank,
     outcome_attributes,
 )
+from .results import blank as blank_column
+from .stream import Scan, check_places, digest, into_memory, into_store, software
 
 if TYPE_CHECKING:
     import xarray
 
 _BLOCK = 50  # collisions in a block for a worker
 _ALONE = FEW  # fewer collisions are not worth starting workers for
+_NUMBERS = 1 << 19  # in the request of a chunk, 4 MB; Dask warns of much more
 _SLOW_ALONE = 20  # the same for collisions that the kernel did not complete; they take up to seconds each
 
-Block = dict[str, np.ndarray]
 Finished = Callable[[np.ndarray, Block], None]
 Slow = Callable[[int], None]
 
@@ -70,6 +75,8 @@ def collide_many(
     rtol: float = RTOL,
     engine: str | None = None,
     of: Sequence[str] = ("outcome", "restitution"),
+    client: Any = None,
+    store: str | FilePath | None = None,
 ) -> xarray.Dataset:
     """Many collisions of one scene.
 
@@ -85,6 +92,10 @@ def collide_many(
         of: what to keep besides outcome and restitution: any number that a `Collision` has, terms of its ledger as
             "energy.capillary" (the ledger is then integrated too, which takes longer), and validity (flags of where the
             model leaves its range, with the results that these need).
+        client: a `dask.distributed.Client` whose workers compute, or as text a scheduler's address, its file, "local"
+            or "local:N" (N processes here, started and ended by this call). The result is the same.
+        store: a Zarr store to write the results to, chunk by chunk (`many.zarr`). The same call continues after an
+            interrupt. The Dataset that is returned reads from it.
 
     Numbers, arrays of any shape, quantities with units and DataArrays are broadcast against each other as numpy does,
     DataArrays by the names of their dimensions; plain arrays beside these go with the last dimensions.
@@ -107,12 +118,15 @@ def collide_many(
         (2,)
     """
     loaded, kept = Scene.load(scene), check_outputs(of, RESULTS)
+    file = check_places(client, store)
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     vary = {} if vary is None else vary
     loaded, varied = checked_vary(loaded, vary, most=None, texts=True)
     arrays = checked_impact(loaded, impact, None) | varied
     layout = laid_out(arrays, {**{f"impact.{name}": values for name, values in impact.items()}, **vary})
     request = batch(loaded, of_one_length(arrays) if layout is None else layout.columns, rtol, engine, kept)
+    if client is not None or file is not None:
+        return _in_chunks(request, layout, client, file)
     results = empty(request.size, request.of)
     if request.texts:
         return as_dataset(request, results, layout, _by_text(request, results))
@@ -122,15 +136,116 @@ def collide_many(
     return as_dataset(request, results, layout)
 
 
-def _whole(request: Batch, results: Block) -> None:
-    compute(request, np.arange(request.size), lambda where, block: fill(results, where, block))
+def _in_chunks(request: Batch, layout: Layout | None, client: Any, file: FilePath | None) -> xarray.Dataset:
+    """Compute a request chunk by chunk, on a cluster, into a store, or both."""
+    if file is not None and not request.size:
+        raise InputError("store", str(file), "at least one collision to write", "would be empty")
+    engines = _engines(request)
+    engine = ", ".join(dict.fromkeys(engines.values()))
+    scan = _scan(replace(request, whole=request.size, engines=engines), layout, engine)
+    if file is not None:
+        return into_store(scan, file, client)
+    results = blank(request.size, request.of)
+    results["reason"] = results["reason"].astype(object)
+    into_memory(scan, client, np.zeros(request.size, bool), lambda where, block: fill(results, where, block))
+    return as_dataset(request, results, layout, engine)
+
+
+def _engines(request: Batch) -> dict[tuple[str, ...], str]:
+    """The engines of a request by its choices; scenes are checked and warned of here, and not on workers."""
+    engines: dict[tuple[str, ...], str] = {}
+    first = None
+    for where, part in request.by_text() if request.texts else ((np.arange(1), request),):
+        try:
+            if isinstance(part, InputError):
+                raise part
+            check_some_scene(part)
+        except InputError as error:
+            first = first or error
+        else:
+            engines[tuple(str(values[where[0]]) for values in request.texts.values())] = part.engine
+            warn(part.scene)
+    if first is not None and not engines:
+        raise first
+    return engines
+
+
+def _scan(request: Batch, layout: Layout | None, engine: str) -> Scan:
+    """The collisions as chunks that are computed by themselves."""
+    shape = (request.size,) if layout is None else layout.shape
+    given = {"angle": request.angle, "stokes": request.stokes, "speed": request.speed, **request.vary, **request.texts}
+    columns = {name: values for name, values in given.items() if values is not None}
+    cut = chunks(shape, request.engine, _NUMBERS // (len(columns) + 3 * len(request.texts)))
+
+    def dataset(k: int, block: Block) -> xarray.Dataset:
+        import xarray as xr
+
+        flat = as_dataset(request.part(cut.flat(k)), block, None, engine)
+        dims = ("collision",) if layout is None else tuple(map(str, layout.dims))
+        variables = {
+            name: (dims, each.values.reshape(cut.extent(k)[: len(dims)]), each.attrs)
+            for name, each in flat.data_vars.items()
+        }
+        return xr.Dataset(variables, attrs=flat.attrs)
+
+    def coordinates() -> xarray.Dataset:
+        nothing = {name: np.broadcast_to(one, request.size) for name, one in blank(1, request.of).items()}
+        return as_dataset(request, nothing, layout).coords.to_dataset()
+
+    return Scan(
+        cut,
+        request.engine,
+        task=lambda k: partial(computed_chunk, request.part(cut.flat(k))),
+        dataset=dataset,
+        blank=lambda k: blank(math.prod(cut.extent(k)), request.of),
+        fixed=coordinates,
+        identity={
+            "scene": request.scene.si,
+            "volume": request.scene.ways.volume,
+            "columns": {name: digest(values) for name, values in columns.items()},
+            "shape": cut.shape,
+            "rtol": request.rtol,
+            "engine": engine,
+            "of": sorted(set(request.of)),
+            **software(),
+            "model": request.scene.package and request.scene.package.digest,
+        },
+    )
+
+
+def blank(size: int, of: Sequence[str]) -> Block:
+    """All columns of a chunk, of the kinds that they have when it is computed."""
+    results = empty(size, of)
+    results["reason"] = as_text(results)
+    return results | ({VALIDITY: np.zeros(size, dtype=np.int16)} if VALIDITY in of else {})
+
+
+def computed_chunk(request: Batch, cores: int) -> Block:
+    """All columns of a chunk of a request, computed in this process.
+
+    Arguments:
+        cores: that it may use.
+    """
+    results = empty(request.size, request.of)
+    if request.texts:
+        _by_text(request, results, cores)
+    else:
+        _whole(request, results, cores)
+    if VALIDITY in request.of:
+        results.setdefault(VALIDITY, np.zeros(request.size, dtype=np.int16))
+    results["reason"] = as_text(results)
+    return results
+
+
+def _whole(request: Batch, results: Block, cores: int | None = None) -> None:
+    compute(request, np.arange(request.size), lambda where, block: fill(results, where, block), cores=cores)
     if any(name in OF_IMPACT for name in request.of):
         fill(results, np.arange(request.size), of_impact(request))
     if VALIDITY in request.of:
         results[VALIDITY] = validity(request, results)
 
 
-def _by_text(request: Batch, results: Block) -> str:
+def _by_text(request: Batch, results: Block, cores: int | None = None) -> str:
     """Fill the results batch by batch, one for each set of choices; returns the engines."""
     engines, first = dict[str, None](), None
     for where, part in request.by_text():
@@ -138,14 +253,20 @@ def _by_text(request: Batch, results: Block) -> str:
             first = first or part
             results["outcome"][where], results["reason"][where] = FAILED, str(part)
             continue
-        warn(part.scene)
+        try:
+            if not request.whole:
+                check_some_scene(part)
+        except InputError as error:
+            first = first or error
+        else:
+            engines[part.engine] = None
+            warn(part.scene)
         found = empty(part.size, part.of)
-        _whole(part, found)
+        _whole(part, found, cores)
         if VALIDITY in found:
             results.setdefault(VALIDITY, np.zeros(request.size, dtype=np.int16))
         fill(results, where, found)
-        engines[part.engine] = None
-    if first is not None and not engines:
+    if first is not None and not engines and not request.whole:
         raise first
     return ", ".join(engines) or request.engine
 
@@ -157,7 +278,7 @@ def empty(size: int, of: Sequence[str]) -> Block:
     columns["reason"] = np.empty(size, dtype=object)  # None: has not failed
     for name in dict.fromkeys(("restitution", *of)):
         if name in INTEGRATED or name in OF_IMPACT:
-            columns[name] = blank(name, size)
+            columns[name] = blank_column(name, size)
     return columns
 
 
@@ -167,23 +288,31 @@ def fill(results: Block, where: np.ndarray, block: Block) -> None:
         results[name][where] = values
 
 
-def compute(request: Batch, which: np.ndarray, finished: Finished, slow: Slow = lambda _count: None) -> None:
+def compute(
+    request: Batch,
+    which: np.ndarray,
+    finished: Finished,
+    slow: Slow = lambda _count: None,
+    cores: int | None = None,
+) -> None:
     """Compute the collisions `which`, on all cores if they are many.
 
     Calls `finished` after every block; results of finished blocks are kept if a later one is interrupted.
 
     Arguments:
         slow: called with the number of collisions left to slower engines, before those start.
+        cores: how many it may use; None for all of this process.
     """
     size, alone = _BLOCK, _ALONE
+    most = usable_cores() if cores is None else cores
     if request.engine == "taylor":
-        left = collide_by_kernel(request, which, usable_cores() if which.size > _ALONE else 1, finished)
+        left = collide_by_kernel(request, which, most if which.size > _ALONE else 1, finished)
         if 0 < left.size < which.size:
             slow(left.size)
-            size, alone = max(1, min(_BLOCK, left.size // (4 * usable_cores()))), _SLOW_ALONE
+            size, alone = max(1, min(_BLOCK, left.size // (4 * most))), _SLOW_ALONE
         which = left
     blocks = [which[k : k + size] for k in range(0, which.size, size)]
-    cores = min(len(blocks), usable_cores())
+    cores = min(len(blocks), most)
     many = which.size > _ALONE
     if which.size <= alone or cores == 1:
         for block in blocks:

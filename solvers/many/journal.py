@@ -19,7 +19,21 @@ import numpy as np
 from ..errors import InputError
 from ..host.files import write, write_all
 from ..host.locks import take
-from .collide_many import Block
+from .results import Block
+
+
+def journal(given: object) -> Journal | None:
+    """A journal from what a caller gives: a file's name, a journal, or None; InputError for anything else."""
+    if given is None or isinstance(given, Journal):
+        return given
+    if not isinstance(given, (str, os.PathLike)) or not str(given).strip():
+        raise InputError("journal", given, "a file name, or None", "is not a file name")
+    return Journal(Path(given))
+
+
+def beside(file: Path) -> Journal:
+    """The journal of a file that is being made."""
+    return Journal(file.with_name(file.name + ".partial"))
 
 
 class Journal:
@@ -97,16 +111,23 @@ class Journal:
 
     def read(self) -> list[tuple[np.ndarray, Block]]:
         """The finished blocks of this request."""
-        return [_block(record) for key, record in self._records() if key == self.key and record is not None]
+        return [_block(record) for record in self._own() if "columns" in record]
+
+    def chunks(self) -> list[int]:
+        """The finished chunks of this request whose results are stored elsewhere."""
+        return [record["chunk"] for record in self._own() if "chunk" in record]
 
     def count(self) -> int:
         """Number of finished collisions of this request."""
-        return sum(len(record["where"]) for key, record in self._records() if key == self.key and record is not None)
+        return sum(map(_collisions, self._own()))
+
+    def _own(self) -> Iterator[dict[str, Any]]:
+        return (record for key, record in self._records() if key == self.key and record is not None)
 
     def others(self) -> tuple[int, int]:
         """Content that is not this request's: number of collisions of others, number of lines that are no blocks."""
         strange = [record for key, record in self._records() if key != self.key]
-        return sum(len(one["where"]) for one in strange if one is not None), sum(one is None for one in strange)
+        return sum(_collisions(one) for one in strange if one is not None), sum(one is None for one in strange)
 
     def _records(self) -> Iterator[tuple[bytes, dict[str, Any] | None]]:
         """Key and content of every line; the content is None for an incomplete line."""
@@ -120,8 +141,14 @@ class Journal:
 
     def add(self, where: np.ndarray, block: Block) -> None:
         """Append a block in a single write."""
-        columns = {name: values.tolist() for name, values in block.items()}
-        text = json.dumps({"where": where.tolist(), "columns": columns}).encode()
+        self._append({"where": where.tolist(), "columns": {name: values.tolist() for name, values in block.items()}})
+
+    def note(self, chunk: int, collisions: int) -> None:
+        """Append a chunk whose results have been stored elsewhere."""
+        self._append({"chunk": chunk, "collisions": collisions})
+
+    def _append(self, record: Mapping[str, Any]) -> None:
+        text = json.dumps(record).encode()
         try:
             with self.path.open("ab", buffering=0) as file:
                 # starts with a newline in case the last line is incomplete
@@ -139,6 +166,10 @@ class Journal:
             self.path.unlink(missing_ok=True)
             return
         write(self.path, b"\n".join(others) + b"\n")
+
+
+def _collisions(record: Mapping[str, Any]) -> int:
+    return int(record["collisions"]) if "chunk" in record else len(record["where"])
 
 
 def _checksum(text: bytes) -> bytes:

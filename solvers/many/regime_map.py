@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import io
 import math
-import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,20 +21,22 @@ from ..host.pictures import register
 from ..model.validity import flag_attributes, warn
 from ..scene.groups import si_values
 from ..scene.quantities import normal_speed
-from ..scene.ranges import MOST
+from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
 from .batch import Batch, check_outputs, check_some_scene, checked_impact, checked_vary, engine_for
-from .collide_many import Block, Slow, as_text, compute, empty, fill, validity
+from .chunks import chunks
+from .collide_many import Slow, as_text, blank, compute, computed_chunk, empty, fill, validity
 from .journal import Journal
-from .results import QUANTITIES, VALIDITY, attributes, outcome_attributes
+from .journal import journal as checked_journal
+from .results import QUANTITIES, VALIDITY, Block, attributes, outcome_attributes
+from .stream import Progress, Scan, check_places, into_memory, into_store, software
 
 if TYPE_CHECKING:
     import xarray
 
-Progress = Callable[[int, int], None]
 IMPACTS = tuple(name.partition(".")[2] for name in SPEEDS)
 _UNKNOWN = -2  # outcome of a collision not computed yet
 
@@ -57,11 +59,29 @@ class Grid:
     def shape(self) -> tuple[int, ...]:
         return (self.angle.size, self.values.size, *(values.size for values in self.vary.values()))
 
+    @property
+    def axes(self) -> dict[str, np.ndarray]:
+        return {"angle": self.angle, self.impact: self.values, **self.vary}
+
+    def one_impact(self) -> Grid:
+        """The same scenes, each with the first impact alone."""
+        return replace(self, angle=self.angle[:1], values=self.values[:1])
+
+    def all_angles(self) -> Grid:
+        """Every angle once, with the first of everything else."""
+        return replace(self, values=self.values[:1], vary={name: axis[:1] for name, axis in self.vary.items()})
+
     @cached_property
     def order(self) -> np.ndarray:
         """Flat indices in the order of computation: the collisions of one scene follow one another."""
         indices = np.arange(np.prod(self.shape, dtype=int)).reshape(self.shape)
         return np.moveaxis(indices, [0, 1], [-2, -1]).ravel()
+
+    def part(self, at: Sequence[slice]) -> Grid:
+        """A block of the grid."""
+        angle, values, *varied = at
+        vary = {name: axis[own] for (name, axis), own in zip(self.vary.items(), varied, strict=True)}
+        return Grid(self.scene, self.angle[angle], self.impact, self.values[values], vary)
 
     def speeds(self, values: np.ndarray, angle: np.ndarray, stokes_per_speed: float) -> np.ndarray:
         """Normal speeds, m/s, of what is on the impact's axis."""
@@ -100,6 +120,8 @@ def regime_map(
     progress: Progress | None = None,
     journal: str | Path | Journal | None = None,
     slow: Slow = lambda _count: None,
+    client: Any = None,
+    store: str | Path | None = None,
 ) -> xarray.Dataset:
     """Outcomes over a grid.
 
@@ -118,6 +140,10 @@ def regime_map(
         journal: file that keeps finished collisions, so that the same call continues after an interrupt; the caller
             removes it.
         slow: called with the number of collisions left to slower engines, once the kernel has done all others.
+        client: a `dask.distributed.Client` whose workers compute the map, or as text a scheduler's address, its file,
+            "local" or "local:N" (N processes here, started and ended by this call). The result is the same.
+        store: a Zarr store to write chunk by chunk (`map.zarr`); memory does not grow with the map. The same call
+            continues after an interrupt. The Dataset that is returned reads from it.
 
     Returns:
         Dataset over (angle, the one of these three, what varies): outcome (int8: 0 stick, 1 stick-rotate-separate,
@@ -134,33 +160,44 @@ def regime_map(
         array([[0, 0, 2],
                [0, 1, 2]], dtype=int8)
     """
-    told = (check_function(progress, "progress"), check_function(slow, "slow"))
+    told = check_function(progress, "progress"), check_function(slow, "slow")
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
-    grid = _grid(Scene.load(scene), impact, {} if vary is None else vary)
-    asked = check_engine(engine)
-    request = grid.request(check_rtol(rtol), asked, check_outputs(of))
-    check_some_scene(request)
-    request = replace(request, engine=engine_for(request, request.size))
+    file = check_places(client, store)
+    grid = _grid(Scene.load(scene), impact, {} if vary is None else vary, MOST if file is None else MOST_STORED)
+    wanted, rtol, results, kept = check_engine(engine), check_rtol(rtol), check_outputs(of), checked_journal(journal)
+    check_some_scene(grid.one_impact().request(rtol, wanted, ()))
+    by = engine_for(grid.all_angles().request(rtol, wanted, results), math.prod(grid.shape))
+    asked = _Asked(grid, rtol, by, results)
     warn(grid.scene)
-    kept = _journal(journal)
+    if file is not None:
+        return into_store(_scan(asked), file, client, told[0] or (lambda _done, _total: None), kept)
     if kept is None:
-        return _computed(grid, request, None, *told)
-    kept.under(_identity(grid, request))
+        return _computed(asked, None, *told, client)
+    kept.under(_identity(asked))
     with kept.held():
-        return _computed(grid, request, kept, *told)
+        return _computed(asked, kept, *told, client)
 
 
-def _journal(journal: object) -> Journal | None:
-    if journal is None or isinstance(journal, Journal):
-        return journal
-    if not isinstance(journal, (str, os.PathLike)) or not str(journal).strip():
-        raise InputError("journal", journal, "a file name, or None", "is not a file name")
-    return Journal(Path(journal))
+@dataclass(frozen=True)
+class _Asked:
+    """A map as requested."""
+
+    grid: Grid
+    rtol: float
+    engine: str
+    of: tuple[str, ...]
+
+    def request(self) -> Batch:
+        return self.grid.request(self.rtol, self.engine, self.of)
+
+    def part(self, at: Sequence[slice]) -> _Asked:
+        return replace(self, grid=self.grid.part(at))
 
 
 def _computed(
-    grid: Grid, request: Batch, kept: Journal | None, progress: Progress | None, slow: Slow | None
+    asked: _Asked, kept: Journal | None, progress: Progress | None, slow: Slow | None, client: Any
 ) -> xarray.Dataset:
+    request = asked.request()
     results = empty(request.size, request.of)
     for where, block in kept.read() if kept else ():
         fill(results, where, block)
@@ -177,18 +214,55 @@ def _computed(
         tell()
 
     tell()
-    missing = grid.order[results["outcome"][grid.order] == _UNKNOWN]
-    compute(request, missing, finished, slow or (lambda _count: None))
-    return _dataset(grid, request, results)
+    done = results["outcome"] != _UNKNOWN
+    if client is None:
+        missing = asked.grid.order[~done[asked.grid.order]]
+        compute(request, missing, finished, slow or (lambda _count: None))
+    else:
+        # flags are computed at the end, also for what an earlier run has finished
+        into_memory(
+            _scan(asked), client, done, lambda where, block: finished(where, {name: block[name] for name in results})
+        )
+    return _dataset(asked, request, results)
 
 
-def _grid(scene: Scene, impact: Mapping[str, Any], vary: Mapping[str, Any]) -> Grid:
+def _scan(asked: _Asked) -> Scan:
+    """The map as chunks that are computed by themselves."""
+    cut, size = chunks(asked.grid.shape, asked.engine), math.prod(asked.grid.shape)
+
+    def dataset(k: int, block: Block) -> xarray.Dataset:
+        part = asked.part(cut.slices(k))
+        return _dataset(part, part.request(), block)
+
+    def axes() -> xarray.Dataset:
+        import xarray as xr
+
+        found = _coordinates(asked.grid.one_impact())
+        return xr.Dataset(coords={name: (name, axis, found[name][2]) for name, axis in asked.grid.axes.items()})
+
+    return Scan(
+        cut,
+        asked.engine,
+        task=lambda k: partial(_chunk, asked.part(cut.slices(k)), size),
+        dataset=dataset,
+        blank=lambda k: blank(math.prod(cut.extent(k)), asked.of),
+        fixed=axes,
+        identity=_identity(asked),
+    )
+
+
+def _chunk(asked: _Asked, whole: int, cores: int) -> Block:
+    """Results of a part of a map of `whole` collisions; a worker receives its axes and makes the collisions itself."""
+    return computed_chunk(replace(asked.request(), whole=whole), cores)
+
+
+def _grid(scene: Scene, impact: Mapping[str, Any], vary: Mapping[str, Any], most: int) -> Grid:
     scene, varied = checked_vary(scene, vary)
     axes = {name: array.reshape(-1) for name, array in (checked_impact(scene, impact) | varied).items()}
-    if math.prod(axis.size for axis in axes.values()) > MOST:
+    if math.prod(axis.size for axis in axes.values()) > most:
         longest = max(axes, key=lambda name: axes[name].size)
         sizes = " x ".join(str(axis.size) for axis in axes.values())
-        raise InputError(longest, None, f"at most {MOST} collisions in all", f"makes {sizes} collisions")
+        raise InputError(longest, None, most_collisions(most), f"makes {sizes} collisions")
     for name, axis in axes.items():
         if np.unique(axis).size != axis.size:
             raise InputError(name, axis, "an axis without repetitions", "has a value twice")
@@ -198,18 +272,18 @@ def _grid(scene: Scene, impact: Mapping[str, Any], vary: Mapping[str, Any]) -> G
     return Grid(scene, angles, entry.partition(".")[2], values, axes)
 
 
-def _identity(grid: Grid, request: Batch) -> dict[str, Any]:
+def _identity(asked: _Asked) -> dict[str, Any]:
     """Everything that the results depend on, as the journal's request."""
+    grid = asked.grid
     axes = {"angle": grid.angle, grid.impact: grid.values} | {f"vary {name}": axis for name, axis in grid.vary.items()}
     return {
         "scene": [entry for entry in grid.scene.si if not entry[0].startswith("impact.")],
         "volume": grid.scene.ways.volume,
         "axes": {name: axis.tolist() for name, axis in axes.items()},
-        "rtol": request.rtol,
-        "engine": request.engine,
-        "of": sorted(set(request.of)),
-        "version": _version(),
-        "equations": Path(scaling.__file__).with_name("manifest.json").read_text(),
+        "rtol": asked.rtol,
+        "engine": asked.engine,
+        "of": sorted(set(asked.of)),
+        **software(),
         "model": grid.scene.package and grid.scene.package.digest,
     }
 
@@ -220,10 +294,11 @@ def _version() -> str:
     return version("wetdoublet")
 
 
-def _dataset(grid: Grid, request: Batch, results: Block) -> xarray.Dataset:
+def _dataset(asked: _Asked, request: Batch, results: Block) -> xarray.Dataset:
     import xarray as xr
 
     register()
+    grid = asked.grid
 
     def shaped(values: np.ndarray) -> np.ndarray:
         return values.reshape(grid.shape)
@@ -234,10 +309,11 @@ def _dataset(grid: Grid, request: Batch, results: Block) -> xarray.Dataset:
         "reason": (grid.dims, shaped(as_text(results)), {"long_name": "why it failed"}),
     }
     for name, values in results.items():
-        if name not in variables:
+        if name not in variables and name != VALIDITY:
             variables[name] = (grid.dims, shaped(values), attributes(name))
     if VALIDITY in request.of:
-        variables[VALIDITY] = grid.dims, shaped(validity(request, results)), flag_attributes()
+        mask = results[VALIDITY] if VALIDITY in results else validity(request, results)
+        variables[VALIDITY] = grid.dims, shaped(mask), flag_attributes()
     said = {
         "Conventions": "CF-1.11",
         "title": f"Outcomes of oblique wet collisions: {grid.scene.name or 'unnamed scene'}",
@@ -294,17 +370,15 @@ def _coordinates(grid: Grid) -> dict[str, Any]:
     return coordinates
 
 
-def _centrifugal(scene: Scene, speeds: np.ndarray, angles: np.ndarray) -> list[list[float]]:
+def _centrifugal(scene: Scene, speeds: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """The centrifugal number at an array of speeds, a line for each angle."""
     known = si_values(scene, None, None)
     fixed = {name: known[name] for name in scaling.ARGUMENTS["centrifugal"] if name in known}
-
-    def one(speed: float, angle: float) -> float:
-        try:
-            return float(scaling.centrifugal(**fixed, speed=speed, angle=angle))
-        except (OverflowError, ZeroDivisionError):
-            return math.inf
-
-    return [[one(speed, angle) for speed in line] for line, angle in zip(speeds.tolist(), angles.tolist(), strict=True)]
+    found = np.full(speeds.shape, np.inf)
+    for line, speed, angle in zip(found, speeds, angles.tolist(), strict=True):
+        with suppress(OverflowError, ZeroDivisionError), np.errstate(all="ignore"):
+            line[:] = scaling.centrifugal(**fixed, speed=speed, angle=angle)
+    return found
 
 
 def impact_axis(data: xarray.Dataset) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...generated.automaton import CRITERIA, OUTCOMES
 
+Block = dict[str, np.ndarray]  # columns of results, by name
 FAILED = -1
 NONE = -1  # code of a reversal where no criterion was met
 REVERSALS = tuple(CRITERIA)  # by code

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
@@ -97,15 +98,28 @@ def _subsampled(data: xarray.Dataset, shown: int, total: int) -> list[str]:
 
 def failures(data: xarray.Dataset) -> str | None:
     """One line with the number of failures and their reasons; None without failures."""
-    failed = data["outcome"].values == FAILED
-    count = int(np.count_nonzero(failed))
-    if not count:
+    reasons = [reason for part in _strips(data) for reason in _reasons(part)]
+    if not reasons:
         return None
     kinds: dict[str, list[str]] = {}
-    for reason in data["reason"].values[failed].tolist():
+    for reason in reasons:
         kinds.setdefault(re.sub(r"[-+]?[0-9.]+(e[-+]?[0-9]+)?", "#", reason.partition("; state ")[0]), []).append(
             reason
         )
     said = [f"{len(alike)} x {alike[0]}" for alike in sorted(kinds.values(), key=len, reverse=True)]
     more = f", and {len(said) - 3} other reasons" if len(said) > 3 else ""
-    return f"{count} of {failed.size} collisions failed: {' | '.join(said[:3])}{more}"
+    return f"{len(reasons)} of {data['outcome'].size} collisions failed: {' | '.join(said[:3])}{more}"
+
+
+def _strips(data: xarray.Dataset) -> Iterator[xarray.Dataset]:
+    """A map in parts along its first dimension, as it lies in chunks on disk; all of it where it is in memory."""
+    outcome = data["outcome"]
+    dim, size = outcome.dims[0], outcome.shape[0]
+    length = (outcome.encoding.get("chunks") or outcome.shape)[0]
+    for first in range(0, size, length):
+        yield data.isel({dim: slice(first, first + length)})
+
+
+def _reasons(data: xarray.Dataset) -> list[str]:
+    failed = data["outcome"].values == FAILED
+    return list(map(str, data["reason"].values[failed].tolist())) if failed.any() else []

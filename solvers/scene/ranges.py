@@ -10,6 +10,7 @@ from ..errors import InputError
 
 Ends = Callable[[str, str], tuple[float, float]]
 MOST = 10_000_000  # values, or collisions of a map at 130 bytes each; a larger count is probably a typing error
+MOST_STORED = 10**10  # the same for a map that is written to disk as it is computed
 
 
 def parse_range(text: str, label: str, read: Ends, *, unit: str = "", most: int = MOST) -> list[float]:
@@ -55,11 +56,12 @@ def parse_range(text: str, label: str, read: Ends, *, unit: str = "", most: int 
     return [low, *inner, high]  # the ends exactly as given, without rounding
 
 
-def check_cells(ranges: Mapping[str, str | None]) -> None:
+def check_cells(ranges: Mapping[str, str | None], most: int = MOST) -> None:
     """Raise InputError if the product of the ranges' counts exceeds what a map can hold, before allocating any.
 
     Arguments:
         ranges: option -> its range; malformed ranges are ignored here and reported by `parse_range`.
+        most: collisions in all.
     """
     cells, sizes = 1, []
     for label, text in ranges.items():
@@ -68,6 +70,11 @@ def check_cells(ranges: Mapping[str, str | None]) -> None:
             continue
         cells *= max(1, int(count[1]))
         sizes.append(count[1])
-        if cells > MOST >= int(count[1]):
+        if cells > most >= int(count[1]):
             problem = f"makes {' x '.join(sizes)} collisions"
-            raise InputError(label, text, f"at most {MOST} collisions in all", problem)
+            raise InputError(label, text, most_collisions(most), problem)
+
+
+def most_collisions(most: int) -> str:
+    """What is accepted as the size of a map, in words."""
+    return f"at most {most} collisions in all" + ("" if most > MOST else ", or more without a picture in a .zarr")

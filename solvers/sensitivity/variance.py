@@ -14,6 +14,7 @@ from ..host.pictures import register
 from ..many.collide_many import collide_many
 from ..many.results import FAILED
 from ..many.results import QUANTITIES as MANY
+from ..many.stream import check_places
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..settings import check_rtol
@@ -32,6 +33,8 @@ def sobol_indices(
     samples: int = 256,
     rtol: float = 1e-6,
     seed: int = 0,
+    client: Any = None,
+    store: str | FilePath | None = None,
 ) -> xarray.Dataset:
     """First-order and total Sobol indices of a result over a box of parameters, uniformly distributed.
 
@@ -40,6 +43,8 @@ def sobol_indices(
         ranges: dotted name -> (low, high), text with its unit or SI. The impact's speed is held unless it varies.
         of: restitution, or another result of `collide_many` (an error if some collision sticks).
         samples: number of base samples, a power of two; samples (2 + parameters) collisions are computed.
+        client, store: a cluster that computes them and a Zarr store that keeps them, as for `collide_many`; a call that
+            was interrupted goes on where it was.
 
     Returns:
         Dataset over `parameter`: `first`, `total`, and half widths of their 95 % intervals; `collisions` in the
@@ -67,6 +72,7 @@ def sobol_indices(
         check_samples(samples),
         check_whole(seed, "seed", 0, 2**32 - 1),
     )
+    check_places(client, store)
     bounds = [_bounds(loaded, name, ranges[name]) for name in names]
     sample, analyze = _salib()
     problem = {"num_vars": len(names), "names": list(names), "bounds": bounds}
@@ -83,7 +89,7 @@ def sobol_indices(
         impact["speed"] = speed
     columns = {name: loaded.as_given(name, column) for name, column in columns.items()}
     keep = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
-    found = collide_many(loaded, **impact, vary=columns, rtol=rtol, of=keep)
+    found = collide_many(loaded, **impact, vary=columns, rtol=rtol, of=keep, client=client, store=store)
     failed = int((found.outcome.values == FAILED).sum())
     result = np.asarray(found[of].values, dtype=float)
     if failed or not np.isfinite(result).all():
@@ -93,7 +99,7 @@ def sobol_indices(
         )
     if np.ptp(result) == 0:
         raise ComputationError(f"no Sobol indices: {of} is the same over the whole box", advice="choose wider ranges")
-    indices = analyze(problem, result, calc_second_order=False, seed=seed)
+    indices = analyze(problem, result, calc_second_order=False, seed=seed + 1)  # SALib takes 0 for none
     return xr.Dataset(
         {
             "first": ("parameter", np.asarray(indices["S1"])),

@@ -10,7 +10,8 @@ import sys
 import pytest
 from wetdoublet import solvers
 
-HEAVY = ("sympy", "pint", "xarray", "matplotlib", "loky", "scipy")
+CLUSTER = ("distributed", "zarr")
+HEAVY = ("sympy", "pint", "xarray", "matplotlib", "loky", "scipy", "dask", *CLUSTER)
 PROGRAM = """
 import atexit, json, sys
 atexit.register(lambda: sys.stderr.write("loaded " + json.dumps(sorted({m.split(".")[0] for m in sys.modules}))))
@@ -29,11 +30,18 @@ def loaded(*arguments: str) -> tuple[str, set[str]]:
 
 @pytest.mark.parametrize("name", ["granulation", "pendulum", "granulation-dry-bridge"])
 def test_one_collision_loads_nothing_heavy(name: str) -> None:
-    """`collide --json`: neither sympy, pint, xarray, matplotlib, loky nor scipy; the answer needs casadi and numpy."""
+    """`collide --json`: neither sympy, pint, xarray, matplotlib, loky, scipy nor Dask; it needs casadi and numpy."""
     out, packages = loaded("collide", name, "--json")
     assert json.loads(out)["outcome"] == "stick-rotate-separate"
     assert {"casadi", "numpy", "wetdoublet"} <= packages
     assert not packages & set(HEAVY)
+
+
+def test_a_map_without_a_cluster_loads_nothing_of_one() -> None:
+    """`map` loads neither Zarr nor Dask's scheduler; of Dask xarray itself loads what it can find."""
+    _, packages = loaded("map", "granulation", "--stokes", "0.02:0.1:2", "--angle", "60")
+    assert "xarray" in packages
+    assert not packages & set(CLUSTER)
 
 
 def test_an_input_error_loads_no_integrator() -> None:

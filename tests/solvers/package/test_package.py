@@ -62,9 +62,9 @@ def test_import_loads_no_other_package() -> None:
 
 
 def test_public_names_load_nothing_heavy() -> None:
-    """All public names together load neither sympy, xarray, matplotlib nor pint."""
+    """All public names together load neither sympy, xarray, matplotlib, pint, Dask nor Zarr."""
     packages = loaded("import wetdoublet\nfor name in wetdoublet.__all__: getattr(wetdoublet, name)")
-    assert not packages & {"sympy", "xarray", "matplotlib", "pint"}
+    assert not packages & {"sympy", "xarray", "matplotlib", "pint", "dask", "distributed", "zarr"}
 
 
 def test_type_checkers_see_every_public_name() -> None:

@@ -49,9 +49,8 @@ static void run(queue *q)
             l.y[state][lane] = l.y[state][sound];
     }
     vec(*a)[TERMS] = (void *)&s;
-    unsigned turn = 0;
     for (;;) {
-        if (q->parks && (q->parks == LANES || !bits(l.alive))) {
+        if (q->parks && (q->parks >= LANES || !bits(l.alive))) {
             crawl(q);
             EACH_LANE(lane) if (!l.alive[lane]) refill(q, &l, &f, lane);
         }
@@ -63,10 +62,8 @@ static void run(queue *q)
 #endif
         if (!bits(l.alive))
             break;
-        /* a stick may be certified a step later, so the energy is checked every second step only */
         mask sticks = held_sticks(&f.c, l.y, l.alive & now_and_then(l.fresh, l.phases, l.steps), q->rtol);
-        if (turn++ % 2 == 0)
-            sticks |= proved_underway(&l, &f, q->rtol);
+        sticks |= proved_underway(&l, &f, q->rtol);
 #if WITH_TRAJECTORY
         sticks &= provable(q, l.closing);
 #endif
@@ -129,6 +126,9 @@ static void run(queue *q)
             l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
         l.time += h;
         l.smallest = vec_min(l.smallest, l.y[GAP]);
+        l.steps += 1; /* before a lane may take another collision, which must not depend on this one */
+        l.crept = (l.crept + 1) & creeps;
+        l.stride = h;
         mask lost = l.alive & ~((vec_abs(l.y[GAP]) < INFINITY) & (vec_abs(l.y[NORMAL_VELOCITY]) < INFINITY));
         for (unsigned event = bits(falls & ~lost); event; event &= event - 1) {
             int lane = __builtin_ctz(event);
@@ -138,9 +138,6 @@ static void run(queue *q)
             act(q, &l, &f, lane, (int)found.event[lane]);
 #endif
         }
-        l.steps += 1;
-        l.crept = (l.crept + 1) & creeps;
-        l.stride = h;
 #if JUMPS
         park_turned(q, &l, &f, falls & ~lost & (found.event == AT_TURNING) & l.alive & ~l.closing);
 #endif

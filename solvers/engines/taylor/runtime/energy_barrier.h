@@ -34,15 +34,19 @@ static const double WEIGHTS[6] = {
 static vec integral(
     const constants *c, const vec *y, vec low, vec high, vec (*integrand)(const constants *, const vec *, vec))
 {
-    vec whole = high - low;
-    double longest = 0.0;
-    EACH_LANE(lane) longest = fmax(longest, fabs(whole[lane]));
-    int panels = 2 + (int)(2.0*longest);
+    vec whole = high - low, panels; /* each lane has its own panels, so that results do not depend on neighbours */
+    int most = 0;
+    EACH_LANE(lane) {
+        int own = 2 + (int)(2.0*fmax(0.0, fabs(whole[lane])));
+        panels[lane] = own;
+        most = own > most ? own : most;
+    }
     vec half = whole*(0.5/panels), sum = splat(0.0);
-    for (int panel = 0; panel < panels; panel++)
+    for (int panel = 0; panel < most; panel++)
         for (int node = 0; node < 12; node++) {
             double place = node < 6 ? NODES[node] : -NODES[node - 6];
-            sum += WEIGHTS[node % 6]*integrand(c, y, vec_exp(low + half*(2*panel + 1 + place)));
+            vec term = WEIGHTS[node % 6]*integrand(c, y, vec_exp(low + half*(2*panel + 1 + place)));
+            sum += only(panel < panels, term);
         }
     return sum*half;
 }

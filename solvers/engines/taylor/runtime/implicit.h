@@ -180,12 +180,13 @@ static __attribute__((noinline)) void crawl(queue *q)
     fixed f;
     slow w;
     memset(&w, 0, sizeof w);
+    int many = q->parks < LANES ? q->parks : LANES;
+    q->parks -= many; /* the last ones: the others stay where they are */
     for (int lane = 0; lane < LANES; lane++)
-        unpack(q->parked[lane < q->parks ? lane : 0], &l, &f, lane);
+        unpack(q->parked[q->parks + (lane < many ? lane : 0)], &l, &f, lane);
     mask busy = splat_mask(0);
-    for (int lane = 0; lane < q->parks; lane++)
+    for (int lane = 0; lane < many; lane++)
         busy[lane] = -1;
-    q->parks = 0;
     w.c = &f.c;
     w.film = acting(&l);
     w.shear = l.shear;

@@ -49,7 +49,7 @@ static __attribute__((noinline)) void jump(queue *q)
         }
         vec to = vec_exp(low), reached[2] = {splat(0.0), splat(0.0)};
         vec wrong = on_manifold(&s, &f.c, to, &reached[0], &reached[1]);
-            mask jumps = waits & (to > start) & (wrong <= COARSEST);
+        mask jumps = waits & (to > start) & (wrong <= COARSEST);
         if (!bits(jumps))
             continue;
         jumps &= forgets(&s, &f.c, &from, to, wrong, reached, f.tolerance, last);
@@ -57,6 +57,7 @@ static __attribute__((noinline)) void jump(queue *q)
         l.y[NORMAL_VELOCITY] = choose(jumps, reached[0], l.y[NORMAL_VELOCITY]);
         l.y[ORBITAL_MOMENTUM] = choose(jumps, reached[1], l.y[ORBITAL_MOMENTUM]);
         l.closing &= ~jumps;
+        l.crept &= ~jumps;
         waits &= ~jumps;
     }
     for (int lane = 0; lane < count; lane++)

@@ -154,11 +154,9 @@ static void refill(queue *q, lanes *l, fixed *f, int lane)
     }
 }
 
-/* Moves a lane's trajectory to those waiting for implicit.h; it continues in its lane if these are enough. */
+/* Moves a lane's trajectory to those waiting for implicit.h; a full vector of them waits at most for one step. */
 static void park(queue *q, lanes *l, fixed *f, int lane)
 {
-    if (q->parks == LANES)
-        return;
     pack(q->parked[q->parks++], l, f, lane);
     refill(q, l, f, lane);
 }

@@ -76,9 +76,9 @@ typedef struct {
     int leaps[LANES]; /* whether they may jump from initial contact */
 #endif
     int parks, resumes; /* trajectories waiting for implicit.h, and trajectories that return to lanes */
-    double parked[LANES][FIXED + LANE_STATE], resumed[3*LANES][FIXED + LANE_STATE];
+    double parked[2*LANES][FIXED + LANE_STATE], resumed[4*LANES][FIXED + LANE_STATE];
 #if JUMPS
-    int turns; /* trajectories waiting for slow_manifold.h */
+    int turns; /* trajectories waiting for jump.h */
     double turned[2*LANES][FIXED + LANE_STATE];
 #endif
 #if GRADIENTS

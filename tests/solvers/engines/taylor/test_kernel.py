@@ -251,3 +251,15 @@ def test_soft_solids_meet_beyond_the_film():
         for each in ("rosenbrock", "taylor")
     ]
     assert kinds[0] == kinds[1] and kinds[0].count("elastic") > 1 and "film edge" not in kinds[0]
+
+
+@pytest.mark.parametrize("preset", ["granulation", "pendulum"])
+def test_neighbours_do_not_change_a_digit(preset: str):
+    """A collision has the same bits, steps included, among others in another order; some here creep for long."""
+    of = (*EVERYTHING, "until", "steps", "reversal")
+    stokes, angle = (axis.ravel() for axis in np.meshgrid(np.geomspace(*RANGES[preset], 100), np.linspace(0, 1.5, 90)))
+    shuffled = np.random.default_rng(3).permutation(stokes.size)[::2]
+    whole = collide_many(preset, stokes=stokes, angle=angle, engine="taylor", of=of)
+    part = collide_many(preset, stokes=stokes[shuffled], angle=angle[shuffled], engine="taylor", of=of)
+    for name in ("outcome", "certified", *of):
+        np.testing.assert_array_equal(part[name].values, whole[name].values[shuffled], err_msg=name)

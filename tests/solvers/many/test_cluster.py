@@ -1,0 +1,171 @@
+"""Requests in chunks: Zarr stores that continue, and a real Dask cluster, one of whose workers is killed."""
+
+import os
+import signal
+
+import numpy as np
+import pytest
+import xarray as xr
+from wetdoublet.solvers import ComputationError, InputError, collide_many, regime_map, sobol_indices
+from wetdoublet.solvers.many.chunks import chunks
+
+from ...helpers.command import run
+
+pytest.importorskip("zarr")
+distributed = pytest.importorskip("distributed")
+dask = pytest.importorskip("dask")
+
+GRID = {"stokes": np.geomspace(0.005, 0.5, 125), "angle": np.linspace(0, 1.5, 120)}
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    """A client of a scheduler and two worker processes on loopback, which are started again when they are killed."""
+    settings = {"host": "127.0.0.1", "dashboard_address": None, "memory_limit": 0, "silence_logs": 60}
+    with (
+        distributed.LocalCluster(2, threads_per_worker=1, **settings) as started,
+        distributed.Client(started) as client,
+    ):
+        yield client
+
+
+@pytest.fixture(scope="module")
+def serial():
+    """The map, computed by this process in memory."""
+    return regime_map("granulation", **GRID)
+
+
+def same(one, other):
+    """Identical names, labels, attributes and bits."""
+    xr.testing.assert_identical(one.load(), other.load())
+    for name, variable in one.variables.items():
+        assert variable.dtype.kind in "UOT" or variable.values.tobytes() == other[name].values.tobytes(), name
+
+
+@pytest.mark.parametrize("shape", [(1,), (100_003,), (300, 7), (5, 4000, 3, 2), (10_000, 10_000)])
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_chunks_cover_a_request_once(shape, engine):
+    """Every collision is in one chunk, and no chunk is larger than the kernel takes in one call."""
+    cut = chunks(shape, engine)
+    extents = [cut.extent(k) for k in range(len(cut))]
+    assert sum(map(np.prod, extents)) == np.prod(shape)
+    assert max(map(np.prod, extents)) <= 65536
+    if np.prod(shape) < 1e6:
+        assert np.sort(np.concatenate([cut.flat(k) for k in range(len(cut))])).tolist() == list(range(np.prod(shape)))
+
+
+def test_a_stored_map_is_the_map(tmp_path, serial):
+    """The store that a map is written to has the Dataset that is made in memory; a second one takes its place."""
+    same(regime_map("granulation", **GRID, store=tmp_path / "map.zarr"), serial)
+    small = {"relative_speed": [0.3, 0.5, 1.0], "angle": [0.0, 1.0], "vary": {"liquid.viscosity": [1.0, 2.0]}}
+    assert run(
+        "map", "granulation", "--relative-speed", "0.3:1 m/s:3", "--angle", "0:60:2", "-o", tmp_path / "map.zarr"
+    ).exit_code == 0  # fmt: skip
+    same(regime_map("granulation", **small, store=tmp_path / "map.zarr"), regime_map("granulation", **small))
+    assert [path.name for path in tmp_path.iterdir()] == ["map.zarr"]
+
+
+def test_stored_collisions_are_the_collisions(tmp_path, cluster):
+    """Arrays of any shape, labels, times and varying laws are stored as they are returned."""
+    angle = xr.DataArray([0.0, 0.9, 1.2, 1.4], dims="row", coords={"lot": ("row", ["a", "b", "c", "d"])})
+    day = np.array(["2020-01-01", "2020-02-01"], "M8[ns]")
+    stokes = xr.DataArray([0.02, 0.2], dims="day", coords={"day": day})
+    requests = (
+        {"stokes": stokes, "angle": angle, "of": ["reversal", "validity", "capillary"]},
+        {"stokes": 0.02, "angle": [1.3, 1.2], "vary": {"bridge.law": ["mikami", "willett"]}},
+        {"stokes": np.full((2, 3), 0.02), "angle": 1.3, "vary": {"liquid.viscosity": [1.0, 1e-30, 2.0]}},
+    )
+    for request in requests:
+        expected = collide_many("granulation", **request)
+        same(collide_many("granulation", **request, store=tmp_path / "many.zarr"), expected)
+        same(collide_many("granulation", **request, client=cluster), expected)
+
+
+def test_sobol_indices_of_a_cluster(tmp_path, cluster):
+    """A global study has the same indices and intervals, and keeps its collisions."""
+    pytest.importorskip("SALib")
+    box = {"impact.angle": ("60 deg", "66 deg"), "liquid.viscosity": ("1.9 Pa s", "2.1 Pa s")}
+    found = sobol_indices("granulation", box, samples=16, client=cluster, store=tmp_path / "sobol.zarr")
+    xr.testing.assert_identical(found, sobol_indices("granulation", box, samples=16))
+    assert xr.open_zarr(tmp_path / "sobol.zarr").sizes == {"collision": 64}
+
+
+def test_an_interrupted_store_is_continued(tmp_path, serial):
+    """Finished chunks are kept, the store has no name before it is complete, and the next run computes the rest."""
+    path, seen = tmp_path / "map.zarr", []
+
+    def until_some_are_done(done, total):
+        seen.append(done)
+        if len(seen) == 4:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        regime_map("granulation", **GRID, store=path, progress=until_some_are_done)
+    assert not path.exists()
+    again = []
+    found = regime_map("granulation", **GRID, store=path, progress=lambda done, _total: again.append(done))
+    assert again[0] == seen[-1] > 0
+    assert len(seen) + len(again) == len(chunks((120, 125), "taylor")) + 2
+    same(found, serial)
+    assert [each.name for each in tmp_path.iterdir()] == ["map.zarr"]
+
+
+def test_a_lost_worker_is_survived(tmp_path, serial, cluster):
+    """One of two workers is killed in mid-run: the same bits, in a store and in memory."""
+    victims = list(cluster.run(os.getpid).values())
+
+    def kill(done, _total):
+        if done and victims:
+            os.kill(victims.pop(), signal.SIGKILL)
+            victims.clear()
+
+    same(regime_map("granulation", **GRID, client=cluster, store=tmp_path / "map.zarr", progress=kill), serial)
+    assert not victims
+    same(regime_map("granulation", **GRID, client=cluster), serial)
+
+
+def test_a_worker_of_another_arithmetic_is_refused(serial, cluster):
+    """Other compiler flags on one worker: the other computes all. On both, each its own: an error says so."""
+
+    def flags(value):
+        import os
+
+        os.environ["WETDOUBLET_CFLAGS"] = value
+
+    cluster.wait_for_workers(2)
+    one, other = cluster.run(os.getpid)
+    try:
+        cluster.run(flags, "-DONE", workers=[one])
+        same(regime_map("granulation", **GRID, client=cluster), serial)
+        cluster.run(flags, "-DOTHER", workers=[other])
+        with pytest.raises(ComputationError, match="workers differ: .* its WETDOUBLET_CFLAGS is -DO.*, not -DO"):
+            regime_map("granulation", **GRID, client=cluster)
+    finally:
+        cluster.run(flags, "")
+
+
+def test_an_unreachable_scheduler_is_bad_input(tmp_path):
+    """One line names the option and what is accepted; nothing is left behind."""
+    (tmp_path / "else.zarr").mkdir()
+    with dask.config.set({"distributed.comm.timeouts.connect": "0.2s"}):
+        for option, value, problem, accepted in (
+            ("--scheduler", "tcp://127.0.0.1:9", "is not reachable (", "tcp://HOST:PORT of a running Dask scheduler"),
+            ("--scheduler", "nowhere", "is no address of a scheduler", "local, or local:WORKERS"),
+            ("--scheduler", str(tmp_path / "no.json"), "is a file that does not exist", "local, or local:WORKERS"),
+            (
+                "-o",
+                str(tmp_path / "else.zarr"),
+                "is something else, which is not overwritten",
+                "a name ending in .zarr",
+            ),
+        ):
+            output = () if option == "-o" else ("-o", tmp_path / "map.zarr")
+            done = run("map", "granulation", "--stokes", "0.02:0.1:2", "--angle", "60", option, value, *output)
+            line, nothing = done.stderr.split("\n")
+            assert (done.exit_code, nothing) == (2, "")
+            assert line.startswith(f"{option}: ")
+            assert problem in line
+            assert accepted in line.partition("accepted: ")[2]
+    with pytest.raises(InputError, match="^client: "):
+        collide_many("granulation", client=3)
+    assert [path.name for path in tmp_path.iterdir()] == ["else.zarr"]
