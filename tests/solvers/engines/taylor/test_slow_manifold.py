@@ -30,7 +30,7 @@ LAWS: list[tuple[dict[str, Any], float]] = [
     ({}, 1e-7),
     ({}, 1e-9),
     ({}, 1e-11),
-    ({"model.film": "infinite", "model.tangential": "film"}, 1e-9),
+    ({"bridge.law": "willett-simple", "model.tangential": "film"}, 1e-9),
     ({"bridge.law": "constant", "model.film": "constant-volume"}, 1e-9),
 ]
 
