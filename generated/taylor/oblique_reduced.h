@@ -302,7 +302,7 @@ static inline vec rigid_momentum(const constants *c, const vec *y)
 }
 
 #if defined(FILM_RESISTANCE_FALLS) && defined(SHEAR_LOG_FACTOR_FALLS) && !defined(FILM_CAVITATES)
-#define SLOW_MANIFOLD (!CAPILLARY_STATE)
+#define SLOW_MANIFOLD 1
 /* Inside the film, as series in the gap (derive/equations/certificates/slow_manifold.py): `distance` centre
  * distance over a; `slowing` loss of normal velocity in the film per gap, over v0/x0: f; `relaxation` rate at
  * which shear brings the orbital momentum to its rigid value, per x0/v0: s; `rigid` orbital momentum in rigid

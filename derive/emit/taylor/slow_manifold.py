@@ -64,7 +64,7 @@ def slow_manifold_functions(model: Model, constants: Constants, prepared: dict[t
     meanings = "; ".join(f"`{name}` {meaning}" for name, meaning in MEANINGS.items())
     return [
         f"#if {' && '.join(f'defined({name})' for name in sorted(falling))} && !defined(FILM_CAVITATES)",
-        "#define SLOW_MANIFOLD (!CAPILLARY_STATE)",
+        "#define SLOW_MANIFOLD 1",
         *comment(
             f"Inside the film, as series in the gap (derive/equations/certificates/slow_manifold.py): {meanings}."
         ),

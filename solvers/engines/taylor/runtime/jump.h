@@ -1,7 +1,7 @@
 /* The slow-manifold jump: a doublet goes on from a later gap, with the state of the slow manifold there.
  *
- * Lanes that turn inside the film are parked, and collisions that surely turn there do not begin at all. When a full vector of
- * them is available, each gets a gap of its own, as late as the series of the manifold are accurate. It jumps if no event
+ * Lanes that turn inside the film are parked, and collisions that surely turn there do not begin at all. When a full
+ * vector of them is available, each gets a gap of its own, as late as the series of the manifold are accurate. It jumps if no event
  * is met on the way and any two solutions in the tube are closer than the tolerance at the end (slow_manifold.h).
  * Otherwise it goes on as it is.
  *
@@ -9,12 +9,24 @@
  */
 #pragma once
 
+#include "energy_barrier.h"
 #include "model.h"
 #include "rows.h"
 #include "slow_manifold.h"
 #include "state.h"
 
 #if JUMPS
+#if CAPILLARY_STATE
+static vec attraction_in_logarithm(const constants *c, const vec *y, vec gap)
+{
+    (void)y;
+    slow_series s;
+    place at;
+    look_at(&s, c, gap, &at);
+    return gap*at.attractions;
+}
+#endif
+
 /* The parked lanes jump where they may, and all return to the queue. */
 static __attribute__((noinline)) void jump(queue *q)
 {
@@ -53,6 +65,12 @@ static __attribute__((noinline)) void jump(queue *q)
         if (!bits(jumps))
             continue;
         jumps &= forgets(&s, &f.c, &from, to, wrong, reached, f.tolerance, last);
+        if (!bits(jumps))
+            continue;
+#if CAPILLARY_STATE
+        vec work = integral(&f.c, l.y, vec_log(l.y[GAP]), vec_log(to), attraction_in_logarithm);
+        l.y[CAPILLARY_WORK] += only(jumps, work);
+#endif
         l.y[GAP] = choose(jumps, to, l.y[GAP]);
         l.y[NORMAL_VELOCITY] = choose(jumps, reached[0], l.y[NORMAL_VELOCITY]);
         l.y[ORBITAL_MOMENTUM] = choose(jumps, reached[1], l.y[ORBITAL_MOMENTUM]);
