@@ -91,7 +91,8 @@ def collide_many(
             compiler), "rosenbrock" or "cvodes".
         of: what to keep besides outcome and restitution: any number that a `Collision` has, terms of its ledger as
             "energy.capillary" (the ledger is then integrated too, which takes longer), and validity (flags of where the
-            model leaves its range, with the results that these need).
+            model leaves its range, with the results that these need). For contact_time, rotation and until the kernel
+            integrates the whole trajectory, otherwise only what e_n depends on: e_n may differ within its tolerance.
         client: a `dask.distributed.Client` whose workers compute, or as text a scheduler's address, its file, "local"
             or "local:N" (N processes here, started and ended by this call). The result is the same.
         store: a Zarr store to write the results to, chunk by chunk (`many.zarr`). The same call continues after an
