@@ -1,8 +1,10 @@
-"""The transposed recurrence of a structure's tangent in C: derivatives of a result propagated backwards over a step.
+"""The transposed recurrences of a structure's flow in C: derivatives of a result propagated backwards over a step.
 
-The tangent of a step computes the coefficients of a direction in sequence and sums them. In reverse order, the same
-products propagate derivatives of the result by the sum to derivatives by each coefficient: by the states at the start
-of the step, and by all source terms, at a cost that does not depend on the number of groups.
+A step computes the coefficients of all series in sequence and sums those of the states. Each recurrence is linear in a
+small change of its operands, so that in reverse order its transpose propagates derivatives of a result by a series to
+those by its operands: a product costs two products, a quotient two, whatever the number of groups. The matrix of the
+tangent is never formed. Derivatives by the constants of the recurrences are accumulated over the whole trajectory, and
+become derivatives by the groups at its end.
 """
 
 from __future__ import annotations
@@ -10,51 +12,280 @@ from __future__ import annotations
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import is_slot_call
+from ...vocabulary.quantities import normal_velocity
+from ..casadi.printer import EmissionError
 from .c_text import Text
+from .law_slopes import UNUSED
 from .layout import comment, function
 from .linear_flow import LinearFlow
+from .program import COST, Operation
+
+# Cost of a transposed recurrence in products of series; those left out have none, a call that of its slopes too.
+TRANSPOSED = {
+    "product": 2.0, "square": 1.0, "quotient": 2.0, "reciprocal": 2.0, "sqrt": 1.0, "exp": 1.0, "log": 1.0,
+    "power": 2.0, "sine": 1.0, "cosine": 1.0,
+}  # fmt: skip
+_FLAGS = (FILM, SHEAR)
 
 
-def cotangent(tangent: LinearFlow) -> list[str]:
-    """C text of the backward recurrence, and of the contraction rate of the flow."""
-    return [*_recurrence(tangent), *_contraction(tangent)]
+class Adjoint:
+    """Text of the backward recurrences of one structure, and of what they need."""
+
+    def __init__(self, tangent: LinearFlow) -> None:
+        self._tangent = tangent
+        self._header = tangent.header
+        self._made = self._header.made
+        self._rates = {state.name: self._header.rates[state.name] for state in tangent.model.states}
+        self._operations = self._contributing()
+        self._constants: dict[sp.Expr, int] = {}  # their expressions in the groups, and their places
+        self._arrays: list[str] = []
+        self._steps = self._recurrences()
+
+    @property
+    def cost(self) -> float:
+        """Products of series of a step backwards, without those of the flow and of the laws."""
+        calls = sum(len(each.series) for each in self._operations if each.kind == "call")
+        return calls + sum(TRANSPOSED.get(each.kind, 0.0) for each in self._operations)
+
+    def lines(self) -> list[str]:
+        """The emitted declarations and functions."""
+        return [*self._law_slopes(), *self._struct(), *self._function(), *self._along_constants()]
+
+    def _contributing(self) -> list[Operation]:
+        """Operations that the rates of the states depend on, in order."""
+        wanted = {rate for rate in self._rates.values() if isinstance(rate, str)}
+        kept = []
+        for operation in reversed(self._header.flow.operations):
+            if operation.kind == "sine" and f"cosine_of_{operation.series[0]}" in wanted:
+                wanted.add(operation.name)
+            if operation.name in wanted:
+                kept.append(operation)
+                wanted.update(operation.series)
+        return kept[::-1]
+
+    # ---- laws
+
+    def _laws(self) -> list[Operation]:
+        return [operation for operation in self._operations if operation.kind == "call"]
+
+    def _law_slopes(self) -> list[str]:
+        calls = [(each.name, *each.call) for each in self._laws() if each.call is not None]
+        fields = [f"    {slot}_{call}_slopes {name};" for name, slot, call, _ in calls]
+        constants = [f"    {slot}_{call}_slope_constants {name};" for name, slot, call, _ in calls]
+        none = ["    char none[0];"]
+        prepare = [f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});" for name, slot, call, _ in calls]
+        expand = []
+        for name, slot, call, given in calls:
+            passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
+            expand.append(f"{slot}_{call}_slopes_of(&s->{name}, &c->{name}, &of->{name}, &v->{name}{passed});")
+        return [
+            "typedef struct {", *(constants or none), "} slope_constants;", "",
+            "typedef struct {", *(fields or none), "} slopes;", "",
+            *comment("Constants of the laws' derivatives, computed once per collision."),
+            *function(
+                "static inline void prepare_slopes(slope_constants *c, const constants *v)", ["(void)c; (void)v;", *prepare]
+            ), "",
+            *comment("Derivatives of the laws by their arguments."),
+            *function(
+                "static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, "
+                "const series *of, const constants *v)",
+                ["(void)s; (void)c; (void)of; (void)v;", *expand],
+            ), "",
+        ]  # fmt: skip
+
+    # ---- recurrences
+
+    def _array(self, name: str) -> str:
+        return self._made.array(name).replace("s->", "of->", 1)
+
+    def _in_groups(self, expression: sp.Expr) -> sp.Expr:
+        named = self._header.flow.named
+        while named.keys() & expression.free_symbols:
+            expression = expression.xreplace(named)
+        return expression
+
+    def _place(self, expression: sp.Expr) -> str | None:
+        """The accumulator of the derivative by a constant; None if it depends on no group."""
+        whole = self._in_groups(expression)
+        if not whole.free_symbols:
+            return None
+        return f"bar->constant[{self._constants.setdefault(whole, len(self._constants))}]"
+
+    def _level(self, factor: sp.Expr) -> tuple[str, sp.Expr]:
+        """Flags of the region in a factor, as C text that ends with `*` or is empty, and the rest."""
+        flags = [flag for flag in _FLAGS if flag in factor.free_symbols]
+        rest = factor
+        for flag in flags:
+            rest = sp.cancel(rest / flag)
+        return "".join(f"{flag.name}*" for flag in flags), rest
+
+    def _recurrences(self) -> list[str]:
+        self._pulls: dict[str, list[str]] = {}
+        body: list[str] = []
+        for state, rate in self._rates.items():
+            after, value = f"after_{state}", f"w[{state.upper()}]*next"
+            body.append(f"vec {after} = {f'only(moving, {value})' if state == normal_velocity.name else value};")
+            if isinstance(rate, str):
+                self._pull(rate, after)
+            elif rate != 0:
+                flags, rest = self._level(rate)
+                if (place := self._place(rest)) is not None:
+                    body.append(f"if (k == 0) {place} += {flags}{after};")
+        for operation in reversed(self._operations):
+            body += self._transposed(operation)
+        for state in self._tangent.states:
+            pulls = self._pulls.pop(state, [])
+            body.append(f"w[{state.upper()}] = {' + '.join([f'of_sum[{state.upper()}]*power', *pulls])};")
+        assert not self._pulls, self._pulls
+        return body
+
+    def _pull(self, name: str, term: str) -> None:
+        self._pulls.setdefault(name, []).append(term)
+
+    def _transposed(self, operation: Operation) -> list[str]:
+        name, kind = operation.name, operation.kind
+        total = " + ".join(self._pulls.pop(name, [])) or "splat(0.0)"
+        series = [self._array(part) for part in operation.series]
+        factors = self._made.factors[name]
+        whole, own = self._array(name), f"bar->{name}"
+        if kind == "linear":
+            return self._linear(operation, total)
+        self._arrays.append(name)
+        lines = [f"{own}[k] = {total};"]
+        if kind == "product":
+            return lines + self._product(operation)
+        if kind == "square":
+            lines.append(f"vec by_{name} = correlated({series[0]}, {own}, k);")
+            self._pull(operation.series[0], f"2.0*by_{name}")
+        elif kind == "quotient":
+            over = f"of->over_{name}"
+            lines = [f"{own}[k] = ({total} - beyond({series[1]}, {own}, k))*{over};"]
+            lines.append(f"vec by_{name} = correlated({whole}, {own}, k);")
+            self._pull(operation.series[0], f"{own}[k]")
+            self._pull(operation.series[1], f"(-by_{name})")
+        elif kind == "reciprocal":
+            lines = [f"{own}[k] = ({total} - beyond({series[0]}, {own}, k))*{whole}[0];"]
+            lines.append(f"vec by_{name} = correlated({whole}, {own}, k);")
+            self._pull(operation.series[0], f"(-by_{name})")
+        elif kind == "sqrt":
+            lines = [f"{own}[k] = ({total} - 2.0*beyond({whole}, {own}, k))*of->over_{name};"]
+            self._pull(operation.series[0], f"{own}[k]")
+        elif kind == "exp":
+            lines.append(f"vec by_{name} = correlated({whole}, {own}, k);")
+            self._pull(operation.series[0], f"by_{name}")
+        elif kind == "log":
+            lines = [f"{own}[k] = ({total} - beyond({series[0]}, {own}, k))*of->over_{name};"]
+            self._pull(operation.series[0], f"{own}[k]")
+        elif kind == "power":
+            if self._in_groups(operation.factors[0]).free_symbols:
+                raise EmissionError(f"no transposed recurrence of {name}: its exponent depends on a group")
+            lines = [f"{own}[k] = ({total} - beyond({series[0]}, {own}, k))*of->over_{name};"]
+            lines.append(f"vec by_{name} = {factors[0]}*correlated({whole}, {own}, k);")
+            self._pull(operation.series[0], f"by_{name}")
+        elif kind == "sine":
+            cosine = self._array(f"cosine_of_{operation.series[0]}")
+            lines.append(f"vec by_{name} = correlated({cosine}, {own}, k);")
+            self._pull(operation.series[0], f"by_{name}")
+        elif kind == "cosine":
+            sine = self._array(f"sine_of_{operation.series[0]}")
+            lines.append(f"vec by_{name} = correlated({sine}, {own}, k);")
+            self._pull(operation.series[0], f"(-by_{name})")
+        else:
+            assert kind == "call", COST[kind]
+            lines += self._call(operation)
+        return lines
+
+    def _linear(self, operation: Operation, total: str) -> list[str]:
+        own = f"by_{operation.name}"
+        lines = [f"vec {own} = {total};"]
+        texts = self._made.factors[operation.name]
+        for part, factor, text in zip(operation.series, operation.factors, texts, strict=False):
+            self._pull(part, own if text == "1.0" else f"(-{own})" if text == "(-1.0)" else f"{text}*{own}")
+            flags, rest = self._level(factor)
+            if (place := self._place(rest)) is not None:
+                lines.append(f"{place} += {flags}{self._array(part)}[k]*{own};")
+        flags, rest = self._level(operation.factors[-1])
+        if (place := self._place(rest)) is not None:
+            lines.append(f"if (k == 0) {place} += {flags}{own};")
+        return lines
+
+    def _product(self, operation: Operation) -> list[str]:
+        name, own = operation.name, f"bar->{operation.name}"
+        text = self._made.factors[name][0]
+        factor = "" if text == "1.0" else "-" if text == "(-1.0)" else f"{text}*"
+        first, second = operation.series
+        lines = []
+        for part, other in ((first, second), (second, first)):
+            lines.append(f"vec {part}_by_{name} = correlated({self._array(other)}, {own}, k);")
+            self._pull(part, f"({factor}{part}_by_{name})" if factor == "-" else f"{factor}{part}_by_{name}")
+        flags, rest = self._level(operation.factors[0])
+        if (place := self._place(rest)) is not None:
+            lines.append(f"{place} += {flags}{self._array(first)}[k]*{first}_by_{name};")
+        return lines
+
+    def _call(self, operation: Operation) -> list[str]:
+        assert operation.call is not None
+        slot, call, given = operation.call
+        own, lines = f"bar->{operation.name}", []
+        names = self._tangent.law_arguments(slot, call, len(given))
+        for argument, value in zip(names, given, strict=True):
+            slope = f"d->{operation.name}.by_{argument.removeprefix(UNUSED)}"
+            if isinstance(value, str):
+                lines.append(f"vec {operation.name}_{argument} = correlated({slope}, {own}, k);")
+                self._pull(value, f"{operation.name}_{argument}")
+            elif (place := self._place(value)) is not None:
+                lines.append(f"{place} += {slope}[k]*{own}[k];")
+        return lines
+
+    # ---- text
+
+    def _struct(self) -> list[str]:
+        fields = [f"    vec {name}[TERMS];" for name in self._arrays]
+        count = max(len(self._constants), 1)
+        doc = "Derivatives of a result by the coefficients of the series of a step, and by the constants so far."
+        return [
+            f"enum {{ CONSTANTS = {count} }};",
+            *comment(doc),
+            "typedef struct {", "    vec constant[CONSTANTS];", *fields, "} adjoint;", "",
+        ]  # fmt: skip
+
+    def _function(self) -> list[str]:
+        head = (
+            "INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec power, const series *of, "
+            "const slopes *d, const constants *c, vec film, vec shear, mask moving, int k)"
+        )
+        doc = (
+            "Transposed recurrences of coefficient k. `w` holds the derivatives of a result by coefficient k + 1 of "
+            f"the states, then by coefficient k; `of_sum` those by their sums. Products of series: {self.cost:g}."
+        )
+        unused = ["double next = 1.0/(k + 1);", "(void)bar; (void)d; (void)c; (void)film; (void)shear; (void)moving;"]
+        return [*comment(doc), *function(head, [*unused, *self._steps]), ""]
+
+    def _along_constants(self) -> list[str]:
+        text = Text(lambda symbol: f"v->{symbol.name}")
+        body = ["(void)v; (void)constant;"]
+        for group in self._tangent.model.groups:
+            terms = []
+            for expression, place in self._constants.items():
+                slope = sp.factor_terms(sp.diff(expression, group))
+                if any(is_slot_call(node) for node in slope.atoms(AppliedUndef)):
+                    raise EmissionError(f"no derivative of the constant {expression}")
+                if slope == 1:
+                    terms.append(f"constant[{place}]")
+                elif slope != 0:
+                    terms.append(f"{text.vector(slope)}*constant[{place}]" if not slope.is_Add
+                                 else f"({text.vector(slope)})*constant[{place}]")  # fmt: skip
+            if terms:
+                body.append(f"by_group[BY_{group.name.upper()}] += {' + '.join(terms)};")
+        head = "static inline void along_constants(const constants *v, const vec *constant, vec *by_group)"
+        doc = "From derivatives by the constants of the recurrences to those by the groups."
+        return [*comment(doc), *function(head, body), ""]
 
 
-def _recurrence(tangent: LinearFlow) -> list[str]:
-    body = ["(void)s; (void)c; (void)v; (void)film; (void)shear;"]
-    for state in tangent.states:
-        terms: list[str] = []
-        turned: list[str] = []
-        for (row, by), entry in tangent.matrix.items():
-            if by != state:
-                continue
-            after = f"after[{row.upper()}]"
-            if isinstance(entry, str):
-                term = f"correlated({tangent.array(entry)}, {after}, k)"
-            elif entry == 1:
-                term = f"{after}[k]"
-            else:
-                term = f"{tangent.constants.factor(entry, f'{row}_by_{by}')}*{after}[k]"
-            (turned if row == "turned" else terms).append(term)
-        target = f"w[{state.upper()}][k] +="
-        if terms:
-            body.append(f"{target} {' + '.join(terms)};")
-        if turned:
-            body += ["#if TURNING_STATE", f"{target} {' + '.join(turned)};", "#endif"]
-    head = (
-        "INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const slopes *s, "
-        "const slope_constants *c, const constants *v, vec film, vec shear, int k)"
-    )
-    doc = (
-        "Derivatives of a result by coefficient k of the states, from those by later coefficients, which `after` "
-        "holds divided by their number. Contributions of the sum have been added before."
-    )
-    return [*comment(doc), *function(head, body), ""]
-
-
-def _contraction(tangent: LinearFlow) -> list[str]:
-    """The trace of the matrix, from the leading coefficients of the flow's series."""
+def contraction(tangent: LinearFlow) -> list[str]:
+    """C text of the contraction rate: minus the trace of the matrix, from the leading coefficients of the series."""
     slopes = [_diagonal(tangent, state) for state in tangent.model.states]
     # the slope of a law that depends on a rate is only available in the tangent
     known = [slope for slope in slopes if not any(symbol.name in tangent.slopes for symbol in slope.free_symbols)]

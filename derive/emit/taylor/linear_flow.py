@@ -51,14 +51,15 @@ class LinearFlow:
         call = self.header.flow.series(node) if self.header.flow.moves(node) else None
         if call not in self._calls:
             raise EmissionError(f"no slopes of {node}: it is no series of the flow")
-        argument = self._arguments(slot, name, len(node.args))[position]
+        argument = self.law_arguments(slot, name, len(node.args))[position]
         symbol = sp.Symbol(f"{call}_by_{argument}", real=True)
         if symbol.name not in self.slopes:
             self.slopes[symbol.name] = f"{call}.by_{argument}"
             self.program.give(symbol)
         return symbol
 
-    def _arguments(self, slot: str, name: str, count: int) -> tuple[str, ...]:
+    def law_arguments(self, slot: str, name: str, count: int) -> tuple[str, ...]:
+        """Names of the arguments of a slot function, as in the fields of its derivatives."""
         return arguments(slot, name, count, self.beside.extra.get(f"{slot}.{name}", ()))
 
     def _where(self, series: str) -> str:

@@ -14,7 +14,7 @@ from sympy.core.function import AppliedUndef
 
 from ...equations.model import Model
 from ...physics.laws.base import is_slot_call
-from .adjoint import cotangent
+from .adjoint import Adjoint, contraction
 from .c_text import Text
 from .groups_from_si import scale_slopes
 from .header import Beside
@@ -30,19 +30,24 @@ class Tangent(LinearFlow):
     def text(self, digest: str, provenance: str, doc: str) -> str:
         """The header."""
         coefficients, row, source = self._coefficients(), self._row(), self._sources()
-        back = cotangent(self)
+        back = Adjoint(self)
         per_direction = sum(isinstance(entry, str) for (of, _), entry in self.matrix.items() if of != "turned")
-        cost = f"Products of series: {self.program.cost:g} and those of the laws, then {per_direction} a direction."
+        cost = f"Products of series: {self.program.cost:g} and those of the laws, then {per_direction} a direction; "
+        cost += f"backwards {back.cost:g} and those of the laws' derivatives."
         lines = comment(f"{provenance}\nEquations sha256 {digest}")
         lines += ["", *comment(f"{doc}\n\nTangent: derivatives of the states by the groups. {cost}"), ""]
         lines += self._enumerations()
         lines += [
+            "#if BACKWARD",
+            *back.lines(),
+            "#else",
             *self._constants(),
             *self._structs(),
             *coefficients,
             *row,
-            *back,
             *source,
+            "#endif",
+            *contraction(self),
             *self._values(),
             *scale_slopes(self.model, self.beside.definitions),
         ]
@@ -240,7 +245,7 @@ class Tangent(LinearFlow):
         slot, name = call.func.__name__.split(".")
         passed = ", ".join(f"v->{argument}" for argument in call.args)
         body = ["(void)v;", "switch (group) {"]
-        for argument, own in zip(self._arguments(slot, name, len(call.args)), call.args, strict=True):
+        for argument, own in zip(self.law_arguments(slot, name, len(call.args)), call.args, strict=True):
             body += [f"case BY_{own.name.upper()}:", f"{_IN}return {slot}_{name}_by_{argument}({passed});"]
         body += ["default:", f"{_IN}return splat(0.0);", "}"]
         head = "static inline vec tangential_edge_along(const constants *v, int group)"

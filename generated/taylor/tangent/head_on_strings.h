@@ -20,7 +20,7 @@
  * Law slots: film, glass, strings.
  *
  * Tangent: derivatives of the states by the groups. Products of series: 4 and those of the laws, then 2 a
- * direction. */
+ * direction; backwards 7 and those of the laws' derivatives. */
 
 enum { BY_STOKES, BY_ASPECT, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
 const char group_names[] =
@@ -35,6 +35,92 @@ const char group_names[] =
 /* Groups that the rates depend on; the others enter at an event. */
 static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 0, 0, 0, 0 };
 
+#if BACKWARD
+typedef struct {
+    film_resistance_slope_constants film_resistance_law;
+    strings_stiffness_slope_constants strings_stiffness_law;
+} slope_constants;
+
+typedef struct {
+    film_resistance_slopes film_resistance_law;
+    strings_stiffness_slopes strings_stiffness_law;
+} slopes;
+
+/* Constants of the laws' derivatives, computed once per collision. */
+static inline void prepare_slopes(slope_constants *c, const constants *v)
+{
+    (void)c; (void)v;
+    film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
+    strings_stiffness_slope_prepare(&c->strings_stiffness_law, &v->strings_stiffness_law);
+}
+
+/* Derivatives of the laws by their arguments. */
+static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
+    *of, const constants *v)
+{
+    (void)s; (void)c; (void)of; (void)v;
+    film_resistance_slopes_of(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap);
+    strings_stiffness_slopes_of(&s->strings_stiffness_law, &c->strings_stiffness_law,
+        &of->strings_stiffness_law, &v->strings_stiffness_law, of->offset_squared);
+}
+
+enum { CONSTANTS = 4 };
+/* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
+typedef struct {
+    vec constant[CONSTANTS];
+    vec string_pull[TERMS];
+    vec strings_stiffness_law[TERMS];
+    vec gap_squared[TERMS];
+    vec film_force[TERMS];
+    vec film_resistance_law[TERMS];
+} adjoint;
+
+/* Transposed recurrences of coefficient k. `w` holds the derivatives of a result by coefficient k + 1 of the
+ * states, then by coefficient k; `of_sum` those by their sums. Products of series: 7. */
+INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec power, const series *of, const
+    slopes *d, const constants *c, vec film, vec shear, mask moving, int k)
+{
+    double next = 1.0/(k + 1);
+    (void)bar; (void)d; (void)c; (void)film; (void)shear; (void)moving;
+    vec after_gap = w[GAP]*next;
+    vec after_normal_velocity = only(moving, w[NORMAL_VELOCITY]*next);
+    vec by_rate_of_normal_velocity = after_normal_velocity;
+    bar->string_pull[k] = (-by_rate_of_normal_velocity);
+    vec gap_by_string_pull = correlated(of->strings_stiffness_law.result, bar->string_pull, k);
+    vec strings_stiffness_law_by_string_pull = correlated(of->gap, bar->string_pull, k);
+    bar->constant[0] += of->gap[k]*gap_by_string_pull;
+    bar->strings_stiffness_law[k] = c->string_pull_factor*strings_stiffness_law_by_string_pull;
+    bar->constant[1] += d->strings_stiffness_law.by_string_ratio[k]*bar->strings_stiffness_law[k];
+    vec strings_stiffness_law_offset_squared = correlated(d->strings_stiffness_law.by_offset_squared,
+        bar->strings_stiffness_law, k);
+    vec by_offset_squared = strings_stiffness_law_offset_squared;
+    bar->constant[2] += of->gap_squared[k]*by_offset_squared;
+    bar->gap_squared[k] = c->offset_squared_per_gap_squared*by_offset_squared;
+    vec by_gap_squared = correlated(of->gap, bar->gap_squared, k);
+    bar->film_force[k] = (-by_rate_of_normal_velocity);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    bar->constant[3] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
+    bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    w[GAP] = of_sum[GAP]*power + c->string_pull_factor*gap_by_string_pull + 2.0*by_gap_squared +
+        film_resistance_law_gap;
+    w[NORMAL_VELOCITY] = of_sum[NORMAL_VELOCITY]*power + after_gap +
+        film*c->film_force_factor*normal_velocity_by_film_force;
+}
+
+/* From derivatives by the constants of the recurrences to those by the groups. */
+static inline void along_constants(const constants *v, const vec *constant, vec *by_group)
+{
+    (void)v; (void)constant;
+    by_group[BY_STOKES] += -1.0/(v->stokes*v->stokes)*constant[3];
+    by_group[BY_ASPECT] += v->weight*constant[0] + 0.5*v->aspect*constant[2];
+    by_group[BY_WEIGHT] += v->aspect*constant[0];
+    by_group[BY_STRING_RATIO] += constant[1];
+}
+
+#else
 typedef struct {
     vec film_force_by_gap_factor;
     vec string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared;
@@ -137,24 +223,6 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
         source[NORMAL_VELOCITY][k])*next;
 }
 
-/* Derivatives of a result by coefficient k of the states, from those by later coefficients, which `after`
- * holds divided by their number. Contributions of the sum have been added before. */
-INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const slopes *s, const
-    slope_constants *c, const constants *v, vec film, vec shear, int k)
-{
-    (void)s; (void)c; (void)v; (void)film; (void)shear;
-    w[GAP][k] += correlated(s->normal_velocity_by_gap, after[NORMAL_VELOCITY], k);
-    w[NORMAL_VELOCITY][k] += after[GAP][k] + correlated(s->normal_velocity_by_normal_velocity,
-        after[NORMAL_VELOCITY], k);
-}
-
-/* Contraction rate of a volume of states at the start of a step, dominated by the fast modes. */
-static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
-{
-    (void)of; (void)v; (void)film; (void)shear;
-    return film*of->film_resistance_law.result[0]/v->stokes;
-}
-
 /* Source terms of the derivatives by a group; zero ones are left unset. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
 {
@@ -173,6 +241,14 @@ static inline void sources(const slopes *s, const series *of, int group, const v
         source[NORMAL_VELOCITY] = s->normal_velocity_by_string_ratio;
         break;
     }
+}
+
+#endif
+/* Contraction rate of a volume of states at the start of a step, dominated by the fast modes. */
+static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
+{
+    (void)of; (void)v; (void)film; (void)shear;
+    return film*of->film_resistance_law.result[0]/v->stokes;
 }
 
 /* Derivative of the initial state by a group. */

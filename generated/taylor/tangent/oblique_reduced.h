@@ -20,7 +20,7 @@
  * Law slots: film, glass, shear.
  *
  * Tangent: derivatives of the states by the groups. Products of series: 16 and those of the laws, then 5 a
- * direction. */
+ * direction; backwards 14 and those of the laws' derivatives. */
 
 enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
 const char group_names[] =
@@ -34,6 +34,113 @@ const char group_names[] =
 /* Groups that the rates depend on; the others enter at an event. */
 static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 0, 0, 0, 0 };
 
+#if BACKWARD
+typedef struct {
+    shear_log_factor_slope_constants shear_log_factor_law;
+    film_resistance_slope_constants film_resistance_law;
+} slope_constants;
+
+typedef struct {
+    shear_log_factor_slopes shear_log_factor_law;
+    film_resistance_slopes film_resistance_law;
+} slopes;
+
+/* Constants of the laws' derivatives, computed once per collision. */
+static inline void prepare_slopes(slope_constants *c, const constants *v)
+{
+    (void)c; (void)v;
+    shear_log_factor_slope_prepare(&c->shear_log_factor_law, &v->shear_log_factor_law);
+    film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
+}
+
+/* Derivatives of the laws by their arguments. */
+static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
+    *of, const constants *v)
+{
+    (void)s; (void)c; (void)of; (void)v;
+    shear_log_factor_slopes_of(&s->shear_log_factor_law, &c->shear_log_factor_law, &of->shear_log_factor_law,
+        &v->shear_log_factor_law, of->gap);
+    film_resistance_slopes_of(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap);
+}
+
+enum { CONSTANTS = 5 };
+/* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
+typedef struct {
+    vec constant[CONSTANTS];
+    vec rate_of_orbital_momentum[TERMS];
+    vec film_force[TERMS];
+    vec film_resistance_law[TERMS];
+    vec centrifugal_force[TERMS];
+    vec orbital_rate_squared[TERMS];
+    vec shear_force[TERMS];
+    vec shear_log_factor_law[TERMS];
+    vec orbital_rate[TERMS];
+    vec distance_squared[TERMS];
+} adjoint;
+
+/* Transposed recurrences of coefficient k. `w` holds the derivatives of a result by coefficient k + 1 of the
+ * states, then by coefficient k; `of_sum` those by their sums. Products of series: 14. */
+INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec power, const series *of, const
+    slopes *d, const constants *c, vec film, vec shear, mask moving, int k)
+{
+    double next = 1.0/(k + 1);
+    (void)bar; (void)d; (void)c; (void)film; (void)shear; (void)moving;
+    vec after_gap = w[GAP]*next;
+    vec after_normal_velocity = only(moving, w[NORMAL_VELOCITY]*next);
+    vec after_orbital_momentum = w[ORBITAL_MOMENTUM]*next;
+    bar->rate_of_orbital_momentum[k] = after_orbital_momentum;
+    vec distance_by_rate_of_orbital_momentum = correlated(of->shear_force, bar->rate_of_orbital_momentum, k);
+    vec shear_force_by_rate_of_orbital_momentum = correlated(of->distance, bar->rate_of_orbital_momentum, k);
+    vec by_rate_of_normal_velocity = after_normal_velocity;
+    bar->film_force[k] = (-by_rate_of_normal_velocity);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    bar->constant[0] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
+    bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    bar->centrifugal_force[k] = by_rate_of_normal_velocity;
+    vec distance_by_centrifugal_force = correlated(of->orbital_rate_squared, bar->centrifugal_force, k);
+    vec orbital_rate_squared_by_centrifugal_force = correlated(of->distance, bar->centrifugal_force, k);
+    bar->constant[1] += of->distance[k]*distance_by_centrifugal_force;
+    bar->orbital_rate_squared[k] = c->centrifugal_force_factor*orbital_rate_squared_by_centrifugal_force;
+    vec by_orbital_rate_squared = correlated(of->orbital_rate, bar->orbital_rate_squared, k);
+    bar->shear_force[k] = (-shear_force_by_rate_of_orbital_momentum);
+    vec slip_by_shear_force = correlated(of->shear_log_factor_law.result, bar->shear_force, k);
+    vec shear_log_factor_law_by_shear_force = correlated(of->slip, bar->shear_force, k);
+    bar->constant[2] += shear*of->slip[k]*slip_by_shear_force;
+    bar->shear_log_factor_law[k] = shear*c->shear_force_factor*shear_log_factor_law_by_shear_force;
+    vec shear_log_factor_law_gap = correlated(d->shear_log_factor_law.by_gap, bar->shear_log_factor_law, k);
+    bar->constant[3] += d->shear_log_factor_law.by_aspect[k]*bar->shear_log_factor_law[k];
+    vec by_slip = shear*c->shear_force_factor*slip_by_shear_force;
+    vec by_spin = (-by_slip);
+    if (k == 0) bar->constant[4] += by_spin;
+    bar->orbital_rate[k] = (2.0*by_orbital_rate_squared + by_slip - beyond(of->distance_squared,
+        bar->orbital_rate, k))*of->over_orbital_rate;
+    vec by_orbital_rate = correlated(of->orbital_rate, bar->orbital_rate, k);
+    bar->distance_squared[k] = (-by_orbital_rate);
+    vec by_distance_squared = correlated(of->distance, bar->distance_squared, k);
+    vec by_distance = (-distance_by_rate_of_orbital_momentum) +
+        c->centrifugal_force_factor*distance_by_centrifugal_force + 2.0*by_distance_squared;
+    bar->constant[3] += of->gap[k]*by_distance;
+    w[GAP] = of_sum[GAP]*power + film_resistance_law_gap + shear_log_factor_law_gap + c->aspect*by_distance;
+    w[NORMAL_VELOCITY] = of_sum[NORMAL_VELOCITY]*power + after_gap +
+        film*c->film_force_factor*normal_velocity_by_film_force;
+    w[ORBITAL_MOMENTUM] = of_sum[ORBITAL_MOMENTUM]*power + (-0.15625)*by_spin + bar->orbital_rate[k];
+}
+
+/* From derivatives by the constants of the recurrences to those by the groups. */
+static inline void along_constants(const constants *v, const vec *constant, vec *by_group)
+{
+    (void)v; (void)constant;
+    by_group[BY_STOKES] += -1.0/(v->stokes*v->stokes)*constant[0] +
+        -1.3333333333333333*v->aspect/(v->stokes*v->stokes)*constant[2];
+    by_group[BY_ASPECT] += 0.0625*(v->obliquity*v->obliquity)*constant[1] +
+        1.3333333333333333/v->stokes*constant[2] + constant[3] + 0.3125*(v->aspect + 4.0)*constant[4];
+    by_group[BY_OBLIQUITY] += 0.125*v->aspect*v->obliquity*constant[1];
+}
+
+#else
 typedef struct {
     vec momentum_by_aspect;
     vec film_force_by_gap_factor;
@@ -239,34 +346,6 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
 #endif
 }
 
-/* Derivatives of a result by coefficient k of the states, from those by later coefficients, which `after`
- * holds divided by their number. Contributions of the sum have been added before. */
-INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const slopes *s, const
-    slope_constants *c, const constants *v, vec film, vec shear, int k)
-{
-    (void)s; (void)c; (void)v; (void)film; (void)shear;
-    w[GAP][k] += correlated(s->normal_velocity_by_gap, after[NORMAL_VELOCITY], k) +
-        correlated(s->orbital_momentum_by_gap, after[ORBITAL_MOMENTUM], k);
-#if TURNING_STATE
-    w[GAP][k] += correlated(s->turned_by_gap, after[TURNED], k);
-#endif
-    w[NORMAL_VELOCITY][k] += after[GAP][k] + correlated(s->normal_velocity_by_normal_velocity,
-        after[NORMAL_VELOCITY], k);
-    w[ORBITAL_MOMENTUM][k] += correlated(s->normal_velocity_by_orbital_momentum, after[NORMAL_VELOCITY], k) +
-        correlated(s->orbital_momentum_by_orbital_momentum, after[ORBITAL_MOMENTUM], k);
-#if TURNING_STATE
-    w[ORBITAL_MOMENTUM][k] += correlated(s->turned_by_orbital_momentum, after[TURNED], k);
-#endif
-}
-
-/* Contraction rate of a volume of states at the start of a step, dominated by the fast modes. */
-static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
-{
-    (void)of; (void)v; (void)film; (void)shear;
-    return (0.041666666666666664*v->aspect*of->distance[0]*shear*of->shear_log_factor_law.result[0]*(5.0 +
-        32.0/(of->distance[0]*of->distance[0])) + film*of->film_resistance_law.result[0])/v->stokes;
-}
-
 /* Source terms of the derivatives by a group; zero ones are left unset. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
 {
@@ -290,6 +369,15 @@ static inline void sources(const slopes *s, const series *of, int group, const v
 #endif
         break;
     }
+}
+
+#endif
+/* Contraction rate of a volume of states at the start of a step, dominated by the fast modes. */
+static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
+{
+    (void)of; (void)v; (void)film; (void)shear;
+    return (0.041666666666666664*v->aspect*of->distance[0]*shear*of->shear_log_factor_law.result[0]*(5.0 +
+        32.0/(of->distance[0]*of->distance[0])) + film*of->film_resistance_law.result[0])/v->stokes;
 }
 
 /* Derivative of the initial state by a group. */

@@ -24,7 +24,7 @@
  * Law slots: film, glass, shear, arm, strings.
  *
  * Tangent: derivatives of the states by the groups. Products of series: 51 and those of the laws, then 13 a
- * direction. */
+ * direction; backwards 30 and those of the laws' derivatives. */
 
 enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
 const char group_names[] =
@@ -40,6 +40,199 @@ const char group_names[] =
 /* Groups that the rates depend on; the others enter at an event. */
 static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 1, 0, 0, 0, 0 };
 
+#if BACKWARD
+typedef struct {
+    shear_log_factor_slope_constants shear_log_factor_law;
+    film_resistance_slope_constants film_resistance_law;
+    strings_stiffness_slope_constants strings_stiffness_law;
+    arm_lever_slope_constants arm_lever_law;
+} slope_constants;
+
+typedef struct {
+    shear_log_factor_slopes shear_log_factor_law;
+    film_resistance_slopes film_resistance_law;
+    strings_stiffness_slopes strings_stiffness_law;
+    arm_lever_slopes arm_lever_law;
+} slopes;
+
+/* Constants of the laws' derivatives, computed once per collision. */
+static inline void prepare_slopes(slope_constants *c, const constants *v)
+{
+    (void)c; (void)v;
+    shear_log_factor_slope_prepare(&c->shear_log_factor_law, &v->shear_log_factor_law);
+    film_resistance_slope_prepare(&c->film_resistance_law, &v->film_resistance_law);
+    strings_stiffness_slope_prepare(&c->strings_stiffness_law, &v->strings_stiffness_law);
+    arm_lever_slope_prepare(&c->arm_lever_law, &v->arm_lever_law);
+}
+
+/* Derivatives of the laws by their arguments. */
+static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
+    *of, const constants *v)
+{
+    (void)s; (void)c; (void)of; (void)v;
+    shear_log_factor_slopes_of(&s->shear_log_factor_law, &c->shear_log_factor_law, &of->shear_log_factor_law,
+        &v->shear_log_factor_law, of->gap);
+    film_resistance_slopes_of(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
+        &v->film_resistance_law, of->gap);
+    strings_stiffness_slopes_of(&s->strings_stiffness_law, &c->strings_stiffness_law,
+        &of->strings_stiffness_law, &v->strings_stiffness_law, of->offset_squared);
+    arm_lever_slopes_of(&s->arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
+        of->distance);
+}
+
+enum { CONSTANTS = 9 };
+/* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
+typedef struct {
+    vec constant[CONSTANTS];
+    vec rate_of_spin[TERMS];
+    vec rate_of_orbital_momentum[TERMS];
+    vec arm_lever_law[TERMS];
+    vec string_sideways[TERMS];
+    vec sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
+    vec string_pull[TERMS];
+    vec strings_stiffness_law[TERMS];
+    vec distance_by_sine_of_scaled_rotation_squared[TERMS];
+    vec sine_of_scaled_rotation_squared[TERMS];
+    vec cosine_of_scaled_rotation[TERMS];
+    vec sine_of_scaled_rotation[TERMS];
+    vec gap_squared[TERMS];
+    vec film_force[TERMS];
+    vec film_resistance_law[TERMS];
+    vec centrifugal_force[TERMS];
+    vec orbital_rate_squared[TERMS];
+    vec shear_force[TERMS];
+    vec shear_log_factor_law[TERMS];
+    vec orbital_rate[TERMS];
+    vec distance_squared[TERMS];
+} adjoint;
+
+/* Transposed recurrences of coefficient k. `w` holds the derivatives of a result by coefficient k + 1 of the
+ * states, then by coefficient k; `of_sum` those by their sums. Products of series: 30. */
+INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec power, const series *of, const
+    slopes *d, const constants *c, vec film, vec shear, mask moving, int k)
+{
+    double next = 1.0/(k + 1);
+    (void)bar; (void)d; (void)c; (void)film; (void)shear; (void)moving;
+    vec after_gap = w[GAP]*next;
+    vec after_normal_velocity = only(moving, w[NORMAL_VELOCITY]*next);
+    vec after_orbital_momentum = w[ORBITAL_MOMENTUM]*next;
+    vec after_spin = w[SPIN]*next;
+    vec after_rotation = w[ROTATION]*next;
+    vec by_rate_of_rotation = after_rotation;
+    bar->constant[0] += of->orbital_rate[k]*by_rate_of_rotation;
+    bar->rate_of_spin[k] = after_spin;
+    vec arm_lever_law_by_rate_of_spin = correlated(of->shear_force, bar->rate_of_spin, k);
+    vec shear_force_by_rate_of_spin = correlated(of->arm_lever_law.result, bar->rate_of_spin, k);
+    bar->rate_of_orbital_momentum[k] = after_orbital_momentum;
+    vec distance_by_rate_of_orbital_momentum = correlated(of->combination_2, bar->rate_of_orbital_momentum,
+        k);
+    vec combination_2_by_rate_of_orbital_momentum = correlated(of->distance, bar->rate_of_orbital_momentum,
+        k);
+    vec by_combination_2 = (-combination_2_by_rate_of_orbital_momentum);
+    vec by_rate_of_normal_velocity = after_normal_velocity;
+    bar->arm_lever_law[k] = 0.3125*arm_lever_law_by_rate_of_spin;
+    vec arm_lever_law_distance = correlated(d->arm_lever_law.by_distance, bar->arm_lever_law, k);
+    bar->string_sideways[k] = by_combination_2;
+    vec strings_stiffness_law_by_string_sideways =
+        correlated(of->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, bar->string_sideways, k);
+    vec sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_string_sideways =
+        correlated(of->strings_stiffness_law.result, bar->string_sideways, k);
+    bar->constant[1] += of->strings_stiffness_law.result[k]*strings_stiffness_law_by_string_sideways;
+    bar->sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
+        c->string_sideways_factor*sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_string_sideways;
+    vec sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation =
+        correlated(of->cosine_of_scaled_rotation, bar->sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
+        k);
+    vec cosine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation =
+        correlated(of->sine_of_scaled_rotation, bar->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, k);
+    bar->string_pull[k] = (-by_rate_of_normal_velocity);
+    vec combination_by_string_pull = correlated(of->strings_stiffness_law.result, bar->string_pull, k);
+    vec strings_stiffness_law_by_string_pull = correlated(of->combination, bar->string_pull, k);
+    bar->constant[2] += of->combination[k]*combination_by_string_pull;
+    bar->strings_stiffness_law[k] = c->string_sideways_factor*strings_stiffness_law_by_string_sideways +
+        c->weight*strings_stiffness_law_by_string_pull;
+    bar->constant[3] += d->strings_stiffness_law.by_string_ratio[k]*bar->strings_stiffness_law[k];
+    vec strings_stiffness_law_offset_squared = correlated(d->strings_stiffness_law.by_offset_squared,
+        bar->strings_stiffness_law, k);
+    vec by_combination = c->weight*combination_by_string_pull;
+    bar->constant[4] += of->gap[k]*by_combination;
+    vec by_offset_squared = strings_stiffness_law_offset_squared;
+    bar->constant[5] += of->gap_squared[k]*by_offset_squared;
+    bar->distance_by_sine_of_scaled_rotation_squared[k] = 4.0*by_offset_squared;
+    vec distance_by_distance_by_sine_of_scaled_rotation_squared =
+        correlated(of->sine_of_scaled_rotation_squared, bar->distance_by_sine_of_scaled_rotation_squared, k);
+    vec sine_of_scaled_rotation_squared_by_distance_by_sine_of_scaled_rotation_squared =
+        correlated(of->distance, bar->distance_by_sine_of_scaled_rotation_squared, k);
+    bar->sine_of_scaled_rotation_squared[k] = 8.0*by_combination +
+        sine_of_scaled_rotation_squared_by_distance_by_sine_of_scaled_rotation_squared;
+    vec by_sine_of_scaled_rotation_squared = correlated(of->sine_of_scaled_rotation,
+        bar->sine_of_scaled_rotation_squared, k);
+    bar->cosine_of_scaled_rotation[k] =
+        2.0*cosine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation;
+    vec by_cosine_of_scaled_rotation = correlated(of->sine_of_scaled_rotation, bar->cosine_of_scaled_rotation,
+        k);
+    bar->sine_of_scaled_rotation[k] =
+        2.0*sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation +
+        2.0*by_sine_of_scaled_rotation_squared;
+    vec by_sine_of_scaled_rotation = correlated(of->cosine_of_scaled_rotation, bar->sine_of_scaled_rotation,
+        k);
+    vec by_scaled_rotation = (-by_cosine_of_scaled_rotation) + by_sine_of_scaled_rotation;
+    bar->gap_squared[k] = c->offset_squared_per_gap_squared*by_offset_squared;
+    vec by_gap_squared = correlated(of->gap, bar->gap_squared, k);
+    bar->film_force[k] = (-by_rate_of_normal_velocity);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    bar->constant[6] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
+    bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    bar->centrifugal_force[k] = by_rate_of_normal_velocity;
+    vec distance_by_centrifugal_force = correlated(of->orbital_rate_squared, bar->centrifugal_force, k);
+    vec orbital_rate_squared_by_centrifugal_force = correlated(of->distance, bar->centrifugal_force, k);
+    bar->constant[7] += of->distance[k]*distance_by_centrifugal_force;
+    bar->orbital_rate_squared[k] = c->centrifugal_force_factor*orbital_rate_squared_by_centrifugal_force;
+    vec by_orbital_rate_squared = correlated(of->orbital_rate, bar->orbital_rate_squared, k);
+    bar->shear_force[k] = 0.3125*shear_force_by_rate_of_spin + by_combination_2;
+    vec slip_by_shear_force = correlated(of->shear_log_factor_law.result, bar->shear_force, k);
+    vec shear_log_factor_law_by_shear_force = correlated(of->slip, bar->shear_force, k);
+    bar->constant[8] += shear*of->slip[k]*slip_by_shear_force;
+    bar->shear_log_factor_law[k] = shear*c->shear_force_factor*shear_log_factor_law_by_shear_force;
+    vec shear_log_factor_law_gap = correlated(d->shear_log_factor_law.by_gap, bar->shear_log_factor_law, k);
+    bar->constant[4] += d->shear_log_factor_law.by_aspect[k]*bar->shear_log_factor_law[k];
+    vec by_slip = shear*c->shear_force_factor*slip_by_shear_force;
+    bar->orbital_rate[k] = (c->rate_of_rotation_per_orbital_rate*by_rate_of_rotation +
+        2.0*by_orbital_rate_squared + by_slip - beyond(of->distance_squared, bar->orbital_rate,
+        k))*of->over_orbital_rate;
+    vec by_orbital_rate = correlated(of->orbital_rate, bar->orbital_rate, k);
+    bar->distance_squared[k] = (-by_orbital_rate);
+    vec by_distance_squared = correlated(of->distance, bar->distance_squared, k);
+    vec by_distance = (-distance_by_rate_of_orbital_momentum) + arm_lever_law_distance +
+        distance_by_distance_by_sine_of_scaled_rotation_squared +
+        c->centrifugal_force_factor*distance_by_centrifugal_force + 2.0*by_distance_squared;
+    bar->constant[4] += of->gap[k]*by_distance;
+    w[GAP] = of_sum[GAP]*power + c->aspect*by_combination + 2.0*by_gap_squared + film_resistance_law_gap +
+        shear_log_factor_law_gap + c->aspect*by_distance;
+    w[NORMAL_VELOCITY] = of_sum[NORMAL_VELOCITY]*power + after_gap +
+        film*c->film_force_factor*normal_velocity_by_film_force;
+    w[ORBITAL_MOMENTUM] = of_sum[ORBITAL_MOMENTUM]*power + bar->orbital_rate[k];
+    w[SPIN] = of_sum[SPIN]*power + (-by_slip);
+    w[ROTATION] = of_sum[ROTATION]*power + 0.5*by_scaled_rotation;
+}
+
+/* From derivatives by the constants of the recurrences to those by the groups. */
+static inline void along_constants(const constants *v, const vec *constant, vec *by_group)
+{
+    (void)v; (void)constant;
+    by_group[BY_STOKES] += -1.0/(v->stokes*v->stokes)*constant[6] +
+        -1.3333333333333333*v->aspect/(v->stokes*v->stokes)*constant[8];
+    by_group[BY_ASPECT] += 0.25*v->obliquity*constant[0] + constant[4] + 0.5*v->aspect*constant[5] +
+        0.0625*(v->obliquity*v->obliquity)*constant[7] + 1.3333333333333333/v->stokes*constant[8];
+    by_group[BY_OBLIQUITY] += 0.25*v->aspect*constant[0] +
+        -16.0*v->weight/(v->obliquity*v->obliquity)*constant[1] + 0.125*v->aspect*v->obliquity*constant[7];
+    by_group[BY_WEIGHT] += 16.0/v->obliquity*constant[1] + constant[2];
+    by_group[BY_STRING_RATIO] += constant[3];
+}
+
+#else
 typedef struct {
     vec film_force_by_gap_factor;
     vec offset_squared_by_gap_per_gap;
@@ -433,36 +626,6 @@ INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_c
         t[ORBITAL_MOMENTUM], k) + source[ROTATION][k])*next;
 }
 
-/* Derivatives of a result by coefficient k of the states, from those by later coefficients, which `after`
- * holds divided by their number. Contributions of the sum have been added before. */
-INLINE void cotangent_coefficients(vec (*w)[TERMS], vec (*after)[TERMS], const slopes *s, const
-    slope_constants *c, const constants *v, vec film, vec shear, int k)
-{
-    (void)s; (void)c; (void)v; (void)film; (void)shear;
-    w[GAP][k] += correlated(s->normal_velocity_by_gap, after[NORMAL_VELOCITY], k) +
-        correlated(s->orbital_momentum_by_gap, after[ORBITAL_MOMENTUM], k) + correlated(s->spin_by_gap,
-        after[SPIN], k) + correlated(s->rotation_by_gap, after[ROTATION], k);
-    w[NORMAL_VELOCITY][k] += after[GAP][k] + correlated(s->normal_velocity_by_normal_velocity,
-        after[NORMAL_VELOCITY], k);
-    w[ORBITAL_MOMENTUM][k] += correlated(s->normal_velocity_by_orbital_momentum, after[NORMAL_VELOCITY], k) +
-        correlated(s->orbital_momentum_by_orbital_momentum, after[ORBITAL_MOMENTUM], k) +
-        correlated(s->spin_by_orbital_momentum, after[SPIN], k) + correlated(s->rotation_by_orbital_momentum,
-        after[ROTATION], k);
-    w[SPIN][k] += correlated(s->orbital_momentum_by_spin, after[ORBITAL_MOMENTUM], k) +
-        correlated(s->spin_by_spin, after[SPIN], k);
-    w[ROTATION][k] += correlated(s->normal_velocity_by_rotation, after[NORMAL_VELOCITY], k) +
-        correlated(s->orbital_momentum_by_rotation, after[ORBITAL_MOMENTUM], k);
-}
-
-/* Contraction rate of a volume of states at the start of a step, dominated by the fast modes. */
-static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
-{
-    (void)of; (void)v; (void)film; (void)shear;
-    return (0.4166666666666667*of->arm_lever_law.result[0]*v->aspect*shear*of->shear_log_factor_law.result[0]
-        + 1.3333333333333333*v->aspect*shear*of->shear_log_factor_law.result[0]/of->distance[0] +
-        film*of->film_resistance_law.result[0])/v->stokes;
-}
-
 /* Source terms of the derivatives by a group; zero ones are left unset. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
 {
@@ -493,6 +656,16 @@ static inline void sources(const slopes *s, const series *of, int group, const v
         source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_string_ratio;
         break;
     }
+}
+
+#endif
+/* Contraction rate of a volume of states at the start of a step, dominated by the fast modes. */
+static inline vec contraction(const series *of, const constants *v, vec film, vec shear)
+{
+    (void)of; (void)v; (void)film; (void)shear;
+    return (0.4166666666666667*of->arm_lever_law.result[0]*v->aspect*shear*of->shear_log_factor_law.result[0]
+        + 1.3333333333333333*v->aspect*shear*of->shear_log_factor_law.result[0]/of->distance[0] +
+        film*of->film_resistance_law.result[0])/v->stokes;
 }
 
 /* Derivative of the initial state by a group. */

@@ -1,11 +1,14 @@
 /* Adjoint sweep: derivatives of the restitution by all groups at once, from the tape of a trajectory, in reverse.
  *
- * `of` holds the derivatives of the restitution by the states. The effect of a step on a direction (tangent_step.h) is
- * linear, a product of matrices. The adjoint sweep applies the transposed product, at the cost of a single direction
- * for any number of groups, with the same result up to rounding. The forward pass has no directions: its steps are
- * controlled for the states, with a stricter tolerance. That does not suffice for modes that decay faster than the
- * series of a step resolves; such trajectories, and long ones, are left to the forward directions, which limit the
- * step.
+ * `of` holds the derivatives of the restitution by the states. A step is a program of recurrences; the sweep expands it
+ * again and applies the transposed recurrences in reverse order (derive/emit/taylor/adjoint.py). The forward pass has
+ * no directions: its steps are controlled for the states, with a stricter tolerance. That does not suffice for modes
+ * that decay faster than the series of a step resolves; such trajectories, and long ones, are left to the forward
+ * directions, which limit the step.
+ *
+ * Each lane reads the steps of its own trajectory and takes the next one when it is done. It is done at the start of the
+ * trajectory, or where the film has contracted all memory of what came before: what the rest of the trajectory adds to
+ * the derivative by a group g is `of`.dy/dg, dy/dg being the derivative of the states there.
  */
 #pragma once
 
@@ -20,100 +23,101 @@
 #include "whole_series.h"
 
 #if BACKWARD
+/* Derivatives of the states by the logarithm of a group, over 1 + |y|: at most this until the film forgets them. */
+static const double STEEPEST = 1e3;
+/* Part of the tolerance that the neglected rest may take. */
+static const double NEGLECTED = 0.1;
+
 typedef struct {
-    vec of[STATES], by_group[GROUPS];
+    vec of[STATES];
+    vec at_contact, at_end, at_edge; /* by the gaps of events */
+    vec by_group[GROUPS];            /* by what is no constant of a recurrence: glass criterion, rebound, outputs */
+    adjoint bar;
+    vec least; /* size of `of` below which the rest is neglected */
     mask active;
     fixed f;
     series s;
     slopes d;
-} retreat;
+    taped_step step; /* the next to be taken back, of each lane's trajectory */
+    long end[LANES], next[LANES], rebound[LANES];
+} sweep;
 
-#define COTANGENT_TERM(number) { \
+/* Derivatives of the restitution of a trajectory by the constants of its recurrences, its events and its start. */
+struct derivatives {
+    double of[STATES], constant[CONSTANTS], at_contact, at_end, at_edge, by_group[GROUPS];
+};
+
+#define ADJOINT_TERM(number) { \
     enum { k = number <= ORDER ? ORDER - number : 0 }; \
-    if (number > 0 && number <= ORDER) { \
-        for (int state = 0; state < STATES; state++) { \
-            after[state][k] = w[state][k + 1]*(1.0/(k + 1)); \
-            w[state][k] = of[state]*power[k]; \
-        } \
-        cotangent_coefficients(w, after, d, c, v, film, shear, k); \
-    } \
+    if (number > 0 && number <= ORDER) \
+        adjoint_coefficients(&r->bar, w, r->of, power[k], &r->s, &r->d, &r->f.c, film, shear, moving, k); \
 }
 
-/* Derivatives by the state at the start of the step, and in `after` those by the source term of each coefficient. */
-static __attribute__((noinline)) void retrace(vec *of, vec (*after)[TERMS], const vec *power, const slopes *d,
-    const slope_constants *c, const constants *v, vec film, vec shear)
+/* Derivatives by the states at the start of the step, from those at its end. */
+static __attribute__((noinline)) void retrace(sweep *r, const vec *power, vec film, vec shear, mask moving)
 {
-    vec w[STATES][TERMS];
+    vec w[STATES];
     for (int state = 0; state < STATES; state++)
-        w[state][ORDER] = of[state]*power[ORDER];
-    EVERY(COTANGENT_TERM)
-    for (int state = 0; state < STATES; state++)
-        of[state] = w[state][0];
+        w[state] = r->of[state]*power[ORDER];
+    EVERY(ADJOINT_TERM)
+    for (int state = 0; state < MODEL_STATES; state++)
+        r->of[state] = w[state];
 }
 
 /* The saltation at the event that ended a step. */
-static void unmeet(retreat *r, const taped_step *step, mask falls, unsigned asked)
+static void unmeet(sweep *r, mask falls, mask damped)
 {
-    meeting m = met(&r->f, (const void *)&r->s, step->h, falls, step->event);
+    vec whole[STATES][TERMS];
+    memcpy(whole, &r->s, sizeof whole);
+    if (bits(damped))
+        damp(whole, damped);
+    meeting m = met(&r->f, (const void *)whole, r->step.h, falls, r->step.flags >> EVENT);
     vec total = splat(0.0), one = splat(1.0), zero = splat(0.0);
     for (int state = 0; state < STATES; state++)
         total += r->of[state]*m.rate[state];
     vec value = only(falls, -total/choose(falls, m.pace, one)); /* d restitution/d event function */
     r->of[GAP] += value*choose(m.gap, one, choose(m.turned, zero, m.by_gap));
     r->of[NORMAL_VELOCITY] += value*choose(m.gap, zero, choose(m.turned, one, -m.by_approach));
-    for (int group = 0; group < GROUPS; group++)
-        if (asked >> group & 1)
-            r->by_group[group] -= value*target_along(&r->f, &m, group);
+    r->at_contact -= only(m.contact, value);
+    r->at_end -= only(m.end, value);
+    r->at_edge -= only(m.edge, value);
     r->by_group[BY_GLASS_NUMBER] += only(m.glass, value);
 }
 
-static void unstep(retreat *r, const taped_step *step, unsigned asked)
+static vec flagged(mask flags, int64_t bit)
+{
+    return only((flags & bit) != 0, splat(1.0));
+}
+
+static void unstep(sweep *r)
 {
     series *s = &r->s;
     vec(*a)[TERMS] = (void *)s;
-    const fixed *f = &r->f;
+    mask flags = r->step.flags, moving = (flags & MOVES) != 0;
+    vec film = flagged(flags, ACTS), shear = flagged(flags, SHEARS);
     for (int state = 0; state < STATES; state++)
-        a[state][0] = step->y[state];
-    expand(s, &f->c, step->film, step->shear, step->moving);
-    expand_slopes(&r->d, &f->slopes, s, &f->c, step->film, step->shear, asked);
-    mask damped = step->creeps & r->active, falls = step->falls & r->active;
-    vec power[TERMS], of[STATES], after[STATES][TERMS];
+        a[state][0] = r->step.y[state];
+    expand(s, &r->f.c, film, shear, moving);
+    expand_slopes(&r->d, &r->f.slopes, s, &r->f.c);
+    mask damped = r->active & ((flags & CREEPS) != 0), falls = r->active & ((flags & FALLS) != 0);
+    vec power[TERMS];
     power[0] = splat(1.0);
     for (int k = 1; k <= ORDER; k++)
-        power[k] = power[k - 1]*step->h;
-    if (bits(damped)) {
-        damp(a, damped);
+        power[k] = power[k - 1]*r->step.h;
+    if (bits(damped))
         for (int k = EXACT + 1; k <= ORDER; k++)
             power[k] = choose(damped, damping(k)*power[k], power[k]);
-    }
     if (bits(falls))
-        unmeet(r, step, falls, asked);
-    memcpy(of, r->of, sizeof of);
-    retrace(of, after, power, &r->d, &f->slopes, &f->c, step->film, step->shear);
-    for (int state = 0; state < STATES; state++)
-        r->of[state] = choose(r->active, of[state], r->of[state]);
-    for (int group = 0; group < GROUPS; group++) {
-        if (!(asked >> group & 1) || !FLOWS[group])
-            continue;
-        const vec *source[STATES] = {0};
-        sources(&r->d, s, group, source);
-        vec sum = splat(0.0);
-        for (int state = 0; state < STATES; state++)
-            if (source[state])
-                sum += correlated(source[state], after[state], 0);
-        r->by_group[group] += only(r->active, sum);
-    }
+        unmeet(r, falls, damped);
+    retrace(r, power, film, shear, moving);
 }
 
 /* The end of a trajectory: derivatives of the restitution by the states there. */
-static void unend(retreat *r, const struct tape *t, const taped_note *note)
+static void unend(sweep *r, const taped_end *own, int lane)
 {
-    int lane = note->lane;
     vec y[STATES], at[STATES], shown[OUTPUTS];
-    for (int field = 0; field < FIXED; field++)
-        ((double *)&((vec *)&r->f)[field])[lane] = t->rows[note->row][field];
     for (int state = 0; state < STATES; state++)
-        y[state] = splat(note->y[state]);
+        y[state] = splat(own->y[state]);
     for (int state = 0; state < STATES; state++) {
         memset(at, 0, sizeof at);
         at[state] = splat(1.0);
@@ -125,15 +129,15 @@ static void unend(retreat *r, const struct tape *t, const taped_note *note)
         outputs_along(&r->f.c, y, at, group, shown);
         r->by_group[group][lane] = shown[0][lane];
     }
-    r->active[lane] = -1;
+    outputs(&r->f.c, y, shown);
+    r->least[lane] = NEGLECTED/STEEPEST*r->f.tolerance[lane]*fabs(shown[0][lane]);
 }
 
-static void undo_rebound(retreat *r, const taped_note *note)
+static void undo_rebound(sweep *r, const taped_rebound *own, int lane)
 {
-    int lane = note->lane;
     vec y[STATES], at[STATES], behind[STATES], found[STATES];
     for (int state = 0; state < STATES; state++)
-        y[state] = splat(note->y[state]);
+        y[state] = splat(own->y[state]);
     for (int by = 0; by < STATES + GROUPS; by++) {
         memset(at, 0, sizeof at);
         if (by < STATES)
@@ -152,42 +156,126 @@ static void undo_rebound(retreat *r, const taped_note *note)
         r->of[state][lane] = found[state][lane];
 }
 
-/* The start of a trajectory: adds the dependence of the initial state on the groups, and writes the result. */
-static void unbegin(retreat *r, const queue *q, const taped_note *note)
+/* The derivatives of a lane's trajectory are complete. */
+static void put_derivatives(const sweep *r, struct derivatives *into, int lane)
 {
-    int lane = note->lane;
-    double *into = q->by_group + note->index*GROUPS;
-    for (int group = 0; group < GROUPS; group++) {
-        vec at[STATES];
-        start_along(&r->f.c, group, at);
-        double sum = r->by_group[group][lane];
-        for (int state = 0; state < STATES; state++)
-            sum += r->of[state][lane]*at[state][lane];
-        into[group] = sum;
-    }
-    r->active[lane] = 0;
+    for (int state = 0; state < STATES; state++)
+        into->of[state] = r->of[state][lane];
+    for (int place = 0; place < CONSTANTS; place++)
+        into->constant[place] = r->bar.constant[place][lane];
+    into->at_contact = r->at_contact[lane];
+    into->at_end = r->at_end[lane];
+    into->at_edge = r->at_edge[lane];
+    for (int group = 0; group < GROUPS; group++)
+        into->by_group[group] = r->by_group[group][lane];
 }
 
-static void take_back(const queue *q, retreat *r)
+/* Puts a trajectory into a lane. */
+static void load(sweep *r, const struct tape *t, long end, int lane)
+{
+    const taped_end *own = &t->ends[end];
+    r->end[lane] = end;
+    r->next[lane] = own->after;
+    r->rebound[lane] = own->rebound;
+    for (int field = 0; field < FIXED; field++)
+        ((double *)&((vec *)&r->f)[field])[lane] = t->rows[end][field];
+    for (int place = 0; place < CONSTANTS; place++)
+        r->bar.constant[place][lane] = 0.0;
+    r->at_contact[lane] = r->at_end[lane] = r->at_edge[lane] = 0.0;
+    unend(r, own, lane);
+}
+
+/* Puts a lane's next step into `step`, with the rebounds behind it; 0 at the start of the trajectory. */
+static int read_step(sweep *r, const struct tape *t, int lane)
+{
+    const taped_end *own = &t->ends[r->end[lane]];
+    for (; r->rebound[lane] >= 0 && t->rebounds[r->rebound[lane]].after == r->next[lane];
+         r->rebound[lane] = t->rebounds[r->rebound[lane]].before)
+        undo_rebound(r, &t->rebounds[r->rebound[lane]], lane);
+    if (r->next[lane] == own->begun)
+        return 0;
+    const taped_step *step = &t->steps[--r->next[lane]];
+    for (int state = 0; state < STATES; state++)
+        r->step.y[state][lane] = step->y[state][own->lane];
+    r->step.h[lane] = step->h[own->lane];
+    r->step.flags[lane] = step->flags[own->lane];
+    return 1;
+}
+
+/* Lanes in which the rest of the trajectory cannot matter: by |dy/d ln g| at most STEEPEST times 1 + |y|, it adds
+ * no more to the derivative by ln g, for any group, than a part of the tolerance times the restitution. */
+static mask forgotten(const sweep *r)
+{
+    vec size = splat(0.0);
+    for (int state = 0; state < MODEL_STATES; state++)
+        size += vec_abs(r->of[state])*(1.0 + vec_abs(r->step.y[state]));
+    return r->active & (size <= r->least);
+}
+
+static void take_back(const struct tape *t, sweep *r)
+{
+    long taken = 0;
+    memset(r, 0, sizeof *r);
+    for (;;) {
+        EACH_LANE(lane)
+        {
+            if (!r->active[lane]) {
+                if (taken == t->ended)
+                    continue;
+                load(r, t, taken++, lane);
+                r->active[lane] = -1;
+            }
+            while (!read_step(r, t, lane)) {
+                put_derivatives(r, &t->found[r->end[lane]], lane);
+                if (taken == t->ended) {
+                    r->active[lane] = 0;
+                    break;
+                }
+                load(r, t, taken++, lane);
+            }
+        }
+        if (!bits(r->active))
+            return;
+        unstep(r);
+        for (unsigned done = bits(forgotten(r)); done; done &= done - 1) {
+            int lane = __builtin_ctz(done);
+            for (int state = 0; state < STATES; state++)
+                r->of[state][lane] = 0.0;
+            put_derivatives(r, &t->found[r->end[lane]], lane);
+            r->active[lane] = 0;
+        }
+    }
+}
+
+/* From derivatives by constants, events and the start to those by groups, for a vector of trajectories at once. */
+static void in_groups(const queue *q)
 {
     const struct tape *t = q->tape;
-    long note = t->noted - 1;
-    memset(r, 0, sizeof *r);
-    if (t->ended) /* idle lanes repeat a live one */
-        for (int field = 0; field < FIXED; field++)
-            ((vec *)&r->f)[field] = splat(t->rows[t->ended - 1][field]);
-    for (long step = t->stepped; step >= 0; step--) {
-        for (; note >= 0 && t->notes[note].after == step; note--) {
-            const taped_note *own = &t->notes[note];
-            if (own->kind == ENDED)
-                unend(r, t, own);
-            else if (r->active[own->lane] && own->kind == REBOUND)
-                undo_rebound(r, own);
-            else if (r->active[own->lane])
-                unbegin(r, q, own);
+    for (long first = 0; first < t->ended; first += LANES) {
+        int many = t->ended - first < LANES ? (int)(t->ended - first) : LANES;
+        fixed f;
+        vec given[QUANTITIES], at[STATES], turned[sizeof(struct derivatives)/sizeof(double)];
+        EACH_LANE(lane)
+        {
+            long own = first + (lane < many ? lane : 0);
+            for (int k = 0; k < QUANTITIES; k++)
+                given[k][lane] = quantity(q, k, t->ends[own].index);
+            for (unsigned place = 0; place < sizeof turned/sizeof *turned; place++)
+                turned[place][lane] = ((const double *)(t->found + own))[place];
         }
-        if (step > 0 && bits(r->active))
-            unstep(r, &t->steps[step - 1], q->asked);
+        scale(&f.c, given);
+        vec *of = turned, *constant = of + STATES, *events = constant + CONSTANTS, *by_group = events + 3;
+        along_constants(&f.c, constant, by_group);
+        meeting contact = {.contact = splat_mask(-1)}, end = {.end = splat_mask(-1)}, edge = {.edge = splat_mask(-1)};
+        for (int group = 0; group < GROUPS; group++) {
+            by_group[group] += events[0]*target_along(&f, &contact, group) + events[1]*target_along(&f, &end, group) +
+                               events[2]*target_along(&f, &edge, group);
+            start_along(&f.c, group, at);
+            for (int state = 0; state < MODEL_STATES; state++)
+                by_group[group] += of[state]*at[state];
+            for (int lane = 0; lane < many; lane++)
+                q->by_group[t->ends[first + lane].index*GROUPS + group] = by_group[group][lane];
+        }
     }
 }
 
@@ -195,25 +283,30 @@ static void take_back(const queue *q, retreat *r)
 static int there_and_back(queue *q)
 {
     struct tape t;
-    retreat r;
+    sweep r;
     long count = q->count;
     memset(&t, 0, sizeof t);
     t.steps = aligned_alloc(sizeof(vec) < 16 ? 16 : sizeof(vec), STEP_ROOM*sizeof(taped_step));
-    t.notes = malloc(NOTE_ROOM*sizeof(taped_note));
+    t.rebounds = malloc(REBOUND_ROOM*sizeof(taped_rebound));
+    t.ends = malloc(BATCH*sizeof(taped_end));
     t.rows = malloc(BATCH*sizeof *t.rows);
-    int found = t.steps && t.notes && t.rows;
+    t.found = malloc(BATCH*sizeof(struct derivatives));
+    int found = t.steps && t.rebounds && t.ends && t.rows && t.found;
     q->tape = &t;
     for (long first = 0; found && first < count; first += BATCH) {
         q->next = first;
         q->count = count - first < BATCH ? count : first + BATCH;
-        t.stepped = t.noted = t.ended = t.full = 0;
+        t.stepped = t.rebounded = t.ended = t.full = 0;
         run(q);
-        take_back(q, &r);
+        take_back(&t, &r);
+        in_groups(q);
         in_quantities(q, first);
     }
     free(t.steps);
-    free(t.notes);
+    free(t.rebounds);
+    free(t.ends);
     free(t.rows);
+    free(t.found);
     return found;
 }
 #endif

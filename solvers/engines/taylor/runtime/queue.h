@@ -120,7 +120,7 @@ static void begin(queue *q, lanes *l, fixed *f, int lane, long row)
     l->reversal[lane] = -1;
 #if BACKWARD
     along_start(&l->along, lane);
-    note_on_tape(q, BEGUN, l->index[lane], lane, l->y, f);
+    begin_on_tape(q, lane);
 #elif GRADIENTS
     along_start(&l->along, &f->c, lane);
 #endif
@@ -206,7 +206,7 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
         near->boundary = l->along.boundary[lane];
         near->hint = l->along.hint[lane];
 #if BACKWARD
-        note_on_tape(q, ENDED, l->index[lane], lane, l->y, f);
+        end_on_tape(q, l->index[lane], lane, l->y, f);
 #else
         along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + l->index[lane]*GROUPS*RESULTS));
 #endif

@@ -50,8 +50,6 @@ static void along_near(carried *a, int lane, double measure, int boundary)
 }
 
 #if BACKWARD
-enum { BEGUN, REBOUND, ENDED }; /* notes on the tape between steps */
-
 static void along_start(carried *a, int lane)
 {
     a->near[lane] = a->hint[lane] = INFINITY;

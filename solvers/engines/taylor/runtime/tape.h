@@ -5,32 +5,39 @@
 
 #if BACKWARD
 enum { BATCH = 512 }; /* collisions on one tape, with MOST_STEPS steps each */
+enum { ACTS = 1, SHEARS = 2, MOVES = 4, CREEPS = 8, FALLS = 16, EVENT = 5 }; /* bits of a step; EVENT: those above */
 
 typedef struct {
     vec y[STATES]; /* at the start of the step */
-    vec h, film, shear;
-    mask moving, creeps;
-    mask falls, event; /* the event at its end */
+    vec h;
+    mask flags;
 } taped_step;
 
 typedef struct {
-    long after; /* number of steps before the note */
-    long index;
-    int kind, lane;
+    long after, before; /* number of steps before the rebound; the lane's rebound before it, or -1 */
     double y[STATES];
-    long row; /* row with the constants of a trajectory, for notes of its end */
-} taped_note;
+} taped_rebound;
+
+/* A trajectory that separated: a lane's steps from `begun` to `after`. */
+typedef struct {
+    long index, begun, after, rebound; /* its last rebound, or -1 */
+    int lane;
+    double y[STATES];
+} taped_end;
 
 enum {
     STEP_ROOM = (BATCH/LANES + 2)*(MOST_STEPS + 2), /* lanes are full while the queue is not empty */
-    NOTE_ROOM = 16*BATCH,
+    REBOUND_ROOM = 16*BATCH,
 };
 
 struct tape {
     taped_step *steps;
-    taped_note *notes;
-    double (*rows)[FIXED];
-    long stepped, noted, ended;
+    taped_rebound *rebounds;
+    taped_end *ends;
+    double (*rows)[FIXED];         /* constants of the trajectories that separated */
+    struct derivatives *found;     /* of them (adjoint.h) */
+    long stepped, rebounded, ended;
+    long begun[LANES], rebound[LANES];
     int full;
 };
 
@@ -54,33 +61,42 @@ static void keep_on_tape(const queue *q, const lanes *l, vec h, mask creeps, mas
     taped_step *step = &t->steps[t->stepped++];
     memcpy(step->y, l->y, sizeof step->y);
     step->h = h;
-    step->film = acting(l);
-    step->shear = l->shear;
-    step->moving = ~l->resting;
-    step->creeps = creeps;
-    step->falls = falls & (h > 0.0); /* a criterion met on entry (h = 0) does not cross its surface */
-    step->event = event;
+    falls &= h > 0.0; /* a criterion met on entry (h = 0) does not cross its surface */
+    step->flags = ((acting(l) != 0.0) & ACTS) | ((l->shear != 0.0) & SHEARS) | (~l->resting & MOVES) |
+                  (creeps & CREEPS) | (falls & FALLS) | event << EVENT;
 }
 
-static void note_on_tape(const queue *q, int kind, long index, int lane, const vec *y, const fixed *f)
+static void begin_on_tape(const queue *q, int lane)
+{
+    q->tape->begun[lane] = q->tape->stepped;
+    q->tape->rebound[lane] = -1;
+}
+
+static void rebound_on_tape(const queue *q, int lane, const vec *y)
 {
     struct tape *t = q->tape;
-    if (t->noted == NOTE_ROOM) {
+    if (t->rebounded == REBOUND_ROOM) {
         t->full = 1;
         return;
     }
-    taped_note *note = &t->notes[t->noted++];
-    note->after = t->stepped;
-    note->index = index;
-    note->kind = kind;
-    note->lane = lane;
+    taped_rebound *own = &t->rebounds[t->rebounded];
+    own->after = t->stepped;
+    own->before = t->rebound[lane];
+    t->rebound[lane] = t->rebounded++;
     for (int state = 0; state < STATES; state++)
-        note->y[state] = y[state][lane];
-    if (kind == ENDED) {
-        note->row = t->ended++;
-        for (int field = 0; field < FIXED; field++)
-            t->rows[note->row][field] = ((const vec *)f)[field][lane];
-    }
+        own->y[state] = y[state][lane];
+}
+
+static void end_on_tape(const queue *q, long index, int lane, const vec *y, const fixed *f)
+{
+    struct tape *t = q->tape;
+    double *row = t->rows[t->ended];
+    taped_end *own = &t->ends[t->ended++];
+    *own = (taped_end){index, t->begun[lane], t->stepped, t->rebound[lane], lane, {0}};
+    for (int state = 0; state < STATES; state++)
+        own->y[state] = y[state][lane];
+    for (int field = 0; field < FIXED; field++)
+        row[field] = ((const vec *)f)[field][lane];
 }
 
 /* Without room on the tape, trajectories end without an answer. */

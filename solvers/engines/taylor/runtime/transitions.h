@@ -43,7 +43,7 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
     memcpy(after, l->y, sizeof after);
     rebound(&f->c, l->y, after);
 #if BACKWARD
-    note_on_tape(q, REBOUND, l->index[lane], lane, l->y, f);
+    rebound_on_tape(q, lane, l->y);
 #elif GRADIENTS
     along_rebound(&l->along, &f->c, l->y, lane);
 #endif

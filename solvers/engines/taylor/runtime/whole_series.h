@@ -19,3 +19,15 @@ INLINE vec correlated(const vec *a, const vec *b, int k)
         sum += a[m - k]*b[m];
     return sum;
 }
+
+/* The same without its first term: sum of a_(m-k) b_m, m = k+1..ORDER-1. */
+INLINE vec beyond(const vec *a, const vec *b, int k)
+{
+    if (k >= ORDER - 1)
+        return splat(0.0);
+    vec sum = a[ORDER - 1 - k]*b[ORDER - 1];
+    UNROLL
+    for (int m = ORDER - 2; m > k; m--)
+        sum += a[m - k]*b[m];
+    return sum;
+}
