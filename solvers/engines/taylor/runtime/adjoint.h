@@ -217,6 +217,8 @@ static int read_step(sweep *r, const struct tape *t, int lane)
         r->step.y[state][lane] = step->y[state][own->lane];
     r->step.h[lane] = step->h[own->lane];
     r->step.flags[lane] = step->flags[own->lane];
+    for (unsigned field = 0; r->next[lane] > 0 && field < sizeof(taped_step)/sizeof(vec); field++)
+        __builtin_prefetch((const vec *)(step - 1) + field); /* read after this step */
     return 1;
 }
 

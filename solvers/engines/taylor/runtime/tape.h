@@ -4,7 +4,7 @@
 #include "state.h"
 
 #if BACKWARD
-enum { BATCH = 512 }; /* collisions on one tape, with MOST_STEPS steps each */
+enum { BATCH = 256 }; /* collisions on one tape, with MOST_STEPS steps each; mostly it stays in the cache */
 enum { ACTS = 1, SHEARS = 2, MOVES = 4, CREEPS = 8, FALLS = 16, EVENT = 5 }; /* bits of a step; EVENT: those above */
 
 typedef struct {
