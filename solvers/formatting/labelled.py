@@ -32,18 +32,21 @@ def labelled(
     """
     columns = {**variables, **coordinates}
     shapes = tuple((name, dims, values.shape) for name, (dims, values, _) in columns.items())
-    blank = _laid_out(shapes, tuple((axes or {}).items()))
-    found = blank.copy(data={name: values for name, (_, values, _) in columns.items()}).set_coords(coordinates)
-    for name, (_, _, said) in columns.items():
-        found.variables[name].attrs = said  # a copy, so that arrays among the attributes are not shared
+    found = _laid_out(shapes, tuple(coordinates), tuple((axes or {}).items())).copy()
+    for name, (_, values, said) in columns.items():
+        variable = found.variables[name]
+        variable.data = values
+        variable.attrs = said  # a copy, so that arrays among the attributes are not shared
     found.attrs = attributes
     return found
 
 
 @lru_cache(maxsize=32)
-def _laid_out(shapes: tuple[_Shape, ...], axes: tuple[tuple[str, tuple[str, ...]], ...]) -> xarray.Dataset:
+def _laid_out(
+    shapes: tuple[_Shape, ...], coordinates: tuple[str, ...], axes: tuple[tuple[str, tuple[str, ...]], ...]
+) -> xarray.Dataset:
     """The Dataset's layout, with placeholder values that take no memory."""
     import xarray as xr
 
     blank = {name: (dims, np.broadcast_to(0.0, shape)) for name, dims, shape in shapes}
-    return xr.Dataset(blank, {name: list(names) for name, names in axes})
+    return xr.Dataset(blank, {name: list(names) for name, names in axes}).set_coords(coordinates)

@@ -51,11 +51,13 @@ class Along:
         run: the kernel's records.
         value: (results, collisions); NaN for sticks and undefined results.
         first: (results, collisions, parameters).
+        units: dp/dtheta of the first collision, (parameters,).
     """
 
     run: Carried
     value: np.ndarray
     first: np.ndarray
+    units: np.ndarray
 
 
 def gradients_by_kernel(
@@ -78,7 +80,8 @@ def gradients_by_kernel(
     scene, size = impacts.scene, impacts.angle.size
     speed, angle = float(impacts.speed[0]), float(impacts.angle[0])
     names = tuple(name for name in si_values(scene, speed, angle) if name != "density")
-    slopes = np.asarray(parameter_map(kind, wrt, names).slopes(references(scene, kind, speed, angle))[0].full())
+    mapped, units = parameter_map(kind, wrt, names).slopes(references(scene, kind, speed, angle))
+    slopes = np.asarray(mapped.full())
     by_quantity = dict(zip(names, slopes, strict=False))
     found = run_tangent(
         impacts, angle > 0, rtol, "rotation" in of, [name for name in names if by_quantity[name].any()], order, budget,
@@ -87,13 +90,13 @@ def gradients_by_kernel(
     if found is None:
         return None
     # the quantities' derivatives are those of the first collision, except for speed and angle
-    paces, rows = np.ones((size, len(found.quantities))), np.zeros((len(found.quantities), len(wrt)))
+    paces, rows = {}, np.zeros((len(found.quantities), len(wrt)))
     for k, quantity in enumerate(found.quantities):
         rows[k] = by_quantity.get(quantity, 0.0)
         if quantity == "speed":
-            paces[:, k] = impacts.speed / speed
+            paces[k] = impacts.speed / speed
         elif quantity == "angle":
-            paces[:, k] = impacts.angle / angle
+            paces[k] = impacts.angle / angle
     steep = _steep(impacts.angle) if kind.held == RELATIVE and angle > 0 and "impact.angle" in wrt else None
     value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
     separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0
@@ -108,11 +111,16 @@ def gradients_by_kernel(
                 value[place, separated] = 0.0
             continue
         plain = found.answers[where] if isinstance(where, str) else found.answers["shown"][:, where]
-        paced = found.slopes[:, :, column] * paces
-        first[place] = np.einsum("ck,kp->cp", paced, rows)  # small: avoid BLAS threads
+        paced = np.ascontiguousarray(found.slopes[:, :, column].T)
+        for k, pace in paces.items():
+            paced[k] *= pace
+        sums = np.zeros((len(wrt), size))
+        for k, p in np.argwhere(rows).tolist():  # a parameter moves few quantities
+            sums[p] += rows[k, p] * paced[k]
+        first[place] = sums.T
         if steep is not None and "speed" in found.quantities:
             moved = found.quantities.index("speed")
-            first[place] += paced[:, [moved]] * rows[moved] * (bent - 1)
+            first[place] += paced[moved][:, None] * rows[moved] * (bent - 1)
         if name == "final_spin":  # separation at initial contact: the spin is zero up to rounding
             plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
         if DIFFERENTIATED[name].scale is not None:
@@ -120,7 +128,7 @@ def gradients_by_kernel(
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
             plain = plain * scale
         value[place, separated] = plain[separated]
-    return Along(found, value, first)
+    return Along(found, value, first, np.asarray(units.full()).ravel())
 
 
 def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:

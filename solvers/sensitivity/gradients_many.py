@@ -28,7 +28,7 @@ from ..scene.schema import SPEEDS
 from ..settings import FEW, RTOL, STEPS, check_engine
 from . import by_kernel as kernel
 from .boundary_distance import LOOK, limit, refused
-from .parameters import RELATIVE, Kind, check_wrt, hold_of, kind_of, parameter_map, references
+from .parameters import RELATIVE, Kind, check_wrt, hold_of, kind_of, references
 from .problem import NEAR, SHARPEST
 from .result import Near
 from .results import DIFFERENTIATED, check_quantities
@@ -77,19 +77,22 @@ class _Asked:
     def impacts(self, which: np.ndarray, stretch: float = 1.0) -> Impacts:
         return Impacts(self.scene, self.speed[which] * stretch, self.angle[which], {})
 
-    def units(self, which: np.ndarray) -> np.ndarray:
-        """Scales dp/dtheta, (collisions, parameters)."""
-        first = references(self.scene, self.kind, float(self.speed[which[0]]), float(self.angle[which[0]]))
-        units = np.asarray(parameter_map(self.kind, self.wrt, ()).slopes(first)[1].full()).ravel()
-        units = np.tile(units, (which.size, 1))
+    def per_unit(self, slopes: np.ndarray, which: np.ndarray, units: np.ndarray, first: int) -> np.ndarray:
+        """Derivatives by the parameters, from those in theta.
+
+        Arguments:
+            slopes: (results, collisions, parameters).
+            units: dp/dtheta of the collision `first`.
+        """
+        found: np.ndarray = slopes / units
         for k, name in enumerate(self.wrt):
             if name == RELATIVE:
-                units[:, k] = self.relative_speed[which]
+                found[:, :, k] = slopes[:, :, k] / self.relative_speed[which]
             elif name in SPEEDS:
-                units[:, k] *= self.speed[which] / self.speed[which[0]]
-            elif name == "impact.angle" and self.angle[which[0]] > 0:
-                units[:, k] = self.angle[which]
-        return units
+                found[:, :, k] *= self.speed[first] / self.speed[which]
+            elif name == "impact.angle" and self.angle[first] > 0:
+                found[:, :, k] = slopes[:, :, k] / self.angle[which]
+        return found
 
     def reference(self) -> np.ndarray:
         """Values of the parameters, (collisions, parameters)."""
@@ -249,7 +252,7 @@ def _keep(asked: _Asked, which: np.ndarray, found: kernel.Along, part: np.ndarra
     if into.size:
         asked.outcome[into] = found.run.answers["outcome"][part]
         asked.value[:, into] = found.value[:, part]
-        slopes = found.first[:, part] / asked.units(into)
+        slopes = asked.per_unit(found.first[:, part], into, found.units, int(which[0]))
         slopes[np.isnan(found.value[:, part])] = np.nan
         asked.gradient[:, into] = slopes
         asked.engine[into] = "taylor"

@@ -76,8 +76,8 @@ static void unmeet(sweep *r, mask falls, mask damped)
     for (int state = 0; state < STATES; state++)
         total += r->of[state]*m.rate[state];
     vec value = only(falls, -total/choose(falls, m.pace, one)); /* d restitution/d event function */
-    r->of[GAP] += value*choose(m.gap, one, choose(m.turned, zero, m.by_gap));
-    r->of[NORMAL_VELOCITY] += value*choose(m.gap, zero, choose(m.turned, one, -m.by_approach));
+    r->of[GAP] += only(falls, value*choose(m.gap, one, choose(m.turned, zero, m.by_gap)));
+    r->of[NORMAL_VELOCITY] += only(falls, value*choose(m.gap, zero, choose(m.turned, one, -m.by_approach)));
     r->at_contact -= only(m.contact, value);
     r->at_end -= only(m.end, value);
     r->at_edge -= only(m.edge, value);
