@@ -16,7 +16,7 @@ from .taylor.build import Variant, compile_all, is_compiled, size_of, supported
 from .taylor.call import variant_for_many
 from .taylor.orders import order_for
 from .taylor.record import variant_to_record
-from .taylor.tangent import variant_of
+from .taylor.tangent import order_backward, variant_of
 
 Named = Scene | str | Path
 
@@ -122,4 +122,4 @@ def _needed(scene: Scene, tolerances: Sequence[float], derivatives: bool) -> Ite
             if derivatives:
                 for rotation in (False, True):
                     yield "sensitivities", oblique, variant_of(scene, oblique, order_for(rtol), rotation)
-                yield "gradients_many", oblique, variant_of(scene, oblique, order_for(rtol), False, backward=True)
+                yield "gradients_many", oblique, variant_of(scene, oblique, order_backward(rtol), False, True)

@@ -15,7 +15,7 @@ from ...generated.automaton import STICK as STICKS
 from ..engines.choice import gradient_engine
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_for
-from ..engines.taylor.tangent import DISTANCES, Carried, run_tangent
+from ..engines.taylor.tangent import DISTANCES, Carried, order_backward, run_tangent
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
@@ -183,9 +183,9 @@ def _by_kernel(asked: _Asked) -> np.ndarray:
 def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
     # for few collisions or few parameters forward tangents cost no more
     back = asked.of == kernel.BACKWARD and asked.angle.size > FEW and len(asked.wrt) > kernel.DIRECTIONS
-    order = order_for(asked.rtol)
 
     def run_part(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
+        order = (order_backward if backward else order_for)(asked.rtol)
         return kernel.gradients_by_kernel(
             asked.impacts(part), asked.kind, asked.wrt, asked.of, rtol, order, budget, backward
         )

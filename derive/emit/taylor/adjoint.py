@@ -20,13 +20,10 @@ from .c_text import Text
 from .law_slopes import UNUSED
 from .layout import comment, function
 from .linear_flow import LinearFlow
-from .program import COST, Operation
+from .program import Operation
 
-# Cost of a transposed recurrence in products of series; those left out have none, a call that of its slopes too.
-TRANSPOSED = {
-    "product": 2.0, "square": 1.0, "quotient": 2.0, "reciprocal": 2.0, "sqrt": 1.0, "exp": 1.0, "log": 1.0,
-    "power": 2.0, "sine": 1.0, "cosine": 1.0,
-}  # fmt: skip
+# Cost of a transposed recurrence in products of series; a call costs one for each series that it is given.
+TRANSPOSED = {"product": 2.0, "square": 1.0, "quotient": 2.0, "sine": 1.0, "cosine": 1.0}
 _FLAGS = (FILM, SHEAR)
 
 
@@ -75,7 +72,8 @@ class Adjoint:
         fields = [f"    {slot}_{call}_slopes {name};" for name, slot, call, _ in calls]
         constants = [f"    {slot}_{call}_slope_constants {name};" for name, slot, call, _ in calls]
         none = ["    char none[0];"]
-        prepare = [f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});" for name, slot, call, _ in calls]
+        prepare = ["(void)c; (void)v;"]
+        prepare += [f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});" for name, slot, call, _ in calls]
         expand = []
         for name, slot, call, given in calls:
             passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
@@ -84,9 +82,7 @@ class Adjoint:
             "typedef struct {", *(constants or none), "} slope_constants;", "",
             "typedef struct {", *(fields or none), "} slopes;", "",
             *comment("Constants of the laws' derivatives, computed once per collision."),
-            *function(
-                "static inline void prepare_slopes(slope_constants *c, const constants *v)", ["(void)c; (void)v;", *prepare]
-            ), "",
+            *function("static inline void prepare_slopes(slope_constants *c, const constants *v)", prepare), "",
             *comment("Derivatives of the laws by their arguments."),
             *function(
                 "static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, "
@@ -148,7 +144,6 @@ class Adjoint:
         name, kind = operation.name, operation.kind
         total = " + ".join(self._pulls.pop(name, [])) or "splat(0.0)"
         series = [self._array(part) for part in operation.series]
-        factors = self._made.factors[name]
         whole, own = self._array(name), f"bar->{name}"
         if kind == "linear":
             return self._linear(operation, total)
@@ -165,25 +160,6 @@ class Adjoint:
             lines.append(f"vec by_{name} = correlated({whole}, {own}, k);")
             self._pull(operation.series[0], f"{own}[k]")
             self._pull(operation.series[1], f"(-by_{name})")
-        elif kind == "reciprocal":
-            lines = [f"{own}[k] = ({total} - beyond({series[0]}, {own}, k))*{whole}[0];"]
-            lines.append(f"vec by_{name} = correlated({whole}, {own}, k);")
-            self._pull(operation.series[0], f"(-by_{name})")
-        elif kind == "sqrt":
-            lines = [f"{own}[k] = ({total} - 2.0*beyond({whole}, {own}, k))*of->over_{name};"]
-            self._pull(operation.series[0], f"{own}[k]")
-        elif kind == "exp":
-            lines.append(f"vec by_{name} = correlated({whole}, {own}, k);")
-            self._pull(operation.series[0], f"by_{name}")
-        elif kind == "log":
-            lines = [f"{own}[k] = ({total} - beyond({series[0]}, {own}, k))*of->over_{name};"]
-            self._pull(operation.series[0], f"{own}[k]")
-        elif kind == "power":
-            if self._in_groups(operation.factors[0]).free_symbols:
-                raise EmissionError(f"no transposed recurrence of {name}: its exponent depends on a group")
-            lines = [f"{own}[k] = ({total} - beyond({series[0]}, {own}, k))*of->over_{name};"]
-            lines.append(f"vec by_{name} = {factors[0]}*correlated({whole}, {own}, k);")
-            self._pull(operation.series[0], f"by_{name}")
         elif kind == "sine":
             cosine = self._array(f"cosine_of_{operation.series[0]}")
             lines.append(f"vec by_{name} = correlated({cosine}, {own}, k);")
@@ -192,9 +168,10 @@ class Adjoint:
             sine = self._array(f"sine_of_{operation.series[0]}")
             lines.append(f"vec by_{name} = correlated({sine}, {own}, k);")
             self._pull(operation.series[0], f"(-by_{name})")
-        else:
-            assert kind == "call", COST[kind]
+        elif kind == "call":
             lines += self._call(operation)
+        else:  # in laws only, whose derivatives have headers of their own
+            raise EmissionError(f"no transposed recurrence of {name}, a {kind}")
         return lines
 
     def _linear(self, operation: Operation, total: str) -> list[str]:
@@ -275,8 +252,8 @@ class Adjoint:
                 if slope == 1:
                     terms.append(f"constant[{place}]")
                 elif slope != 0:
-                    terms.append(f"{text.vector(slope)}*constant[{place}]" if not slope.is_Add
-                                 else f"({text.vector(slope)})*constant[{place}]")  # fmt: skip
+                    said = f"({text(slope)})" if slope.is_Add else text(slope)
+                    terms.append(f"{said}*constant[{place}]")
             if terms:
                 body.append(f"by_group[BY_{group.name.upper()}] += {' + '.join(terms)};")
         head = "static inline void along_constants(const constants *v, const vec *constant, vec *by_group)"

@@ -114,7 +114,7 @@ static inline void along_constants(const constants *v, const vec *constant, vec 
     (void)v; (void)constant;
     by_group[BY_STOKES] += -1.0/(v->capillary*(v->stokes*v->stokes))*constant[0] +
         -1.0/(v->stokes*v->stokes)*constant[4];
-    by_group[BY_ASPECT] += splat(0.5)*constant[3];
+    by_group[BY_ASPECT] += 0.5*constant[3];
     by_group[BY_CAPILLARY] += -1.0/((v->capillary*v->capillary)*v->stokes)*constant[0];
     by_group[BY_VOLUME] += constant[1];
     by_group[BY_CONTACT_ANGLE] += constant[2];

@@ -139,7 +139,7 @@ static inline void along_constants(const constants *v, const vec *constant, vec 
     (void)v; (void)constant;
     by_group[BY_STOKES] += -1.0/(v->capillary*(v->stokes*v->stokes))*constant[3] +
         -1.0/(v->stokes*v->stokes)*constant[7];
-    by_group[BY_ASPECT] += v->weight*constant[0] + 0.5*v->aspect*constant[2] + splat(0.5)*constant[6];
+    by_group[BY_ASPECT] += v->weight*constant[0] + 0.5*v->aspect*constant[2] + 0.5*constant[6];
     by_group[BY_CAPILLARY] += -1.0/((v->capillary*v->capillary)*v->stokes)*constant[3];
     by_group[BY_VOLUME] += constant[4];
     by_group[BY_CONTACT_ANGLE] += constant[5];

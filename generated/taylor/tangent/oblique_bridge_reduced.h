@@ -160,7 +160,7 @@ static inline void along_constants(const constants *v, const vec *constant, vec 
     by_group[BY_STOKES] += -1.0/(v->capillary*(v->stokes*v->stokes))*constant[0] +
         -1.0/(v->stokes*v->stokes)*constant[4] +
         -1.3333333333333333*v->aspect/(v->stokes*v->stokes)*constant[6];
-    by_group[BY_ASPECT] += splat(0.5)*constant[3] + 0.0625*(v->obliquity*v->obliquity)*constant[5] +
+    by_group[BY_ASPECT] += 0.5*constant[3] + 0.0625*(v->obliquity*v->obliquity)*constant[5] +
         1.3333333333333333/v->stokes*constant[6] + constant[7] + 0.3125*(v->aspect + 4.0)*constant[8];
     by_group[BY_OBLIQUITY] += 0.125*v->aspect*v->obliquity*constant[5];
     by_group[BY_CAPILLARY] += -1.0/((v->capillary*v->capillary)*v->stokes)*constant[0];

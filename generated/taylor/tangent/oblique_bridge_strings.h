@@ -250,7 +250,7 @@ static inline void along_constants(const constants *v, const vec *constant, vec 
         -1.0/(v->stokes*v->stokes)*constant[10] +
         -1.3333333333333333*v->aspect/(v->stokes*v->stokes)*constant[12];
     by_group[BY_ASPECT] += 0.25*v->obliquity*constant[0] + constant[4] + 0.5*v->aspect*constant[5] +
-        splat(0.5)*constant[9] + 0.0625*(v->obliquity*v->obliquity)*constant[11] +
+        0.5*constant[9] + 0.0625*(v->obliquity*v->obliquity)*constant[11] +
         1.3333333333333333/v->stokes*constant[12];
     by_group[BY_OBLIQUITY] += 0.25*v->aspect*constant[0] +
         -16.0*v->weight/(v->obliquity*v->obliquity)*constant[1] + 0.125*v->aspect*v->obliquity*constant[11];

@@ -69,7 +69,8 @@ def run_tangent(
         backward: of the restitution alone, taken back along the trajectory: for the price of one direction.
             Trajectories of more than some hundred steps are handed over.
     """
-    library = _library(impacts.scene, oblique, order or order_for(min(rtol, LOOSEST)), rotation, backward)
+    order = order or (order_backward if backward else order_for)(min(rtol, LOOSEST))
+    library = _library(impacts.scene, oblique, order, rotation, backward)
     if library is None:
         return None
     if backward:
@@ -88,6 +89,11 @@ def run_tangent(
         asked.run()
     measures = near.view("f8").reshape(count, -1)
     return Carried(answers, slopes, measures, quantities, bool(number(library, "proved_by_energy")))
+
+
+def order_backward(rtol: float) -> int:
+    """Order of the series for a tolerance with the adjoint sweep: a step costs more, so longer ones pay earlier."""
+    return order_for(rtol / 30)
 
 
 def _library(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool) -> ctypes.CDLL | None:

@@ -24,7 +24,7 @@
 
 #if BACKWARD
 /* Derivatives of the states by the logarithm of a group, over 1 + |y|: at most this until the film forgets them. */
-static const double STEEPEST = 1e3;
+static const double STEEPEST = 100.0;
 /* Part of the tolerance that the neglected rest may take. */
 static const double NEGLECTED = 0.1;
 
