@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -35,6 +35,7 @@ _WHERE: dict[str, tuple[int, str | int]] = {
 KNOWN = tuple(_WHERE)
 BACKWARD = ("restitution",)  # results that the kernel's adjoint differentiates
 DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/engineering/kernel.md)
+SPEED, ANGLE = 1.0, 0.5  # impact (m/s, rad) at which parameters are mapped; others follow by their powers
 _TURNS = tuple(name for name in KNOWN if DIFFERENTIATED[name].odd or name == "tangential_restitution")
 
 
@@ -51,7 +52,7 @@ class Along:
         run: the kernel's records.
         value: (results, collisions); NaN for sticks and undefined results.
         first: (results, collisions, parameters).
-        units: dp/dtheta of the first collision, (parameters,).
+        units: dp/dtheta at SPEED and, of oblique collisions, ANGLE, (parameters,).
     """
 
     run: Carried
@@ -78,10 +79,8 @@ def gradients_by_kernel(
         backward: differentiate the restitution alone by the adjoint (`run_tangent`).
     """
     scene, size = impacts.scene, impacts.angle.size
-    speed, angle = float(impacts.speed[0]), float(impacts.angle[0])
-    names = tuple(name for name in si_values(scene, speed, angle) if name != "density")
-    mapped, units = parameter_map(kind, wrt, names).slopes(references(scene, kind, speed, angle))
-    slopes = np.asarray(mapped.full())
+    angle = ANGLE if impacts.angle[0] > 0 else 0.0
+    names, slopes, units = _at_reference(scene, kind, wrt, angle)
     by_quantity = dict(zip(names, slopes, strict=False))
     found = run_tangent(
         impacts, angle > 0, rtol, "rotation" in of, [name for name in names if by_quantity[name].any()], order, budget,
@@ -89,20 +88,20 @@ def gradients_by_kernel(
     )  # fmt: skip
     if found is None:
         return None
-    # the quantities' derivatives are those of the first collision, except for speed and angle
+    # the quantities' derivatives are those at the reference, except for speed and angle
     paces, rows = {}, np.zeros((len(found.quantities), len(wrt)))
     for k, quantity in enumerate(found.quantities):
         rows[k] = by_quantity.get(quantity, 0.0)
         if quantity == "speed":
-            paces[k] = impacts.speed / speed
+            paces[k] = impacts.speed / SPEED
         elif quantity == "angle":
             paces[k] = impacts.angle / angle
     steep = _steep(impacts.angle) if kind.held == RELATIVE and angle > 0 and "impact.angle" in wrt else None
     value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
     separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0
-    bent = np.ones((1 if steep is None else size, len(wrt)))  # of rows of the speed, over those of the first collision
+    bent = np.ones((1 if steep is None else size, len(wrt)))  # of rows of the speed, over those of the reference
     if steep is not None:
-        bent[:, wrt.index("impact.angle")] = steep / steep[0]
+        bent[:, wrt.index("impact.angle")] = steep / _steep(np.array(angle))
     scales = partial(_Scales, scene, impacts, dict(zip(SCALES, slopes[len(names) :], strict=True)), wrt, steep)
     for place, name in enumerate(of):
         column, where = _WHERE[name]
@@ -128,7 +127,20 @@ def gradients_by_kernel(
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
             plain = plain * scale
         value[place, separated] = plain[separated]
-    return Along(found, value, first, np.asarray(units.full()).ravel())
+    return Along(found, value, first, units)
+
+
+@lru_cache(maxsize=64)
+def _at_reference(
+    scene: Scene, kind: Kind, wrt: tuple[str, ...], angle: float
+) -> tuple[tuple[str, ...], np.ndarray, np.ndarray]:
+    """Names of the quantities in SI, their derivatives and those of the scales in theta, and dp/dtheta, at SPEED."""
+    names = tuple(name for name in si_values(scene, SPEED, angle) if name != "density")
+    slopes, units = parameter_map(kind, wrt, names).slopes(references(scene, kind, SPEED, angle))
+    found = np.asarray(slopes.full()), np.asarray(units.full()).ravel()
+    for each in found:
+        each.setflags(write=False)
+    return names, *found
 
 
 def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
@@ -169,10 +181,11 @@ class _Scales:
         falls: np.ndarray | None,
     ) -> None:
         speed, angle = impacts.speed, impacts.angle
-        n = nondimensionalise(scene, float(speed[0]), float(angle[0]))
-        turn = np.tan(angle) / np.tan(angle[0]) if angle[0] > 0 else np.ones(angle.size)
-        steep = np.sin(2 * angle[0]) / np.sin(2 * angle) * angle / angle[0] if angle[0] > 0 else np.ones(angle.size)
-        pace = speed / speed[0]
+        own = ANGLE if angle[0] > 0 else 0.0
+        n = nondimensionalise(scene, SPEED, own)
+        turn = np.tan(angle) / np.tan(own) if own else np.ones(angle.size)
+        steep = np.sin(2 * own) / np.sin(2 * angle) * angle / own if own else np.ones(angle.size)
+        pace = speed / SPEED
         self._values = {"length": n.length * pace**0, "time": n.time / pace, "rate": n.rate * pace * turn}
         first = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
         self._relative = {name: np.tile(slopes[name] / first[name], (speed.size, 1)) for name in first}

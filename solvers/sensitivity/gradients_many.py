@@ -77,20 +77,19 @@ class _Asked:
     def impacts(self, which: np.ndarray, stretch: float = 1.0) -> Impacts:
         return Impacts(self.scene, self.speed[which] * stretch, self.angle[which], {})
 
-    def per_unit(self, slopes: np.ndarray, which: np.ndarray, units: np.ndarray, first: int) -> np.ndarray:
-        """Derivatives by the parameters, from those in theta.
+    def per_unit(self, slopes: np.ndarray, which: np.ndarray, units: np.ndarray) -> np.ndarray:
+        """Derivatives by the parameters, from those in theta: (results, collisions, parameters).
 
         Arguments:
-            slopes: (results, collisions, parameters).
-            units: dp/dtheta of the collision `first`.
+            units: dp/dtheta at the reference of `by_kernel`.
         """
         found: np.ndarray = slopes / units
         for k, name in enumerate(self.wrt):
             if name == RELATIVE:
                 found[:, :, k] = slopes[:, :, k] / self.relative_speed[which]
             elif name in SPEEDS:
-                found[:, :, k] *= self.speed[first] / self.speed[which]
-            elif name == "impact.angle" and self.angle[first] > 0:
+                found[:, :, k] *= kernel.SPEED / self.speed[which]
+            elif name == "impact.angle" and self.angle[which[0]] > 0:
                 found[:, :, k] = slopes[:, :, k] / self.angle[which]
         return found
 
@@ -252,7 +251,7 @@ def _keep(asked: _Asked, which: np.ndarray, found: kernel.Along, part: np.ndarra
     if into.size:
         asked.outcome[into] = found.run.answers["outcome"][part]
         asked.value[:, into] = found.value[:, part]
-        slopes = asked.per_unit(found.first[:, part], into, found.units, int(which[0]))
+        slopes = asked.per_unit(found.first[:, part], into, found.units)
         slopes[np.isnan(found.value[:, part])] = np.nan
         asked.gradient[:, into] = slopes
         asked.engine[into] = "taylor"
