@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
 
@@ -80,29 +80,19 @@ def gradients_by_kernel(
     """
     scene, size = impacts.scene, impacts.angle.size
     angle = ANGLE if impacts.angle[0] > 0 else 0.0
-    names, slopes, units = _at_reference(scene, kind, wrt, angle)
-    by_quantity = dict(zip(names, slopes, strict=False))
-    found = run_tangent(
-        impacts, angle > 0, rtol, "rotation" in of, [name for name in names if by_quantity[name].any()], order, budget,
-        backward,
-    )  # fmt: skip
+    at = _at_reference(scene, kind, wrt, angle)
+    found = run_tangent(impacts, angle > 0, rtol, "rotation" in of, tuple(at.moved), order, budget, backward)
     if found is None:
         return None
     # the quantities' derivatives are those at the reference, except for speed and angle
-    paces, rows = {}, np.zeros((len(found.quantities), len(wrt)))
-    for k, quantity in enumerate(found.quantities):
-        rows[k] = by_quantity.get(quantity, 0.0)
-        if quantity == "speed":
-            paces[k] = impacts.speed / SPEED
-        elif quantity == "angle":
-            paces[k] = impacts.angle / angle
+    paces = {"speed": impacts.speed / SPEED, "angle": impacts.angle / (angle or 1.0)}
     steep = _steep(impacts.angle) if kind.held == RELATIVE and angle > 0 and "impact.angle" in wrt else None
     value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
     separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0
     bent = np.ones((1 if steep is None else size, len(wrt)))  # of rows of the speed, over those of the reference
     if steep is not None:
         bent[:, wrt.index("impact.angle")] = steep / _steep(np.array(angle))
-    scales = partial(_Scales, scene, impacts, dict(zip(SCALES, slopes[len(names) :], strict=True)), wrt, steep)
+    scales = partial(_Scales, scene, impacts, at.scales, wrt, steep)
     for place, name in enumerate(of):
         column, where = _WHERE[name]
         if angle == 0 and name in _TURNS:
@@ -110,16 +100,16 @@ def gradients_by_kernel(
                 value[place, separated] = 0.0
             continue
         plain = found.answers[where] if isinstance(where, str) else found.answers["shown"][:, where]
-        paced = np.ascontiguousarray(found.slopes[:, :, column].T)
-        for k, pace in paces.items():
-            paced[k] *= pace
         sums = np.zeros((len(wrt), size))
-        for k, p in np.argwhere(rows).tolist():  # a parameter moves few quantities
-            sums[p] += rows[k, p] * paced[k]
+        for quantity, row in at.moved.items():  # a quantity moves with few parameters
+            if quantity not in found.quantities:
+                continue
+            paced = found.slopes[:, found.quantities.index(quantity), column] * paces.get(quantity, 1.0)
+            for k in np.flatnonzero(row).tolist():
+                sums[k] += row[k] * paced
+            if steep is not None and quantity == "speed":
+                sums += (row * (bent - 1)).T * paced
         first[place] = sums.T
-        if steep is not None and "speed" in found.quantities:
-            moved = found.quantities.index("speed")
-            first[place] += paced[moved][:, None] * rows[moved] * (bent - 1)
         if name == "final_spin":  # separation at initial contact: the spin is zero up to rounding
             plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
         if DIFFERENTIATED[name].scale is not None:
@@ -127,20 +117,26 @@ def gradients_by_kernel(
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
             plain = plain * scale
         value[place, separated] = plain[separated]
-    return Along(found, value, first, units)
+    return Along(found, value, first, at.units)
+
+
+@dataclass(frozen=True)
+class _Reference:
+    """Derivatives in theta at SPEED: of the quantities in SI that the parameters move, and of the scales; dp/dtheta."""
+
+    moved: Mapping[str, np.ndarray]
+    scales: Mapping[str, np.ndarray]
+    units: np.ndarray
 
 
 @lru_cache(maxsize=64)
-def _at_reference(
-    scene: Scene, kind: Kind, wrt: tuple[str, ...], angle: float
-) -> tuple[tuple[str, ...], np.ndarray, np.ndarray]:
-    """Names of the quantities in SI, their derivatives and those of the scales in theta, and dp/dtheta, at SPEED."""
+def _at_reference(scene: Scene, kind: Kind, wrt: tuple[str, ...], angle: float) -> _Reference:
     names = tuple(name for name in si_values(scene, SPEED, angle) if name != "density")
-    slopes, units = parameter_map(kind, wrt, names).slopes(references(scene, kind, SPEED, angle))
-    found = np.asarray(slopes.full()), np.asarray(units.full()).ravel()
-    for each in found:
-        each.setflags(write=False)
-    return names, *found
+    mapped, units = parameter_map(kind, wrt, names).slopes(references(scene, kind, SPEED, angle))
+    slopes = np.asarray(mapped.full())
+    moved = {name: row for name, row in zip(names, slopes, strict=False) if row.any()}
+    scales = dict(zip(SCALES, slopes[len(names) :], strict=True))
+    return _Reference(moved, scales, np.asarray(units.full()).ravel())
 
 
 def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
@@ -176,7 +172,7 @@ class _Scales:
         self,
         scene: Scene,
         impacts: Impacts,
-        slopes: dict[str, np.ndarray],
+        slopes: Mapping[str, np.ndarray],
         wrt: tuple[str, ...],
         falls: np.ndarray | None,
     ) -> None:
