@@ -1,14 +1,16 @@
 """Measure everything anew and write docs/engineering/performance.md: one command, on a quiet machine.
 
-    python -m tests.benchmarks.measured [FOLDER] [SCENES]
+    python -m tests.benchmarks.measured [FOLDER] [SCENES] [--by-hand FOLDER]
 
-FOLDER is docs/engineering/performance; SCENES (500) is what the stress test takes. Some ten minutes on two cores. With
-the usual folder the figures of README.md and docs/engineering/kernel-figures.md are written as well. What fails is
-named at the end, and the rest is measured all the same; the page is then made from the older record of that part.
+FOLDER is docs/engineering/performance; SCENES (500) is what the stress test takes; the folder behind --by-hand holds a
+kernel made by hand, measured beside ours where it is named. Some ten minutes on two cores. With the usual folder the
+figures of README.md and docs/engineering/kernel-figures.md are written as well. What fails is named at the end, and the
+rest is measured all the same; the page is then made from the older record of that part.
 """
 
 from __future__ import annotations
 
+import argparse
 import json
 import shutil
 import subprocess
@@ -46,11 +48,16 @@ def stress(folder: Path, scenes: str) -> None:
 
 def main() -> None:
     """Run one measurement after another; each writes its record into the folder."""
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else USUAL).resolve()
-    scenes = sys.argv[2] if len(sys.argv) > 2 else "500"
+    asked = argparse.ArgumentParser()
+    asked.add_argument("folder", nargs="?", type=Path, default=USUAL)
+    asked.add_argument("scenes", nargs="?", default="500")
+    asked.add_argument("--by-hand", type=Path)
+    given = asked.parse_args()
+    folder, scenes = given.folder.resolve(), given.scenes
+    hand = ["--by-hand", str(given.by_hand.resolve())] if given.by_hand else []
     folder.mkdir(parents=True, exist_ok=True)
     parts = {
-        "bench": lambda: script("measured.page.record", str(folder)),
+        "bench": lambda: script("measured.page.record", str(folder), *hand),
         "compile_flags": lambda: script("compile_flags", str(folder)),
         "cvodes_share": lambda: script("cvodes_share", str(folder)),
         "stress": lambda: stress(folder, scenes),

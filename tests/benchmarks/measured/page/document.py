@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ..cold import cold_table
-from . import tables
+from . import beside_heyoka, tables
 from .targets import headline, target_table
 
 Record = dict[str, Any]
@@ -31,6 +31,9 @@ def page(bench: Record, flags: Record, share: Record, stress: Record | None, fol
         INTRODUCTION,
         "## What was aimed at",
         target_table(bench),
+        "## Beside heyoka, whose callbacks are Python's",
+        beside_heyoka.three_ways(bench),
+        beside_heyoka.note(bench),
         "## Run time against achieved error",
         f"![Work against error]({folder}/work.png)",
         WORK,
@@ -66,10 +69,11 @@ core, against the largest absolute error in e_n among those that separate.
 
 * **The same for all**: the emitted equations, the stop rule, the stick certificate with its margin.
 * **`cvodes`, `rosenbrock`** are `collide(ledger=False)` as a user calls it: located, then integrated by the engine.
-* **Engines of many collisions** get the whole set twenty times in one call; compilation is not counted. `taylor` is
-  `collide_many` of outcome and restitution, "kernel alone" leaves out what that adds.
-* **heyoka**: batches of 8 lanes with a queue and terminal events, not in compact mode. Its sticks are decided
-  beforehand, for nothing.
+* **Engines of many collisions** get the whole set twenty times in one call, `taylor` and heyoka so often that there
+  are 1000; compilation is not counted. `taylor` is `collide_many` of outcome and restitution, "kernel alone" leaves out
+  what that adds.
+* **heyoka**: batches of 8 lanes with a queue and terminal events, `fast_math`, not in compact mode. The level of energy
+  that proves a stick is computed beforehand, for nothing.
 * **CVODE of scikit-sundae** has rates, Jacobian and events as machine code by numba; **scipy's** methods call CasADi
   functions; **diffrax** is Tsit5, jitted and vectorised, with its own events.
 * **Reference values** by DOP853 at 1e-13, which no engine under test uses. Below the grey line an error cannot be told

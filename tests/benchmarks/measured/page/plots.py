@@ -25,6 +25,7 @@ _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "taylor": ("#E69F00", "*", "-"),
     "taylor, kernel alone": ("#E69F00", "1", ":"),
     "heyoka, batch of 8": ("#56B4E9", "P", "--"),
+    "heyoka, without callbacks": ("#56B4E9", "x", ":"),
     "sundae CVODE, numba": ("#8C6D31", "X", "--"),
     "diffrax Tsit5": ("#7F7F7F", "<", "--"),
     "scipy LSODA": ("#CC79A7", "^", "--"),

@@ -23,6 +23,7 @@ _GRADIENTS = {
     "rosenbrock, forward": ("#D55E00", "s", "-"),
     "rosenbrock, adjoint": ("#0072B2", "o", "-"),
     "heyoka, variational equations": ("#56B4E9", "P", "--"),
+    "heyoka's, without callbacks": ("#56B4E9", "x", ":"),
     "diffrax, forward derivatives": ("#7F7F7F", "<", "--"),
     "central differences of taylor": ("#CC79A7", "^", "--"),
 }

@@ -1,12 +1,14 @@
 """The benchmark's record on disk: JSON and pictures in one folder.
 
-    python -m tests.benchmarks.measured.page.record FOLDER
+    python -m tests.benchmarks.measured.page.record FOLDER [--by-hand FOLDER]
 
-Measures everything that is in it: some minutes, the first time longer, as integrators are compiled.
+Measures everything that is in it: some minutes, the first time longer, as integrators are compiled. The second folder
+holds a kernel made by hand (`peers/by_hand.py`), measured beside the others where it is named.
 """
 
 from __future__ import annotations
 
+import argparse
 import json
 import sys
 from pathlib import Path
@@ -46,4 +48,8 @@ def _tell(what: str) -> None:
 
 
 if __name__ == "__main__":
-    write(bench(tell=_tell), Path(sys.argv[1]))
+    asked = argparse.ArgumentParser()
+    asked.add_argument("folder", type=Path)
+    asked.add_argument("--by-hand", type=Path)
+    given = asked.parse_args()
+    write(bench(tell=_tell, hand=given.by_hand), given.folder)

@@ -55,7 +55,7 @@ def prepare(
         moved = p.at[: len(names)].add(slope @ theta)
         groups = dict(zip(names, moved))
         first = {name: jnp.asarray(value, float) for name, value in structure.start({}, groups, laws).items()}
-        after = structure.reversal(first, groups, laws)
+        after = structure.rebound(first, groups, laws)
         y = jnp.stack([jnp.where(met, after[name], first[name]) for name in first])
         ended, e_n, _ = integrate(y, moved, met)
         return e_n, ended

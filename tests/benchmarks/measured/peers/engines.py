@@ -19,7 +19,7 @@ from wetdoublet.solvers.settings import ENGINES
 from wetdoublet.solvers.verify.stress.answers import Answer, Impact, answer, dimensionless
 from wetdoublet.solvers.verify.stress.scipy_engine import locate_by_scipy
 
-from .bulk import Bulk, Collide
+from .bulk import Bulk, Collide, Partly
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,7 @@ class Engine:
 
 
 KERNEL, HEYOKA = "taylor, kernel alone", "heyoka, batch of 8"
+HEYOKA_ALONE = "heyoka, without callbacks"
 
 
 def engines() -> tuple[Engine, ...]:
@@ -60,6 +61,7 @@ def engines() -> tuple[Engine, ...]:
         *bulk,
         Engine(KERNEL, many=_kernel, fast=True, missing=absent),
         Engine(HEYOKA, many=_heyoka, fast=True, missing=_absent("heyoka")),
+        Engine(HEYOKA_ALONE, many=_heyoka_alone, fast=True, missing=_absent("heyoka")),
         Engine("sundae CVODE, numba", one=_sundae, missing=_absent("sksundae", "scikit-sundae") or _absent("numba")),
         Engine("diffrax Tsit5", many=_diffrax, missing=_absent("diffrax")),
         Engine("scipy LSODA", one=partial(_peer, "LSODA"), builds=False, missing=scipy),
@@ -124,8 +126,25 @@ def _heyoka(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     """All collisions through one queue."""
     from .heyoka_engine import collisions
 
-    batch = collisions(scene, impacts, min(rtol, LOOSEST))  # looser, its energy misses the level that proves a stick
+    return _queue(collisions(scene, impacts, min(rtol, LOOSEST)))  # looser, its energy misses the level of a proof
 
+
+def _heyoka_alone(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+    """The same, of which the time in Python does not count: no more than somebody who calls it from C++ would wait."""
+    from .heyoka_callbacks import Inside
+    from .heyoka_engine import collisions
+
+    inside = Inside()
+    bulk = _queue(collisions(scene, impacts, min(rtol, LOOSEST), watch=inside))
+
+    def run() -> None:
+        inside.reset()
+        bulk.run()
+
+    return Bulk(Partly(run, inside.left_out), bulk.read)
+
+
+def _queue(batch: Any) -> Bulk:
     def read(_: None) -> list[Answer | str]:
         pairs = zip(batch.outcomes, batch.restitutions)
         return [Answer(outcome, e_n) if outcome else "not decided" for outcome, e_n in pairs]

@@ -23,6 +23,7 @@ from wetdoublet.solvers.model.model import ModelKey, load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
 
+from .heyoka_callbacks import Inside
 from .translated import translated
 
 HORIZON = 1e10  # x0/v0: a trajectory that has not ended by then has failed
@@ -224,6 +225,7 @@ def prepare(
     rtol: float,
     size: int = BATCH,
     inside: bool = False,
+    watch: Inside | None = None,
     **options: Any,
 ) -> Batch:
     """An integrator for these collisions, compiled, with its queue.
@@ -231,6 +233,7 @@ def prepare(
     Arguments:
         inside: watch for barriers inside the film, not ahead at initial contact; only beside a separatrix a stick
             is not proved without.
+        watch: takes the time within callbacks.
 
     ComputationError for what it does not do: a tangential edge within reach, a mixture of head-on and oblique.
     """
@@ -257,7 +260,9 @@ def prepare(
     either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
     events = [
         heyoka.t_event_batch(
-            expression, callback=batch.callback(name), direction=either if name == "film_edge" else falling
+            expression,
+            callback=watch.watched(batch.callback(name)) if watch else batch.callback(name),
+            direction=either if name == "film_edge" else falling,
         )
         for name, expression in equations.events.items()
     ]
@@ -268,7 +273,7 @@ def prepare(
         pars=np.repeat(first.parameters[:, None], size, axis=1),
         t_events=events,
         tol=rtol,
-        **({"compact_mode": False, "force_avx512": True} | options),
+        **({"compact_mode": False, "force_avx512": True, "fast_math": True} | options),
     )
     return batch
 
@@ -300,6 +305,8 @@ def starts(
     return found
 
 
-def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float, inside: bool = False) -> Batch:
+def collisions(
+    scene: Scene, impacts: Sequence[Impact], rtol: float, inside: bool = False, watch: Inside | None = None
+) -> Batch:
     """The batch of a scene's impacts; as `prepare`."""
-    return prepare(scene, [dimensionless(scene, impact) for impact in impacts], rtol, inside=inside)
+    return prepare(scene, [dimensionless(scene, impact) for impact in impacts], rtol, inside=inside, watch=watch)

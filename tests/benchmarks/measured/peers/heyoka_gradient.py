@@ -23,6 +23,7 @@ from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
 from wetdoublet.solvers.model.model import ModelKey, load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
+from .heyoka_callbacks import Inside
 from .heyoka_engine import BATCH, Batch, Lane, Start, as_expression, elementary
 from .translated import translated
 
@@ -134,7 +135,7 @@ class _Jump:
         rate = sum((heyoka.diff(g, self.y[name]) * self.flow[name] for name in self.y), as_expression(0.0))
         later = [-slope / rate for slope in self._total(g, columns, own)]
         there = {name: [row[k] + self.flow[name] * later[k] for k in range(len(own))] for name, row in columns.items()}
-        after = self.structure.reversal(self.y, self.groups, self.laws)
+        after = self.structure.rebound(self.y, self.groups, self.laws)
         flow = self.structure.right_hand_side(after, self.groups, self.laws, self.film, 1)
         behind = {name: self._total(after[name], there, own) for name in self.y}
         rows = [behind[name][k] - flow[name] * later[k] for name in self.y for k in range(len(own))]
@@ -144,7 +145,7 @@ class _Jump:
         """Initial contact, whose time is given."""
         first = self.structure.start(self.y, self.groups, self.laws)
         if rebound:
-            first = self.structure.reversal(first, self.groups, self.laws)
+            first = self.structure.rebound(first, self.groups, self.laws)
         none = {name: [as_expression(0.0)] * (len(self.smooth) + 2) for name in self.y}
         rows = [
             each
@@ -242,12 +243,14 @@ def prepare(
     slopes: np.ndarray,
     rtol: float,
     size: int = BATCH,
+    watch: Inside | None = None,
     **options: Any,
 ) -> Gradients:
     """An integrator for these collisions, all of which separate, compiled, with its queue.
 
     Arguments:
         slopes: derivatives of the groups in the parameters, (collisions, groups, parameters).
+        watch: takes the time within callbacks.
 
     ComputationError for what it does not do: a tangential edge within reach, a mixture of head-on and oblique.
     """
@@ -274,11 +277,15 @@ def prepare(
         state=np.repeat(first.state[:, None], size, axis=1),
         pars=np.repeat(first.parameters[:, None], size, axis=1),
         t_events=[
-            heyoka.t_event_batch(g, callback=batch.callback(name), direction=either if name == "film_edge" else falling)
+            heyoka.t_event_batch(
+                g,
+                callback=watch.watched(batch.callback(name)) if watch else batch.callback(name),
+                direction=either if name == "film_edge" else falling,
+            )
             for name, g in equations.events.items()
         ],
         tol=rtol,
-        **({"compact_mode": False, "force_avx512": True} | options),
+        **({"compact_mode": False, "force_avx512": True, "fast_math": True} | options),
     )
     return batch
 

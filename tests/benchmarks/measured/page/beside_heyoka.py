@@ -1,0 +1,96 @@
+"""What a collision and a gradient cost beside heyoka, whose callbacks are Python's: three ways, at equal error."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from wetdoublet.solvers.formatting.markdown import table
+
+from ..digits import us
+from ..gradient_work import HEYOKA as VARIATIONAL
+from ..gradient_work import HEYOKA_ALONE as VARIATIONAL_ALONE
+from ..peers.by_hand import BY_HAND
+from ..peers.engines import HEYOKA, HEYOKA_ALONE, KERNEL
+
+Record = dict[str, Any]
+
+BOUND = 1e-8  # of the largest error, at which costs are compared
+
+
+class Cost(NamedTuple):
+    """Seconds, and the largest error of it."""
+
+    seconds: float
+    error: float
+
+
+def cheapest(rows: list[tuple[str, Cost]], name: str) -> Cost | None:
+    """The least cost of an engine within the bound, of the kernel made by hand by any order; None if it never is."""
+    named = [cost for own, cost in rows if own == name or (name == BY_HAND and own.startswith(name))]
+    return min((cost for cost in named if cost.error <= BOUND), default=None)
+
+
+def of_collisions(task: Record) -> list[tuple[str, Cost]]:
+    """Engines' settings at which no collision failed and no outcome was wrong."""
+    found = ((point["engine"], point["summary"]) for point in task["points"])
+    return [
+        (name, Cost(s["cpu_mean"], s["error_largest"]))
+        for name, s in found
+        if not s["wrong"] and not s["failed"] and s["error_largest"] is not None
+    ]
+
+
+def of_gradients(task: Record) -> list[tuple[str, Cost]]:
+    """Methods' settings at which no gradient failed."""
+    return [
+        (row["method"], Cost(row["cpu"], row["error_largest"]))
+        for row in task["rows"]
+        if not row["failed"] and row["error_largest"] is not None
+    ]
+
+
+def three_ways(record: Record) -> str:
+    """As a Python user gets it, without its callbacks, ours; and a kernel made by hand where one was measured."""
+    rows = []
+    for task in record["tasks"]:
+        names = (HEYOKA, HEYOKA_ALONE, "taylor", KERNEL, BY_HAND)
+        costs = of_collisions(task)
+        rows.append(_row(f"{task['preset']}, collision", [cheapest(costs, name) for name in names]))
+    for task in record["gradient_work"]:
+        alone = ("gradients_many", KERNEL)
+        costs = of_gradients(task)
+        found = [cheapest(costs, name) for name in (VARIATIONAL, VARIATIONAL_ALONE, *alone)]
+        rows.append(_row(f"{task['preset']}, gradient to {len(task['parameters'])} parameters", [*found, None]))
+    head = ["CPU us (largest error)", "heyoka in Python", "without callbacks", "ours", "our kernel alone"]
+    return table([*head, "made by hand", "heyoka in Python / ours", "without callbacks / ours"], rows)
+
+
+def _row(what: str, costs: list[Cost | None]) -> list[str]:
+    theirs, alone, ours = costs[:3]
+    ratios = [f"{each.seconds / ours.seconds:.1f}" if each and ours else "-" for each in (theirs, alone)]
+    return [what, *(f"{us(each.seconds)} ({each.error:.0e})" if each else "-" for each in costs), *ratios]
+
+
+def note(record: Record) -> str:
+    """What the columns are."""
+    around = record["settings"].get("around_callback")
+    said = f" ({1e9 * around:.0f} ns a call, which is subtracted too)" if around else ""
+    return NOTE.format(bound=f"{BOUND:g}", around=said)
+
+
+NOTE = """\
+Each at its cheapest setting with all outcomes right and a largest error of at most {bound}, 1000 in a call or just
+more, all in one run. Events of heyoka end in callbacks; from Python these are Python, and on the pendulum most of their
+time is our proof that it sticks.
+
+* **heyoka in Python**: as a Python user gets it.
+* **Without callbacks**: less the time within callbacks, by a clock of its own in each; the way from heyoka to Python
+  and the clock are measured on an oscillator whose crossings call a function that does nothing{around}. Somebody who
+  calls heyoka from C++ waits at least so long: what callbacks do costs something there as well. There is no driver in
+  C++ here, as neither PyPI's nor Debian's packages hold heyoka's headers.
+* **Ours**: `collide_many` and `gradients_many` as a user calls them; "kernel alone" leaves out what these add.
+* **Made by hand**: a kernel for granulation alone, written by hand with unsound events, from `--by-hand FOLDER`, which
+  is no part of this project; its parameters are computed beforehand, for nothing. "-" where it was not measured.
+
+All get the same collisions, none of which is decided at initial contact by any of our proofs. heyoka does not get our
+jump along the slow manifold, nor the bound of the impulse where a trajectory turns."""
