@@ -142,7 +142,10 @@ def test_peers_that_are_absent_are_named(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(listing, "find_spec", lambda _: None)
     monkeypatch.setattr(references, "find_spec", lambda _: None)
     missing = [each.name for each in engines() if "not installed" in each.missing]
-    assert missing == ["heyoka, batch of 8", "sundae CVODE, numba", "diffrax Tsit5", "scipy LSODA", "scipy Radau"]
+    assert missing == [
+        "heyoka, batch of 8", "heyoka, without callbacks", "sundae CVODE, numba", "diffrax Tsit5", "scipy LSODA",
+        "scipy Radau",
+    ]  # fmt: skip
     found = reference(Scene.load("granulation"), Impact(0.05, 1.0))
     assert list(found.computed) == ["rosenbrock", "cvodes"]
 
@@ -182,7 +185,7 @@ def test_bisection_finds_the_traced_boundaries() -> None:
 
 
 @pytest.mark.parametrize("preset", ["granulation", "pendulum"])
-@pytest.mark.parametrize("name", ["heyoka, batch of 8", "sundae CVODE, numba"])
+@pytest.mark.parametrize("name", ["heyoka, batch of 8", "heyoka, without callbacks", "sundae CVODE, numba"])
 def test_compiled_peers_solve_the_same_problem(name: str, preset: str) -> None:
     """Where they are installed, their outcomes are Rosenbrock's and e_n agrees to what their tolerance allows."""
     engine = next(each for each in engines() if each.name == name)

@@ -13,8 +13,8 @@ from .measured import cold, gradient_work, near, sharp
 from .measured.derivatives import gradient_table, gradients
 from .measured.gradient_task import Gradients
 from .measured.gradient_work import Method
-from .measured.page import plots_more, targets
-from .measured.peers.engines import HEYOKA, Answer
+from .measured.page import beside_heyoka, plots_more, targets
+from .measured.peers.engines import HEYOKA, HEYOKA_ALONE, Answer
 
 
 @pytest.fixture(scope="module")
@@ -130,7 +130,8 @@ def test_targets_are_judged_at_equal_error() -> None:
 
     points = [
         point("taylor", 1e-6, 2e-8), point("taylor", 2e-6, 5e-9), point("taylor", 3e-6, 1e-9),
-        point(HEYOKA, 9e-6, 1e-9, wrong=1), point(HEYOKA, 18e-6, 1e-9),
+        point(HEYOKA_ALONE, 9e-6, 1e-9, wrong=1), point(HEYOKA_ALONE, 18e-6, 1e-9), point(HEYOKA, 24e-6, 1e-9),
+        point("taylor, kernel alone", 1e-6, 5e-9), point("by hand, order 9", 1.5e-6, 4e-9),
     ]  # fmt: skip
     record: dict[str, Any] = {"tasks": [{"preset": "granulation", "points": points}], "cold_start": {}}
     record |= {name: [] for name in ("gradient_work", "sharp", "near", "growth", "first_use")}
@@ -138,7 +139,10 @@ def test_targets_are_judged_at_equal_error() -> None:
     assert ratio[2:] == ("9.0 times faster (2 us beside 18 us)", True)
     assert outcomes[2:] == ("none", True)
     assert "**no**" not in targets.target_table(record)
-    assert "heyoka in batches" in targets.headline(record)
+    assert "heyoka without its callbacks" in targets.headline(record)
+    row = [cell.strip() for cell in beside_heyoka.three_ways(record).splitlines()[-1].split("|")]
+    assert row[2:7] == ["24 (1e-09)", "18 (1e-09)", "2 (5e-09)", "1 (5e-09)", "1.5 (4e-09)"]
+    assert row[7:9] == ["12.0", "9.0"]
 
 
 @pytest.mark.slow

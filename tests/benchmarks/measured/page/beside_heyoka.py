@@ -89,8 +89,9 @@ time is our proof that it sticks.
   calls heyoka from C++ waits at least so long: what callbacks do costs something there as well. There is no driver in
   C++ here, as neither PyPI's nor Debian's packages hold heyoka's headers.
 * **Ours**: `collide_many` and `gradients_many` as a user calls them; "kernel alone" leaves out what these add.
-* **Made by hand**: a kernel for granulation alone, written by hand with unsound events, from `--by-hand FOLDER`, which
-  is no part of this project; its parameters are computed beforehand, for nothing. "-" where it was not measured.
+* **Made by hand**: a kernel for granulation alone, from `--by-hand FOLDER`, which is no part of this project. It looks
+  for events at four points of a step, and its parameters are computed beforehand, for nothing. "-" where it was not
+  measured.
 
 All get the same collisions, none of which is decided at initial contact by any of our proofs. heyoka does not get our
 jump along the slow manifold, nor the bound of the impulse where a trajectory turns."""
