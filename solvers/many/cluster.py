@@ -14,7 +14,7 @@ from ..engines.arithmetic import arithmetic, difference, has_kernel
 from ..errors import ComputationError, InputError
 from ..host import bounded
 from ..host.cores import usable_cores
-from ..host.remarks import say
+from ..host.remarks import say, silence_workers
 from ..host.workers import undisturbed
 from .results import Block
 
@@ -27,7 +27,13 @@ Task = Callable[[int], Block]
 ACCEPTED = "tcp://HOST:PORT of a running Dask scheduler, the .json file that it wrote, local, or local:WORKERS"
 _ADDRESS = re.compile(r"(tcp|tls|ucx|ws|wss)://[^\s/]+:[0-9]+")
 _LOCAL = re.compile(r"local(:[1-9][0-9]{0,3})?", re.ASCII)
-_HERE: dict[str, Any] = {"host": "127.0.0.1", "dashboard_address": None, "memory_limit": 0, "preload": [__name__]}
+_HERE: dict[str, Any] = {
+    "host": "127.0.0.1",
+    "dashboard_address": "127.0.0.1:0",  # None would take Dask's usual port, with a warning where that is in use
+    "scheduler_kwargs": {"dashboard": False},
+    "memory_limit": 0,
+    "preload": [__name__],
+}
 _REFUSALS = 3  # of one chunk, by workers of another arithmetic
 
 
@@ -49,6 +55,8 @@ def check_scheduler(given: object, label: str) -> Any:
         raise InputError(label, given, ACCEPTED, "is no address of a scheduler")
     if not all(hasattr(given, name) for name in ("submit", "nthreads", "scheduler_info")):
         raise InputError(label, given, f"a dask.distributed.Client, or as text {ACCEPTED}", "is no client")
+    if getattr(given, "status", "") == "closed":
+        raise InputError(label, given, "a client that is open", "is closed")
     if getattr(given, "asynchronous", False):
         raise InputError(label, given, "a client that is not asynchronous", "is asynchronous")
     return given
@@ -80,7 +88,13 @@ def connected(scheduler: Any, label: str = "client") -> Iterator[Client]:
         if _LOCAL.fullmatch(checked):
             count = int(checked.partition(":")[2] or usable_cores())
             with undisturbed():
-                cluster = LocalCluster(count, threads_per_worker=1, silence_logs=logging.CRITICAL, **_HERE)
+                try:
+                    cluster = LocalCluster(count, threads_per_worker=1, silence_logs=logging.CRITICAL, **_HERE)
+                except RuntimeError as error:  # Dask's processes import the caller's script
+                    raise ComputationError(
+                        f"the local workers did not start ({' '.join(str(error).split())[:120]})",
+                        advice='in a script, start them below `if __name__ == "__main__":`',
+                    ) from None
             checked = opened.enter_context(cluster)
         try:
             file = isinstance(checked, str) and checked.endswith(".json")
@@ -106,7 +120,11 @@ def _quiet() -> Iterator[None]:
 
 
 def dask_setup(_worker: object) -> None:
-    """Prepare a worker of a local cluster, which Dask lets preload this file: only its parent handles an interrupt."""
+    """Prepare a worker of a local cluster, which Dask lets preload this file.
+
+    Only its parent handles an interrupt and writes remarks.
+    """
+    silence_workers()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
