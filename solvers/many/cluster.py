@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import logging
 import re
 import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..engines.arithmetic import arithmetic, difference, has_kernel
@@ -34,6 +36,7 @@ _HERE: dict[str, Any] = {
     "memory_limit": 0,
     "preload": [__name__],
 }
+_LARGEST_FILE = 1 << 24  # bytes of a scheduler's file, which lists its workers
 _REFUSALS = 3  # of one chunk, by workers of another arithmetic
 
 
@@ -48,8 +51,11 @@ class Refused:
 def check_scheduler(given: object, label: str) -> Any:
     """Return a client, or the text that names a scheduler; InputError for anything else."""
     if isinstance(given, str):
-        if given.endswith(".json") and not bounded.exists(given):  # Dask would wait for it
-            raise InputError(label, given, ACCEPTED, "is a file that does not exist")
+        if given.endswith(".json"):
+            if not bounded.exists(given):  # Dask would wait for it
+                raise InputError(label, given, ACCEPTED, "is a file that does not exist")
+            if not _names_an_address(given):
+                raise InputError(label, given, ACCEPTED, "is not the file of a scheduler")
         if _LOCAL.fullmatch(given) or _ADDRESS.fullmatch(given) or given.endswith(".json"):
             return given
         raise InputError(label, given, ACCEPTED, "is no address of a scheduler")
@@ -60,6 +66,14 @@ def check_scheduler(given: object, label: str) -> Any:
     if getattr(given, "asynchronous", False):
         raise InputError(label, given, "a client that is not asynchronous", "is asynchronous")
     return given
+
+
+def _names_an_address(file: str) -> bool:
+    try:
+        found = json.loads(bounded.read(Path(file), _LARGEST_FILE))
+    except (OSError, ValueError, bounded.NotRead):
+        return False
+    return isinstance(found, dict) and isinstance(found.get("address"), str)
 
 
 @contextmanager

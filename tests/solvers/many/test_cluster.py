@@ -151,11 +151,13 @@ def test_a_worker_of_another_arithmetic_is_refused(serial, cluster):
 def test_an_unreachable_scheduler_is_bad_input(tmp_path):
     """One line names the option and what is accepted; nothing is left behind."""
     (tmp_path / "else.zarr").mkdir()
+    (tmp_path / "else.json").write_text("{}")
     with dask.config.set({"distributed.comm.timeouts.connect": "0.2s"}):
         for option, value, problem, accepted in (
             ("--scheduler", "tcp://127.0.0.1:9", "is not reachable (", "tcp://HOST:PORT of a running Dask scheduler"),
             ("--scheduler", "nowhere", "is no address of a scheduler", "local, or local:WORKERS"),
             ("--scheduler", str(tmp_path / "no.json"), "is a file that does not exist", "local, or local:WORKERS"),
+            ("--scheduler", str(tmp_path / "else.json"), "is not the file of a scheduler", "local, or local:WORKERS"),
             (
                 "-o",
                 str(tmp_path / "else.zarr"),
@@ -172,7 +174,7 @@ def test_an_unreachable_scheduler_is_bad_input(tmp_path):
             assert accepted in line.partition("accepted: ")[2]
     with pytest.raises(InputError, match="^client: "):
         collide_many("granulation", client=3)
-    assert [path.name for path in tmp_path.iterdir()] == ["else.zarr"]
+    assert {path.name for path in tmp_path.iterdir()} == {"else.json", "else.zarr"}
 
 
 SCRIPT = """
