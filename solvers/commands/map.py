@@ -213,7 +213,8 @@ def _computed(
             if isinstance(error, OSError) and begun and journal is not None:
                 journal.path.unlink(missing_ok=True)  # it holds no finished block
             raise
-        kept = f"{count} of {done[1]} collisions are kept in {journal.path}"  # from the file: progress may lag
+        where = f"{file}.*.unfinished and {journal.path}" if stored else f"{journal.path}"
+        kept = f"{count} of {done[1]} collisions are kept in {where}"  # from the file: progress may lag
         if isinstance(error, KeyboardInterrupt):
             raise KeyboardInterrupt(f"interrupted: {kept}; the same command computes the rest") from None
         rest = f"the same command computes {'the rest' if count < done[1] else 'nothing again'}"

@@ -10,6 +10,7 @@ from typing import Any
 from ..errors import ComputationError
 from ..host.arguments import check_flag
 from ..host.compiler import compiler
+from ..host.user_cache import folder, unwritable
 from ..scene.scene import Scene
 from ..settings import RTOL, check_rtol
 from .taylor.build import Variant, compile_all, is_compiled, size_of, supported
@@ -71,7 +72,8 @@ def compile_kernels(
 
     Raises:
         InputError: a scene or option is not acceptable.
-        ComputationError: there is no C compiler, it fails, or a law of the scene has no Taylor series.
+        ComputationError: there is no C compiler, it fails, a law of the scene has no Taylor series, or
+            the cache cannot be written.
 
     Example:
         >>> from wetdoublet.solvers import compile_kernels
@@ -94,7 +96,11 @@ def compile_kernels(
             if use not in serves:
                 serves.append(use)
     already = {variant for variant in wanted if is_compiled(variant)}
-    took = compile_all([variant for variant in wanted if variant not in already], progress)
+    missing = [variant for variant in wanted if variant not in already]
+    if missing and (reason := unwritable()):
+        said = f"kernels cannot be kept in the cache {folder()}: {reason}"
+        raise ComputationError(said, advice="name a folder that can be written in WETDOUBLET_CACHE")
+    took = compile_all(missing, progress)
     failed = [variant for variant, seconds in took.items() if seconds is None]
     if failed:
         scene, _, serves = wanted[failed[0]]

@@ -239,6 +239,11 @@ def settle() -> None:
             _refuse(own, reason, os.environ.get(_PRIVATE) or _moved("", bytes(_PROBE)))
 
 
+def unwritable() -> str:
+    """Why the user's folder takes no entries; "" if it does."""
+    return _written(folder(), "", bytes(_PROBE))
+
+
 def _put(name: str, content: bytes) -> None:
     """Write an entry to the first folder that accepts it."""
     own = folder()

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import json
 import logging
 import re
 import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..engines.arithmetic import arithmetic, difference, has_kernel
 from ..errors import ComputationError, InputError
 from ..host import bounded
 from ..host.cores import usable_cores
-from ..host.remarks import say
+from ..host.remarks import say, silence_workers
 from ..host.workers import undisturbed
 from .results import Block
 
@@ -27,7 +29,14 @@ Task = Callable[[int], Block]
 ACCEPTED = "tcp://HOST:PORT of a running Dask scheduler, the .json file that it wrote, local, or local:WORKERS"
 _ADDRESS = re.compile(r"(tcp|tls|ucx|ws|wss)://[^\s/]+:[0-9]+")
 _LOCAL = re.compile(r"local(:[1-9][0-9]{0,3})?", re.ASCII)
-_HERE: dict[str, Any] = {"host": "127.0.0.1", "dashboard_address": None, "memory_limit": 0, "preload": [__name__]}
+_HERE: dict[str, Any] = {
+    "host": "127.0.0.1",
+    "dashboard_address": "127.0.0.1:0",  # None would take Dask's usual port, with a warning where that is in use
+    "scheduler_kwargs": {"dashboard": False},
+    "memory_limit": 0,
+    "preload": [__name__],
+}
+_LARGEST_FILE = 1 << 24  # bytes of a scheduler's file, which lists its workers
 _REFUSALS = 3  # of one chunk, by workers of another arithmetic
 
 
@@ -42,16 +51,29 @@ class Refused:
 def check_scheduler(given: object, label: str) -> Any:
     """Return a client, or the text that names a scheduler; InputError for anything else."""
     if isinstance(given, str):
-        if given.endswith(".json") and not bounded.exists(given):  # Dask would wait for it
-            raise InputError(label, given, ACCEPTED, "is a file that does not exist")
+        if given.endswith(".json"):
+            if not bounded.exists(given):  # Dask would wait for it
+                raise InputError(label, given, ACCEPTED, "is a file that does not exist")
+            if not _names_an_address(given):
+                raise InputError(label, given, ACCEPTED, "is not the file of a scheduler")
         if _LOCAL.fullmatch(given) or _ADDRESS.fullmatch(given) or given.endswith(".json"):
             return given
         raise InputError(label, given, ACCEPTED, "is no address of a scheduler")
     if not all(hasattr(given, name) for name in ("submit", "nthreads", "scheduler_info")):
         raise InputError(label, given, f"a dask.distributed.Client, or as text {ACCEPTED}", "is no client")
+    if getattr(given, "status", "") == "closed":
+        raise InputError(label, given, "a client that is open", "is closed")
     if getattr(given, "asynchronous", False):
         raise InputError(label, given, "a client that is not asynchronous", "is asynchronous")
     return given
+
+
+def _names_an_address(file: str) -> bool:
+    try:
+        found = json.loads(bounded.read(Path(file), _LARGEST_FILE))
+    except (OSError, ValueError, bounded.NotRead):
+        return False
+    return isinstance(found, dict) and isinstance(found.get("address"), str)
 
 
 @contextmanager
@@ -80,7 +102,13 @@ def connected(scheduler: Any, label: str = "client") -> Iterator[Client]:
         if _LOCAL.fullmatch(checked):
             count = int(checked.partition(":")[2] or usable_cores())
             with undisturbed():
-                cluster = LocalCluster(count, threads_per_worker=1, silence_logs=logging.CRITICAL, **_HERE)
+                try:
+                    cluster = LocalCluster(count, threads_per_worker=1, silence_logs=logging.CRITICAL, **_HERE)
+                except RuntimeError as error:  # Dask's processes import the caller's script
+                    raise ComputationError(
+                        f"the local workers did not start ({' '.join(str(error).split())[:120]})",
+                        advice='in a script, start them below `if __name__ == "__main__":`',
+                    ) from None
             checked = opened.enter_context(cluster)
         try:
             file = isinstance(checked, str) and checked.endswith(".json")
@@ -106,7 +134,11 @@ def _quiet() -> Iterator[None]:
 
 
 def dask_setup(_worker: object) -> None:
-    """Prepare a worker of a local cluster, which Dask lets preload this file: only its parent handles an interrupt."""
+    """Prepare a worker of a local cluster, which Dask lets preload this file.
+
+    Only its parent handles an interrupt and writes remarks.
+    """
+    silence_workers()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})

@@ -35,8 +35,10 @@ def check_store(path: object, label: str) -> Path:
     """Return the path of a Zarr store to write; InputError naming `label` if it cannot be, or is something else's."""
     file = check_file(path, label, (SUFFIX,), replaced=True, folder=True)
     if bounded.exists(file) and not _is_ours(file):
-        accepted = f"a name ending in {SUFFIX} that is free, or that of a map in this format"
-        raise InputError(label, str(file), accepted, "is something else, which is not overwritten")
+        accepted = f"a name ending in {SUFFIX} that is free, or that of a store written here before"
+        raise InputError(
+            label, str(file), accepted, "exists and is no map or batch of wetdoublet: it is not overwritten"
+        )
     return file
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -36,6 +37,20 @@ def test_what_is_compiled_answers(monkeypatch: pytest.MonkeyPatch, tmp_path: Pat
     later = subprocess.run((sys.executable, "-c", LATER), capture_output=True, text=True, check=False)
     assert (later.returncode, later.stderr) == (0, "")
     assert later.stdout.splitlines() == ["True", "taylor taylor taylor", "taylor taylor"]
+
+
+@pytest.mark.skipif(compiler() is None, reason="no C compiler")
+def test_a_cache_that_cannot_be_written(tmp_path: Path) -> None:
+    """Kernels that would be lost at the end of the process are not compiled: the last line names the folder."""
+    file = tmp_path / "file"
+    file.write_text("")
+    command = (sys.executable, "-m", "wetdoublet.solvers", "compile", "granulation-dry-bridge")
+    env = os.environ | {"WETDOUBLET_CACHE": str(file / "cache")}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=env)
+    assert (done.returncode, done.stdout) == (1, "")
+    said = done.stderr.splitlines()[-1]
+    assert said.startswith(f"kernels cannot be kept in the cache {file / 'cache'}: ")
+    assert "WETDOUBLET_CACHE" in said.partition(";")[2]
 
 
 def test_bad_input() -> None:

@@ -2,6 +2,10 @@
 
 import os
 import signal
+import socket
+import subprocess
+import sys
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -21,7 +25,7 @@ GRID = {"stokes": np.geomspace(0.005, 0.5, 125), "angle": np.linspace(0, 1.5, 12
 @pytest.fixture(scope="module")
 def cluster():
     """A client of a scheduler and two worker processes on loopback, which are started again when they are killed."""
-    settings = {"host": "127.0.0.1", "dashboard_address": None, "memory_limit": 0, "silence_logs": 60}
+    settings = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0", "memory_limit": 0, "silence_logs": 60}
     with (
         distributed.LocalCluster(2, threads_per_worker=1, **settings) as started,
         distributed.Client(started) as client,
@@ -147,15 +151,17 @@ def test_a_worker_of_another_arithmetic_is_refused(serial, cluster):
 def test_an_unreachable_scheduler_is_bad_input(tmp_path):
     """One line names the option and what is accepted; nothing is left behind."""
     (tmp_path / "else.zarr").mkdir()
+    (tmp_path / "else.json").write_text("{}")
     with dask.config.set({"distributed.comm.timeouts.connect": "0.2s"}):
         for option, value, problem, accepted in (
             ("--scheduler", "tcp://127.0.0.1:9", "is not reachable (", "tcp://HOST:PORT of a running Dask scheduler"),
             ("--scheduler", "nowhere", "is no address of a scheduler", "local, or local:WORKERS"),
             ("--scheduler", str(tmp_path / "no.json"), "is a file that does not exist", "local, or local:WORKERS"),
+            ("--scheduler", str(tmp_path / "else.json"), "is not the file of a scheduler", "local, or local:WORKERS"),
             (
                 "-o",
                 str(tmp_path / "else.zarr"),
-                "is something else, which is not overwritten",
+                "exists and is no map or batch of wetdoublet: it is not overwritten",
                 "a name ending in .zarr",
             ),
         ):
@@ -168,4 +174,37 @@ def test_an_unreachable_scheduler_is_bad_input(tmp_path):
             assert accepted in line.partition("accepted: ")[2]
     with pytest.raises(InputError, match="^client: "):
         collide_many("granulation", client=3)
-    assert [path.name for path in tmp_path.iterdir()] == ["else.zarr"]
+    assert {path.name for path in tmp_path.iterdir()} == {"else.json", "else.zarr"}
+
+
+SCRIPT = """
+from wetdoublet.solvers import collide_many
+collide_many("granulation", angle=[1.0], engine="rosenbrock", client="local:1")
+"""
+
+
+def test_local_workers_of_an_unguarded_script(tmp_path):
+    """The error says what the script needs; Dask's processes would run the script again."""
+    (tmp_path / "script.py").write_text(SCRIPT)
+    done = subprocess.run((sys.executable, tmp_path / "script.py"), capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert 'start them below `if __name__ == "__main__":`' in done.stderr.splitlines()[-1]
+
+
+def test_a_closed_client_is_bad_input(cluster):
+    """A client that was closed is named."""
+    with distributed.Client(cluster.scheduler.address) as closed:
+        pass
+    with pytest.raises(InputError, match="^client: .* is closed; accepted: a client that is open"):
+        collide_many("granulation", client=closed)
+
+
+def test_local_clusters_side_by_side():
+    """Dask's usual port in use is no reason for a warning: local workers need none of it."""
+    with socket.socket() as used:
+        used.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        with suppress(OSError):  # another program has it
+            used.bind(("127.0.0.1", 8787))
+            used.listen()
+        found = collide_many("granulation", angle=[1.0], client="local:1")
+    assert found.sizes == {"collision": 1}
