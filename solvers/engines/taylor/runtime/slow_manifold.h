@@ -27,7 +27,7 @@ static const double COARSEST = 1e-3;   /* largest such error at the gap itself, 
 static const double SEPARATED = 38.0;  /* separation at which the manifold is good to a tolerance of 1e-9 */
 static const double MORE[TARGETS] = {1.0, 1.7}; /* times that, tried in turn */
 static const double WORTH_IT = 1.5, JUST_AFTER = 1.15; /* times that, at this ratio to the gap of the turn: a jump is tried */
-static const double INSIDE = 0.62;     /* of the first edge: the separation there decides on a jump from initial contact */
+static const double INSIDE = 0.62;     /* of the film: the separation there decides on a jump from initial contact */
 
 /* The coefficients at one gap. */
 typedef struct {
@@ -263,12 +263,12 @@ static mask descends(slow_series *s, const fixed *f, const vec *y, opening *o)
     return sound & (o->lag < INFINITY);
 }
 
-/* Lanes at initial contact that may jump from there: the manifold is reached well inside the film. */
+/* Lanes at initial contact that may jump from there: shear acts from there on, and the manifold is reached well inside
+ * the film. */
 static mask may_leap(const constants *c, vec edge, double rtol)
 {
     slow_series s;
-    vec at = INSIDE*vec_smaller(splat(1.0), edge);
-    return separation(&s, c, at) > separation_for(rtol);
+    return (edge >= 1.0) & (separation(&s, c, splat(INSIDE)) > separation_for(rtol));
 }
 #endif
 

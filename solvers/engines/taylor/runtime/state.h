@@ -14,7 +14,7 @@
 #else
 #define JUMPS 0
 #endif
-#if JUMPS && defined(FILM_BRAKING)
+#if JUMPS && defined(FILM_BRAKING) && defined(GLASS_REACH) /* the glass pressure falls with the gap */
 #define LEAPS 1 /* from initial contact */
 #else
 #define LEAPS 0
