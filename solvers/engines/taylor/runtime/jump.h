@@ -75,6 +75,7 @@ static __attribute__((noinline)) void jump(queue *q)
         l.y[NORMAL_VELOCITY] = choose(jumps, reached[0], l.y[NORMAL_VELOCITY]);
         l.y[ORBITAL_MOMENTUM] = choose(jumps, reached[1], l.y[ORBITAL_MOMENTUM]);
         l.closing &= ~jumps;
+        l.shear = choose(jumps, splat(1.0), l.shear); /* its edge may have been passed in what is left out */
         l.crept &= ~jumps;
         waits &= ~jumps;
     }

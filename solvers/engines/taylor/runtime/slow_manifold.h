@@ -251,7 +251,7 @@ static mask descends(slow_series *s, const fixed *f, const vec *y, opening *o)
         vec left = least - (most - film_leaves), under = left*left - 4.0*strongest*width;
         closes &= (left > 0.0) & (under > 0.0);
         least = choose(closes, 0.5*(left + vec_sqrt(under)), least);
-        vec slow = b->relaxation*a->distance/b->distance;
+        vec slow = only(b->gap <= f->edge, b->relaxation*a->distance/b->distance);
         above = above*vec_exp(-slow*width/most) + (b->rigid - a->rigid);
         o->highest = choose(closes, gap, o->highest);
         o->lag = choose(closes, vec_larger(above, below), o->lag);

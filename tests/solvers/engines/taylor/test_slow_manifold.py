@@ -48,6 +48,17 @@ def test_results_are_those_of_whole_trajectories(laws: dict[str, Any], rtol: flo
     assert np.abs(found - expected).max() <= 10 * rtol * np.maximum(1, np.abs(expected)).max()
 
 
+def test_what_is_left_out_may_pass_the_edge_of_the_tangential_force() -> None:
+    """In a film thicker than a particle that force begins on the way in; a trajectory that jumps over it has it too."""
+    scene = Scene.load("granulation-dry-bridge").with_entries({"liquid.film_thickness": "150 um"})
+    given = impacts(400, seed=3) | {"angle": np.linspace(0.02, 0.3, 400)}
+    jumped, whole = (
+        collide_many(scene, **given, engine="taylor", of=("steps", *more)) for more in ((), ("contact_time",))
+    )
+    assert (jumped.steps.values < whole.steps.values).sum() > 20
+    np.testing.assert_allclose(jumped.restitution.values, whole.restitution.values, rtol=1e-8)
+
+
 def test_who_asks_for_times_gets_them() -> None:
     """Contact time, rotation and smallest gap are those of the trajectory, whatever else is asked for."""
     given = impacts(300, seed=8)
