@@ -82,7 +82,8 @@ class Store:
         zarr = _zarr()
         with _unwarned():
             if (self.place / _TOKEN).is_file():
-                self._group = zarr.open_group(self.place, mode="r+", zarr_format=3)
+                with self._undamaged():
+                    self._group = zarr.open_group(self.place, mode="r+", zarr_format=3)
                 return (self.place / _TOKEN).read_text()
             if self.place.exists():  # an earlier run was killed before the arrays were complete
                 shutil.rmtree(self.place)
@@ -121,7 +122,18 @@ class Store:
             dims = [str(dim) for dim in variable.dims]
             if name in fixed.variables or any(at[dim].start for dim in at if dim not in dims):
                 continue
-            self._group[str(name)][tuple(at[dim] for dim in dims)] = _values(name, variable)
+            with self._undamaged():
+                array = self._group[str(name)]
+            array[tuple(at[dim] for dim in dims)] = _values(name, variable)
+
+    @contextmanager
+    def _undamaged(self) -> Iterator[None]:
+        """Say in one line that an array or the description is not there, or not what was written."""
+        try:
+            yield
+        except (KeyError, ValueError) as error:
+            why = f"{self.place} is damaged ({type(error).__name__}: {' '.join(str(error).split())[:80]})"
+            raise ComputationError(why, advice="remove it and compute again") from error
 
     def finish(self) -> None:
         """Move the store to its name, in place of a complete one that was there."""

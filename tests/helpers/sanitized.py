@@ -79,7 +79,7 @@ def _carried(backward: bool) -> Replay:
 
 
 KINDS: dict[str, Replay] = {
-    "plain": lambda impacts, _: run_kernel(impacts, RTOL, budget=BUDGET) is not None,
+    "plain": lambda impacts, _: run_kernel(impacts, RTOL, budget=BUDGET, jumps=2) is not None,
     "rotation": lambda impacts, _: run_kernel(impacts, RTOL, rotation=True, budget=BUDGET, few=True) is not None,
     "ledger": _recorded(ledger=True, room=(4, 4)),
     "ledger and trajectory": _recorded(ledger=True, trajectory=True, room=(4, 4)),

@@ -1,6 +1,7 @@
 """Requests in chunks: Zarr stores that continue, and a real Dask cluster, one of whose workers is killed."""
 
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -112,6 +113,25 @@ def test_an_interrupted_store_is_continued(tmp_path, serial):
     assert len(seen) + len(again) == len(chunks((120, 125), "taylor")) + 2
     same(found, serial)
     assert [each.name for each in tmp_path.iterdir()] == ["map.zarr"]
+
+
+@pytest.mark.parametrize("damage", ["zarr.json", "outcome/zarr.json", "outcome"])
+def test_a_damaged_unfinished_store_is_named(tmp_path, damage):
+    """What is not as it was written is not continued; the error says which folder it is, and what to do."""
+
+    def interrupt(done, _total):
+        if done:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        regime_map("granulation", **GRID, store=tmp_path / "map.zarr", progress=interrupt)
+    (place,) = tmp_path.glob("*.unfinished")
+    if damage == "outcome":
+        shutil.rmtree(place / damage)
+    else:
+        os.truncate(place / damage, 20)
+    with pytest.raises(ComputationError, match=r"unfinished is damaged \(.*remove it and compute again"):
+        regime_map("granulation", **GRID, store=tmp_path / "map.zarr")
 
 
 def test_a_lost_worker_is_survived(tmp_path, serial, cluster):
