@@ -192,7 +192,8 @@ def test_compiled_peers_solve_the_same_problem(name: str, preset: str) -> None:
     if engine.missing:
         pytest.skip(engine.missing)
     scene = Scene.load(preset)
-    impacts = [Impact(st, np.radians(angle)) for st, angle in ((0.6, 50.0), (0.05, 70.0), (2.0, 60.0), (0.02, 80.0))]
+    drawn = ((0.6, 50.0), (0.05, 70.0), (2.0, 60.0), (0.02, 80.0), (1.369, 53.81))
+    impacts = [Impact(st, np.radians(angle)) for st, angle in drawn]
     ours = [collide(scene, stokes=i.stokes, angle=i.angle, rtol=1e-11, engine="rosenbrock") for i in impacts]
     if engine.many is not None:
         found: list[Any] = engine.many(scene, impacts, 1e-9)()

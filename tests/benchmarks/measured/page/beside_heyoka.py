@@ -74,7 +74,7 @@ def _row(what: str, costs: list[Cost | None]) -> list[str]:
 def note(record: Record) -> str:
     """What the columns are."""
     around = record["settings"].get("around_callback")
-    said = f" ({1e9 * around:.0f} ns a call, which is subtracted too)" if around else ""
+    said = f": {1e9 * around:.0f} ns a call" if around else ""
     return NOTE.format(bound=f"{BOUND:g}", around=said)
 
 
@@ -84,10 +84,10 @@ more, all in one run. Events of heyoka end in callbacks; from Python these are P
 time is our proof that it sticks.
 
 * **heyoka in Python**: as a Python user gets it.
-* **Without callbacks**: less the time within callbacks, by a clock of its own in each; the way from heyoka to Python
-  and the clock are measured on an oscillator whose crossings call a function that does nothing{around}. Somebody who
-  calls heyoka from C++ waits at least so long: what callbacks do costs something there as well. There is no driver in
-  C++ here, as neither PyPI's nor Debian's packages hold heyoka's headers.
+* **Without callbacks**: less the CPU time within callbacks, by a clock in each. The way from heyoka to Python and the
+  clock are subtracted too, measured on an oscillator whose crossings call a function that does nothing{around}.
+  Somebody who calls heyoka from C++ waits at least so long: what callbacks do costs something there as well. There is
+  no driver in C++ here, as neither PyPI's nor Debian's packages hold heyoka's headers.
 * **Ours**: `collide_many` and `gradients_many` as a user calls them; "kernel alone" leaves out what these add.
 * **Made by hand**: a kernel for granulation alone, from `--by-hand FOLDER`, which is no part of this project. It looks
   for events at four points of a step, and its parameters are computed beforehand, for nothing. "-" where it was not

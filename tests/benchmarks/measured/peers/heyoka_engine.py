@@ -211,6 +211,13 @@ class Batch:
 
         if event in ("glass", "elastic", "rough"):
             return rebounds
+
+        def margins(ta: Any, _: int, lane: int) -> bool:
+            """The series is that of the largest margin where the step began, and another may be larger by now."""
+            return self.ended(lane, False) if self._proved(lane) else True
+
+        if event == "certified" and self.starts[0].locator.proof.watches == "pendulum":
+            return margins
         if event == "inside":
             return inside
         if event == "film_edge":
