@@ -80,8 +80,8 @@ def note(record: Record) -> str:
 
 NOTE = """\
 Each at its cheapest setting with all outcomes right and a largest error of at most {bound}, 1000 in a call or just
-more, all in one run. Events of heyoka end in callbacks; from Python these are Python, and on the pendulum most of their
-time is our proof that it sticks.
+more, all in one run. Events of heyoka end in callbacks; from Python these are Python. The pendulum's margins that prove
+a stick are a compiled function of heyoka's, called from there.
 
 * **heyoka in Python**: as a Python user gets it.
 * **Without callbacks**: less the CPU time within callbacks, by a clock in each. The way from heyoka to Python and the

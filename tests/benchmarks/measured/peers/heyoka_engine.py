@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from wetdoublet.generated.automaton import CRITERIA
+from wetdoublet.generated.automaton import CRITERIA, SAFETY
 from wetdoublet.solvers.certificates.choice import energy_proof
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.errors import ComputationError
@@ -59,11 +59,13 @@ class System:
         events: by name; `film_edge` may cross either way, the others fall through zero. Whether a doublet turned or
             fell back decides nothing here.
         varying: groups that are runtime parameters, in their order; then film, active and level.
+        margin: the pendulum certificate's largest margin as a compiled function, where it is what proves a stick.
     """
 
     rates: list[tuple[Any, Any]]
     events: dict[str, Any]
     varying: tuple[str, ...]
+    margin: Any = None
 
 
 def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str | None, inside: bool = False) -> System:
@@ -88,6 +90,7 @@ def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str 
         events["elastic"] = found["elastic"]
     events["rough"] = found["rough"]
     events["rupture"] = found["rupture"]
+    margin = None
     if inside:
         events["inside"] = y["gap"] - heyoka.par[len(varying) + 3]
     if bridge:
@@ -103,8 +106,10 @@ def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str 
     elif proved == "pendulum":
         held, larger = structure.pendulum_margins(y, p, laws), elementary("fmax")
         inward = held["outward"] - held["pull"]
-        events["certified"] = larger(inward, larger(held["film"], held["recoil"])) + level
-    return System(rates, events, varying)
+        largest = larger(inward, larger(held["film"], held["recoil"]))
+        events["certified"] = largest + level
+        margin = heyoka.cfunc([largest], vars=list(y.values()))
+    return System(rates, events, varying, margin)
 
 
 @dataclass
@@ -132,6 +137,7 @@ class Batch:
     Arguments:
         dry: restitution of the dry contact.
         steps: of a collision, on average, after which all are given up.
+        margin: as of `System`.
     """
 
     integrator: Any = None
@@ -144,6 +150,7 @@ class Batch:
     steps: int = STEPS
     outcomes: list[str] = field(default_factory=list)
     restitutions: list[float] = field(default_factory=list)
+    margin: Any = None
 
     def run(self) -> None:
         """All collisions, once."""
@@ -175,6 +182,10 @@ class Batch:
         locator = self.starts[self.lanes[lane].collision].locator
         if not locator.watch.certificate:
             return False
+        if self.margin is not None:
+            state, parameters = self.integrator.state[:, lane], self.integrator.pars[: self.margin.nparams, lane]
+            (largest,) = self.margin(state.copy(), pars=parameters.copy())
+            return bool(largest < -SAFETY * locator.proof.rtol)
         proof = energy_proof(locator.proof) or locator.proof  # the cheap one alone, as in the kernel
         return proof.decided(self.integrator.state[:, lane].copy(), locator.phase)
 
@@ -216,7 +227,7 @@ class Batch:
             """The series is that of the largest margin where the step began, and another may be larger by now."""
             return self.ended(lane, False) if self._proved(lane) else True
 
-        if event == "certified" and self.starts[0].locator.proof.watches == "pendulum":
+        if event == "certified" and self.margin is not None:
             return margins
         if event == "inside":
             return inside
@@ -255,7 +266,7 @@ def prepare(
         raise ComputationError("the tangential edge lies within reach")
     proved = locators[0].proof.watches
     equations = system(choice, [each.groups for each in numbers], proved, inside)
-    batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
+    batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying), margin=equations.margin)
     batch.starts = starts(locators, numbers, equations.varying)
     if inside:
         for start in batch.starts:
