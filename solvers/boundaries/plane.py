@@ -15,8 +15,8 @@ from ..engines.taylor.record import run_recorded
 from ..errors import InputError
 from ..host.cores import usable_cores
 from ..many.batch import Batch, checked_numbers, checked_vary
+from ..many.by_casadi import run
 from ..many.by_kernel import impacts_of
-from ..many.collide_many import run
 from ..scene.scene import Scene
 from ..settings import STEPS
 

@@ -28,7 +28,8 @@ from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
 from .batch import Batch, check_outputs, check_some_scene, checked_impact, checked_vary, engine_for
 from .chunks import chunks
-from .collide_many import Slow, as_text, blank, compute, computed_chunk, empty, fill, validity
+from .compute import Slow, compute, computed_chunk
+from .dataset import as_text, blank, empty, fill, validity
 from .journal import Journal
 from .journal import journal as checked_journal
 from .results import QUANTITIES, VALIDITY, Block, attributes, outcome_attributes

@@ -23,9 +23,11 @@ import numpy as np
 from wetdoublet.derive.user_model.template import TEMPLATE
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.host.environment import environment
-from wetdoublet.solvers.many import collide_many as many
 from wetdoublet.solvers.many.batch import Batch, validated_batch
+from wetdoublet.solvers.many.by_casadi import run
 from wetdoublet.solvers.many.by_kernel import collide_by_kernel
+from wetdoublet.solvers.many.dataset import empty, fill
+from wetdoublet.solvers.many.results import Block
 
 from .kernel import table
 from .measured.tasks import Task
@@ -71,26 +73,24 @@ def measured(kind: str, scene: Scene) -> dict[str, Any]:
             scene, {"stokes": np.tile(stokes, repeats), "angle": np.tile(angle, repeats)}, {}, rtol, engine, of
         )
 
-    def kernel() -> many.Block:
+    def kernel() -> Block:
         repeated = request(RTOL, "taylor", REPEATS)
-        found = many.empty(repeated.size, repeated.of)
-        left = collide_by_kernel(
-            repeated, np.arange(repeated.size), 1, lambda where, block: many.fill(found, where, block)
-        )
+        found = empty(repeated.size, repeated.of)
+        left = collide_by_kernel(repeated, np.arange(repeated.size), 1, lambda where, block: fill(found, where, block))
         assert not left.size
         return found
 
-    exact = many.run(request(1e-12, "rosenbrock"), True)
+    exact = run(request(1e-12, "rosenbrock"), True)
     row: dict[str, Any] = {"scene": kind}
-    runs: dict[str, tuple[Callable[[], many.Block], int]] = {
+    runs: dict[str, tuple[Callable[[], Block], int]] = {
         "kernel": (kernel, REPEATS),
-        "Rosenbrock, compiled": (lambda: many.run(request(RTOL, "rosenbrock"), True), 1),
+        "Rosenbrock, compiled": (lambda: run(request(RTOL, "rosenbrock"), True), 1),
     }
     least = dict.fromkeys(runs, math.inf)
     for _ in range(RUNS + 1):
-        for name, (run, repeats) in runs.items():
+        for name, (timed, repeats) in runs.items():
             before = time.process_time()
-            found = run()
+            found = timed()
             least[name] = min(least[name], 1e6 * (time.process_time() - before) / (stokes.size * repeats))
             error = np.abs(found["restitution"][: stokes.size] - exact["restitution"])
             row |= {name: least[name], f"error, {name.partition(',')[0]}": float(error.max())}

@@ -10,11 +10,12 @@ import pint
 import pytest
 import xarray as xr
 from loky import process_executor
+from wetdoublet.generated.automaton import OUTCOMES
 from wetdoublet.solvers import ModelWarning, Scene, collide, collide_many, gradients_many, regime_map
 from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.host.remarks import silence_workers
-from wetdoublet.solvers.many import collide_many as many
+from wetdoublet.solvers.many import by_casadi, compute
 from wetdoublet.solvers.many.batch import validated_batch
 from wetdoublet.solvers.many.results import QUANTITIES, RESULTS, REVERSALS
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
@@ -41,7 +42,7 @@ def test_equals_collide_point_by_point(preset, engine):
     assert data.attrs["engine"] == engine
     for k in range(stokes.size):
         one = collide(preset, stokes=stokes[k], angle=angle[k], engine=engine, ledger=False).to_dict()
-        assert many.OUTCOMES[data.outcome.values[k]] == one["outcome"]
+        assert OUTCOMES[data.outcome.values[k]] == one["outcome"]
         assert bool(data.certified[k]) == one["certified"]
         assert str(data.reason.values[k]) == ""
         for name in EVERYTHING:
@@ -62,9 +63,9 @@ def test_a_failure_is_marked_and_the_rest_go_on(monkeypatch):
             raise bad[groups["stokes"]]
         return real(model, groups, *rest)
 
-    real = many.locate
+    real = by_casadi.locate
     plain = collide_many(scene, stokes=[0.01, 0.2], angle=1.0, engine="rosenbrock")
-    monkeypatch.setattr(many, "locate", locate)
+    monkeypatch.setattr(by_casadi, "locate", locate)
     data = collide_many(scene, stokes=[0.01, 0.02, 0.03, 0.2], angle=1.0, engine="rosenbrock")
     assert data.outcome.values.tolist() == [plain.outcome.values[0], -1, -1, plain.outcome.values[1]]
     assert data.reason.values.tolist() == ["", "no luck", "internal error: ZeroDivisionError: oops", ""]
@@ -251,7 +252,7 @@ def test_parallel_equals_serial(monkeypatch):
         process_executor, "kill_process_tree", lambda one, **how: (killed.append(one), kill(one, **how))
     )
     for cores in (2, 1):
-        monkeypatch.setattr(many, "usable_cores", lambda cores=cores: cores)
+        monkeypatch.setattr(compute, "usable_cores", lambda cores=cores: cores)
         data.append(collide_many("granulation", stokes=stokes, angle=angle, engine="rosenbrock", of=EVERYTHING))
     xr.testing.assert_identical(*data)
     assert not killed
@@ -262,13 +263,13 @@ def test_without_a_compiler(monkeypatch, capfd):
     """A machine without a C compiler gives the same results, and says once that it is slower; its workers do not."""
     stokes, angle = impacts("granulation", 8, 3)
     request = validated_batch("granulation", {"stokes": stokes, "angle": angle}, {}, 1e-9, None, EVERYTHING)
-    fast = many.run(request, machine_code=True)
+    fast = by_casadi.run(request, machine_code=True)
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)
-    many.locate.__globals__["locator"].cache_clear()
+    by_casadi.locate.__globals__["locator"].cache_clear()
     compiler.cache_clear()
     try:
-        slow = many.run(request, machine_code=True)
+        slow = by_casadi.run(request, machine_code=True)
         compiler.cache_clear()
         monkeypatch.setenv("WETDOUBLET_HUSHED", "")
         monkeypatch.delenv("WETDOUBLET_HUSHED")
@@ -276,7 +277,7 @@ def test_without_a_compiler(monkeypatch, capfd):
         assert compiler() is None
     finally:
         compiler.cache_clear()
-        many.locate.__globals__["locator"].cache_clear()
+        by_casadi.locate.__globals__["locator"].cache_clear()
     said = capfd.readouterr().err
     assert said.count("no C compiler") == said.count("no Taylor kernel") == 1
     for name in ("outcome", "certified", "reason"):

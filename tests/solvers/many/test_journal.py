@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from wetdoublet.solvers import InputError, Scene, regime_map
-from wetdoublet.solvers.many import collide_many as many
+from wetdoublet.solvers.many.dataset import empty
 from wetdoublet.solvers.many.journal import Journal
 
 from ...helpers.command import finished, run
@@ -13,16 +13,16 @@ from ...helpers.command import finished, run
 def test_journal(tmp_path):
     """Finished blocks are found again by the same request, whole lines only, and never by another request."""
     path = tmp_path / "a.partial"
-    block = many.empty(3, ("restitution",))
+    block = empty(3, ("restitution",))
     block["outcome"][:] = [0, 2, -1]
     block["restitution"][:] = [0.0, 0.1 + 0.2, np.nan]
     block["reason"][2] = "no\nluck"
     ours, theirs = Journal(path, {"rtol": 1e-9}), Journal(path, {"rtol": 1e-8})
     ours.add(np.array([4, 5, 9]), block)
-    theirs.add(np.array([1]), many.empty(1, ()))
+    theirs.add(np.array([1]), empty(1, ()))
     with path.open("ab") as file:  # torn by a crash
         file.write(path.read_bytes().splitlines()[1][:-9])
-    ours.add(np.array([7]), many.empty(1, ("restitution",)))
+    ours.add(np.array([7]), empty(1, ("restitution",)))
     assert (ours.count(), ours.others(), theirs.others()) == (4, (1, 0), (4, 1))
     (where, back), (later, _) = ours.read()
     assert (where.tolist(), later.tolist()) == ([4, 5, 9], [7])
@@ -60,7 +60,7 @@ def test_a_journal_of_another_request_stays(tmp_path):
     """A map written beside a journal with other collisions, or with anything else, leaves it and says so."""
     file, partial = tmp_path / "map.nc", tmp_path / "map.nc.partial"
     theirs = Journal(partial, {"rtol": 1e-8})
-    theirs.add(np.array([1, 2]), many.empty(2, ()))
+    theirs.add(np.array([1, 2]), empty(2, ()))
     with partial.open("ab") as other:
         other.write(b"\xff anything\n")
     before = partial.read_bytes().split()

@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 from wetdoublet.solvers import Scene, collide_many, regime_map
 from wetdoublet.solvers.errors import ComputationError, InputError
-from wetdoublet.solvers.many import collide_many as many
+from wetdoublet.solvers.many import by_casadi
 from wetdoublet.solvers.many.plot_map import draw_map
 from wetdoublet.solvers.many.regime_map import write
 from wetdoublet.solvers.many.results import QUANTITIES
@@ -32,14 +32,14 @@ def data():
 @pytest.fixture
 def unlucky(monkeypatch):
     """Let the collisions of one Stokes number, 0.1, fail."""
-    real = many.locate
+    real = by_casadi.locate
 
     def locate(model, groups, *rest):
         if abs(groups["stokes"] - 0.1) < 1e-12:
             raise ComputationError("no luck", advice="none")
         return real(model, groups, *rest)
 
-    monkeypatch.setattr(many, "locate", locate)
+    monkeypatch.setattr(by_casadi, "locate", locate)
 
 
 def test_the_grid(data):

@@ -1,0 +1,152 @@
+"""A batch of collisions on the cores of this machine.
+
+The Taylor kernel computes them in blocks; those that it does not complete, and those of other engines, go in blocks to
+worker processes. A collision that fails is marked with its reason and the rest go on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from ..errors import ComputationError, InputError
+from ..host.compiler import compiler
+from ..host.cores import usable_cores
+from ..host.workers import undisturbed, workers
+from ..model.validity import warn
+from ..settings import FEW
+from .batch import Batch, check_some_scene
+from .by_casadi import run
+from .by_kernel import collide_by_kernel
+from .dataset import as_text, empty, fill, validity
+from .of_impact import of_impact
+from .results import FAILED, OF_IMPACT, VALIDITY, Block
+
+_BLOCK = 50  # collisions in a block for a worker
+_ALONE = FEW  # fewer collisions are not worth starting workers for
+_SLOW_ALONE = 20  # the same for collisions that the kernel did not complete; they take up to seconds each
+
+Finished = Callable[[np.ndarray, Block], None]
+Slow = Callable[[int], None]
+
+
+def computed_chunk(request: Batch, cores: int) -> Block:
+    """All columns of a chunk of a request, computed in this process.
+
+    Arguments:
+        cores: that it may use.
+    """
+    results = empty(request.size, request.of)
+    if request.texts:
+        complete_by_choices(request, results, cores)
+    else:
+        complete(request, results, cores)
+    if VALIDITY in request.of:
+        results.setdefault(VALIDITY, np.zeros(request.size, dtype=np.int16))
+    results["reason"] = as_text(results)
+    return results
+
+
+def complete(request: Batch, results: Block, cores: int | None = None) -> None:
+    """Fill the columns of a request without choices that vary.
+
+    Arguments:
+        cores: how many it may use; None for all of this process.
+    """
+    compute(request, np.arange(request.size), lambda where, block: fill(results, where, block), cores=cores)
+    if any(name in OF_IMPACT for name in request.of):
+        fill(results, np.arange(request.size), of_impact(request))
+    if VALIDITY in request.of:
+        results[VALIDITY] = validity(request, results)
+
+
+def complete_by_choices(request: Batch, results: Block, cores: int | None = None) -> str:
+    """The same batch by batch, one for each set of choices; returns the engines."""
+    engines, first = dict[str, None](), None
+    for where, part in request.by_text():
+        if isinstance(part, InputError):
+            first = first or part
+            results["outcome"][where], results["reason"][where] = FAILED, str(part)
+            continue
+        try:
+            if not request.whole:
+                check_some_scene(part)
+        except InputError as error:
+            first = first or error
+        else:
+            engines[part.engine] = None
+            warn(part.scene)
+        found = empty(part.size, part.of)
+        complete(part, found, cores)
+        if VALIDITY in found:
+            results.setdefault(VALIDITY, np.zeros(request.size, dtype=np.int16))
+        fill(results, where, found)
+    if first is not None and not engines and not request.whole:
+        raise first
+    return ", ".join(engines) or request.engine
+
+
+def compute(
+    request: Batch,
+    which: np.ndarray,
+    finished: Finished,
+    slow: Slow = lambda _count: None,
+    cores: int | None = None,
+) -> None:
+    """Compute the collisions `which`, on all cores if they are many.
+
+    Calls `finished` after every block; results of finished blocks are kept if a later one is interrupted.
+
+    Arguments:
+        slow: called with the number of collisions left to slower engines, before those start.
+        cores: how many it may use; None for all of this process.
+    """
+    size, alone = _BLOCK, _ALONE
+    most = usable_cores() if cores is None else cores
+    if request.engine == "taylor":
+        left = collide_by_kernel(request, which, most if which.size > _ALONE else 1, finished)
+        if 0 < left.size < which.size:
+            slow(left.size)
+            size, alone = max(1, min(_BLOCK, left.size // (4 * most))), _SLOW_ALONE
+        which = left
+    blocks = [which[k : k + size] for k in range(0, which.size, size)]
+    cores = min(len(blocks), most)
+    many = which.size > _ALONE
+    if which.size <= alone or cores == 1:
+        for block in blocks:
+            finished(block, run(request.part(block), many))
+        return
+    for block, result in _in_parallel(request, blocks, cores, many):
+        finished(block, result)
+
+
+def _in_parallel(
+    request: Batch, blocks: list[np.ndarray], cores: int, machine_code: bool
+) -> Iterator[tuple[np.ndarray, Block]]:
+    """Blocks and their results in the order in which they finish; each worker receives only its part of the batch."""
+    from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
+
+    if request.engine != "cvodes":
+        compiler()  # a missing compiler is reported here and not by a worker
+    if machine_code:
+        run(request.part(blocks[0][:1]), True)  # compile once, before the workers need it
+    waiting: dict[Any, np.ndarray] = {}
+    left = iter(blocks)
+    try:
+        with workers(cores) as pool:
+            while True:
+                with undisturbed():  # only this process handles an interrupt; it then stops its workers
+                    for block in left:
+                        waiting[pool.submit(run, request.part(block), machine_code)] = block
+                        if len(waiting) > 2 * cores:
+                            break
+                if not waiting:
+                    return
+                for future in wait(waiting, return_when=FIRST_COMPLETED).done:
+                    yield waiting.pop(future), future.result()
+    except BrokenExecutor as error:
+        raise ComputationError(
+            f"a worker process died ({type(error).__name__})", advice="run it again; it may be out of memory"
+        ) from None
