@@ -115,6 +115,10 @@ def connected(scheduler: Any, label: str = "client") -> Iterator[Client]:
                         advice='in a script, start them below `if __name__ == "__main__":`',
                     ) from None
             checked = opened.enter_context(cluster)
+            with suppress(ImportError):  # other versions have it elsewhere
+                from distributed.gc import disable_gc_diagnosis
+
+                disable_gc_diagnosis()  # an interrupt during its callbacks would be lost
         try:
             file = isinstance(checked, str) and checked.endswith(".json")
             client = opened.enter_context(Client(scheduler_file=checked) if file else Client(checked))
