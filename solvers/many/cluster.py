@@ -9,6 +9,7 @@ import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
+from multiprocessing.resource_tracker import ensure_running
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ from ..engines.arithmetic import arithmetic, difference, has_kernel
 from ..errors import ComputationError, InputError
 from ..host import bounded
 from ..host.cores import usable_cores
+from ..host.interrupts import check
 from ..host.remarks import say, silence_workers
 from ..host.workers import undisturbed
 from .results import Block
@@ -101,15 +103,22 @@ def connected(scheduler: Any, label: str = "client") -> Iterator[Client]:
         opened.enter_context(_quiet())
         if _LOCAL.fullmatch(checked):
             count = int(checked.partition(":")[2] or usable_cores())
+            ensure_running()  # which is started by the first worker else, and lets interrupts through again
             with undisturbed():
                 try:
-                    cluster = LocalCluster(count, threads_per_worker=1, silence_logs=logging.CRITICAL, **_HERE)
+                    cluster = LocalCluster(
+                        n_workers=count, threads_per_worker=1, silence_logs=logging.CRITICAL, **_HERE
+                    )
                 except RuntimeError as error:  # Dask's processes import the caller's script
                     raise ComputationError(
                         f"the local workers did not start ({' '.join(str(error).split())[:120]})",
                         advice='in a script, start them below `if __name__ == "__main__":`',
                     ) from None
             checked = opened.enter_context(cluster)
+            with suppress(ImportError):  # other versions have it elsewhere
+                from distributed.gc import disable_gc_diagnosis
+
+                disable_gc_diagnosis()  # an interrupt during its callbacks would be lost
         try:
             file = isinstance(checked, str) and checked.endswith(".json")
             client = opened.enter_context(Client(scheduler_file=checked) if file else Client(checked))
@@ -208,6 +217,7 @@ def computed(
             if not waiting:
                 return
             future = next(finished)
+            check()
             k = waiting.pop(future)
             answer = future.result()
             if isinstance(answer, Refused):
@@ -269,4 +279,5 @@ def _translated(error: BaseException) -> BaseException:
 def one_at_a_time(tasks: Callable[[int], Task], todo: Sequence[int]) -> Iterator[tuple[int, Block]]:
     """The chunks `todo` and their results, in order, each on all cores of this process."""
     for k in todo:
+        check()
         yield k, tasks(k)(usable_cores())

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...host.background import TimeUp, begin
-from ...host.compiler import CannotCompile, compiler, is_named, key, more_flags, stop
+from ...host.compiler import CannotCompile, compiler, compiles, is_named, key, more_flags, stop
 from ...host.compiler import library as compiled
 from ...host.cores import usable_cores
 from ...host.remarks import say_once
@@ -193,13 +193,21 @@ def _compile_beside(variants: tuple[Variant, ...], _cache: Path) -> None:
 
 
 def compile_or_refuse(variants: Collection[Variant]) -> None:
-    """Compile kernels into the cache; stop at one that cannot be compiled, and note it there for later processes."""
+    """Compile kernels into the cache; stop at one that cannot be compiled, and note it there for later processes.
+
+    It is tried twice; nothing is noted where the compiler does not compile anything.
+    """
     if compiler() is None:
         return
     for variant in variants:
         made = False
         with suppress(TimeUp):
             made = kernel(variant) is not None
+            if not made:  # the cache may have been deleted, the disk full, memory short
+                kernel.cache_clear()
+                made = kernel(variant) is not None
+                if not made and not compiles():
+                    return
         if not made:
             kept(f"{_refused(variant)}txt", lambda: b"this kernel cannot be compiled\n")
             return

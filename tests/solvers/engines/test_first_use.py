@@ -116,3 +116,46 @@ def test_a_compilation_that_does_not_end(
     names = [path.name for path in (here / "cache").iterdir()]
     assert not [name for name in names if name.startswith("taylor-")]
     assert len([name for name in names if name.startswith("refused-")]) == refused
+
+
+FAILS = """#!/bin/sh
+[ ! -e all-fails ] || exit 1
+case "$*" in
+*-shared*)
+  [ ! -e kernels-fail ] || exit 1
+  [ ! -e next-fails ] || { rm next-fails; exit 1; }
+  for word in "$@"; do
+    case "$word" in *source.c) echo "const char *collide(void *t) { return 0; }" > "$word";; esac
+  done;;
+esac
+exec cc "$@"
+"""
+REFUSED = """
+from pathlib import Path
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.engines.taylor.build import compile_or_refuse, kernel
+from wetdoublet.solvers.engines.taylor.call import variant_for_many
+from wetdoublet.solvers.host.compiler import compiler
+
+variant = variant_for_many(Scene.load("granulation"), False, 1e-8, False)
+compiler()
+for fault in ("all-fails", "next-fails", "kernels-fail"):
+    Path(fault).touch()
+    kernel.cache_clear()
+    compile_or_refuse([variant])
+    Path(fault).unlink(missing_ok=True)
+    print(*sorted(file.name.split("-")[0] for file in Path("cache").glob("[rt]*")))
+    for library in Path("cache").glob("taylor-*"):
+        library.unlink()
+"""
+
+
+def test_a_kernel_is_refused_where_nothing_else_fails(tmp_path: Path) -> None:
+    """No note is left by a compiler that fails once or with everything, as on a full disk; one is by a real refusal."""
+    (tmp_path / "cc").write_text(FAILS)
+    (tmp_path / "cc").chmod(0o700)
+    own = os.environ | {"CC": str(tmp_path / "cc"), "WETDOUBLET_CACHE": "cache"}
+    done = subprocess.run(
+        (sys.executable, "-c", REFUSED), cwd=tmp_path, env=own, capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "\ntaylor\nrefused\n"

@@ -3,10 +3,8 @@
 import os
 import shutil
 import signal
-import socket
 import subprocess
 import sys
-from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -28,7 +26,7 @@ def cluster():
     """A client of a scheduler and two worker processes on loopback, which are started again when they are killed."""
     settings = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0", "memory_limit": 0, "silence_logs": 60}
     with (
-        distributed.LocalCluster(2, threads_per_worker=1, **settings) as started,
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, **settings) as started,
         distributed.Client(started) as client,
     ):
         yield client
@@ -134,6 +132,28 @@ def test_a_damaged_unfinished_store_is_named(tmp_path, damage):
         regime_map("granulation", **GRID, store=tmp_path / "map.zarr")
 
 
+LOCAL = """
+import signal, socket
+from contextlib import suppress
+from wetdoublet.solvers.many.cluster import connected
+
+usual = socket.socket()
+with suppress(OSError):  # whoever has it
+    usual.bind(("127.0.0.1", 8787))
+    usual.listen()
+with connected("local:1") as client:
+    client.wait_for_workers(1)
+    (blocked,) = client.run(lambda: signal.pthread_sigmask(signal.SIG_BLOCK, ())).values()
+print(signal.SIGINT in blocked)
+"""
+
+
+def test_local_workers_are_undisturbed():
+    """As many as asked for; interrupts are blocked while they start; whoever has Dask's usual port is no matter."""
+    done = subprocess.run([sys.executable, "-W", "error::UserWarning", "-c", LOCAL], capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("True\n", "")
+
+
 def test_a_lost_worker_is_survived(tmp_path, serial, cluster):
     """One of two workers is killed in mid-run: the same bits, in a store and in memory."""
     victims = list(cluster.run(os.getpid).values())
@@ -217,14 +237,3 @@ def test_a_closed_client_is_bad_input(cluster):
         pass
     with pytest.raises(InputError, match="^client: .* is closed; accepted: a client that is open"):
         collide_many("granulation", client=closed)
-
-
-def test_local_clusters_side_by_side():
-    """Dask's usual port in use is no reason for a warning: local workers need none of it."""
-    with socket.socket() as used:
-        used.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        with suppress(OSError):  # another program has it
-            used.bind(("127.0.0.1", 8787))
-            used.listen()
-        found = collide_many("granulation", angle=[1.0], client="local:1")
-    assert found.sizes == {"collision": 1}
