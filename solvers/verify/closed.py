@@ -62,11 +62,11 @@ def closed_forms(
 _TOLD = {
     "film_alone": (
         "film alone",
-        "head-on, no bridge, no strings: approach, rebound and e_n by -u/v0 = 1 - [ln(1/s) - 3/2 + 2s - s^2/2]/St",
+        "film and solids alone, head-on: approach, rebound, e_n by -u/v0 = 1 - [ln(1/s) - 3/2 + 2s - s^2/2]/St",
     ),
     "straight_line": (
         "straight line",
-        "liquid, bridge and strings taken away: the centres move on a straight line, r(t)^2 and beta(t)",
+        "liquid, bridge, attraction and strings taken away: the centres move on a straight line, r(t)^2 and beta(t)",
     ),
     "spin_relaxes": (
         "spin relaxes",
@@ -85,8 +85,10 @@ def film_loss(s: float) -> float:
 
 
 def _bare(scene: Scene) -> Scene:
-    """The scene without bridge and strings."""
-    tables = {name: value for name, value in scene.to_dict().items() if name not in ("bridge", "pendulum")}
+    """The scene without bridge, attraction and strings."""
+    tables = {
+        name: value for name, value in scene.to_dict().items() if name not in ("bridge", "attraction", "pendulum")
+    }
     return Scene.from_dict(tables)
 
 

@@ -223,6 +223,15 @@ def test_closed_forms_stay_where_trajectories_go(engine: str) -> None:
         assert 0 <= figure < 1e-8  # 100 rtol
 
 
+def test_closed_forms_of_attracting_spheres() -> None:
+    """Attraction is taken away for the closed forms that have none, however strong it is."""
+    silica = {"particles.roughness": 1.5e-7, "liquid.film_thickness": 2e-6, "liquid.viscosity": 8e-3}
+    scene = Scene.load("granulation").with_entries({**silica, "attraction.hamaker": 6.5e-19})
+    for check in (closed.film_alone, closed.straight_line):
+        figure, where = check(scene, "rosenbrock")
+        assert 0 <= figure < 1e-8, where  # 100 rtol
+
+
 def off_by(error: Callable[[float], float]) -> sample.Collide:
     """`collide` whose e_n is that of rtol 1e-13 with an error that depends on the tolerance it is asked for."""
 
