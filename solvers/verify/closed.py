@@ -44,7 +44,10 @@ def closed_forms(
         return film_alone(scene, engine, plain, collide)
 
     checks: list[tuple[str, Callable[[Scene, str, Integrators], tuple[float, str]]]] = [("film_alone", alone)]
-    if not head_on:
+    if not head_on and scene.partner is not None:
+        for key in ("straight_line", "spin_relaxes"):
+            yield Finding(group, *_TOLD[key], "derived for equal spheres only", "", None)
+    elif not head_on:
         checks += [("straight_line", straight_line), ("spin_relaxes", spin_relaxes)]
         checks += [("swinging", swinging)] if scene.pendulum is not None else []
     for key, check in checks:

@@ -69,10 +69,13 @@ def argument(group: str, scene: Scene, data: xarray.Dataset) -> Iterator[Finding
     if not parted.any():
         yield Finding(group, "e_n > 1", "the region where e_n > 1", "no doublet separates", "", None)
         return
+    statement = "e_n^2 - 1 = rotation released - film - shear - bridge - solids - strings, over the largest of them"
+    if scene.partner is not None:
+        yield Finding(group, "e_n^2 - 1: identity", statement, "its terms are those of equal spheres", "", None)
+        return
     size = np.maximum(1.0, np.abs(data["rotation_released"].values))  # the largest term, at least m v0^2/2
     open_by = np.abs(data["gap"].values + data["residual"].values) / size
     where, worst = _worst(data, open_by)
-    statement = "e_n^2 - 1 = rotation released - film - shear - bridge - solids - strings, over the largest of them"
     # the ledger's residual, bounded relative to the whole initial energy, not to v0^2 alone
     energy = 1 + np.tan(data["angle"].values)[:, None] ** 2
     bound = RESIDUAL * float((energy / size).ravel()[np.nanargmax(np.where(parted, open_by, -1))])
