@@ -41,7 +41,7 @@ from .orbital_momentum_certificate import orbital_momentum_certificate
 from .partners import partner_checks
 from .pendulum_certificate import pendulum_certificate
 from .restitution import ceiling_is_the_published, decomposition, rotation_can_be_released
-from .slow_manifold import slow_manifold
+from .slow_manifold import films_fall, slow_manifold
 
 __all__ = ["Admission", "Check", "certificate", "symbolic_checks"]
 
@@ -92,6 +92,7 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     yield from _once(attraction_certificate)
     yield from _once(orbital_momentum_certificate)
     yield from _once(slow_manifold)
+    yield from films_fall([*of("film"), *of("shear")])
     yield from _once(approach_certificate)
     yield from certificates(own)
     yield from _once(groups_span_the_nullspace)

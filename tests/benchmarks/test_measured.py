@@ -72,7 +72,7 @@ def test_record_is_complete(record: dict[str, Any]) -> None:
     there = [each["name"] for each in record["engines"] if not each["missing"]]
     assert {"cvodes", "rosenbrock", "scipy LSODA"} <= set(there)
     (task,) = record["tasks"]
-    assert task["collisions"]["counted"] > task["collisions"]["separate"] > 0
+    assert task["collisions"]["counted"] >= task["collisions"]["separate"] > 0
     fast = ("taylor", "taylor, kernel alone")
     asked = [(name, rtol) for name in there for rtol in ((1e-7, 1e-9) if name in fast else (1e-5, 1e-7))]
     assert [(p["engine"], p["rtol"]) for p in task["points"]] == asked

@@ -98,8 +98,13 @@ Exact = Callable[..., list[mpmath.mpf]]
 
 
 def exactly(arguments: list[sp.Symbol], expressions: list[sp.Expr]) -> Exact:
-    """Values of the expressions, then of their magnitudes, in DIGITS digits."""
-    return sp.lambdify(arguments, [*expressions, *map(magnitude, expressions)], modules="mpmath", cse=True)
+    """Values of the expressions, then of their magnitudes, in DIGITS digits; a root of zero is tiny, to divide by."""
+
+    def root(value: Any) -> Any:
+        return mpmath.sqrt(value) or mpmath.mpf(10) ** -200
+
+    made = [*expressions, *map(magnitude, expressions)]
+    return sp.lambdify(arguments, made, modules=[{"sqrt": root}, "mpmath"], cse=True)
 
 
 def compare(label: str, exact: Exact, found: list[float], arguments: list[float]) -> None:
