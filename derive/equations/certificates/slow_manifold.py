@@ -39,8 +39,6 @@ if TYPE_CHECKING:
     from ...physics.structure import Structure
     from ..model import Model
 
-FALLING = ("film.resistance", "shear.log_factor", "bridge.force", "attraction.force")  # calls that have to fall
-
 
 def admits(structure: Structure) -> bool:
     """True for structures with one slow variable: oblique, without strings, the spin eliminated."""

@@ -1,9 +1,9 @@
 /* The slow-manifold jump: a doublet goes on from a later gap, with the state of the slow manifold there.
  *
  * Lanes that turn inside the film are parked, and collisions that surely turn there do not begin at all. When a full
- * vector of them is available, each gets a gap of its own, as late as the series of the manifold are accurate. It jumps if no event
- * is met on the way and any two solutions in the tube are closer than the tolerance at the end (slow_manifold.h).
- * Otherwise it goes on as it is.
+ * vector of them is available, each gets a gap of its own, as late as the series of the manifold are accurate. It
+ * jumps if no event is met on the way and any two solutions in the tube are closer than the tolerance at the end
+ * (slow_manifold.h). Otherwise it goes on as it is.
  *
  * Neither time nor angle are known after a jump, nor the smallest gap if the approach is left out (`jumps` of the task).
  */

@@ -26,7 +26,7 @@ static const double SHARE = 0.1;       /* of the tolerance that an error of the 
 static const double COARSEST = 1e-3;   /* largest such error at the gap itself, before it decays */
 static const double SEPARATED = 38.0;  /* separation at which the manifold is good to a tolerance of 1e-9 */
 static const double MORE[TARGETS] = {1.0, 1.7}; /* times that, tried in turn */
-static const double WORTH_IT = 1.5, JUST_AFTER = 1.15; /* times that, at this ratio to the gap of the turn: a jump is tried */
+static const double WORTH_IT = 1.5, JUST_AFTER = 1.15; /* times that, at this ratio to the gap of the turn: tried */
 static const double INSIDE = 0.62;     /* of the film: the separation there decides on a jump from initial contact */
 
 /* The coefficients at one gap. */
@@ -38,7 +38,8 @@ static inline void look_at(slow_series *s, const constants *c, vec gap, place *f
 {
     s->gap[0] = gap;
     slow_coefficients(s, c, 0);
-    *found = (place){gap, s->distance[0], s->slowing[0], s->relaxation[0], s->rigid[0], s->centrifugal[0], s->attractions[0]};
+    *found = (place){
+        gap, s->distance[0], s->slowing[0], s->relaxation[0], s->rigid[0], s->centrifugal[0], s->attractions[0]};
 }
 
 /* Decay times of the faster motions while the film's slowing falls by a factor e, on the slow manifold to leading order;
@@ -112,8 +113,10 @@ static mask follow(tube *t, const place *a, const place *b, panel *p)
 static vec contraction(const panel *p, int from, int to, vec metric)
 {
     vec sum = splat(0.0);
-    for (int k = from; k < to; k++)
-        sum += choose(p[k].width > 0.0, p[k].width*vec_smaller(p[k].normal - p[k].by_momentum*metric, p[k].tangential - p[k].by_velocity/metric), splat(0.0));
+    for (int k = from; k < to; k++) {
+        vec normal = p[k].normal - p[k].by_momentum*metric, tangential = p[k].tangential - p[k].by_velocity/metric;
+        sum += choose(p[k].width > 0.0, p[k].width*vec_smaller(normal, tangential), splat(0.0));
+    }
     return sum;
 }
 
@@ -129,7 +132,7 @@ static vec on_manifold(slow_series *s, const constants *c, vec gap, vec *normal_
     for (int k = 0; k <= SWEEPS; k++)
         slow_coefficients(s, c, k);
     for (int sweep = 0; sweep <= SWEEPS; sweep++) {
-        vec before = u[0], momentum_before = j[0];
+        vec before = sweep ? u[0] : splat(0.0), momentum_before = sweep ? j[0] : splat(0.0);
         for (int k = 0; k <= SWEEPS - sweep; k++) {
             rise[k] = sweep ? (k + 1.0)*u[k + 1] : splat(0.0);
             turn[k] = sweep ? (k + 1.0)*j[k + 1] : splat(0.0);
@@ -162,8 +165,10 @@ typedef struct {
     vec lowest, highest, lag;
 } opening;
 
-/* Lanes in which all memory of the opening's beginning is lost at the gap `to`, and an error of `wrong` there soon after. */
-static mask forgets(slow_series *s, const constants *c, const opening *from, vec to, vec wrong, const vec *reached, vec rtol, vec last)
+/* Lanes in which all memory of the opening's beginning is lost at the gap `to`, and an error of `wrong` there soon
+ * after: `reached` is the state there, `last` the largest gap that is looked at. */
+static mask forgets(
+    slow_series *s, const constants *c, const opening *from, vec to, vec wrong, const vec *reached, vec rtol, vec last)
 {
     place at[2];
     panel entry, panels[PANELS + BEYOND];
@@ -186,6 +191,8 @@ static mask forgets(slow_series *s, const constants *c, const opening *from, vec
         mask opens = follow(&t, &at[0], &at[1], &panels[k]);
         if (k < PANELS)
             sound &= opens;
+        else
+            panels[k].width = only(opens, panels[k].width); /* nothing is known where it may not open */
         if (k == 0)
             first = t;
         if (k > 0 && k < PANELS) {
@@ -277,6 +284,7 @@ static mask may_jump(const lanes *l, const fixed *f, double rtol)
 {
     slow_series s;
     vec last = LAST*vec_smaller(splat(1.0), f->edge), after = JUST_AFTER*l->y[GAP];
-    return (after < last) & (separation(&s, &f->c, after) > WORTH_IT*separation_for(rtol)) & (acting(l) == 1.0) & (l->shear == 1.0);
+    mask strong = separation(&s, &f->c, after) > WORTH_IT*separation_for(rtol);
+    return (after < last) & strong & (acting(l) == 1.0) & (l->shear == 1.0);
 }
 #endif

@@ -16,6 +16,7 @@ pytestmark = pytest.mark.slow
 
 SAMPLE: list[list[Any]] = [
     ["reference", "granulation-dry-bridge"],
+    ["random", "film alone", "plain", True, 3000],
     ["random", "film alone", "ledger and trajectory", True, 1000],
     ["random", "film alone", "steps not kept", True, 1000],
     ["random", "granulation", "forwards", False, 1000],
