@@ -84,9 +84,16 @@ class Model:
 
     def expanded(self, expression: sp.Expr) -> sp.Expr:
         """`expression` with every named intermediate substituted."""
-        for symbol, value in reversed(self.definitions):
-            expression = expression.xreplace({symbol: value})
-        return expression
+        return expression.xreplace(_whole(self.definitions))
+
+
+@cache
+def _whole(definitions: tuple[Definition, ...]) -> dict[sp.Symbol, sp.Expr]:
+    """Each intermediate without any other: one substitution a definition, as a chain of bounds grows with each."""
+    found: dict[sp.Symbol, sp.Expr] = {}
+    for symbol, value in definitions:
+        found[symbol] = sp.sympify(value).xreplace(found)
+    return found
 
 
 @cache

@@ -83,6 +83,7 @@ def emitted(name: str) -> ModuleType:
     return importlib.import_module(f"wetdoublet.generated.{name}")
 
 
+@cache
 def magnitude(node: sp.Basic) -> sp.Basic:
     """The expression with every term of every sum taken positive: the scale that cancellation is measured against."""
     if isinstance(node, sp.Add):
