@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import InputError
+from . import interrupts
 from . import user_cache as cache
 from .remarks import say
 from .thread_caches import once
@@ -264,22 +265,27 @@ def _run(
         KeyboardInterrupt: it or this process was interrupted.
     """
     environment = os.environ | {"LC_ALL": "C"} | ({"TMPDIR": str(place)} if place else {})
-    process = subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-        env=environment, pass_fds=passed, process_group=0 if os.name == "posix" else None,
-    )  # fmt: skip
-    _RUNNING[process] = threading.get_ident()
+    process: subprocess.Popen[bytes] | None = None
+    stopped = False
     try:
+        with interrupts.held():
+            process = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                env=environment, pass_fds=passed, process_group=0 if os.name == "posix" else None,
+            )  # fmt: skip
+            _RUNNING[process] = threading.get_ident()
         out, err = process.communicate(timeout=limit)
     except BaseException:
-        _end(process)
-        with suppress(subprocess.TimeoutExpired):  # descendants in other groups may keep its output open
-            process.communicate(timeout=1)
+        if process is not None:
+            _end(process)
+            with suppress(subprocess.TimeoutExpired):  # descendants in other groups may keep its output open
+                process.communicate(timeout=1)
         raise
     finally:
-        _RUNNING.pop(process, None)
-        stopped = process in _STOPPED
-        _STOPPED.discard(process)
+        if process is not None:
+            _RUNNING.pop(process, None)
+            stopped = process in _STOPPED
+            _STOPPED.discard(process)
     if stopped or process.returncode in _INTERRUPTED:
         raise KeyboardInterrupt
     return process.returncode, (out + b"\n" + err).decode(errors="replace")

@@ -17,6 +17,7 @@ class Signals:
     def __init__(self) -> None:
         self.pending = False
         self.terminated = False
+        self.held = self.late = False
 
     @property
     def status(self) -> int:
@@ -29,6 +30,9 @@ class Signals:
         if number == signal.SIGTERM:
             self.terminated = True
             signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        if self.held:
+            self.late = True
+            return
         # not a subclass: libraries interrupted in a computation raise KeyboardInterrupt itself again
         raise KeyboardInterrupt("terminated" if self.terminated else "")
 
@@ -41,6 +45,21 @@ def check() -> None:
     if _SIGNALS.pending:
         _SIGNALS.pending = False
         raise KeyboardInterrupt
+
+
+@contextmanager
+def held() -> Iterator[None]:
+    """Delay the interrupt of a signal to the end, so that a process that is being started is not lost."""
+    if threading.current_thread() is not threading.main_thread() or _SIGNALS.held:
+        yield
+        return
+    _SIGNALS.held, _SIGNALS.late = True, False
+    try:
+        yield
+    finally:
+        _SIGNALS.held = False
+    if _SIGNALS.late:
+        raise KeyboardInterrupt("terminated" if _SIGNALS.terminated else "")
 
 
 @contextmanager
