@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 cf19649af787cdb7d9e01d9a07459b190f6d216dfcc0efc22afc45b0e647d403
+# Automaton sha256 3a74be6c95cea758a742676c42b29985bbe8df03f157a55e43ed1ce9a9e2195e
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -118,6 +118,7 @@ FILM_DEPTHS = 16  # gaps in geometric sequence down to contact at which the film
 ATTRACTED_FILM_DEPTHS = 48  # the same with an attraction, which grows at small gaps
 APPROACH_PARTS = 24  # parts of the film, in geometric sequence, of the approach certificate
 DEEPEST_PART = 0.01  # where they end, over x0, unless solid contact is above
+LEAST_SLIP = 1e-12  # in the scale of tangential speeds: below it at initial contact no ratio of slips is formed
 LEAST_DEPTH = 1e-40  # least gap, relative to the present one, of the film certificate without contact
 
 

@@ -185,7 +185,7 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over omega0.
+    """Results for a separated doublet: restitutions, and rates over their scale.
 
     Total operations: 0
     """

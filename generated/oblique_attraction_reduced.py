@@ -1,16 +1,18 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 7bce1a581d97c9ca1b83bb794fcf52cb101cd6bb328ac712ed86903b812f1b48
+# Equations sha256 a27d02de673dc6a3cbe9301694c4702b205a37eb56bdfc635ee303d45004f7c7
 """Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
 - normal_velocity [v0]: normal velocity over impact speed, negative on approach
-- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+- orbital_momentum [a^2 Omega]: orbital angular momentum r^2 omega over a^2 Omega
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
 - aspect [1]: film thickness over reduced radius, x0/a
-- obliquity [1]: tangent of the impact angle
+- obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+- initial_turning [1]: tan(theta0)/T, 1 without spins
+- initial_spin [Omega]: spin at initial contact over Omega
 - adhesion [1]: van der Waals force at initial contact over the film's, A/(36 pi mu v0 x0 a)
 - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
 - elastic_gap [x0]: elastic length over film thickness
@@ -35,6 +37,8 @@ GROUPS = (
     "stokes",
     "aspect",
     "obliquity",
+    "initial_turning",
+    "initial_spin",
     "adhesion",
     "glass_number",
     "elastic_gap",
@@ -54,6 +58,7 @@ FUNCTIONS = (
     "energy_rates",
     "rebound_loss",
     "outputs",
+    "surface_slip",
     "attraction_margins",
     "approach_step",
     "approach_force",
@@ -63,7 +68,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "7bce1a581d97c9ca1b83bb794fcf52cb101cd6bb328ac712ed86903b812f1b48"
+DIGEST = "a27d02de673dc6a3cbe9301694c4702b205a37eb56bdfc635ee303d45004f7c7"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -71,7 +76,7 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 36
+    Total operations: 40
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -79,10 +84,12 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     adhesion = groups["adhesion"]
     distance = aspect*gap + 4
     orbital_rate = orbital_momentum/distance**2
-    momentum = (aspect + 4)**2
+    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
     spin = 5*momentum/32 - 5*orbital_momentum/32
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
@@ -101,15 +108,17 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 21
+    Total operations: 25
     """
     gap = state["gap"]
     orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     distance = aspect*gap + 4
     orbital_rate = orbital_momentum/distance**2
-    momentum = (aspect + 4)**2
+    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
     spin = 5*momentum/32 - 5*orbital_momentum/32
     slip = orbital_rate - spin
     shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
@@ -206,29 +215,32 @@ def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """State at initial contact.
 
-    Total operations: 3
+    Total operations: 4
     """
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
     return {
         "gap": 1,
         "normal_velocity": -1,
-        "orbital_momentum": (aspect + 4)**2,
+        "orbital_momentum": initial_turning*(aspect + 4)**2,
     }
 
 
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 25
+    Total operations: 29
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
     orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     distance = aspect*gap + 4
     orbital_rate = orbital_momentum/distance**2
-    momentum = (aspect + 4)**2
+    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
     spin = 5*momentum/32 - 5*orbital_momentum/32
     return {
         "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
@@ -267,23 +279,45 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over omega0.
+    """Results for a separated doublet: restitutions, and rates over their scale.
 
-    Total operations: 14
+    Total operations: 19
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
     orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     distance = aspect*gap + 4
     orbital_rate = orbital_momentum/distance**2
-    momentum = (aspect + 4)**2
+    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
     spin = 5*momentum/32 - 5*orbital_momentum/32
     return {
         "restitution": normal_velocity,
-        "tangential_restitution": distance*orbital_rate/(aspect + 4),
+        "tangential_restitution": distance*orbital_rate/(initial_turning*(aspect + 4)),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
+
+    Total operations: 17
+    """
+    gap = state["gap"]
+    orbital_momentum = state["orbital_momentum"]
+    aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
+    distance = aspect*gap + 4
+    orbital_rate = orbital_momentum/distance**2
+    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
+    spin = 5*momentum/32 - 5*orbital_momentum/32
+    slip = orbital_rate - spin
+    return {
+        "surface_slip": distance*slip,
     }
 
 
@@ -291,7 +325,7 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
     """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
     escape < 0 and rebound < 0 exclude separation.
 
-    Total operations: 35
+    Total operations: 39
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -299,11 +333,13 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     adhesion = groups["adhesion"]
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     dry_restitution = groups["dry_restitution"]
-    momentum = (aspect + 4)**2
+    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
     contact = fmax(elastic_gap, rough_gap)
     nearest = aspect*contact + 4
     farthest = aspect + 4
@@ -346,19 +382,21 @@ def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
 
-    Total operations: 38
+    Total operations: 42
     """
     gap = state["gap"]
     orbital_momentum = state["orbital_momentum"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     adhesion = groups["adhesion"]
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     distance = aspect*gap + 4
     orbital_rate = orbital_momentum/distance**2
-    momentum = (aspect + 4)**2
+    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
     spin = 5*momentum/32 - 5*orbital_momentum/32
     return {
         "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - adhesion*laws.attraction.force(gap)/stokes),
@@ -369,15 +407,17 @@ def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the slip
     energy for either lever arm; energies over m v0^2.
 
-    Total operations: 29
+    Total operations: 33
     """
     gap = state["gap"]
     orbital_momentum = state["orbital_momentum"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     distance = aspect*gap + 4
     orbital_rate = orbital_momentum/distance**2
-    momentum = (aspect + 4)**2
+    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
     spin = 5*momentum/32 - 5*orbital_momentum/32
     slip = orbital_rate - spin
     rotation_energy_unit = obliquity**2/16
@@ -392,15 +432,17 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     """Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of
     the least energy along the gap, capillary work included.
 
-    Total operations: 24
+    Total operations: 28
     """
     gap = state["gap"]
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     adhesion = groups["adhesion"]
     distance = aspect*gap + 4
-    momentum = (aspect + 4)**2
+    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
     inertia_ratio = distance**2 + 6.4
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
@@ -412,12 +454,14 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
 def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """The state with this least energy: no normal velocity, rigid rotation.
 
-    Total operations: 10
+    Total operations: 14
     """
     gap = state["gap"]
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     distance = aspect*gap + 4
-    momentum = (aspect + 4)**2
+    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
     inertia_ratio = distance**2 + 6.4
     return {
         "gap": gap,
@@ -430,13 +474,15 @@ def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, A
     """Upper bound of e_n^2 for separation at this gap, from the initial energy and angular momentum, without the
     work of attractions: 2 (W_c(x_f) - W_c(x0))/(m v0^2) is still to be subtracted.
 
-    Total operations: 18
+    Total operations: 31
     """
     gap = state["gap"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     distance = aspect*gap + 4
     inertia_ratio = distance**2 + 6.4
     return {
-        "squared": obliquity**2*(aspect + 4)**2/16 + 1 - obliquity**2*(aspect + 4)**4/(16*inertia_ratio),
+        "squared": 0.4*initial_spin**2*obliquity**2 + initial_turning**2*obliquity**2*(aspect + 4)**2/16 + 1 - 0.0025*obliquity**2*(32*initial_spin + 5*initial_turning*(aspect + 4)**2)**2/inertia_ratio,
     }

@@ -1,17 +1,19 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 cb1352535e7fb0839cca4ff258a2cc27820e1e484ffdf7957f9493db6ee4bf7b
+# Equations sha256 cbf5721185914e4245c536236a665d7559de0d9db0857d1229f43ec77810ec62
 """Oblique doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
 - normal_velocity [v0]: normal velocity over impact speed, negative on approach
-- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
-- spin [omega0]: spin of each sphere over omega0
+- orbital_momentum [a^2 Omega]: orbital angular momentum r^2 omega over a^2 Omega
+- spin [Omega]: spin of each sphere over its scale Omega
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
 - aspect [1]: film thickness over reduced radius, x0/a
-- obliquity [1]: tangent of the impact angle
+- obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+- initial_turning [1]: tan(theta0)/T, 1 without spins
+- initial_spin [Omega]: spin at initial contact over Omega
 - capillary [1]: capillary number 3 mu a v0/(sigma x0)
 - volume [1]: bridge volume over R^3 (constant)
 - contact_angle [rad]: contact angle of the liquid on the sphere
@@ -30,7 +32,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, sqrt
+from casadi import fabs, fmax, sqrt
 
 
 Values = Mapping[str, Any]
@@ -40,6 +42,8 @@ GROUPS = (
     "stokes",
     "aspect",
     "obliquity",
+    "initial_turning",
+    "initial_spin",
     "capillary",
     "volume",
     "contact_angle",
@@ -64,6 +68,7 @@ FUNCTIONS = (
     "rebound_loss",
     "angular_momentum",
     "outputs",
+    "surface_slip",
     "attraction_margins",
     "approach_step",
     "approach_force",
@@ -73,7 +78,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "cb1352535e7fb0839cca4ff258a2cc27820e1e484ffdf7957f9493db6ee4bf7b"
+DIGEST = "cbf5721185914e4245c536236a665d7559de0d9db0857d1229f43ec77810ec62"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -234,14 +239,16 @@ def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """State at initial contact.
 
-    Total operations: 3
+    Total operations: 4
     """
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     return {
         "gap": 1,
         "normal_velocity": -1,
-        "orbital_momentum": (aspect + 4)**2,
-        "spin": 0,
+        "orbital_momentum": initial_turning*(aspect + 4)**2,
+        "spin": initial_spin,
     }
 
 
@@ -310,36 +317,56 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Angular momentum over its initial value.
+    """1 + the change of the angular momentum over its size at initial contact.
 
-    Total operations: 6
+    Total operations: 19
     """
     orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     momentum = orbital_momentum + 6.4*spin
     return {
-        "angular_momentum": momentum/(aspect + 4)**2,
+        "angular_momentum": 1 + (momentum - 6.4*initial_spin - initial_turning*(aspect + 4)**2)/(initial_turning*(aspect + 4)**2 + 6.4*fabs(initial_spin)),
     }
 
 
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over omega0.
+    """Results for a separated doublet: restitutions, and rates over their scale.
 
-    Total operations: 7
+    Total operations: 8
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
     orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
     distance = aspect*gap + 4
     orbital_rate = orbital_momentum/distance**2
     return {
         "restitution": normal_velocity,
-        "tangential_restitution": distance*orbital_rate/(aspect + 4),
+        "tangential_restitution": distance*orbital_rate/(initial_turning*(aspect + 4)),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
+
+    Total operations: 9
+    """
+    gap = state["gap"]
+    orbital_momentum = state["orbital_momentum"]
+    spin = state["spin"]
+    aspect = groups["aspect"]
+    distance = aspect*gap + 4
+    orbital_rate = orbital_momentum/distance**2
+    lever = laws.arm.lever(distance)
+    return {
+        "surface_slip": distance*orbital_rate - 2*lever*spin,
     }
 
 
@@ -512,13 +539,15 @@ def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, A
     """Upper bound of e_n^2 for separation at this gap, from the initial energy and angular momentum, without the
     work of attractions: 2 (W_c(x_f) - W_c(x0))/(m v0^2) is still to be subtracted.
 
-    Total operations: 18
+    Total operations: 31
     """
     gap = state["gap"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     distance = aspect*gap + 4
     inertia_ratio = distance**2 + 6.4
     return {
-        "squared": obliquity**2*(aspect + 4)**2/16 + 1 - obliquity**2*(aspect + 4)**4/(16*inertia_ratio),
+        "squared": 0.4*initial_spin**2*obliquity**2 + initial_turning**2*obliquity**2*(aspect + 4)**2/16 + 1 - 0.0025*obliquity**2*(32*initial_spin + 5*initial_turning*(aspect + 4)**2)**2/inertia_ratio,
     }

@@ -1,18 +1,21 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 77ea33daf95bb2243ad3fa9591194a1b4d2c570e1b0d98ab0827958926a7e740
+# Equations sha256 60ebc139341092e7d99b8eac145a2503c39ccab25b02f83c16e1b72fbdf11be0
 """Oblique unequal doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
 - normal_velocity [v0]: normal velocity over impact speed, negative on approach
-- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
-- spin [omega0]: spin of each sphere over omega0
-- partner_spin [omega0]: spin of the partner over omega0
+- orbital_momentum [a^2 Omega]: orbital angular momentum r^2 omega over a^2 Omega
+- spin [Omega]: spin of each sphere over its scale Omega
+- partner_spin [Omega]: spin of the partner over Omega
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
 - aspect [1]: film thickness over reduced radius, x0/a
-- obliquity [1]: tangent of the impact angle
+- obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+- initial_turning [1]: tan(theta0)/T, 1 without spins
+- initial_spin [Omega]: spin at initial contact over Omega
+- initial_partner_spin [Omega]: spin of the partner at initial contact over Omega
 - capillary [1]: capillary number 3 mu a v0/(sigma x0)
 - volume [1]: bridge volume over R^3 (constant)
 - contact_angle [rad]: contact angle of the liquid on the sphere
@@ -33,7 +36,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, sqrt
+from casadi import fabs, fmax, sqrt
 
 
 Values = Mapping[str, Any]
@@ -43,6 +46,9 @@ GROUPS = (
     "stokes",
     "aspect",
     "obliquity",
+    "initial_turning",
+    "initial_spin",
+    "initial_partner_spin",
     "capillary",
     "volume",
     "contact_angle",
@@ -69,13 +75,14 @@ FUNCTIONS = (
     "rebound_loss",
     "angular_momentum",
     "outputs",
+    "surface_slip",
     "approach_step",
     "approach_force",
     "effective_potential",
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "77ea33daf95bb2243ad3fa9591194a1b4d2c570e1b0d98ab0827958926a7e740"
+DIGEST = "60ebc139341092e7d99b8eac145a2503c39ccab25b02f83c16e1b72fbdf11be0"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -267,17 +274,20 @@ def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """State at initial contact.
 
-    Total operations: 6
+    Total operations: 7
     """
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
+    initial_partner_spin = groups["initial_partner_spin"]
     radius_ratio = groups["radius_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
     return {
         "gap": 1,
         "normal_velocity": -1,
-        "orbital_momentum": (aspect + centres)**2,
-        "spin": 0,
-        "partner_spin": 0,
+        "orbital_momentum": initial_turning*(aspect + centres)**2,
+        "spin": initial_spin,
+        "partner_spin": initial_partner_spin,
     }
 
 
@@ -361,14 +371,17 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Angular momentum over its initial value.
+    """1 + the change of the angular momentum over its size at initial contact.
 
-    Total operations: 25
+    Total operations: 41
     """
     orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
+    initial_partner_spin = groups["initial_partner_spin"]
     radius_ratio = groups["radius_ratio"]
     mass_ratio = groups["mass_ratio"]
     centres = (radius_ratio + 1)**2/radius_ratio
@@ -376,17 +389,41 @@ def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]
     partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
     momentum = orbital_momentum + partner_inertia*partner_spin + spin*spin_inertia
     return {
-        "angular_momentum": momentum/(aspect + centres)**2,
+        "angular_momentum": 1 + (momentum - initial_partner_spin*partner_inertia - initial_spin*spin_inertia - initial_turning*(aspect + centres)**2)/(initial_turning*(aspect + centres)**2 + partner_inertia*fabs(initial_partner_spin) + spin_inertia*fabs(initial_spin)),
     }
 
 
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over omega0.
+    """Results for a separated doublet: restitutions, and rates over their scale.
 
-    Total operations: 10
+    Total operations: 11
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
+    spin = state["spin"]
+    partner_spin = state["partner_spin"]
+    aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
+    radius_ratio = groups["radius_ratio"]
+    centres = (radius_ratio + 1)**2/radius_ratio
+    distance = aspect*gap + centres
+    orbital_rate = orbital_momentum/distance**2
+    return {
+        "restitution": normal_velocity,
+        "tangential_restitution": distance*orbital_rate/(initial_turning*(aspect + centres)),
+        "final_rotation_rate": orbital_rate,
+        "final_spin": spin,
+        "final_spin_partner": partner_spin,
+    }
+
+
+def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
+
+    Total operations: 20
+    """
+    gap = state["gap"]
     orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     partner_spin = state["partner_spin"]
@@ -395,12 +432,11 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     centres = (radius_ratio + 1)**2/radius_ratio
     distance = aspect*gap + centres
     orbital_rate = orbital_momentum/distance**2
+    radius = (radius_ratio + 1)/radius_ratio
+    partner_radius = radius_ratio + 1
+    lever = laws.arm.lever(4*distance/centres)/2
     return {
-        "restitution": normal_velocity,
-        "tangential_restitution": distance*orbital_rate/(aspect + centres),
-        "final_rotation_rate": orbital_rate,
-        "final_spin": spin,
-        "final_spin_partner": partner_spin,
+        "surface_slip": distance*orbital_rate - lever*(partner_radius*partner_spin + radius*spin),
     }
 
 

@@ -1,18 +1,20 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 8c16dfb19ac0bb5372be6ae30f4d20ff16fad45825c8323c9f8ddea89a53f355
+# Equations sha256 0b0908e03ade38ffd807e16903ecc810de76e99e8289ace793ee03a2ab67a1bc
 """Oblique doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
 - gap [x0]: gap over film thickness
 - normal_velocity [v0]: normal velocity over impact speed, negative on approach
-- orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
-- spin [omega0]: spin of each sphere over omega0
+- orbital_momentum [a^2 Omega]: orbital angular momentum r^2 omega over a^2 Omega
+- spin [Omega]: spin of each sphere over its scale Omega
 - rotation [rad]: angle turned by the line of centres
 
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
 - aspect [1]: film thickness over reduced radius, x0/a
-- obliquity [1]: tangent of the impact angle
+- obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+- initial_turning [1]: tan(theta0)/T, 1 without spins
+- initial_spin [Omega]: spin at initial contact over Omega
 - weight [1]: gravity over impact deceleration, g x0/v0^2
 - string_ratio [1]: string length over reduced radius
 - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
@@ -28,7 +30,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import cos, fmax, fmin, pi, sin, sqrt
+from casadi import cos, fabs, fmax, fmin, pi, sin, sqrt
 
 
 Values = Mapping[str, Any]
@@ -38,6 +40,8 @@ GROUPS = (
     "stokes",
     "aspect",
     "obliquity",
+    "initial_turning",
+    "initial_spin",
     "weight",
     "string_ratio",
     "glass_number",
@@ -59,11 +63,12 @@ FUNCTIONS = (
     "rebound_loss",
     "angular_momentum",
     "outputs",
+    "surface_slip",
     "pendulum_margins",
     "approach_step",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "8c16dfb19ac0bb5372be6ae30f4d20ff16fad45825c8323c9f8ddea89a53f355"
+DIGEST = "0b0908e03ade38ffd807e16903ecc810de76e99e8289ace793ee03a2ab67a1bc"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -236,14 +241,16 @@ def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """State at initial contact.
 
-    Total operations: 3
+    Total operations: 4
     """
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     return {
         "gap": 1,
         "normal_velocity": -1,
-        "orbital_momentum": (aspect + 4)**2,
-        "spin": 0,
+        "orbital_momentum": initial_turning*(aspect + 4)**2,
+        "spin": initial_spin,
         "rotation": 0,
     }
 
@@ -310,36 +317,56 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Angular momentum over its initial value.
+    """1 + the change of the angular momentum over its size at initial contact.
 
-    Total operations: 6
+    Total operations: 19
     """
     orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     momentum = orbital_momentum + 6.4*spin
     return {
-        "angular_momentum": momentum/(aspect + 4)**2,
+        "angular_momentum": 1 + (momentum - 6.4*initial_spin - initial_turning*(aspect + 4)**2)/(initial_turning*(aspect + 4)**2 + 6.4*fabs(initial_spin)),
     }
 
 
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over omega0.
+    """Results for a separated doublet: restitutions, and rates over their scale.
 
-    Total operations: 7
+    Total operations: 8
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
     orbital_momentum = state["orbital_momentum"]
     spin = state["spin"]
     aspect = groups["aspect"]
+    initial_turning = groups["initial_turning"]
     distance = aspect*gap + 4
     orbital_rate = orbital_momentum/distance**2
     return {
         "restitution": normal_velocity,
-        "tangential_restitution": distance*orbital_rate/(aspect + 4),
+        "tangential_restitution": distance*orbital_rate/(initial_turning*(aspect + 4)),
         "final_rotation_rate": orbital_rate,
         "final_spin": spin,
+    }
+
+
+def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
+
+    Total operations: 9
+    """
+    gap = state["gap"]
+    orbital_momentum = state["orbital_momentum"]
+    spin = state["spin"]
+    aspect = groups["aspect"]
+    distance = aspect*gap + 4
+    orbital_rate = orbital_momentum/distance**2
+    lever = laws.arm.lever(distance)
+    return {
+        "surface_slip": distance*orbital_rate - 2*lever*spin,
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a0bfbecdbf78a7afbf9f50d1f8f3bbbd49b13d743ebbfee57517ba7451f73054
+# Equations sha256 601e77bf73c329f4bc378500dbaebd47525e38f737c38b497ae6df4e7b61c749
 """Oblique sphere-wall doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -10,7 +10,9 @@ Time in x0/v0. States (per unit):
 Groups:
 - stokes [1]: Stokes number m v0/(6 pi mu a^2)
 - aspect [1]: film thickness over reduced radius, x0/a
-- obliquity [1]: tangent of the impact angle
+- obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+- initial_turning [1]: tan(theta0)/T, 1 without spins
+- initial_spin [Omega]: spin at initial contact over Omega
 - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
 - elastic_gap [x0]: elastic length over film thickness
 - rough_gap [x0]: roughness over film thickness
@@ -34,6 +36,8 @@ GROUPS = (
     "stokes",
     "aspect",
     "obliquity",
+    "initial_turning",
+    "initial_spin",
     "glass_number",
     "elastic_gap",
     "rough_gap",
@@ -51,12 +55,13 @@ FUNCTIONS = (
     "energy_rates",
     "rebound_loss",
     "outputs",
+    "surface_slip",
     "effective_potential",
     "rigid_rotation",
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "a0bfbecdbf78a7afbf9f50d1f8f3bbbd49b13d743ebbfee57517ba7451f73054"
+DIGEST = "601e77bf73c329f4bc378500dbaebd47525e38f737c38b497ae6df4e7b61c749"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -158,15 +163,23 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 47
+    Total operations: 71
     """
     normal_velocity = state["normal_velocity"]
     decay = state["decay"]
     obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
-    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
-    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
+    slide = (
+        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
+        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+    )
+    roll = (
+        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
+        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+    )
     return {
         "kinetic": normal_velocity**2/2 + obliquity**2*(0.2*roll**2 + slide**2/2),
     }
@@ -177,7 +190,7 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 65
+    Total operations: 89
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -185,10 +198,18 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     stokes = groups["stokes"]
     aspect = groups["aspect"]
     obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
-    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
-    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
+    slide = (
+        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
+        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+    )
+    roll = (
+        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
+        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+    )
     shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
@@ -211,21 +232,52 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over omega0.
+    """Results for a separated doublet: restitutions, and rates over their scale.
 
-    Total operations: 37
+    Total operations: 62
     """
     normal_velocity = state["normal_velocity"]
     decay = state["decay"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
-    slide = fast_mode*(0.5 - 3*sqrt(46)/46) + slow_mode*(3*sqrt(46)/46 + 0.5)
-    roll = 5*sqrt(46)*slow_mode/92 - 5*sqrt(46)*fast_mode/92
+    slide = (
+        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
+        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+    )
+    roll = (
+        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
+        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+    )
     return {
         "restitution": normal_velocity,
-        "tangential_restitution": slide,
+        "tangential_restitution": slide/initial_turning,
         "final_rotation_rate": 0,
         "final_spin": roll,
+    }
+
+
+def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
+
+    Total operations: 62
+    """
+    decay = state["decay"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
+    slow_mode = exp(-decay)
+    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
+    slide = (
+        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
+        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+    )
+    roll = (
+        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
+        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+    )
+    return {
+        "surface_slip": slide - roll,
     }
 
 

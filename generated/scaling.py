@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 96918df81499d1e64bb7aa21105484fda70a97679cfe9d72868f5c8150535b6c
+# Equations sha256 dd273931940f015882811faba77361d8d284e5a88de6313821a1acd694610ff5
 """Dimensionless groups, as ratios of the model's terms, and scales from SI quantities.
 
 Each is a function of floats or CasADi expressions; ARGUMENTS has the names of its arguments, in order.
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from casadi import pi, tan
+from casadi import fabs, fmax, pi, tan
 
 
 ARGUMENTS: dict[str, tuple[str, ...]] = {
@@ -19,7 +19,7 @@ ARGUMENTS: dict[str, tuple[str, ...]] = {
     "adhesion": ("reduced_radius", "viscosity", "film_thickness", "hamaker", "speed"),
     "reynolds": ("viscosity", "film_thickness", "density", "speed"),
     "aspect": ("reduced_radius", "film_thickness"),
-    "obliquity": ("angle",),
+    "obliquity": ("reduced_radius", "speed", "angle", "impact_spin"),
     "glass_number": ("reduced_radius", "viscosity", "film_thickness", "glass_transition_pressure", "speed"),
     "weight": ("film_thickness", "gravity", "speed"),
     "string_ratio": ("reduced_radius", "string_length"),
@@ -28,9 +28,16 @@ ARGUMENTS: dict[str, tuple[str, ...]] = {
     "rupture_gap": ("reduced_radius", "film_thickness", "volume", "contact_angle"),
     "initial_rate": ("reduced_radius", "speed", "angle"),
     "initial_rate_pair": ("reduced_radius", "speed", "angle", "radius_ratio"),
-    "initial_rate_wall": ("reduced_radius", "speed", "angle"),
+    "rate_scale": ("reduced_radius", "speed", "obliquity"),
+    "rate_scale_pair": ("reduced_radius", "speed", "obliquity", "radius_ratio"),
+    "rate_scale_wall": ("reduced_radius", "speed", "obliquity"),
     "centrifugal_pair": ("reduced_radius", "reduced_mass", "surface_tension", "speed", "angle", "radius_ratio"),
     "generalised_centrifugal": ("reduced_radius", "reduced_mass", "initial_rate", "attraction_force"),
+    "obliquity_pair": ("reduced_radius", "speed", "angle", "impact_spin", "impact_partner_spin", "radius_ratio"),
+    "obliquity_wall": ("reduced_radius", "speed", "angle", "impact_spin"),
+    "initial_turning": ("angle", "obliquity"),
+    "initial_spin": ("rate_scale", "impact_spin"),
+    "initial_partner_spin": ("rate_scale", "impact_partner_spin"),
 }
 
 
@@ -64,7 +71,7 @@ def centrifugal(reduced_radius: Any, reduced_mass: Any, surface_tension: Any, sp
     - reduced_mass [kg]: reduced mass, M/2 for equal spheres
     - surface_tension [N/m]: surface tension of the liquid
     - speed [m/s]: normal approach speed at initial contact
-    - angle [rad]: impact angle, 0 head-on
+    - angle [rad]: impact angle, 0 along the line of centres
     """
     return reduced_mass*speed**2*tan(angle)**2/(16*reduced_radius**2*surface_tension)
 
@@ -101,12 +108,15 @@ def aspect(reduced_radius: Any, film_thickness: Any) -> Any:
     return film_thickness/reduced_radius
 
 
-def obliquity(angle: Any) -> Any:
-    """tangent of the impact angle [1].
+def obliquity(reduced_radius: Any, speed: Any, angle: Any, impact_spin: Any) -> Any:
+    """largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0 [1].
 
-    - angle [rad]: impact angle, 0 head-on
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - speed [m/s]: normal approach speed at initial contact
+    - angle [rad]: impact angle, 0 along the line of centres
+    - impact_spin [rad/s]: spin at initial contact
     """
-    return tan(angle)
+    return fmax(2*reduced_radius*fabs(impact_spin)/speed, tan(angle))
 
 
 def glass_number(reduced_radius: Any, viscosity: Any, film_thickness: Any, glass_transition_pressure: Any, speed: Any) -> Any:
@@ -178,7 +188,7 @@ def initial_rate(reduced_radius: Any, speed: Any, angle: Any) -> Any:
 
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
     - speed [m/s]: normal approach speed at initial contact
-    - angle [rad]: impact angle, 0 head-on
+    - angle [rad]: impact angle, 0 along the line of centres
     """
     return speed*tan(angle)/(4*reduced_radius)
 
@@ -188,20 +198,41 @@ def initial_rate_pair(reduced_radius: Any, speed: Any, angle: Any, radius_ratio:
 
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
     - speed [m/s]: normal approach speed at initial contact
-    - angle [rad]: impact angle, 0 head-on
+    - angle [rad]: impact angle, 0 along the line of centres
     - radius_ratio [1]: radius of the partner over that of the sphere
     """
     return radius_ratio*speed*tan(angle)/(reduced_radius*(radius_ratio + 1)**2)
 
 
-def initial_rate_wall(reduced_radius: Any, speed: Any, angle: Any) -> Any:
-    """scale of the spin beside a wall, v0 tan(theta0)/a [rad/s].
+def rate_scale(reduced_radius: Any, speed: Any, obliquity: Any) -> Any:
+    """scale of angular velocities, omega0 unless the spheres spin at first [rad/s].
 
     - reduced_radius [m]: reduced radius, R/2 for equal spheres
     - speed [m/s]: normal approach speed at initial contact
-    - angle [rad]: impact angle, 0 head-on
+    - obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
     """
-    return speed*tan(angle)/reduced_radius
+    return obliquity*speed/(4*reduced_radius)
+
+
+def rate_scale_pair(reduced_radius: Any, speed: Any, obliquity: Any, radius_ratio: Any) -> Any:
+    """scale of angular velocities of an unequal pair [rad/s].
+
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - speed [m/s]: normal approach speed at initial contact
+    - obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+    - radius_ratio [1]: radius of the partner over that of the sphere
+    """
+    return obliquity*radius_ratio*speed/(reduced_radius*(radius_ratio + 1)**2)
+
+
+def rate_scale_wall(reduced_radius: Any, speed: Any, obliquity: Any) -> Any:
+    """scale of the spin beside a wall [rad/s].
+
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - speed [m/s]: normal approach speed at initial contact
+    - obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+    """
+    return obliquity*speed/reduced_radius
 
 
 def centrifugal_pair(reduced_radius: Any, reduced_mass: Any, surface_tension: Any, speed: Any, angle: Any, radius_ratio: Any) -> Any:
@@ -211,7 +242,7 @@ def centrifugal_pair(reduced_radius: Any, reduced_mass: Any, surface_tension: An
     - reduced_mass [kg]: reduced mass, M/2 for equal spheres
     - surface_tension [N/m]: surface tension of the liquid
     - speed [m/s]: normal approach speed at initial contact
-    - angle [rad]: impact angle, 0 head-on
+    - angle [rad]: impact angle, 0 along the line of centres
     - radius_ratio [1]: radius of the partner over that of the sphere
     """
     return radius_ratio**2*reduced_mass*speed**2*tan(angle)**2/(reduced_radius**2*surface_tension*(radius_ratio + 1)**4)
@@ -226,3 +257,54 @@ def generalised_centrifugal(reduced_radius: Any, reduced_mass: Any, initial_rate
     - attraction_force [N]: all that attracts, at a gap: bridge and van der Waals
     """
     return initial_rate**2*reduced_mass*reduced_radius/attraction_force
+
+
+def obliquity_pair(reduced_radius: Any, speed: Any, angle: Any, impact_spin: Any, impact_partner_spin: Any, radius_ratio: Any) -> Any:
+    """T of an unequal pair [1].
+
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - speed [m/s]: normal approach speed at initial contact
+    - angle [rad]: impact angle, 0 along the line of centres
+    - impact_spin [rad/s]: spin at initial contact
+    - impact_partner_spin [rad/s]: spin of the partner at initial contact
+    - radius_ratio [1]: radius of the partner over that of the sphere
+    """
+    return fmax(fmax(reduced_radius*(radius_ratio + 1)*fabs(impact_partner_spin)/speed, reduced_radius*(radius_ratio + 1)*fabs(impact_spin)/(radius_ratio*speed)), tan(angle))
+
+
+def obliquity_wall(reduced_radius: Any, speed: Any, angle: Any, impact_spin: Any) -> Any:
+    """T beside a wall [1].
+
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - speed [m/s]: normal approach speed at initial contact
+    - angle [rad]: impact angle, 0 along the line of centres
+    - impact_spin [rad/s]: spin at initial contact
+    """
+    return fmax(reduced_radius*fabs(impact_spin)/speed, tan(angle))
+
+
+def initial_turning(angle: Any, obliquity: Any) -> Any:
+    """tan(theta0)/T, 1 without spins [1].
+
+    - angle [rad]: impact angle, 0 along the line of centres
+    - obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+    """
+    return tan(angle)/fmax(1e-300, obliquity)
+
+
+def initial_spin(rate_scale: Any, impact_spin: Any) -> Any:
+    """spin at initial contact over Omega [Omega].
+
+    - rate_scale [rad/s]: scale of angular velocities, omega0 unless the spheres spin at first
+    - impact_spin [rad/s]: spin at initial contact
+    """
+    return impact_spin/fmax(1e-300, rate_scale)
+
+
+def initial_partner_spin(rate_scale: Any, impact_partner_spin: Any) -> Any:
+    """spin of the partner at initial contact over Omega [Omega].
+
+    - rate_scale [rad/s]: scale of angular velocities, omega0 unless the spheres spin at first
+    - impact_partner_spin [rad/s]: spin of the partner at initial contact
+    """
+    return impact_partner_spin/fmax(1e-300, rate_scale)

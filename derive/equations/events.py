@@ -14,6 +14,8 @@ from ..vocabulary.quantities import (
     e_dry,
     gap,
     glass_number,
+    initial_spin,
+    initial_turning,
     normal_velocity,
     orbital_momentum,
     rupture_gap,
@@ -27,13 +29,13 @@ contact_gap = sp.Max(*CONTACT_GAPS.values())  # gap at which the solids meet
 
 
 def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
-    """State at initial contact: closing at v0, the line of centres turning at omega0, no spin."""
+    """State at initial contact: closing at v0, with the rotation of the line of centres and the spins of the impact."""
     touching: dict[sp.Symbol, sp.Expr] = {gap: sp.Integer(1), normal_velocity: sp.Integer(-1)}
     if structure.partner:
         return touching | dict(rotation(structure.partner).start)
     return touching | {
-        orbital_momentum: (4 + aspect) ** 2,
-        spin: sp.Integer(0),
+        orbital_momentum: (4 + aspect) ** 2 * initial_turning,
+        spin: initial_spin,
         beta: sp.Integer(0),
     }
 

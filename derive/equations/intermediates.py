@@ -12,7 +12,7 @@ from ..physics.mechanics import F_c, F_n, F_t, F_w, doublet_inertia, equations_o
 from ..physics.partners import rotation
 from ..physics.scaling import DISTANCE, INERTIA, nondimensional
 from ..physics.structure import Structure
-from ..vocabulary.quantities import a, aspect, gap, m, omega, omega0, orbital_momentum, r, spin
+from ..vocabulary.quantities import a, aspect, gap, m, omega, orbital_momentum, r, rate_scale, spin
 from .invariants import Invariant
 
 ORBITAL_RATE, SLIP = sp.symbols("orbital_rate slip", real=True)
@@ -58,13 +58,13 @@ def intermediates(structure: Structure, conserved: Conserved | None = None) -> t
 
 def _rotation(conserved: Conserved | None) -> list[Definition]:
     """Orbital rate, angular momentum, the spin if eliminated, slip and inertia."""
-    definitions: list[Definition] = [(ORBITAL_RATE, nondimensional(omega / omega0))]
+    definitions: list[Definition] = [(ORBITAL_RATE, nondimensional(omega / rate_scale))]
     if conserved is not None:
         invariant, value = conserved
         definitions.append((MOMENTUM, value))
         definitions.append((spin, invariant.solved(spin, MOMENTUM)))
     else:
-        definitions.append((MOMENTUM, nondimensional(equations_of_motion().angular_momentum / (m * a**2 * omega0))))
+        definitions.append((MOMENTUM, nondimensional(equations_of_motion().angular_momentum / (m * a**2 * rate_scale))))
     definitions.append((SLIP, ORBITAL_RATE - spin))
     definitions.append((INERTIA_RATIO, nondimensional(doublet_inertia() / (m * a**2))))
     return definitions

@@ -19,7 +19,7 @@ from sympy.polys.matrices import DomainMatrix
 from ..physics.laws.base import Law, filled
 from ..physics.mechanics import equations_of_motion
 from ..physics.scaling import nondimensional
-from ..vocabulary.quantities import VOCABULARY, a, beta, gap, m, omega0
+from ..vocabulary.quantities import VOCABULARY, a, beta, gap, m, rate_scale
 
 DEGREE = 2  # highest power of the gap in a coefficient: velocities occur with at most r^2
 _COORDINATES = (gap, beta)
@@ -56,7 +56,7 @@ class Invariant:
 
     @property
     def is_angular_momentum(self) -> bool:
-        """True if it is L over m a^2 omega0."""
+        """True if it is L over m a^2 Omega."""
         return sp.expand(self.expression - angular_momentum()) == 0
 
     def at(self, state: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
@@ -74,7 +74,7 @@ class Invariant:
         return sp.solve(sp.Eq(self.expression, value), momentum)[0]
 
     def describe(self) -> str:
-        """A description such as `orbital_momentum + (32/5) spin: angular momentum L/(m a^2 omega0)`."""
+        """A description such as `orbital_momentum + (32/5) spin: angular momentum L/(m a^2 Omega)`."""
         terms = []
         for momentum, factor in self.coefficients:
             plain = factor.is_Symbol or factor.is_Integer
@@ -83,7 +83,7 @@ class Invariant:
 
     def _meaning(self) -> str:
         if self.is_angular_momentum:
-            return "angular momentum L/(m a^2 omega0)"
+            return "angular momentum L/(m a^2 Omega)"
         if len(self.coefficients) == 1 and self.coefficients[0][0].name in VOCABULARY:
             return VOCABULARY[self.coefficients[0][0].name].meaning
         return "a combination of momenta"
@@ -91,8 +91,8 @@ class Invariant:
 
 @cache
 def angular_momentum() -> sp.Expr:
-    """L over m a^2 omega0 in the states of an oblique doublet."""
-    return sp.expand(nondimensional(equations_of_motion().angular_momentum / (m * a**2 * omega0)))
+    """L over m a^2 Omega in the states of an oblique doublet."""
+    return sp.expand(nondimensional(equations_of_motion().angular_momentum / (m * a**2 * rate_scale)))
 
 
 def invariants(

@@ -26,6 +26,9 @@ from ..vocabulary.quantities import (
     e_dry,
     gap,
     glass_number,
+    initial_partner_spin,
+    initial_spin,
+    initial_turning,
     mass_ratio,
     normal_velocity,
     obliquity,
@@ -54,6 +57,7 @@ from .observables import (
     outputs,
     restitution_ceiling,
     rigid_rotation,
+    surface_slip,
 )
 from .rates import inward_force, rates, resting_rates, turning_rate
 
@@ -136,8 +140,8 @@ def _pendulum(structure: Structure) -> bool:
 
 # In the order in which modules list those that they use.
 GROUPS = (
-    stokes, aspect, obliquity, capillary, volume, contact_angle, adhesion, weight, string_ratio,
-    radius_ratio, mass_ratio, glass_number, *CONTACT_GAPS.values(), rupture_gap, e_dry,
+    stokes, aspect, obliquity, initial_turning, initial_spin, initial_partner_spin, capillary, volume, contact_angle,
+    adhesion, weight, string_ratio, radius_ratio, mass_ratio, glass_number, *CONTACT_GAPS.values(), rupture_gap, e_dry,
 )  # fmt: skip
 
 
@@ -242,17 +246,25 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
         functions.append(
             ModelFunction(
                 "angular_momentum",
-                "Angular momentum over its initial value.",
+                "1 + the change of the angular momentum over its size at initial contact.",
                 (("angular_momentum", momentum),),
             )
         )
     functions.append(
         ModelFunction(
             "outputs",
-            "Results for a separated doublet: restitutions, and rates over omega0.",
+            "Results for a separated doublet: restitutions, and rates over their scale.",
             tuple(outputs(structure).items()),
         )
     )
+    if structure.oblique:
+        functions.append(
+            ModelFunction(
+                "surface_slip",
+                "Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.",
+                (("surface_slip", surface_slip(structure)),),
+            )
+        )
     if _pendulum(structure):
         functions.append(
             ModelFunction(

@@ -9,6 +9,7 @@ from ..physics.laws import slot_call
 from ..physics.laws.strings import offset_squared
 from ..physics.mechanics import doublet_inertia, equations_of_motion
 from ..physics.partners import rotation
+from ..physics.partners.base import relative_change
 from ..physics.scaling import DISTANCE, nondimensional
 from ..physics.structure import Structure
 from ..vocabulary.quantities import (
@@ -16,12 +17,13 @@ from ..vocabulary.quantities import (
     aspect,
     g,
     gap,
+    initial_turning,
     m,
     normal_velocity,
     omega,
-    omega0,
     orbital_momentum,
     r,
+    rate_scale,
     spin,
     string_ratio,
     v0,
@@ -39,6 +41,7 @@ from .intermediates import (
     MOMENTUM,
     ORBITAL_RATE,
     SHEAR_FORCE,
+    SLIP,
     STRING_PULL,
     by_orbital_rate,
 )
@@ -83,28 +86,43 @@ def energy_rates(structure: Structure) -> dict[str, sp.Expr]:
     if structure.partner:
         taken["tangential_lubrication"] = rotation(structure.partner).power
     elif structure.oblique and not structure.reduced:
-        power = TANGENTIAL * SHEAR_FORCE * (a * DISTANCE * omega0 * ORBITAL_RATE - 2 * a * LEVER * xi)
+        power = TANGENTIAL * SHEAR_FORCE * (a * DISTANCE * rate_scale * ORBITAL_RATE - 2 * a * LEVER * xi)
         taken["tangential_lubrication"] = nondimensional(power * x0 / v0 / (m * v0**2))
     return taken
 
 
 def angular_momentum(structure: Structure) -> sp.Expr | None:
-    """Angular momentum over its initial value; None beside a wall, where it is not conserved."""
+    """1 + the change of L over the size of L at initial contact; None beside a wall, where L is not conserved.
+
+    Its size is the sum of the magnitudes of the orbital part and of the spins': L itself may vanish.
+    """
     if structure.partner:
         return rotation(structure.partner).momentum
-    return MOMENTUM / (4 + aspect) ** 2
+    whole = angular_momentum_invariant()
+    first = start(structure)
+    parts = [whole.coeff(each) * first[each] for each in (orbital_momentum, spin)]
+    return relative_change(MOMENTUM, parts)
 
 
 def outputs(structure: Structure) -> dict[str, sp.Expr]:
-    """Results for a separated doublet: restitutions, and rates over omega0."""
+    """Results for a separated doublet: restitutions, and rates over Omega."""
     shown: dict[str, sp.Expr] = {"restitution": normal_velocity}
     if structure.partner:
         return shown | dict(rotation(structure.partner).outputs)
     if structure.oblique:
-        shown["tangential_restitution"] = DISTANCE * ORBITAL_RATE / (4 + aspect)
+        shown["tangential_restitution"] = DISTANCE * ORBITAL_RATE / ((4 + aspect) * initial_turning)
         shown["final_rotation_rate"] = ORBITAL_RATE
         shown["final_spin"] = spin
     return shown
+
+
+def surface_slip(structure: Structure) -> sp.Expr:
+    """Relative velocity of the surfaces at the contact, at the lever arms of the torques, over a Omega."""
+    if structure.partner:
+        return rotation(structure.partner).surface_slip
+    if structure.reduced:  # the lever arm is r/2
+        return DISTANCE * SLIP
+    return DISTANCE * ORBITAL_RATE - 2 * LEVER * spin
 
 
 def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
@@ -113,7 +131,7 @@ def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
     if structure.partner:
         energy, slope = rotation(structure.partner).least
     elif structure.oblique:
-        square = (m * a**2 * omega0 * MOMENTUM) ** 2
+        square = (m * a**2 * rate_scale * MOMENTUM) ** 2
         energy += nondimensional(square / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
         body = (doublet_inertia() / (m * a**2)).diff(x) * x0  # d inertia_ratio / d gap
         slope += energy.diff(INERTIA_RATIO) * nondimensional(body)
@@ -149,6 +167,6 @@ def restitution_ceiling(structure: Structure) -> dict[str, sp.Expr]:
     initial = _kinetic(structure).subs(at_start).subs(DISTANCE, 4 + aspect)
     least = sp.Integer(0)
     if structure.oblique:
-        momentum = (m * a**2 * omega0 * angular_momentum_invariant().subs(first)) ** 2
+        momentum = (m * a**2 * rate_scale * angular_momentum_invariant().subs(first)) ** 2
         least = nondimensional(momentum / (2 * m * a**2) / (m * v0**2)) / INERTIA_RATIO
     return {"squared": 2 * initial - 2 * least}

@@ -18,9 +18,9 @@ from ..vocabulary.quantities import (
     m,
     normal_velocity,
     omega,
-    omega0,
     orbital_momentum,
     r,
+    rate_scale,
     spin,
     u,
     v0,
@@ -65,11 +65,11 @@ def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     centrifugal = sp.expand(acceleration - acceleration.subs(omega, 0))
     assert sp.expand(centrifugal - r * omega**2) == 0
     rate[normal_velocity] = CENTRIFUGAL_FORCE + sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
-    pull_round = motion.orbital_momentum_rate.subs(tangential) / (m * a**2 * omega0) * x0 / v0
+    pull_round = motion.orbital_momentum_rate.subs(tangential) / (m * a**2 * rate_scale) * x0 / v0
     rate[orbital_momentum] = nondimensional(pull_round)
     if not structure.reduced:
         spin_up = motion.spin_acceleration.subs(tangential).subs(arm, a * LEVER)
-        rate[spin] = nondimensional(spin_up * x0 / (v0 * omega0))
+        rate[spin] = nondimensional(spin_up * x0 / (v0 * rate_scale))
     if structure.strings:
         rate[beta] = turning_rate()
     return rate

@@ -22,8 +22,8 @@ from ..vocabulary.quantities import (
     m,
     mu,
     omega,
-    omega0,
     r,
+    rate_scale,
     sigma,
     string_ratio,
     u,
@@ -42,7 +42,7 @@ from .scaling import DISTANCE, INERTIA, VAN_DER_WAALS, nondimensional
 # Flags for where film and shear act, named as in emitted code
 FILM, SHEAR = sp.symbols("film shear", nonnegative=True)
 
-TANGENTIAL = m * a * omega0 * v0 / x0  # scale of the tangential force
+TANGENTIAL = m * a * rate_scale * v0 / x0  # scale of the tangential force
 
 
 @cache

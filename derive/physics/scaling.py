@@ -1,6 +1,7 @@
 """Dimensionless groups: their number (nullspace), their definition (ratios of terms), and the substitution.
 
-Scales are x0 for the gap, v0 for velocities, x0/v0 for time and omega0 for angular velocities: states are of order one.
+Scales are x0 for the gap, v0 for velocities, x0/v0 for time, and for angular velocities Omega = v0 T/(4a) with the
+largest tangential speed v0 T at initial contact (omega0 where nothing spins): states are of order one.
 """
 
 from __future__ import annotations
@@ -26,6 +27,11 @@ from ..vocabulary.quantities import (
     g,
     gap,
     glass_number,
+    impact_partner_spin,
+    impact_spin,
+    initial_partner_spin,
+    initial_spin,
+    initial_turning,
     l_s,
     m,
     mu,
@@ -40,7 +46,9 @@ from ..vocabulary.quantities import (
     partner_spin,
     partner_spin_rate,
     r,
-    radius_ratio,
+    rate_scale,
+    rate_scale_pair,
+    rate_scale_wall,
     reynolds,
     rho,
     rough_gap,
@@ -52,7 +60,6 @@ from ..vocabulary.quantities import (
     theta0,
     u,
     v0,
-    wall_rate,
     weight,
     x,
     x0,
@@ -83,6 +90,8 @@ def exponents(monomial: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     powers = sp.powsimp(monomial).as_powers_dict()
     return sp.Matrix([powers.get(s, 0) for s in symbols])
 
+
+EQUAL = sp.Integer(4)  # centre distance at contact over a, of equal spheres
 
 # The force scales in the equation of motion at initial contact
 INERTIA = m * v0**2 / x0  # m du/dt
@@ -115,7 +124,7 @@ def group_definitions() -> dict[sp.Symbol, sp.Expr]:
 
 @cache
 def scale_definitions() -> dict[sp.Symbol, sp.Expr]:
-    """Scales that are not quantities of a scene, in terms of those that are."""
+    """Scales that are not quantities of a scene, in terms of those that are, and of T."""
     from .partners.bodies import centres  # which builds on this module's neighbours
 
     apart = centres() * a
@@ -123,10 +132,48 @@ def scale_definitions() -> dict[sp.Symbol, sp.Expr]:
     return {
         omega0: initial_rate(),
         pair_rate: per_pair,
-        wall_rate: sp.limit(per_pair * apart / a, radius_ratio, sp.oo),
+        rate_scale: v0 * obliquity / (EQUAL * a),
+        rate_scale_pair: v0 * obliquity / apart,
+        rate_scale_wall: v0 * obliquity / a,
         pair_centrifugal: m * per_pair**2 / sigma,
         cohesive_centrifugal: generalised_centrifugal(attraction),
     }
+
+
+@cache
+def impact_groups(partner: str = "") -> dict[sp.Symbol, sp.Expr]:
+    """T, and the rates at initial contact over their scale, for a partner: "", "pair" or "wall".
+
+    T is a scale and no more: no result depends on it, so its own derivatives are never needed. It vanishes only
+    where nothing moves sideways, and no rate is then scaled.
+    """
+    from .partners.bodies import radii
+
+    scales = scale_definitions()
+    scale = {"": scales[rate_scale], "pair": scales[rate_scale_pair], "wall": scales[rate_scale_wall]}[partner]
+    tangent = sp.tan(theta0)
+    if partner == "pair":
+        first, second = radii()
+        sideways = [tangent, first * sp.Abs(impact_spin) / v0, second * sp.Abs(impact_partner_spin) / v0]
+    else:
+        sideways = [tangent, (a if partner else R) * sp.Abs(impact_spin) / v0]
+    rates = first_rates(scale.subs(obliquity, sp.Max(obliquity, _LEAST)))
+    if partner != "pair":
+        del rates[initial_partner_spin]
+    return {obliquity: sp.Max(*sideways), **rates}
+
+
+def first_rates(scale: sp.Expr) -> dict[sp.Symbol, sp.Expr]:
+    """The rates at initial contact over their scale; zero, and not undefined, where nothing moves sideways."""
+    unit = sp.Max(scale, _LEAST) if scale.is_Symbol else scale
+    return {
+        initial_turning: sp.tan(theta0) / sp.Max(obliquity, _LEAST),
+        initial_spin: impact_spin / unit,
+        initial_partner_spin: impact_partner_spin / unit,
+    }
+
+
+_LEAST = sp.Float("1e-300")  # in place of a scale that vanishes, where nothing is divided that does not
 
 
 def generalised_centrifugal(force: sp.Expr) -> sp.Expr:
@@ -135,9 +182,6 @@ def generalised_centrifugal(force: sp.Expr) -> sp.Expr:
     The paper's Ce = m omega0^2/sigma is Ce_F with F = a sigma, so for the constant bridge Ce_F = Ce/(4 pi cos(phi)).
     """
     return CENTRIFUGAL / force
-
-
-EQUAL = sp.Integer(4)  # centre distance at contact over a, of equal spheres
 
 
 @cache
@@ -162,12 +206,13 @@ def to_groups(centres: sp.Expr = EQUAL) -> dict[sp.Symbol, sp.Expr]:
         g: solved(weight, g).subs(m, mass),
         A_H: solved(adhesion, A_H),
         l_s: solved(string_ratio, l_s),
-        omega0: v0 * obliquity / (centres * a),
+        omega0: v0 * obliquity * initial_turning / (centres * a),
+        rate_scale: v0 * obliquity / (centres * a),
         x: film * gap,
         u: v0 * normal_velocity,
-        omega: omega0 * orbital_momentum / DISTANCE**2,
-        xi: omega0 * spin,
-        partner_spin_rate: omega0 * partner_spin,
+        omega: rate_scale * orbital_momentum / DISTANCE**2,
+        xi: rate_scale * spin,
+        partner_spin_rate: rate_scale * partner_spin,
     }
 
 
@@ -196,7 +241,7 @@ def nondimensional(expression: sp.Expr, centres: sp.Expr = EQUAL) -> sp.Expr:
 
 
 def _substituted(expression: sp.Expr, rules: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
-    for _ in range(3):  # rotation rate -> omega0 -> v0 and the angle
+    for _ in range(3):  # rotation rate -> its scale -> v0 and T
         expression = expression.xreplace(rules)
     if isinstance(expression, AppliedUndef):
         return expression.func(*(sp.simplify(argument) for argument in expression.args))

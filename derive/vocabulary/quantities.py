@@ -16,6 +16,7 @@ from .dimensions import FORCE, LENGTH, MASS, ONE, PRESSURE, RATE, SPEED, TIME, D
 PAPER = "Donahue et al. 2012"
 HAMAKER = "Hamaker 1937"
 PAIR = "two unequal spheres, or a wall"
+SPIN = "spins at initial contact"
 
 
 @dataclass(frozen=True)
@@ -68,7 +69,7 @@ A_H = _quantity("hamaker", "A_H", FORCE * LENGTH, "J", "Hamaker constant of the 
 l_s = _quantity("string_length", "l", LENGTH, "m", "length of the pendulum strings")
 g = _quantity("gravity", "g", LENGTH / TIME**2, "m/s^2", "gravitational acceleration")
 v0 = _quantity("speed", "v_{n,0}", SPEED, "m/s", "normal approach speed at initial contact")
-theta0 = _quantity("angle", r"\theta_0", ONE, "rad", "impact angle, 0 head-on", nonnegative=True)
+theta0 = _quantity("angle", r"\theta_0", ONE, "rad", "impact angle, 0 along the line of centres", nonnegative=True)
 
 # Motion
 t = _quantity("time", "t", TIME, "s", "time since initial contact", real=True)
@@ -88,6 +89,9 @@ partner_spin_rate = _quantity(
 slide_rate = _quantity("slide_rate", "v", SPEED, "m/s", "velocity of the sphere's centre along a wall", PAIR, real=True)
 beta = _quantity("rotation", r"\beta", ONE, "rad", "angle turned by the line of centres", real=True)
 omega0 = _quantity("initial_rate", r"\omega_0", RATE, "rad/s", "initial angular velocity, v0 tan(theta0)/(4a)")
+rate_scale = _quantity(
+    "rate_scale", r"\Omega", RATE, "rad/s", "scale of angular velocities, omega0 unless the spheres spin at first", SPIN
+)
 
 pair_rate = _quantity(
     "initial_rate_pair",
@@ -97,8 +101,13 @@ pair_rate = _quantity(
     "initial angular velocity of a pair, v0 tan(theta0)/(R1 + R2)",
     PAIR,
 )
-wall_rate = _quantity(
-    "initial_rate_wall", r"\xi_0", RATE, "rad/s", "scale of the spin beside a wall, v0 tan(theta0)/a", PAIR
+rate_scale_pair = _quantity(
+    "rate_scale_pair", r"\Omega_p", RATE, "rad/s", "scale of angular velocities of an unequal pair", PAIR
+)
+rate_scale_wall = _quantity("rate_scale_wall", r"\Omega_w", RATE, "rad/s", "scale of the spin beside a wall", PAIR)
+impact_spin = _quantity("impact_spin", r"\xi_0", RATE, "rad/s", "spin at initial contact", SPIN, real=True)
+impact_partner_spin = _quantity(
+    "impact_partner_spin", r"\xi_{2,0}", RATE, "rad/s", "spin of the partner at initial contact", SPIN, real=True
 )
 attraction = _quantity("attraction_force", "F", FORCE, "N", "all that attracts, at a gap: bridge and van der Waals")
 
@@ -108,19 +117,17 @@ normal_velocity = _quantity(
     "normal_velocity", "w", ONE, "v0", "normal velocity over impact speed, negative on approach", real=True
 )
 orbital_momentum = _quantity(
-    "orbital_momentum", "J", ONE, "a^2 omega0", "orbital angular momentum r^2 omega over a^2 omega0", real=True
+    "orbital_momentum", "J", ONE, "a^2 Omega", "orbital angular momentum r^2 omega over a^2 Omega", real=True
 )
-spin = _quantity("spin", r"\hat\xi", ONE, "omega0", "spin of each sphere over omega0", real=True)
-partner_spin = _quantity(
-    "partner_spin", r"\hat\xi_2", ONE, "omega0", "spin of the partner over omega0", PAIR, real=True
-)
+spin = _quantity("spin", r"\hat\xi", ONE, "Omega", "spin of each sphere over its scale Omega", real=True)
+partner_spin = _quantity("partner_spin", r"\hat\xi_2", ONE, "Omega", "spin of the partner over Omega", PAIR, real=True)
 slide = _quantity(
-    "slide", r"\hat v", ONE, "v0 tan(theta0)", "tangential velocity of centre and wall over its first", PAIR, real=True
+    "slide", r"\hat v", ONE, "v0 T", "tangential velocity of the centre along a wall over v0 T", PAIR, real=True
 )
 decay = _quantity(
     "decay", r"\Lambda", ONE, "1", "e-foldings of the slower mode of sliding and rolling beside a wall", PAIR, real=True
 )
-roll = _quantity("roll", r"\hat\xi_w", ONE, "v0 tan(theta0)/a", "spin beside a wall", PAIR, real=True)
+roll = _quantity("roll", r"\hat\xi_w", ONE, "v0 T/a", "spin beside a wall", PAIR, real=True)
 
 # Dimensionless groups
 stokes = _quantity("stokes", "St", ONE, "1", "Stokes number m v0/(6 pi mu a^2)")
@@ -128,7 +135,22 @@ capillary = _quantity("capillary", "Ca", ONE, "1", "capillary number 3 mu a v0/(
 centrifugal = _quantity("centrifugal", "Ce", ONE, "1", "centrifugal number m omega0^2/sigma", nonnegative=True)
 reynolds = _quantity("reynolds", "Re", ONE, "1", "film Reynolds number rho v0 x0/mu")
 aspect = _quantity("aspect", r"\varepsilon", ONE, "1", "film thickness over reduced radius, x0/a")
-obliquity = _quantity("obliquity", r"\tan\theta_0", ONE, "1", "tangent of the impact angle", nonnegative=True)
+obliquity = _quantity(
+    "obliquity", "T", ONE, "1", "largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0",
+    SPIN, nonnegative=True,
+)  # fmt: skip
+obliquity_pair = _quantity("obliquity_pair", "T_p", ONE, "1", "T of an unequal pair", SPIN, nonnegative=True)
+obliquity_wall = _quantity("obliquity_wall", "T_w", ONE, "1", "T beside a wall", SPIN, nonnegative=True)
+initial_turning = _quantity(
+    "initial_turning", r"\hat\omega_0", ONE, "1", "tan(theta0)/T, 1 without spins", SPIN, nonnegative=True
+)
+initial_spin = _quantity(
+    "initial_spin", r"\hat\xi_0", ONE, "Omega", "spin at initial contact over Omega", SPIN, real=True
+)
+initial_partner_spin = _quantity(
+    "initial_partner_spin", r"\hat\xi_{2,0}", ONE, "Omega", "spin of the partner at initial contact over Omega", SPIN,
+    real=True,
+)  # fmt: skip
 glass_number = _quantity("glass_number", r"\Pi_{gt}", ONE, "1", "glass-transition pressure over 3 mu a v0/x0^2")
 radius_ratio = _quantity("radius_ratio", r"\lambda", ONE, "1", "radius of the partner over that of the sphere", PAIR)
 mass_ratio = _quantity("mass_ratio", r"\kappa", ONE, "1", "mass of the partner over that of the sphere", PAIR)

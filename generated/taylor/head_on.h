@@ -191,7 +191,7 @@ static inline vec stored_energy(const constants *c, const vec *y)
 }
 
 enum { OUTPUTS = 1 };
-/* Results for a separated doublet: restitutions, and rates over omega0. */
+/* Results for a separated doublet: restitutions, and rates over their scale. */
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;

@@ -1,17 +1,19 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 72de48b453175062882b6a638185edcedfdfa1cc25bd27e8db44dddc379eaf52 */
+ * Equations sha256 57781d31050733158c44ee29f88740bf7c7ed77a6143907b3a15d391d72ee645 */
 
 /* Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
  * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
- * - orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - orbital_momentum [a^2 Omega]: orbital angular momentum r^2 omega over a^2 Omega
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
  * - aspect [1]: film thickness over reduced radius, x0/a
- * - obliquity [1]: tangent of the impact angle
+ * - obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+ * - initial_turning [1]: tan(theta0)/T, 1 without spins
+ * - initial_spin [Omega]: spin at initial contact over Omega
  * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
  * - elastic_gap [x0]: elastic length over film thickness
  * - rough_gap [x0]: roughness over film thickness
@@ -37,12 +39,14 @@
 enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, MODEL_STATES };
 enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };
 enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
-enum { GROUPS = 7 };
+enum { GROUPS = 9 };
 
 typedef struct {
     vec stokes; /* Stokes number m v0/(6 pi mu a^2) */
     vec aspect; /* film thickness over reduced radius, x0/a */
-    vec obliquity; /* tangent of the impact angle */
+    vec obliquity; /* largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0 */
+    vec initial_turning; /* tan(theta0)/T, 1 without spins */
+    vec initial_spin; /* spin at initial contact over Omega */
     vec glass_number; /* glass-transition pressure over 3 mu a v0/x0^2 */
     vec elastic_gap; /* elastic length over film thickness */
     vec rough_gap; /* roughness over film thickness */
@@ -66,7 +70,7 @@ typedef struct {
     glass_pressure_clearance_constants glass;
 } constants;
 
-enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_SPEED, SI_ANGLE, QUANTITIES };
+enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_SPEED, SI_ANGLE, SI_IMPACT_SPIN, QUANTITIES };
 const char quantity_names[] =
     "reduced_radius "
     "reduced_mass "
@@ -78,7 +82,8 @@ const char quantity_names[] =
     "film_thickness "
     "glass_transition_pressure "
     "speed "
-    "angle";
+    "angle "
+    "impact_spin";
 
 /* The groups of a collision from its quantities in SI. */
 static inline void scale(constants *c, const vec *q)
@@ -86,7 +91,11 @@ static inline void scale(constants *c, const vec *q)
     c->stokes =
         0.16666666666666666*q[SI_REDUCED_MASS]*q[SI_SPEED]/(3.141592653589793*(q[SI_REDUCED_RADIUS]*q[SI_REDUCED_RADIUS])*q[SI_VISCOSITY]);
     c->aspect = q[SI_FILM_THICKNESS]/q[SI_REDUCED_RADIUS];
-    c->obliquity = vec_tan(q[SI_ANGLE]);
+    c->obliquity = vec_larger(vec_tan(q[SI_ANGLE]),
+        2.0*q[SI_REDUCED_RADIUS]*vec_abs(q[SI_IMPACT_SPIN])/q[SI_SPEED]);
+    c->initial_turning = vec_tan(q[SI_ANGLE])/vec_larger(splat(1e-300), c->obliquity);
+    c->initial_spin = 4.0*q[SI_IMPACT_SPIN]*q[SI_REDUCED_RADIUS]/(q[SI_SPEED]*vec_larger(splat(1e-300),
+        c->obliquity));
     c->glass_number =
         0.3333333333333333*(q[SI_FILM_THICKNESS]*q[SI_FILM_THICKNESS])*q[SI_GLASS_TRANSITION_PRESSURE]/(q[SI_REDUCED_RADIUS]*q[SI_SPEED]*q[SI_VISCOSITY]);
     c->elastic_gap =
@@ -99,7 +108,7 @@ static inline void scale(constants *c, const vec *q)
 /* Constants computed once per collision from its groups. */
 static inline void prepare(constants *c)
 {
-    c->momentum = ((c->aspect + 4.0)*(c->aspect + 4.0));
+    c->momentum = 6.4*c->initial_spin + c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0));
     c->spin_offset = 0.15625*c->momentum;
     c->shear_force_factor = 1.3333333333333333*c->aspect/c->stokes;
     c->centrifugal_force_factor = 0.0625*c->aspect*(c->obliquity*c->obliquity);
@@ -108,7 +117,7 @@ static inline void prepare(constants *c)
     c->normal_velocity_2_per_normal_velocity = -c->dry_restitution;
     c->energy_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
     c->energy_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
-    c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
+    c->tangential_restitution_factor = 1.0/(c->initial_turning*(c->aspect + 4.0));
     c->energy_per_inverse_inertia_ratio = 0.03125*(c->momentum*c->momentum)*(c->obliquity*c->obliquity);
     c->slope_per_distance_over_inertia_ratio_squared =
         -0.0625*c->aspect*(c->momentum*c->momentum)*(c->obliquity*c->obliquity);
@@ -123,7 +132,7 @@ static inline void prepare(constants *c)
 typedef struct {
     vec gap[TERMS]; /* gap over film thickness */
     vec normal_velocity[TERMS]; /* normal velocity over impact speed, negative on approach */
-    vec orbital_momentum[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
+    vec orbital_momentum[TERMS]; /* orbital angular momentum r^2 omega over a^2 Omega */
 #if CAPILLARY_STATE
     vec capillary_work[TERMS];
 #endif
@@ -201,7 +210,7 @@ static inline void start(const constants *c, vec *y)
     (void)c; (void)y;
     y[GAP] = splat(1.0);
     y[NORMAL_VELOCITY] = splat((-1.0));
-    y[ORBITAL_MOMENTUM] = ((c->aspect + 4.0)*(c->aspect + 4.0));
+    y[ORBITAL_MOMENTUM] = c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0));
 }
 
 /* State just after a rebound: u -> -e_dry u; the other states are continuous. */
@@ -246,7 +255,7 @@ static inline vec stored_energy(const constants *c, const vec *y)
 }
 
 enum { OUTPUTS = 4 };
-/* Results for a separated doublet: restitutions, and rates over omega0. */
+/* Results for a separated doublet: restitutions, and rates over their scale. */
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
@@ -299,6 +308,19 @@ static inline vec rigid_momentum(const constants *c, const vec *y)
     vec distance_squared_over_inertia_ratio = distance_squared/inertia_ratio;
     vec orbital_momentum_2 = c->momentum*distance_squared_over_inertia_ratio;
     return orbital_momentum_2;
+}
+
+/* Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega. */
+static inline vec surface_slip(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
+    vec spin = -0.15625*y[ORBITAL_MOMENTUM] + c->spin_offset;
+    vec slip = orbital_rate - spin;
+    vec surface_slip = distance*slip;
+    return surface_slip;
 }
 
 #if defined(FILM_RESISTANCE_FALLS) && defined(SHEAR_LOG_FACTOR_FALLS) && !defined(FILM_CAVITATES)

@@ -1,19 +1,21 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 8c16dfb19ac0bb5372be6ae30f4d20ff16fad45825c8323c9f8ddea89a53f355 */
+ * Equations sha256 0b0908e03ade38ffd807e16903ecc810de76e99e8289ace793ee03a2ab67a1bc */
 
 /* Oblique doublet with pendulum strings.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
  * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
- * - orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
- * - spin [omega0]: spin of each sphere over omega0
+ * - orbital_momentum [a^2 Omega]: orbital angular momentum r^2 omega over a^2 Omega
+ * - spin [Omega]: spin of each sphere over its scale Omega
  * - rotation [rad]: angle turned by the line of centres
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
  * - aspect [1]: film thickness over reduced radius, x0/a
- * - obliquity [1]: tangent of the impact angle
+ * - obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+ * - initial_turning [1]: tan(theta0)/T, 1 without spins
+ * - initial_spin [Omega]: spin at initial contact over Omega
  * - weight [1]: gravity over impact deceleration, g x0/v0^2
  * - string_ratio [1]: string length over reduced radius
  * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
@@ -49,7 +51,7 @@ enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };
 enum { NORMAL_LOSS = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE, TANGENTIAL_LOSS };
 #define TANGENTIAL 1
 #endif
-enum { GROUPS = 9 };
+enum { GROUPS = 11 };
 
 #if WITH_LEDGER
 typedef struct {
@@ -58,14 +60,17 @@ typedef struct {
     vec kinetic_per_spin_squared;
     vec strings_per_strings_rise_law;
     vec dry_contact_per_normal_velocity_squared;
-    vec angular_momentum_per_momentum;
+    vec combination_offset;
+    vec angular_momentum_per_combination;
 } ledger_constants;
 
 #endif
 typedef struct {
     vec stokes; /* Stokes number m v0/(6 pi mu a^2) */
     vec aspect; /* film thickness over reduced radius, x0/a */
-    vec obliquity; /* tangent of the impact angle */
+    vec obliquity; /* largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0 */
+    vec initial_turning; /* tan(theta0)/T, 1 without spins */
+    vec initial_spin; /* spin at initial contact over Omega */
     vec weight; /* gravity over impact deceleration, g x0/v0^2 */
     vec string_ratio; /* string length over reduced radius */
     vec glass_number; /* glass-transition pressure over 3 mu a v0/x0^2 */
@@ -99,7 +104,7 @@ typedef struct {
 #endif
 } constants;
 
-enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_STRING_LENGTH, SI_GRAVITY, SI_SPEED, SI_ANGLE, QUANTITIES };
+enum { SI_REDUCED_RADIUS, SI_REDUCED_MASS, SI_ROUGHNESS, SI_DRY_RESTITUTION, SI_YOUNGS_MODULUS, SI_POISSON_RATIO, SI_VISCOSITY, SI_FILM_THICKNESS, SI_GLASS_TRANSITION_PRESSURE, SI_STRING_LENGTH, SI_GRAVITY, SI_SPEED, SI_ANGLE, SI_IMPACT_SPIN, QUANTITIES };
 const char quantity_names[] =
     "reduced_radius "
     "reduced_mass "
@@ -113,7 +118,8 @@ const char quantity_names[] =
     "string_length "
     "gravity "
     "speed "
-    "angle";
+    "angle "
+    "impact_spin";
 
 /* The groups of a collision from its quantities in SI. */
 static inline void scale(constants *c, const vec *q)
@@ -121,7 +127,11 @@ static inline void scale(constants *c, const vec *q)
     c->stokes =
         0.16666666666666666*q[SI_REDUCED_MASS]*q[SI_SPEED]/(3.141592653589793*(q[SI_REDUCED_RADIUS]*q[SI_REDUCED_RADIUS])*q[SI_VISCOSITY]);
     c->aspect = q[SI_FILM_THICKNESS]/q[SI_REDUCED_RADIUS];
-    c->obliquity = vec_tan(q[SI_ANGLE]);
+    c->obliquity = vec_larger(vec_tan(q[SI_ANGLE]),
+        2.0*q[SI_REDUCED_RADIUS]*vec_abs(q[SI_IMPACT_SPIN])/q[SI_SPEED]);
+    c->initial_turning = vec_tan(q[SI_ANGLE])/vec_larger(splat(1e-300), c->obliquity);
+    c->initial_spin = 4.0*q[SI_IMPACT_SPIN]*q[SI_REDUCED_RADIUS]/(q[SI_SPEED]*vec_larger(splat(1e-300),
+        c->obliquity));
     c->weight = q[SI_FILM_THICKNESS]*q[SI_GRAVITY]/(q[SI_SPEED]*q[SI_SPEED]);
     c->string_ratio = q[SI_STRING_LENGTH]/q[SI_REDUCED_RADIUS];
     c->glass_number =
@@ -146,7 +156,7 @@ static inline void prepare(constants *c)
     c->energy_per_distance_squared_by_orbital_rate_squared = 0.03125*(c->obliquity*c->obliquity);
     c->energy_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
     c->energy_per_strings_rise_law = 4.0*c->weight/c->aspect;
-    c->tangential_restitution_factor = 1.0/(c->aspect + 4.0);
+    c->tangential_restitution_factor = 1.0/(c->initial_turning*(c->aspect + 4.0));
     c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect + 4.0;
@@ -165,15 +175,18 @@ static inline void prepare(constants *c)
     c->ledger.kinetic_per_spin_squared = 0.2*(c->obliquity*c->obliquity);
     c->ledger.strings_per_strings_rise_law = 4.0*c->weight/c->aspect;
     c->ledger.dry_contact_per_normal_velocity_squared = 0.5 - 0.5*(c->dry_restitution*c->dry_restitution);
-    c->ledger.angular_momentum_per_momentum = 1.0/((c->aspect + 4.0)*(c->aspect + 4.0));
+    c->ledger.combination_offset = -6.4*c->initial_spin - c->initial_turning*((c->aspect + 4.0)*(c->aspect +
+        4.0));
+    c->ledger.angular_momentum_per_combination = 1.0/(c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0))
+        + 6.4*vec_abs(c->initial_spin));
 #endif
 }
 
 typedef struct {
     vec gap[TERMS]; /* gap over film thickness */
     vec normal_velocity[TERMS]; /* normal velocity over impact speed, negative on approach */
-    vec orbital_momentum[TERMS]; /* orbital angular momentum r^2 omega over a^2 omega0 */
-    vec spin[TERMS]; /* spin of each sphere over omega0 */
+    vec orbital_momentum[TERMS]; /* orbital angular momentum r^2 omega over a^2 Omega */
+    vec spin[TERMS]; /* spin of each sphere over its scale Omega */
     vec rotation[TERMS]; /* angle turned by the line of centres */
 #if CAPILLARY_STATE
     vec capillary_work[TERMS];
@@ -305,8 +318,8 @@ static inline void start(const constants *c, vec *y)
     (void)c; (void)y;
     y[GAP] = splat(1.0);
     y[NORMAL_VELOCITY] = splat((-1.0));
-    y[ORBITAL_MOMENTUM] = ((c->aspect + 4.0)*(c->aspect + 4.0));
-    y[SPIN] = splat(0.0);
+    y[ORBITAL_MOMENTUM] = c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0));
+    y[SPIN] = c->initial_spin;
     y[ROTATION] = splat(0.0);
 }
 
@@ -372,7 +385,7 @@ static inline vec stored_energy(const constants *c, const vec *y)
 }
 
 enum { OUTPUTS = 4 };
-/* Results for a separated doublet: restitutions, and rates over omega0. */
+/* Results for a separated doublet: restitutions, and rates over their scale. */
 static inline void outputs(const constants *c, const vec *y, vec *shown)
 {
     (void)c; (void)y;
@@ -384,6 +397,20 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
     shown[1] = tangential_restitution;
     shown[2] = orbital_rate;
     shown[3] = y[SPIN];
+}
+
+/* Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega. */
+static inline vec surface_slip(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
+    vec arm_lever_law = arm_lever_value(&c->arm_lever_law, distance);
+    vec distance_by_orbital_rate = distance*orbital_rate;
+    vec arm_lever_law_by_spin = arm_lever_law*y[SPIN];
+    vec surface_slip = distance_by_orbital_rate - 2.0*arm_lever_law_by_spin;
+    return surface_slip;
 }
 
 #if defined(FILM_STOPPING) && defined(GLASS_REACH)
@@ -557,12 +584,13 @@ static inline vec rebound_loss(const constants *c, const vec *y)
     return dry_contact;
 }
 
-/* Angular momentum over its initial value. */
+/* 1 + the change of the angular momentum over its size at initial contact. */
 static inline vec booked_momentum(const constants *c, const vec *y)
 {
     (void)c; (void)y;
     vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
-    vec angular_momentum = c->ledger.angular_momentum_per_momentum*momentum;
+    vec combination = momentum + c->ledger.combination_offset;
+    vec angular_momentum = c->ledger.angular_momentum_per_combination*combination + 1.0;
     return angular_momentum;
 }
 #endif

@@ -16,6 +16,7 @@ from ..engines.taylor.endless import limits
 from ..engines.taylor.record import Recorded, Steps, run_recorded
 from ..model.dimensionless import DimensionlessGroups
 from ..model.model import select_model
+from ..scene.groups import sideways
 from ..scene.scene import Scene
 
 _APPROACH_BUDGET = 2000  # steps; an approach stopped by the film creeps indefinitely
@@ -78,7 +79,7 @@ def looked(
     """
     found = np.zeros(speed.size, LOOK)
     for oblique in (True, False):
-        which = np.flatnonzero((angle > 0) == oblique)
+        which = np.flatnonzero(sideways(scene, angle, {}) == oblique)
         if not which.size:
             continue
         others = {name: values[which] for name, values in (solids or {}).items()}
@@ -224,4 +225,4 @@ def _run_kernel(
 ) -> Recorded | None:
     others = {name: np.full(speeds.size, value) for name, value in solids.items()}
     impacts = Impacts(scene, speeds, np.full(speeds.size, angle), others)
-    return run_recorded(impacts, angle > 0, rtol, trajectory=True, budget=budget, purpose=purpose, fold=False)
+    return run_recorded(impacts, scene.turns(angle), rtol, trajectory=True, budget=budget, purpose=purpose, fold=False)

@@ -87,7 +87,7 @@ class Line:
 
     @property
     def model(self) -> Model:
-        return load(select_model(self.scene, self.angle > 0))
+        return load(select_model(self.scene, self.scene.turns(self.angle)))
 
     def criterion(self, stokes: float) -> float:
         """Logarithm of the larger of maximum pressure over p_gt and contact gap over smallest gap, of the approach.

@@ -157,7 +157,9 @@ class Look:
         stokes = float(found["stokes"][0])
         try:
             n = nondimensionalise(self.scene, self.scene.speed_of(stokes), angle)
-            path = EventLocator(load(select_model(self.scene, angle > 0)), n.groups, self.rtol, machine_code=True).run()
+            path = EventLocator(
+                load(select_model(self.scene, self.scene.turns(angle))), n.groups, self.rtol, machine_code=True
+            ).run()
         except (ComputationError, InputError) as error:
             self.reasons[angle, stokes] = str(n.in_si(error)) if isinstance(error, ComputationError) else str(error)
             return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -36,6 +37,7 @@ class Finding:
     rotation: float
     time: float
     smallest_gap: float
+    slip: float
     events: Sequence[tuple[str, float]]
     engine: str
     steps: int
@@ -59,7 +61,8 @@ def assembled(scene: Scene, n: DimensionlessGroups, found: Finding) -> Collision
     return Collision(
         outcome=found.outcome,
         restitution=found.outputs["restitution"] if separated else 0.0,
-        tangential_restitution=found.outputs["tangential_restitution"] if separated and n.oblique else None,
+        tangential_restitution=found.outputs["tangential_restitution"] if separated and n.angle > 0 else None,
+        slip_restitution=found.slip if separated and n.oblique and math.isfinite(found.slip) else None,
         rotation=found.rotation if separated else None,
         contact_time=time if separated else None,
         smallest_gap=found.smallest_gap * n.length if separated else None,
@@ -90,7 +93,7 @@ def assembled(scene: Scene, n: DimensionlessGroups, found: Finding) -> Collision
 
 def partner_spin(scene: Scene, own: float | None, outputs: Mapping[str, float], n: DimensionlessGroups) -> float | None:
     """Spin of the partner, rad/s: its own output, that of an equal sphere, or 0 for a wall."""
-    if scene.partner is None or own is None:
+    if own is None or not (scene.pair or scene.wall):
         return None
     if scene.wall:
         return 0.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
@@ -13,7 +14,7 @@ from ..engines.casadi.locate import EventSequence, locate
 from ..engines.casadi.replay import Replay, Stopped, as_located, replay
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups
-from ..model.model import Model, load, select_model
+from ..model.model import Model, load, select_model, slip_restitution
 from ..model.phases import Flow, Region
 from ..scene.scene import Scene
 from .assemble import Finding, assembled
@@ -135,6 +136,7 @@ def _result(
         rotation=_rotation(replayed, model),
         time=replayed.time,
         smallest_gap=replayed.smallest_gap,
+        slip=slip_restitution(model, replayed.y, p) if separated else math.nan,
         events=replayed.events,
         engine=plugin,
         steps=replayed.steps,

@@ -66,6 +66,7 @@ def collision(
         rotation=float(found["turned"]),
         time=float(found["time"]),
         smallest_gap=float(found["smallest_gap"]),
+        slip=float(found["slip"]),
         events=[(KINDS[int(each["kind"])], float(each["time"])) for each in happened],
         engine="taylor",
         steps=int(found["steps"]),

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     import xarray
 
 UNITS = {
-    "restitution": "1", "tangential_restitution": "1", "rotation": "rad", "contact_time": "s", "smallest_gap": "m",
+    "restitution": "1", "tangential_restitution": "1", "slip_restitution": "1",
+    "rotation": "rad", "contact_time": "s", "smallest_gap": "m",
     "final_spin": "rad/s", "final_spin_partner": "rad/s", "final_rotation_rate": "rad/s", "stokes": "1",
     "centrifugal": "1", "generalised_centrifugal": "1", "capillary": "1", "reynolds": "1", "speed": "m/s",
     "angle": "rad", "until": "s", "decided": "s", "events": "s", "energy": "J", "angular_momentum_drift": "1",
@@ -89,7 +90,8 @@ class Outcome:
     Attributes:
         outcome: "stick", "stick-rotate-separate" or "bounce".
         restitution: normal restitution e_n (0 for a stick).
-        tangential_restitution: r_f omega_f/(r_0 omega_0); None head-on.
+        tangential_restitution: r_f omega_f/(r_0 omega_0); None where omega_0 is 0.
+        slip_restitution: relative velocity of the surfaces at the contact, after over before; None without one before.
         generalised_centrifugal: Ce_F = m omega0^2 a/F(x0), F the attraction at initial contact; None without
             attraction.
         final_spin: spin of each sphere, rad/s; of the first if the partner differs.
@@ -106,6 +108,7 @@ class Outcome:
     outcome: str
     restitution: float
     tangential_restitution: float | None
+    slip_restitution: float | None
     rotation: float | None
     contact_time: float | None
     smallest_gap: float | None
@@ -141,12 +144,12 @@ class Outcome:
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet collide --json`."""
         plain = (
-            "outcome", "restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap",
-            "final_spin", "final_rotation_rate", "stokes", "centrifugal", "capillary", "speed", "angle",
+            "outcome", "restitution", "tangential_restitution", "slip_restitution", "rotation", "contact_time",
+            "smallest_gap", "final_spin", "final_rotation_rate", "stokes", "centrifugal", "capillary", "speed", "angle",
             "reversal", "certified", "until", "decided",
         )  # fmt: skip
         result: dict[str, Any] = {name: getattr(self, name) for name in plain}
-        if self.scene.partner is not None:
+        if self.scene.pair or self.scene.wall:
             result["final_spin_partner"] = self.final_spin_partner
         if self.scene.attraction is not None:
             result["generalised_centrifugal"] = self.generalised_centrifugal

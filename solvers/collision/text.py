@@ -182,6 +182,7 @@ def _outcome(collision: Outcome) -> list[str]:
         return [
             *lines,
             _line("tangential e_t", plain(collision.tangential_restitution), "of the velocity along the wall"),
+            *_slip(collision),
             _line("contact time", quantity(collision.contact_time, "s")),
             _line("smallest gap", quantity(collision.smallest_gap, "m")),
             *_spins(collision),
@@ -191,12 +192,21 @@ def _outcome(collision: Outcome) -> list[str]:
     return [
         *lines,
         _line("tangential e_t", plain(collision.tangential_restitution)),
+        *_slip(collision),
         _line("rotation", degrees(rotation), turns),
         _line("contact time", quantity(collision.contact_time, "s")),
         _line("smallest gap", quantity(collision.smallest_gap, "m")),
         _line("final rotation rate", plain(collision.final_rotation_rate, "rad/s"), "omega, of the line of centres"),
         *_spins(collision),
     ]
+
+
+def _slip(collision: Outcome) -> list[str]:
+    """The restitution of the slip, of spheres that arrive spinning; without spins e_t says as much."""
+    impact = collision.scene.impact
+    if impact.spin is None and impact.partner_spin is None:
+        return []
+    return [_line("slip restitution", plain(collision.slip_restitution), "of the surfaces' relative velocity")]
 
 
 def _partner(scene: Scene) -> str:
@@ -208,7 +218,7 @@ def _partner(scene: Scene) -> str:
 
 def _spins(collision: Outcome) -> list[str]:
     own = plain(collision.final_spin, "rad/s")
-    if collision.scene.partner is None:
+    if not (collision.scene.pair or collision.scene.wall):
         return [_line("final spin", own, "xi, of each sphere")]
     lines = [_line("final spin", own, "xi, of the sphere")]
     if not collision.scene.wall:

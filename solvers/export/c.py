@@ -16,7 +16,7 @@ _UNITS = {"gap": "x0", "normal_velocity": "v0", "orbital_momentum": "a^2 omega0"
 
 def texts(scene: Scene) -> dict[str, str]:
     """Texts of NAME.c and NAME.h: every function of the smallest full structure of the scene, in all regions."""
-    oblique = scene.angle is None or scene.angle > 0
+    oblique = scene.angle is None or scene.turns(scene.angle)
     model, name = load(select_model(scene, oblique, full=True)), file_name(scene)
     found = functions(model, name)
     generator = CodeGenerator(f"{name}.c", {"with_header": False, "casadi_int": "long long int"})

@@ -57,7 +57,7 @@ def as_bibtex(found: tuple[Citation, ...]) -> str:
 
 
 def _oblique(scene: Scene) -> bool:
-    return scene.angle is None or scene.angle > 0
+    return scene.angle is None or scene.turns(scene.angle)
 
 
 def _uses(scene: Scene) -> Iterator[tuple[str, str]]:

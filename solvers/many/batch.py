@@ -15,9 +15,10 @@ from ..engines.choice import bulk_engine
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..model.validity import NEEDS
+from ..scene.groups import sideways
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS, SPEEDS, Field, unknown_entry
+from ..scene.schema import FIELDS, SPEEDS, SPINS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
 from ..settings import check_engine, check_rtol
@@ -144,7 +145,8 @@ def batch(scene: Scene, columns: dict[str, np.ndarray], rtol: float, engine: str
 
 def engine_for(request: Batch, count: int) -> str:
     """The engine for a batch that is one scene's part of `count` collisions."""
-    turns = request.angle > 0
+    spins = {FIELDS[name].quantity: request.vary[name] for name in SPINS if name in request.vary}
+    turns = sideways(request.scene, request.angle, spins)
     return bulk_engine(
         request.asked,
         count,

@@ -11,7 +11,7 @@ from ..collision.assemble import partner_spin
 from ..engines.casadi.locate import EventSequence, locate
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
-from ..model.model import load, select_model
+from ..model.model import load, select_model, slip_restitution
 from ..scene.scene import Scene
 from .batch import Batch
 from .dataset import empty
@@ -57,7 +57,8 @@ def _kept(scene: Scene, of: Sequence[str], path: EventSequence, n: Dimensionless
     outputs = path.model.values("outputs", path.y, path.p)
     found["restitution"] = outputs["restitution"]
     values = {
-        "tangential_restitution": outputs.get("tangential_restitution", math.nan),
+        "tangential_restitution": outputs["tangential_restitution"] if n.angle > 0 else math.nan,
+        "slip_restitution": slip_restitution(path.model, path.y, path.p),
         "contact_time": path.time * n.time,
         "smallest_gap": path.smallest_gap * n.length,
         "rotation": 0.0,

@@ -17,7 +17,7 @@ from ..errors import ComputationError
 from ..model.model import load, select_model
 from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
 from ..scene.entry_rules import FARTHEST
-from ..scene.groups import formulas, si_values
+from ..scene.groups import formulas, rate_scales, si_values
 from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
 from ..settings import FEW
@@ -148,6 +148,7 @@ def _block(request: Batch, found: np.ndarray, impacts: Impacts, books: np.ndarra
 
     columns: dict[str, Callable[[], np.ndarray]] = {
         "tangential_restitution": lambda: where(separated & (impacts.angle > 0), found["shown"][:, 1]),
+        "slip_restitution": lambda: where(separated & impacts.oblique, found["slip"]),
         "contact_time": lambda: where(separated, found["time"] * thickness() / impacts.speed),
         "smallest_gap": lambda: where(separated, found["smallest_gap"] * thickness()),
         "rotation": lambda: where(separated, found["turned"]),
@@ -170,13 +171,12 @@ def _block(request: Batch, found: np.ndarray, impacts: Impacts, books: np.ndarra
 
 def _rates(scene: Scene, found: np.ndarray, impacts: Impacts) -> dict[str, np.ndarray]:
     """Spins and rotation rate at separation, rad/s; 0 head-on."""
-    formula, arguments = formulas(scene)["initial_rate"]
     given = si_values(scene, None, None) | dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
-    unit = np.asarray(formula(*(given[name] for name in arguments))).reshape(-1)  # of arrays it is CasADi's matrix
+    unit = rate_scales(scene, given)
     names = load(select_model(scene, True, fold=not impacts.others)).names("outputs")
     shown = {name: found["shown"][:, k] * unit for k, name in enumerate(names) if name in RATES}
     none = np.full(unit.size, np.nan)
-    partner = none if scene.partner is None else np.zeros(unit.size) if scene.wall else shown["final_spin"]
+    partner = np.zeros(unit.size) if scene.wall else shown["final_spin"] if scene.pair else none
     return {"final_spin_partner": partner, "final_rotation_rate": none, **shown}
 
 
@@ -194,7 +194,7 @@ def _ledger(request: Batch, books: np.ndarray, impacts: Impacts) -> Block:
     block["energy.residual"] = terms["initial"] - terms["final"] - sum(spent)
     kept = scene.pendulum is None and not scene.wall
     drift = np.abs(books["momentum"] - 1.0) if kept else np.nan
-    block["angular_momentum_drift"] = np.where(impacts.angle > 0, drift, 0.0 if scene.pendulum is None else np.nan)
+    block["angular_momentum_drift"] = np.where(impacts.oblique, drift, 0.0 if scene.pendulum is None else np.nan)
     return block
 
 
@@ -219,7 +219,7 @@ def _with_books(impacts: Impacts, rtol: float, threads: int) -> tuple[np.ndarray
         found[which], books[which] = told.answers, told.ledger
         return True
 
-    turns = impacts.angle > 0
+    turns = impacts.oblique
     parts = [
         (oblique, which[first : first + _CHUNK])
         for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns)))

@@ -9,13 +9,14 @@ import numpy as np
 from ...generated import scaling
 from ..scene.groups import si_values
 from ..scene.quantities import quantities
+from ..scene.schema import MEETING
 from .batch import Batch
 
 
 def varied_columns(request: Batch) -> dict[str, np.ndarray]:
-    """Quantities under the vocabulary's names, SI, of every collision where entries vary; without the impact."""
+    """Quantities under the vocabulary's names, SI, of every collision where entries vary; without speed and angle."""
     scene = request.scene
-    entries: dict[str, Any] = {name: value for name, value in scene.si if not name.startswith("impact.")}
+    entries: dict[str, Any] = {name: value for name, value in scene.si if name not in MEETING}
     found = quantities(entries | dict(request.vary), scene.ways)
     return {name: np.broadcast_to(np.asarray(value, dtype=float), request.size) for name, value in found.items()}
 

@@ -23,7 +23,7 @@ from ..scene.groups import si_values
 from ..scene.quantities import normal_speed
 from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
-from ..scene.schema import SPEEDS
+from ..scene.schema import MEETING, SPEEDS
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
 from .batch import Batch, check_outputs, check_some_scene, checked_impact, checked_vary, engine_for
@@ -278,7 +278,7 @@ def _identity(asked: _Asked) -> dict[str, Any]:
     grid = asked.grid
     axes = {"angle": grid.angle, grid.impact: grid.values} | {f"vary {name}": axis for name, axis in grid.vary.items()}
     return {
-        "scene": [entry for entry in grid.scene.si if not entry[0].startswith("impact.")],
+        "scene": [entry for entry in grid.scene.si if entry[0] not in MEETING],
         "volume": grid.scene.ways.volume,
         "axes": {name: axis.tolist() for name, axis in axes.items()},
         "rtol": asked.rtol,

@@ -36,12 +36,13 @@ LEDGER: dict[str, tuple[str, str]] = {
     "energy.dry_contact": ("J", "lost in the rebounds"),
     "energy.strings": ("J", "gain of the strings' potential energy"),
     "energy.residual": ("J", "error of the integration: what the ledger leaves"),
-    "angular_momentum_drift": ("1", "|L(t_f)/L(0) - 1|"),
+    "angular_momentum_drift": ("1", "change of L over its size at initial contact"),
 }
 """What takes an integration of the ledger; a term that a scene has not is NaN."""
 
 INTEGRATED: dict[str, tuple[str, str]] = {
     **QUANTITIES,
+    "slip_restitution": ("1", "relative velocity of the surfaces at the contact, after over before"),
     "final_spin": ("rad/s", "spin at separation, of the first sphere"),
     "final_spin_partner": ("rad/s", "spin of the partner at separation"),
     "final_rotation_rate": ("rad/s", "angular velocity of the line of centres at separation"),

@@ -27,7 +27,7 @@ class DimensionlessGroups:
     speed: float  # m/s
     length: float  # x0, m
     time: float  # x0/v0, s
-    rate: float  # omega0, rad/s; with a wall v0 tan(theta0)/a
+    rate: float  # scale of angular velocities, rad/s: omega0 without spins; with a wall v0 tan(theta0)/a
     energy: float  # m v0^2, J
     stokes: float
     centrifugal: float | None
@@ -36,6 +36,7 @@ class DimensionlessGroups:
 
     @property
     def oblique(self) -> bool:
+        """True if something moves sideways: the impact has an angle, or a sphere spins."""
         return self.groups["obliquity"] > 0
 
     def in_si(self, error: ComputationError) -> ComputationError:
@@ -99,7 +100,7 @@ def nondimensionalise(scene: Scene, speed: float, angle: float) -> Dimensionless
 
     A group exists if the scene has all its quantities; without an elastic criterion elastic_gap is 0.
     """
-    values = si_values(scene, speed, angle)
+    values = dict(si_values(scene, speed, angle))
     plain = ("dry_restitution", "volume", "contact_angle", "radius_ratio", "mass_ratio")
     groups: dict[str, float] = {name: values[name] for name in plain if name in values}
     if scene.package is not None:
@@ -108,7 +109,7 @@ def nondimensionalise(scene: Scene, speed: float, angle: float) -> Dimensionless
     groups |= dict.fromkeys(GAPS.values(), 0.0)
     for name, formula in formulas(scene).items():
         if all(argument in values for argument in formula[1]):
-            groups[name] = _finite(name, formula, values)
+            groups[name] = values[name] = _finite(name, formula, values)
     x0 = scene.liquid.film_thickness
     scales = {name: _finite(name, formula, values) for name, formula in _SCALES.items()}
     return DimensionlessGroups(
@@ -117,7 +118,7 @@ def nondimensionalise(scene: Scene, speed: float, angle: float) -> Dimensionless
         speed=speed,
         length=x0,
         time=scales["time"],
-        rate=groups["initial_rate"],
+        rate=groups["rate_scale"],
         energy=scales["energy"],
         stokes=_as_given(scene, speed, groups["stokes"]),
         centrifugal=groups.get("centrifugal"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from types import ModuleType
@@ -11,6 +12,7 @@ import numpy as np
 from casadi import SX, Function, densify, fmax, fmin, vertcat
 
 from ...generated.assemble import Laws, symbols, vector
+from ...generated.automaton import LEAST_SLIP
 from ..host import emitted
 from ..host.buffered import Buffered
 from ..host.thread_caches import own_cache
@@ -43,11 +45,12 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
     """The key of the smallest structure that represents the scene.
 
     Arguments:
-        oblique: the impact angle is not zero.
+        oblique: something moves sideways: the impact angle or a spin is not zero.
         full: keep the spin as a state even where angular momentum would eliminate it (for the ledger).
         fold: treat a partner that equals the sphere as such; not for derivatives along the partner's size.
     """
-    equal = scene.partner is None or (fold and scene.radius_ratio == 1 and scene.mass_ratio == 1)
+    alike = fold and scene.radius_ratio == 1 and scene.mass_ratio == 1 and scene.impact.partner_spin is None
+    equal = not (scene.pair or scene.wall) or alike
     partner = "" if equal or not oblique else "wall" if scene.wall else "pair"  # head-on, only a and m matter
     reduced = oblique and not partner and scene.pendulum is None and scene.model.arm == "midgap" and not full
     spread = scene.model.film == "constant-volume"
@@ -241,6 +244,14 @@ class Model:
     def start(self, p: np.ndarray) -> np.ndarray:
         """State at initial contact."""
         return np.array(list(self.values("start", np.zeros(len(self.state)), p).values()))
+
+
+def slip_restitution(model: Model, y: np.ndarray, p: np.ndarray) -> float:
+    """Relative velocity of the surfaces at the contact in a state, over that at initial contact; NaN without one."""
+    if not model.oblique:
+        return math.nan
+    first = model.values("surface_slip", model.start(p), p)["surface_slip"]
+    return math.nan if abs(first) < LEAST_SLIP else model.values("surface_slip", y, p)["surface_slip"] / first
 
 
 @own_cache(None)  # never evicted, because cached expressions use the symbols of their model

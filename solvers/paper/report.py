@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ..host import files
 from ..scene.scene import Scene
+from ..scene.schema import MEETING
 from .parts import Comparison, Part, Table
 from .printed import CITATION, NOT_COMPARED, PRINTED
 
@@ -73,7 +74,7 @@ def inputs(parts: Iterable[Part]) -> Table:
     presets = dict.fromkeys(name for part in parts for name in part.scenes)
     scenes = [Scene.load(name) for name in presets]
     guesses = {(scene.name, name) for scene in scenes for name, _ in scene.guesses}
-    names = dict.fromkeys(name for scene in scenes for name, _ in scene.given if not name.startswith("impact."))
+    names = dict.fromkeys(name for scene in scenes for name, _ in scene.given if name not in MEETING)
     rows = []
     for name in names:
         cells = []

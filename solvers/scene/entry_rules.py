@@ -11,7 +11,18 @@ from ..errors import InputError, shown
 from . import user_model as custom
 from .contact import AT_ANY_SPEED, ENTRIES, gap_at_any_speed, never_touching
 from .quantities import Ways, film, partner_mass, partner_radius, quantities, sphere
-from .schema import ALTERNATIVES, BRIDGE_LAWS, FIELDS, FROM_COATING, ONE_OF_EACH, REQUIRED_TABLES, TABLES, unknown_entry
+from .schema import (
+    ALTERNATIVES,
+    BRIDGE_LAWS,
+    FIELDS,
+    FROM_COATING,
+    MEETING,
+    ONE_OF_EACH,
+    REQUIRED_TABLES,
+    SPINS,
+    TABLES,
+    unknown_entry,
+)
 from .tables import Attraction, Bridge, Liquid, Particles, Partner, Pendulum, Table
 
 if TYPE_CHECKING:
@@ -157,7 +168,7 @@ def table(kind: type[Table], values: Mapping[str, Any], ways: Ways) -> Table | N
 def _relative_volume(values: Mapping[str, Any], ways: Ways) -> float:
     """V/R^3 of a volume that is said in another way."""
     try:
-        volume = float(quantities({k: v for k, v in values.items() if not k.startswith("impact.")}, ways)["volume"])
+        volume = float(quantities({k: v for k, v in values.items() if k not in MEETING}, ways)["volume"])
     except (OverflowError, ZeroDivisionError):
         volume = math.inf
     if not 0 < volume < math.inf:
@@ -223,9 +234,16 @@ def _larger(scene: System, least: float, radius: float) -> str:
 
 def _check_partner(scene: System) -> None:
     """Raise InputError for an invalid partner: strings need equal spheres, and ratios must be finite."""
+    given = dict(scene.given)
+    for spin in (name for name in SPINS if name in given):
+        if scene.pendulum is not None:
+            accepted = "no such entry beside [pendulum]: there the collision ends where the rotation reverses"
+            raise InputError(spin, given[spin], accepted, "is given together with strings")
+    if scene.wall and "impact.partner_spin" in given:
+        name = "impact.partner_spin"
+        raise InputError(name, given[name], "impact.spin alone beside a wall", "is of a wall, which does not spin")
     if scene.partner is None:
         return
-    given = dict(scene.given)
     entry = _given_way("partner.radius", given)
     if scene.pendulum is not None:
         raise InputError(entry, given[entry], "no [partner] beside [pendulum]", "is given together with strings")

@@ -7,22 +7,27 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+
 from ...generated import scaling
 from ..host import emitted
 from .system import System
 from .user_model import Package
 
 Formula = tuple[Callable[..., Any], tuple[str, ...]]
-_VARIANTS = ("initial_rate_pair", "initial_rate_wall", "centrifugal_pair", "generalised_centrifugal")
+_VARIANTS = (
+    "initial_rate_pair", "centrifugal_pair", "generalised_centrifugal", "obliquity_pair", "obliquity_wall",
+    "rate_scale_pair", "rate_scale_wall",
+)  # fmt: skip
 
 
 def formulas(scene: System) -> Mapping[str, Formula]:
     """Emitted formulas by group or scale, each with the names of its arguments, for the scene's partner and laws.
 
-    A formula takes floats or CasADi expressions.
+    A formula takes floats or CasADi expressions. Its arguments are quantities, or groups and scales before it.
     """
     own = scene.bridge.law if scene.bridge is not None and scene.bridge.rupture == "own" else None
-    return _formulas(scene.wall, scene.partner is not None, own, scene.package)
+    return _formulas(scene.wall, scene.pair, own, scene.package)
 
 
 @lru_cache(maxsize=64)
@@ -34,11 +39,11 @@ def _formulas(wall: bool, pair: bool, law: str | None, package: Package | None) 
         if name not in _VARIANTS
     }
     if wall:
-        found["initial_rate"] = scaling.initial_rate_wall, scaling.ARGUMENTS["initial_rate_wall"]
+        del found["initial_rate"], found["initial_partner_spin"]
         found["centrifugal"] = _nothing, ("surface_tension",)
-    elif pair:
-        for name in ("initial_rate", "centrifugal"):
-            found[name] = getattr(scaling, f"{name}_pair"), scaling.ARGUMENTS[f"{name}_pair"]
+    kind, more = ("wall", ()) if wall else ("pair", ("initial_rate", "centrifugal")) if pair else ("", ())
+    for name in (*more, "obliquity", "rate_scale") if kind else ():
+        found[name] = getattr(scaling, f"{name}_{kind}"), scaling.ARGUMENTS[f"{name}_{kind}"]
     if law is not None:
         rupture_distance = _law(package, "bridge", law).rupture_distance
 
@@ -71,6 +76,30 @@ def si_values(scene: System, speed: float | None, angle: float | None) -> dict[s
     """The scene's quantities by vocabulary name, SI; speed and angle only if given."""
     impact = {"speed": speed, "angle": angle}
     return {**scene.material, **{name: value for name, value in impact.items() if value is not None}}
+
+
+def sideways(scene: System, angle: np.ndarray, varied: Mapping[str, Any]) -> np.ndarray:
+    """Mask of the collisions in which something moves sideways: the impact has an angle (rad), or a sphere spins.
+
+    Arguments:
+        varied: quantities by vocabulary name that replace the scene's, SI.
+    """
+    moves: np.ndarray = angle > 0
+    for name in ("impact_spin", "impact_partner_spin"):
+        spin = varied.get(name, scene.material.get(name, 0.0))
+        if np.any(spin):
+            moves = moves | (np.asarray(spin) != 0)
+    return moves
+
+
+def rate_scales(scene: System, given: Mapping[str, Any]) -> np.ndarray:
+    """The scale of angular velocities of each collision, rad/s, from quantities by vocabulary name, SI."""
+    values = dict(given)
+    for name in ("obliquity", "rate_scale"):
+        formula, arguments = formulas(scene)[name]
+        values[name] = np.asarray(formula(*(values[each] for each in arguments))).reshape(-1)  # of arrays a DM
+    found: np.ndarray = values["rate_scale"]
+    return found
 
 
 def scaled(group: str, scene: System, speed: float | None = None) -> float:

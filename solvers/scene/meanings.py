@@ -58,7 +58,10 @@ ENTRIES = {
     "impact.stokes": r"normal Stokes number $St = m v_0/(6 \pi \mu a^2)$",
     "impact.speed": "$v_0$, the *normal* component of the approach velocity",
     "impact.relative_speed": r"magnitude of the relative velocity, $v_0/\cos\theta_0$",
-    "impact.angle": r"$\theta_0$ between the relative velocity and the line of centres; 0 is head-on",
+    "impact.angle": r"$\theta_0$ between the relative velocity and the line of centres; 0 is along it",
+    "impact.spin": "spin of the spheres, or of the first one, before the collision: positive in the sense in which "
+    r"$\theta_0 > 0$ turns the line of centres, beside a wall in the sense of rolling along the tangential velocity",
+    "impact.partner_spin": "spin of the partner, or of the second of two equal spheres; left out, it equals the spin",
 }
 """Dotted name -> what the entry is."""
 

@@ -58,6 +58,9 @@ def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
     }
     found |= {name.removeprefix(_OWN): value for name, value in entries.items() if name.startswith(_OWN)}
     found.setdefault("glass_transition_pressure", NO_GLASS)
+    found.setdefault("impact_spin", 0.0)
+    if not ways.wall:
+        found.setdefault("impact_partner_spin", found["impact_spin"])
     found |= sphere(entries)
     if "liquid.coating_thickness" in entries:
         found["film_thickness"] = film(entries)

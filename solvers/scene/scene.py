@@ -15,7 +15,7 @@ from . import entry_rules as rules
 from . import scenefile
 from .groups import scaled
 from .quantities import SHADOW, Ways, coating_fraction, normal_speed, quantities, shared
-from .schema import FIELDS, SPEEDS, TABLES, Field, Raw
+from .schema import FIELDS, MEETING, SPEEDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 from .user_model import Package, fields
 from .user_model_source import open_package
@@ -327,13 +327,18 @@ class Scene:
 
     @cached_property
     def material(self) -> Mapping[str, float]:
-        """The quantities by vocabulary name, SI, without those of the impact. Read only."""
-        return quantities({name: value for name, value in self.si if not name.startswith("impact.")}, self.ways)
+        """The quantities by vocabulary name, SI, without speed and angle of the impact. Read only."""
+        return quantities({name: value for name, value in self.si if name not in MEETING}, self.ways)
 
     @property
     def wall(self) -> bool:
         """True if the partner is a wall."""
         return self.ways.wall
+
+    @property
+    def pair(self) -> bool:
+        """True if each of two spheres has its own spin: unequal ones, or equal ones with a spin each."""
+        return not self.wall and (self.partner is not None or self.impact.partner_spin is not None)
 
     @property
     def radius_ratio(self) -> float | None:
@@ -407,6 +412,10 @@ class Scene:
     def angle(self) -> float | None:
         """Impact angle in rad, None if the impact has none."""
         return self.impact.angle
+
+    def turns(self, angle: float) -> bool:
+        """True if something moves sideways at this angle (rad): the impact has one, or a sphere spins."""
+        return angle > 0 or bool(self.impact.spin) or bool(self.impact.partner_spin)
 
     def need_impact(self) -> tuple[float, float]:
         """Return (normal speed in m/s, angle in rad); InputError if the scene does not give both."""

@@ -41,6 +41,7 @@ NOT_NEGATIVE = Range(">= 0", lambda v: v >= 0)
 PART = Range("> 0 and at most 1", lambda v: 0 < v <= 1)
 FRACTION = Range("from 0 to 1", lambda v: 0 <= v <= 1)
 POISSON = Range("> -1 and <= 0.5", lambda v: -1 < v <= 0.5)
+ANY = Range("of either sign", lambda v: math.isfinite(v))
 IMPACT_ANGLE = Range(">= 0 deg and < 90 deg", lambda v: 0 <= v < math.pi / 2)
 WETTING_ANGLE = Range("from 0 deg to 90 deg", lambda v: 0 <= v <= math.pi / 2)
 
@@ -227,6 +228,10 @@ FIELDS: dict[str, Field] = _table(
     Field("impact.speed", "a normal approach speed", '"0.54 m/s"', unit="m/s"),
     Field("impact.relative_speed", "the magnitude of the relative velocity", '"1.08 m/s"', unit="m/s", gives=""),
     Field("impact.angle", "an impact angle", '"60 deg"', IMPACT_ANGLE, unit="rad"),
+    Field("impact.spin", "a spin", '"200 rad/s"', ANY, unit="rad/s", gives="impact_spin", default=0.0),
+    Field(
+        "impact.partner_spin", "a spin of the partner", '"-50 rad/s"', ANY, unit="rad/s", gives="impact_partner_spin"
+    ),
 )
 """Dotted name -> what it is, in the order of the documentation."""
 
@@ -242,6 +247,11 @@ ONE_OF_EACH = (*REQUIRED_TABLES, "partner")
 
 SPEEDS = ("impact.stokes", "impact.speed", "impact.relative_speed")
 """What says how fast the spheres meet: one variable, at an angle."""
+
+MEETING = (*SPEEDS, "impact.angle")
+"""What is asked for one collision after the other; the rest of a scene is the same for all, its spins included."""
+
+SPINS = ("impact.spin", "impact.partner_spin")
 
 ALTERNATIVES: tuple[tuple[str, ...], ...] = (
     ("particles.reduced_radius", "particles.radius", "particles.diameter"),

@@ -112,10 +112,15 @@ class Model(Table):
 
 @dataclass(frozen=True)
 class Impact(Table):
-    """Initial contact: Stokes number, normal or relative speed (m/s), and angle (rad); all may be given later."""
+    """Initial contact: Stokes number, normal or relative speed (m/s), angle (rad), which may be given later, and spins.
+
+    Spins are in rad/s; a spin that is not given is None.
+    """
 
     name: ClassVar[str] = "impact"
     stokes: float | None = None
     speed: float | None = None
     relative_speed: float | None = None
     angle: float | None = None
+    spin: float | None = None
+    partner_spin: float | None = None

@@ -35,6 +35,7 @@ DIMENSIONS = {
     "Pa s": "a viscosity",
     "N/m": "a surface tension",
     "J": "an energy",
+    "rad/s": "an angular velocity",
 }
 """SI unit that names a dimension here -> that dimension in words."""
 
@@ -43,7 +44,6 @@ _WORDS = {
     "": "a plain number",
     "m^2": "an area",
     "1/s": "a frequency",
-    "rad/s": "an angular velocity",
     "N": "a force",
     "W": "a power",
     "kg m/s": "a momentum",
@@ -70,6 +70,7 @@ COMMON: dict[str, tuple[str, Decimal]] = {
         | {"l": "1e-3", "L": "1e-3", "ml": "1e-6", "mL": "1e-6", "ul": "1e-9", "uL": "1e-9"}
         | {"nl": "1e-12", "nL": "1e-12", "pl": "1e-15", "pL": "1e-15", "fl": "1e-18", "fL": "1e-18"},
         "m/s": {"m/s": "1", "cm/s": "1e-2", "mm/s": "1e-3", "um/s": "1e-6", "m s^-1": "1"},
+        "rad/s": {"rad/s": "1", "krad/s": "1e3", "mrad/s": "1e-3", "deg/s": _DEGREE, "1/s": "1", "s^-1": "1"},
         "m/s^2": {"m/s^2": "1", "cm/s^2": "1e-2", "m s^-2": "1"},
         "kg/m^3": {"kg/m^3": "1", "g/cm^3": "1e3", "g/m^3": "1e-3"}
         | {"kg m^-3": "1", "g cm^-3": "1e3", "g/ml": "1e3", "g/mL": "1e3", "kg/l": "1e3", "kg/L": "1e3"},

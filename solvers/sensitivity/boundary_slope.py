@@ -68,7 +68,7 @@ def _groups(scene: Scene, angle: float, stokes: float) -> dict[str, float]:
 
 
 def _graze(scene: Scene, angle: float, stokes: float, rtol: float) -> Slope | None:
-    model = load(select_model(scene, angle > 0))
+    model = load(select_model(scene, scene.turns(angle)))
     finder = EventLocator(model, _groups(scene, angle, stokes * _ABOVE), rtol)
     path = finder.run()
     if path.reversal is None:
@@ -145,7 +145,7 @@ def _escape(scene: Scene, angle: float, stokes: float, rebound: bool, rtol: floa
 
 def _probe(scene: Scene, angle: float, stokes: float, rebound: bool, rtol: float) -> UnstoppedTrajectory:
     groups = _groups(scene, angle, stokes) | ({} if rebound else WITHOUT_SOLIDS)
-    return UnstoppedTrajectory(load(select_model(scene, angle > 0)), groups, rtol)
+    return UnstoppedTrajectory(load(select_model(scene, scene.turns(angle))), groups, rtol)
 
 
 def _at_rim(probe: EventLocator, path: EventSequence) -> Slope:

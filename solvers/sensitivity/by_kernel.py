@@ -14,7 +14,7 @@ from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_for
 from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, differentiates, run_tangent
 from ..model.dimensionless import nondimensionalise
-from ..scene.groups import si_values
+from ..scene.groups import rate_scales, si_values
 from ..scene.scene import Scene
 from ..settings import STEPS
 from .parameters import RELATIVE, SCALES, Kind, parameter_map, references
@@ -79,9 +79,9 @@ def gradients_by_kernel(
         backward: differentiate the restitution alone by the adjoint (`run_tangent`).
     """
     scene, size = impacts.scene, impacts.angle.size
-    angle = ANGLE if impacts.angle[0] > 0 else 0.0
+    angle, oblique = ANGLE if impacts.angle[0] > 0 else 0.0, bool(impacts.oblique[0])
     at = _at_reference(scene, kind, wrt, angle)
-    found = run_tangent(impacts, angle > 0, rtol, "rotation" in of, tuple(at.moved), order, budget, backward)
+    found = run_tangent(impacts, oblique, rtol, "rotation" in of, tuple(at.moved), order, budget, backward)
     if found is None:
         return None
     # the quantities' derivatives are those at the reference, except for speed and angle
@@ -95,7 +95,9 @@ def gradients_by_kernel(
     scales = partial(_Scales, scene, impacts, at.scales, wrt, steep)
     for place, name in enumerate(of):
         column, where = _WHERE[name]
-        if angle == 0 and name in _TURNS:
+        if name == "tangential_restitution" and angle == 0:
+            continue
+        if not oblique and name in _TURNS:
             if DIFFERENTIATED[name].odd:
                 value[place, separated] = 0.0
             continue
@@ -179,19 +181,14 @@ class _Scales:
         speed, angle = impacts.speed, impacts.angle
         own = ANGLE if angle[0] > 0 else 0.0
         n = nondimensionalise(scene, SPEED, own)
-        turn = np.tan(angle) / np.tan(own) if own else np.ones(angle.size)
-        steep = np.sin(2 * own) / np.sin(2 * angle) * angle / own if own else np.ones(angle.size)
         pace = speed / SPEED
-        self._values = {"length": n.length * pace**0, "time": n.time / pace, "rate": n.rate * pace * turn}
+        rates = rate_scales(scene, {**scene.material, "speed": speed, "angle": angle})
+        self._values = {"length": n.length * pace**0, "time": n.time / pace, "rate": rates}
         first = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
         self._relative = {name: np.tile(slopes[name] / first[name], (speed.size, 1)) for name in first}
-        if "impact.angle" in wrt:  # derivative of tan(angle), which is no power of the angle
+        if falls is not None and "impact.angle" in wrt:
             k = wrt.index("impact.angle")
-            if falls is None:
-                self._relative["rate"][:, k] *= steep
-            else:
-                self._relative["time"][:, k] = falls
-                self._relative["rate"][:, k] = 2 * angle / np.sin(2 * angle) - falls
+            self._relative["time"][:, k], self._relative["rate"][:, k] = falls, -falls
 
     def of(self, name: str) -> tuple[np.ndarray, np.ndarray]:
         """The scale (collisions,) and the derivatives of its logarithm (collisions, parameters)."""

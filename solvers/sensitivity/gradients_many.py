@@ -23,6 +23,7 @@ from ..host.pictures import register
 from ..many.batch import validated_batch
 from ..many.results import FAILED, outcome_attributes
 from ..model.validity import warn
+from ..scene.groups import sideways
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..settings import FEW, RTOL, STEPS, check_engine
@@ -154,7 +155,7 @@ def gradients_many(
         loaded, np.asarray(velocity), request.angle, kind_of(loaded, held), check_wrt(loaded, wrt), names, request.rtol
     )
     left = np.arange(request.size)
-    oblique = set((request.angle > 0).tolist())
+    oblique = set(sideways(loaded, request.angle, {}).tolist())
     if by is None:
         by = gradient_engine(loaded, names, kernel.KNOWN, oblique, request.rtol, request.size)
     if by == "taylor" and kernel.offers(loaded, names, oblique):
@@ -166,10 +167,10 @@ def gradients_many(
 
 def _by_kernel(asked: _Asked) -> np.ndarray:
     """Compute collisions by the kernel; returns the indices of those left to CasADi."""
+    moves = sideways(asked.scene, asked.angle, {})
     turns = any(DIFFERENTIATED[name].odd for name in asked.of) and "impact.angle" in asked.wrt
-    parts, left = [], [np.flatnonzero(asked.angle == 0) if turns else np.zeros(0, int)]
-    for oblique in (True, False) if not turns else (True,):
-        which = np.flatnonzero((asked.angle > 0) == oblique)
+    parts, left = [], [np.flatnonzero(~moves) if turns else np.zeros(0, int)]
+    for which in (np.flatnonzero(asked.angle > 0), np.flatnonzero((asked.angle == 0) & (moves | (not turns)))):
         parts += [which[k : k + _STRETCH] for k in range(0, which.size, _STRETCH)]
     if len(parts) > 1:
         with ThreadPoolExecutor(usable_cores()) as pool:  # the kernel releases the interpreter's lock

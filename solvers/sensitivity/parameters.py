@@ -20,7 +20,7 @@ from ..scene.contact import GAPS
 from ..scene.groups import Formula, formulas
 from ..scene.quantities import Ways, film, normal_speed, quantities
 from ..scene.scene import Scene
-from ..scene.schema import DEFAULTS, FIELDS, SPEEDS
+from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS
 
 IMPACT = ("impact.speed", "impact.stokes", "impact.angle")
 HOLDS = ("speed", "stokes", "relative_speed")
@@ -30,7 +30,7 @@ RELATIVE = "impact.relative_speed"
 
 def known(scene: Scene) -> tuple[str, ...]:
     """The parameters of a scene: its numeric entries in the file's order, then speed, Stokes number and angle."""
-    own = [name for name, value in scene.si if not (isinstance(value, str) or name.startswith("impact."))]
+    own = [name for name, value in scene.si if not (isinstance(value, str) or name in MEETING)]
     return (*own, *((RELATIVE,) if RELATIVE in scene.entries else ()), *IMPACT)
 
 
@@ -89,12 +89,12 @@ class Kind:
 
 def kind_of(scene: Scene, hold: str) -> Kind:
     """The kind (key of the parameter map) of a scene's collision."""
-    own = dict.fromkeys(name for name in (*known(scene), *_defaults(scene)) if not name.startswith("impact."))
+    own = dict.fromkeys(name for name in (*known(scene), *_defaults(scene)) if name not in MEETING)
     own_rupture = scene.bridge.law if scene.bridge is not None and scene.bridge.rupture == "own" else None
     return Kind(
         (*own, f"impact.{hold}", "impact.angle"),
         hold,
-        (scene.ways, scene.partner is not None, own_rupture, scene.package),
+        (scene.ways, scene.pair, own_rupture, scene.package),
         formulas(scene),
     )
 
@@ -107,9 +107,13 @@ def references(scene: Scene, kind: Kind, speed: float, angle: float) -> np.ndarr
     return np.array([float(values[name]) for name in kind.entries])
 
 
-def _scale_of_zero(name: str, values: Mapping[str, SX]) -> SX:
+def _scale_of_zero(name: str, values: Mapping[str, SX], ways: Ways) -> SX:
     """Scale of a parameter whose reference value is zero."""
-    return film(values) if name in FIELDS and FIELDS[name].unit == "m" else SX(1)
+    unit = FIELDS[name].unit if name in FIELDS else None
+    if unit == "rad/s":
+        of = quantities(values, ways)
+        return SX(of["speed"] / of["reduced_radius"])
+    return film(values) if unit == "m" else SX(1)
 
 
 @dataclass(frozen=True)
@@ -140,17 +144,19 @@ def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> 
     for k, name in enumerate(wrt):
         moved = kind.held if name in SPEEDS else name
         zero = base[moved] == 0
-        unit = zero * _scale_of_zero(moved, base) + (1 - zero) * base[moved]
+        unit = zero * _scale_of_zero(moved, base, kind.ways) + (1 - zero) * base[moved]
         values[moved] += theta[k] * unit
         units.append(_impact(base, kind.ways)[name] if name in SPEEDS else unit)
-    known_values = quantities(values, kind.ways)
+    known_values = dict(quantities(values, kind.ways))
     numbers: dict[str, Any] = dict.fromkeys(GAPS.values(), SX(0))
     numbers |= {name: known_values[name] for name in groups if name in known_values}
     for name, (formula, arguments) in kind.formulas.items():
-        if all(argument in known_values for argument in arguments):
-            numbers[name] = formula(*(known_values[argument] for argument in arguments))
+        # a scale of which no result depends is that of the reference
+        at = quantities(base, kind.ways) if name == "obliquity" else known_values
+        if all(argument in at for argument in arguments):
+            numbers[name] = known_values[name] = formula(*(at[argument] for argument in arguments))
     speed, length = known_values["speed"], known_values["film_thickness"]
-    scales = [length, length / speed, numbers["initial_rate"], known_values["reduced_mass"] * speed**2]
+    scales = [length, length / speed, numbers["rate_scale"], known_values["reduced_mass"] * speed**2]
     column = densify(vertcat(*(SX(numbers[name]) for name in groups), *scales))
 
     def function(name: str, inputs: list[SX], *outputs: SX) -> Function:

@@ -18,7 +18,7 @@ from ..many.collide_many import collide_many
 from ..many.results import QUANTITIES as MANY
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
-from ..scene.schema import DEFAULTS, FIELDS, SPEEDS, Field
+from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS, Field
 from .gradients_many import gradients_many
 from .parameters import RELATIVE, check_wrt, hold_of
 from .result import Sensitivities
@@ -188,7 +188,7 @@ def _sampled(
             moved = normal_speed(varied.get(RELATIVE, np.full(samples, relative)), angles[-1])
         speeds.append(moved)
     vary = {name: at[0].as_given(name, np.concatenate(parts)) for name, parts in columns.items()
-            if not name.startswith("impact.")}  # fmt: skip
+            if name not in MEETING}  # fmt: skip
     names = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
     speeds_, angles_ = np.concatenate(speeds), np.concatenate(angles)
     found = collide_many(at[0], speed=speeds_, angle=angles_, vary=vary, rtol=rtol, of=names)

@@ -12,8 +12,8 @@ import sympy as sp
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import Law
-from ...physics.scaling import group_definitions, scale_definitions
-from ...vocabulary.quantities import VOCABULARY
+from ...physics.scaling import first_rates, group_definitions, impact_groups, scale_definitions
+from ...vocabulary.quantities import VOCABULARY, obliquity, obliquity_pair, obliquity_wall, rate_scale
 from ..taylor.header import Beside, structure_header
 from ..taylor.law_header import law_header
 from ..taylor.law_slopes import slopes_header
@@ -203,7 +203,9 @@ def scaling_digest() -> str:
 
 
 def _scaling() -> dict[sp.Symbol, sp.Expr]:
-    return group_definitions() | scale_definitions()
+    sideways = {obliquity: "", obliquity_pair: "pair", obliquity_wall: "wall"}
+    first = {group: impact_groups(partner)[obliquity] for group, partner in sideways.items()}
+    return group_definitions() | scale_definitions() | first | first_rates(rate_scale)
 
 
 def scaling_module() -> str:

@@ -12,7 +12,9 @@ from ...physics.laws.base import is_slot_call
 from ..casadi.printer import EmissionError
 from .program import Operation, Program
 
-_FUNCTIONS = {sp.exp: "vec_exp", sp.log: "vec_log", sp.sin: "vec_sin", sp.cos: "vec_cos", sp.tan: "vec_tan"}
+_FUNCTIONS = {
+    sp.exp: "vec_exp", sp.log: "vec_log", sp.sin: "vec_sin", sp.cos: "vec_cos", sp.tan: "vec_tan", sp.Abs: "vec_abs",
+}  # fmt: skip
 _EXTREMES = {sp.Max: "vec_larger", sp.Min: "vec_smaller"}
 _ADD, _MUL, _ATOM = range(3)
 

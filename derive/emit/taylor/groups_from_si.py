@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import sympy as sp
 
 from ...equations.model import Model
 from ...physics.laws.base import slot_call
-from ...physics.scaling import group_definitions
-from ...vocabulary.quantities import VOCABULARY, R, contact_angle, rupture_gap, volume, x0
+from ...physics.scaling import group_definitions, impact_groups
+from ...vocabulary.quantities import VOCABULARY, R, contact_angle, obliquity, rupture_gap, volume, x0
 from .c_text import Text
 from .layout import comment, function
 
@@ -26,7 +26,7 @@ def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     """
     expressions = _expressions(model, own)
     names = [symbol.name for symbol in _quantities(expressions)]
-    text = Text(lambda symbol: f"q[SI_{symbol.name.upper()}]")
+    text = Text(_place("c", expressions))
     lines = [f"enum {{ {', '.join(f'SI_{name.upper()}' for name in names)}, QUANTITIES }};"]
     lines += ["const char quantity_names[] =", *(f'    "{name} "' for name in names[:-1]), f'    "{names[-1]}";', ""]
     body = [f"c->{group.name} = {text.vector(value)};" for group, value in expressions.items()]
@@ -38,13 +38,19 @@ def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
 
 def _expressions(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
     """The groups of a model in SI quantities."""
-    definitions = {**group_definitions(), **own}
+    definitions = {**group_definitions(), **impact_groups(model.structure.partner), **own}
     return {group: definitions.get(group, group) for group in model.groups}
+
+
+def _place(constants: str, expressions: Mapping[sp.Symbol, sp.Expr]) -> Callable[[sp.Symbol], str]:
+    """The C text of a symbol: a group that has a formula, or a quantity in SI."""
+    known = {group for group, expression in expressions.items() if group != expression}
+    return lambda symbol: f"{constants}->{symbol.name}" if symbol in known else f"q[SI_{symbol.name.upper()}]"
 
 
 def _quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
     """The quantities in groups: those of the vocabulary in its order, then those declared by a user."""
-    used = set().union(*(expression.free_symbols for expression in expressions.values()))
+    used = set().union(*(expression.free_symbols for expression in expressions.values())) - {obliquity}
     found = [one.symbol for one in VOCABULARY.values() if one.symbol in used]
     return found + sorted(used - set(found), key=lambda symbol: str(symbol.name))
 
@@ -52,15 +58,14 @@ def _quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
 def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     """Derivatives of the groups by the quantities in SI, and the groups that each quantity affects; `own` as above."""
     wanted = _expressions(model, own)
-    known = {group for group, expression in wanted.items() if group != expression}
-    text = Text(lambda symbol: f"v->{symbol.name}" if symbol in known else f"q[SI_{symbol.name.upper()}]")
+    text = Text(_place("v", wanted))
     bits: dict[sp.Symbol, int] = dict.fromkeys(_quantities(wanted), 0)
     body = ["(void)v; (void)q;", "memset(slope, 0, sizeof(vec)*GROUPS);", "switch (quantity) {"]
     for symbol in bits:
         body.append(f"case SI_{symbol.name.upper()}:")
         for place, (group, expression) in enumerate(wanted.items()):
             slope = _power_slope(expression, symbol, group)
-            if slope != 0:
+            if slope != 0 and group != obliquity:  # a scale: no result depends on it
                 bits[symbol] |= 1 << place
                 line = f"    slope[BY_{group.name.upper()}] = {text.vector(slope)};"
                 if group == rupture_gap:

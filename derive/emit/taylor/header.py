@@ -328,6 +328,9 @@ class Header:
                 "static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)",
                 {state.name: f"rigid[{state.name.upper()}]" for state in model.states[2:]},
             )
+        if shape.oblique:
+            head = "static inline vec surface_slip(const constants *c, const vec *y)"
+            lines += self._value("surface_slip", head, {"surface_slip": "return"})
         if "arm" in model.slots and not shape.strings:
             lines += self._value(
                 "angular_momentum",

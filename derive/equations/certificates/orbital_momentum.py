@@ -28,11 +28,11 @@ import sympy as sp
 from ...physics.mechanics import doublet_inertia
 from ...physics.scaling import DISTANCE, nondimensional
 from ...physics.structure import Structure
-from ...vocabulary.quantities import a, m, omega0, orbital_momentum, spin, v0, x
+from ...vocabulary.quantities import a, m, orbital_momentum, rate_scale, spin, v0, x
 from ..intermediates import SLIP
 
 RIGID = sp.Symbol("rigid_share", nonnegative=True)  # 1/(rho/a + lag), with omega = xi at the distance rho
-UNIT = sp.Symbol("rotation_energy_unit", positive=True)  # m a^2 omega0^2 over m v0^2
+UNIT = sp.Symbol("rotation_energy_unit", positive=True)  # m a^2 Omega^2 over m v0^2
 
 
 def spheres_inertia() -> sp.Expr:
@@ -52,7 +52,7 @@ def lag() -> sp.Expr:
 
 
 def midgap(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
-    """Slip energy over m a^2 omega0^2 for the lever arm at mid-gap: kinetic energy above that of rigid rotation.
+    """Slip energy over m a^2 Omega^2 for the lever arm at mid-gap: kinetic energy above that of rigid rotation.
 
     The exchange conserves L = J + (32/5) a^2 xi and nothing else.
     """
@@ -82,7 +82,7 @@ def rigid_share(momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
 
 
 def surface(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr, share: sp.Expr) -> sp.Expr:
-    """Slip energy over m a^2 omega0^2 for the lever arm at the surface.
+    """Slip energy over m a^2 Omega^2 for the lever arm at the surface.
 
     It is J^2/(2 d^2) minus what remains of it once omega = xi at d.
     """
@@ -100,7 +100,7 @@ def admits(structure: Structure) -> bool:
 
 def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
-    found: list[tuple[sp.Symbol, sp.Expr]] = [(UNIT, nondimensional(a**2 * omega0**2 / v0**2))]
+    found: list[tuple[sp.Symbol, sp.Expr]] = [(UNIT, nondimensional(a**2 * rate_scale**2 / v0**2))]
     return tuple(found if structure.reduced else [*found, (RIGID, rigid_share(orbital_momentum, spin))])
 
 

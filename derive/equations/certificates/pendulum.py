@@ -70,7 +70,7 @@ TURNINGS = sp.symbols(f"turning_:{PANELS}", nonnegative=True)
 
 
 def rigid_momentum(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
-    """r^2 omega over a^2 omega0 in rigid rotation with this angular momentum."""
+    """r^2 omega over a^2 Omega in rigid rotation with this angular momentum."""
     inertia = nondimensional(doublet_inertia() / (m * a**2)).subs(DISTANCE, distance)
     return momentum * distance**2 / inertia
 
@@ -89,7 +89,7 @@ def outward_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
 
 
 def torque_at(at: sp.Expr, angle: sp.Expr) -> sp.Expr:
-    """What the strings take from J, over a^2 omega0 v0/x0, at this gap and angle."""
+    """What the strings take from J, over a^2 Omega v0/x0, at this gap and angle."""
     _, sideways, swing = scaled_strings(oblique=True)
     rate = rates(Structure(oblique=True, bridge=False, strings=True))[orbital_momentum]
     torque = -sp.expand(rate).coeff(STRING_SIDEWAYS) * sideways

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -22,8 +22,9 @@ class Rotation:
         turning: angular velocity of the line of centres, None beside a wall.
         kinetic: energy over m v0^2.
         power: dissipated by the tangential film force, over m v0^3/x0.
-        momentum: angular momentum over its initial value, None if it is not conserved.
+        momentum: 1 + the change of the angular momentum over its first size, None if it is not conserved.
         outputs: results for a separated pair.
+        surface_slip: relative velocity of the surfaces at the contact, over a times the scale of rates.
         least: (least rotational energy over m v0^2 for the state's angular momentum, its slope along the gap).
         rigid: the state with that energy.
         start: the state at initial contact.
@@ -38,6 +39,13 @@ class Rotation:
     power: sp.Expr
     momentum: sp.Expr | None
     outputs: Mapping[str, sp.Expr]
+    surface_slip: sp.Expr
     least: tuple[sp.Expr, sp.Expr]
     rigid: Mapping[sp.Symbol, sp.Expr]
     start: Mapping[sp.Symbol, sp.Expr]
+
+
+def relative_change(momentum: sp.Expr, first: Sequence[sp.Expr]) -> sp.Expr:
+    """1 + the change of an angular momentum over the sum of the magnitudes of its first parts."""
+    size = sum((sp.Abs(part) for part in first), sp.Integer(0))
+    return 1 + (momentum - sum(first, sp.Integer(0))) / size

@@ -10,13 +10,16 @@ from ...vocabulary.quantities import (
     a,
     aspect,
     gap,
+    initial_partner_spin,
+    initial_spin,
+    initial_turning,
     m,
     mu,
     omega,
-    omega0,
     orbital_momentum,
     partner_spin,
     partner_spin_rate,
+    rate_scale,
     spin,
     v0,
     x,
@@ -27,7 +30,7 @@ from ..forces import SHEAR, TANGENTIAL
 from ..laws import slot_call
 from ..laws.base import Definition
 from ..scaling import DISTANCE, INERTIA, nondimensional
-from .base import Rotation
+from .base import Rotation, relative_change
 from .bodies import CENTRES, T_1, T_2, F_t, centres, equations_of_motion, inertias, r, radii
 from .rolling import R_1, R_2, torque_matrix
 
@@ -67,7 +70,7 @@ def _friction() -> list[Definition]:
     shape = (torque_matrix() / unit).subs({R_1: a * RADIUS, R_2: a * PARTNER_RADIUS})
     torque, partner_torque = LEVER * DRAG * sp.simplify(shape) * sp.Matrix([SLIP, PARTNER_SLIP])
     return [
-        (DRAG, scaled(log * unit * omega0 / (TANGENTIAL * a))),
+        (DRAG, scaled(log * unit * rate_scale / (TANGENTIAL * a))),
         (LEVER, slot_call("arm", "lever", 4 * DISTANCE / CENTRES) / 2),
         (TORQUE, sp.factor(torque)),
         (PARTNER_TORQUE, sp.factor(partner_torque)),
@@ -80,7 +83,7 @@ def _definitions() -> tuple[Definition, ...]:
     return (
         (CENTRES, centres()),
         (DISTANCE, CENTRES + aspect * gap),
-        (ORBITAL_RATE, scaled(omega / omega0)),
+        (ORBITAL_RATE, scaled(omega / rate_scale)),
         (RADIUS, sp.factor(radius / a)),
         (PARTNER_RADIUS, sp.factor(partner_radius / a)),
         (SPIN_INERTIA, sp.factor(inertia / (m * a**2))),
@@ -96,7 +99,7 @@ def _definitions() -> tuple[Definition, ...]:
 def _kinetic() -> sp.Expr:
     """Kinetic energy of the orbital motion and of both spins, over m v0^2; the centre of mass is at rest."""
     orbital = _turned(m * r**2 * omega**2 / 2 / (m * v0**2))
-    turning = scaled(m * a**2 * omega0**2 / 2 / (m * v0**2))
+    turning = scaled(m * a**2 * rate_scale**2 / 2 / (m * v0**2))
     return orbital + turning * SPIN_INERTIA * spin**2 + turning * PARTNER_INERTIA * partner_spin**2
 
 
@@ -105,14 +108,14 @@ def rotation() -> Rotation:
     """The rotation of an unequal pair, for its equations."""
     motion = equations_of_motion()
     named = {F_t: TANGENTIAL * SHEAR_FORCE, T_1: TANGENTIAL * a * TORQUE, T_2: TANGENTIAL * a * PARTNER_TORQUE}
-    per_time = x0 / (v0 * m * a**2 * omega0)
+    per_time = x0 / (v0 * m * a**2 * rate_scale)
 
     def rate(coordinate: str) -> sp.Expr:
         return scaled(motion.rates[coordinate].subs(named) * per_time)
 
     power = F_t * r * omega - T_1 * xi - T_2 * partner_spin_rate
     rigid = MOMENTUM / INERTIA_RATIO
-    least = scaled((m * a**2 * omega0 * MOMENTUM) ** 2 / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
+    least = scaled((m * a**2 * rate_scale * MOMENTUM) ** 2 / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
     opened = motion.accelerations["x"]
     centrifugal = sp.expand(opened - opened.subs(omega, 0))
     assert sp.expand(centrifugal - r * omega**2) == 0
@@ -128,14 +131,26 @@ def rotation() -> Rotation:
         turning=_turned(omega * x0 / v0),
         kinetic=_kinetic(),
         power=_turned(power.subs(named) * x0 / v0 / (m * v0**2)),
-        momentum=MOMENTUM / (CENTRES + aspect) ** 2,
+        momentum=relative_change(
+            MOMENTUM,
+            (
+                (CENTRES + aspect) ** 2 * initial_turning,
+                SPIN_INERTIA * initial_spin,
+                PARTNER_INERTIA * initial_partner_spin,
+            ),
+        ),
         outputs={
-            "tangential_restitution": DISTANCE * ORBITAL_RATE / (CENTRES + aspect),
+            "tangential_restitution": DISTANCE * ORBITAL_RATE / ((CENTRES + aspect) * initial_turning),
             "final_rotation_rate": ORBITAL_RATE,
             "final_spin": spin,
             "final_spin_partner": partner_spin,
         },
+        surface_slip=DISTANCE * ORBITAL_RATE - LEVER * (RADIUS * spin + PARTNER_RADIUS * partner_spin),
         least=(least, least.diff(INERTIA_RATIO) * 2 * DISTANCE * aspect),
         rigid={orbital_momentum: DISTANCE**2 * rigid, spin: rigid, partner_spin: rigid},
-        start={orbital_momentum: (CENTRES + aspect) ** 2, spin: sp.Integer(0), partner_spin: sp.Integer(0)},
+        start={
+            orbital_momentum: (CENTRES + aspect) ** 2 * initial_turning,
+            spin: initial_spin,
+            partner_spin: initial_partner_spin,
+        },
     )

@@ -20,6 +20,8 @@ import sympy as sp
 from ...vocabulary.quantities import (
     a,
     decay,
+    initial_spin,
+    initial_turning,
     m,
     mass_ratio,
     obliquity,
@@ -74,7 +76,7 @@ def accelerations() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
 
 
 def scaled(expression: sp.Expr) -> sp.Expr:
-    """A dimensionless SI expression in states and groups; v over v0 tan(theta0), spin over v0 tan(theta0)/a."""
+    """A dimensionless SI expression in states and groups; v over v0 T, spin over v0 T/a."""
     sideways = v0 * obliquity
     return nondimensional(expression.subs({slide_rate: sideways * slide, xi: sideways / a * roll}, simultaneous=True))
 
@@ -141,7 +143,7 @@ def _force_unit() -> sp.Expr:
 def rotation() -> Rotation:
     """The rotation of a sphere beside a wall, for its equations."""
     definitions, rates = friction_rates()
-    begin = {slide: sp.Integer(1), roll: sp.Integer(0)}
+    begin = {slide: initial_turning, roll: initial_spin}
     found = modes({state: rate.subs(dict(definitions)) for state, rate in rates.items()}, begin)
     both = (SLOW_MODE, FAST_MODE)
     unit = _force_unit()
@@ -162,7 +164,12 @@ def rotation() -> Rotation:
         kinetic=scaled(kinetic / (m * v0**2)),
         power=scaled(power * x0 / v0 / (m * v0**2)),
         momentum=None,
-        outputs={"tangential_restitution": slide, "final_rotation_rate": sp.Integer(0), "final_spin": roll},
+        outputs={
+            "tangential_restitution": slide / initial_turning,
+            "final_rotation_rate": sp.Integer(0),
+            "final_spin": roll,
+        },
+        surface_slip=slide - roll,
         least=(sp.Integer(0), sp.Integer(0)),
         rigid={decay: decay},
         start={decay: sp.Integer(0)},

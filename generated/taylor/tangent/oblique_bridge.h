@@ -1,18 +1,20 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 77c987cf59d91f86f6bcf7771eb5250a3ebd5a4bcb8060fa53ceb6f52d139336 */
+ * Equations sha256 70c239f220f1f85fd32f6eacf22211e1cbf9ffbabd9c0cace8e1a5bf8000e162 */
 
 /* Oblique doublet with a liquid bridge.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
  * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
- * - orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
- * - spin [omega0]: spin of each sphere over omega0
+ * - orbital_momentum [a^2 Omega]: orbital angular momentum r^2 omega over a^2 Omega
+ * - spin [Omega]: spin of each sphere over its scale Omega
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
  * - aspect [1]: film thickness over reduced radius, x0/a
- * - obliquity [1]: tangent of the impact angle
+ * - obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+ * - initial_turning [1]: tan(theta0)/T, 1 without spins
+ * - initial_spin [Omega]: spin at initial contact over Omega
  * - capillary [1]: capillary number 3 mu a v0/(sigma x0)
  * - volume [1]: bridge volume over R^3 (constant)
  * - contact_angle [rad]: contact angle of the liquid on the sphere
@@ -27,11 +29,13 @@
  * Tangent: derivatives of the states by the groups. Products of series: 25 and those of the laws, then 9 a
  * direction; backwards 18 and those of the laws' derivatives. */
 
-enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_CAPILLARY, BY_VOLUME, BY_CONTACT_ANGLE, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_RUPTURE_GAP, BY_DRY_RESTITUTION };
+enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_INITIAL_TURNING, BY_INITIAL_SPIN, BY_CAPILLARY, BY_VOLUME, BY_CONTACT_ANGLE, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_RUPTURE_GAP, BY_DRY_RESTITUTION };
 const char group_names[] =
     "stokes "
     "aspect "
     "obliquity "
+    "initial_turning "
+    "initial_spin "
     "capillary "
     "volume "
     "contact_angle "
@@ -41,7 +45,7 @@ const char group_names[] =
     "rupture_gap "
     "dry_restitution";
 /* Groups that the rates depend on; the others enter at an event. */
-static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0 };
+static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0 };
 
 #if BACKWARD
 typedef struct {
@@ -536,7 +540,13 @@ static inline void start_along(const constants *v, int group, vec *after)
     after[SPIN] = splat(0.0);
     switch (group) {
     case BY_ASPECT:
-        after[ORBITAL_MOMENTUM] += 2.0*(v->aspect + 4.0);
+        after[ORBITAL_MOMENTUM] += 2.0*v->initial_turning*(v->aspect + 4.0);
+        break;
+    case BY_INITIAL_TURNING:
+        after[ORBITAL_MOMENTUM] += ((v->aspect + 4.0)*(v->aspect + 4.0));
+        break;
+    case BY_INITIAL_SPIN:
+        after[SPIN] += 1.0;
         break;
     }
 }
@@ -563,17 +573,23 @@ static inline void outputs_along(const constants *v, const vec *y, const vec *t,
     (void)v;
     (void)y;
     shown[0] = t[NORMAL_VELOCITY];
-    shown[1] = -v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect + 4.0)*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0)))*t[GAP] + 1.0/((v->aspect + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBITAL_MOMENTUM];
+    shown[1] = -v->aspect*y[ORBITAL_MOMENTUM]/(v->initial_turning*(v->aspect + 4.0)*((v->aspect*y[GAP] +
+        4.0)*(v->aspect*y[GAP] + 4.0)))*t[GAP] + 1.0/(v->initial_turning*(v->aspect + 4.0)*(v->aspect*y[GAP] +
+        4.0))*t[ORBITAL_MOMENTUM];
     shown[2] = -2.0*v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
         4.0)*(v->aspect*y[GAP] + 4.0))*t[GAP] + 1.0/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
         4.0))*t[ORBITAL_MOMENTUM];
     shown[3] = t[SPIN];
     switch (group) {
     case BY_ASPECT:
-        shown[1] += -2.0*y[ORBITAL_MOMENTUM]*(v->aspect*y[GAP] + 2.0*y[GAP] + 2.0)/(((v->aspect +
-        4.0)*(v->aspect + 4.0))*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)));
+        shown[1] += -2.0*y[ORBITAL_MOMENTUM]*(v->aspect*y[GAP] + 2.0*y[GAP] +
+        2.0)/(v->initial_turning*((v->aspect + 4.0)*(v->aspect + 4.0))*((v->aspect*y[GAP] +
+        4.0)*(v->aspect*y[GAP] + 4.0)));
         shown[2] += -2.0*y[GAP]*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
+        4.0)*(v->aspect*y[GAP] + 4.0));
+        break;
+    case BY_INITIAL_TURNING:
+        shown[1] += -y[ORBITAL_MOMENTUM]/((v->initial_turning*v->initial_turning)*(v->aspect +
         4.0)*(v->aspect*y[GAP] + 4.0));
         break;
     }
@@ -592,7 +608,7 @@ static inline vec tangential_edge_along(const constants *v, int group)
 }
 
 /* The groups that each quantity in SI moves, as bits. */
-const unsigned moved_groups[QUANTITIES] = { 715, 1, 256, 1024, 128, 128, 201, 970, 64, 8, 201, 4, 528, 544 };
+const unsigned moved_groups[QUANTITIES] = { 2867, 1, 1024, 4096, 512, 512, 801, 3874, 256, 32, 817, 8, 16, 2112, 2176 };
 
 /* How the groups change with a quantity in SI. */
 static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)
@@ -603,6 +619,7 @@ static inline void scale_along(const constants *v, const vec *q, int quantity, v
     case SI_REDUCED_RADIUS:
         slope[BY_STOKES] = -2.0*v->stokes/q[SI_REDUCED_RADIUS];
         slope[BY_ASPECT] = -v->aspect/q[SI_REDUCED_RADIUS];
+        slope[BY_INITIAL_SPIN] = v->initial_spin/q[SI_REDUCED_RADIUS];
         slope[BY_CAPILLARY] = v->capillary/q[SI_REDUCED_RADIUS];
         slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_REDUCED_RADIUS];
         slope[BY_ELASTIC_GAP] = 0.6*v->elastic_gap/q[SI_REDUCED_RADIUS];
@@ -656,12 +673,18 @@ static inline void scale_along(const constants *v, const vec *q, int quantity, v
         break;
     case SI_SPEED:
         slope[BY_STOKES] = v->stokes/q[SI_SPEED];
+        slope[BY_INITIAL_SPIN] = -v->initial_spin/q[SI_SPEED];
         slope[BY_CAPILLARY] = v->capillary/q[SI_SPEED];
         slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_SPEED];
         slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_SPEED];
         break;
     case SI_ANGLE:
-        slope[BY_OBLIQUITY] = (vec_tan(q[SI_ANGLE])*vec_tan(q[SI_ANGLE])) + 1.0;
+        slope[BY_INITIAL_TURNING] = ((vec_tan(q[SI_ANGLE])*vec_tan(q[SI_ANGLE])) +
+        1.0)/vec_larger(splat(1e-300), v->obliquity);
+        break;
+    case SI_IMPACT_SPIN:
+        slope[BY_INITIAL_SPIN] = 4.0*q[SI_REDUCED_RADIUS]/(q[SI_SPEED]*vec_larger(splat(1e-300),
+        v->obliquity));
         break;
     case SI_VOLUME:
         slope[BY_VOLUME] = splat(1.0);

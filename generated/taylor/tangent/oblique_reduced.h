@@ -1,17 +1,19 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 72de48b453175062882b6a638185edcedfdfa1cc25bd27e8db44dddc379eaf52 */
+ * Equations sha256 57781d31050733158c44ee29f88740bf7c7ed77a6143907b3a15d391d72ee645 */
 
 /* Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
  *
  * Time in x0/v0. States (per unit):
  * - gap [x0]: gap over film thickness
  * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
- * - orbital_momentum [a^2 omega0]: orbital angular momentum r^2 omega over a^2 omega0
+ * - orbital_momentum [a^2 Omega]: orbital angular momentum r^2 omega over a^2 Omega
  *
  * Groups:
  * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
  * - aspect [1]: film thickness over reduced radius, x0/a
- * - obliquity [1]: tangent of the impact angle
+ * - obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
+ * - initial_turning [1]: tan(theta0)/T, 1 without spins
+ * - initial_spin [Omega]: spin at initial contact over Omega
  * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
  * - elastic_gap [x0]: elastic length over film thickness
  * - rough_gap [x0]: roughness over film thickness
@@ -19,20 +21,22 @@
  *
  * Law slots: film, glass, shear.
  *
- * Tangent: derivatives of the states by the groups. Products of series: 16 and those of the laws, then 5 a
+ * Tangent: derivatives of the states by the groups. Products of series: 18 and those of the laws, then 5 a
  * direction; backwards 14 and those of the laws' derivatives. */
 
-enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
+enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_INITIAL_TURNING, BY_INITIAL_SPIN, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
 const char group_names[] =
     "stokes "
     "aspect "
     "obliquity "
+    "initial_turning "
+    "initial_spin "
     "glass_number "
     "elastic_gap "
     "rough_gap "
     "dry_restitution";
 /* Groups that the rates depend on; the others enter at an event. */
-static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 0, 0, 0, 0 };
+static const unsigned char FLOWS[GROUPS] = { 1, 1, 1, 1, 1, 0, 0, 0, 0 };
 
 #if BACKWARD
 typedef struct {
@@ -136,13 +140,17 @@ static inline void along_constants(const constants *v, const vec *constant, vec 
     by_group[BY_STOKES] += -1.0/(v->stokes*v->stokes)*constant[0] +
         -1.3333333333333333*v->aspect/(v->stokes*v->stokes)*constant[2];
     by_group[BY_ASPECT] += 0.0625*(v->obliquity*v->obliquity)*constant[1] +
-        1.3333333333333333/v->stokes*constant[2] + constant[3] + 0.3125*(v->aspect + 4.0)*constant[4];
+        1.3333333333333333/v->stokes*constant[2] + constant[3] + 0.3125*v->initial_turning*(v->aspect +
+        4.0)*constant[4];
     by_group[BY_OBLIQUITY] += 0.125*v->aspect*v->obliquity*constant[1];
+    by_group[BY_INITIAL_TURNING] += 0.15625*((v->aspect + 4.0)*(v->aspect + 4.0))*constant[4];
+    by_group[BY_INITIAL_SPIN] += constant[4];
 }
 
 #else
 typedef struct {
     vec momentum_by_aspect;
+    vec momentum_by_initial_turning;
     vec film_force_by_gap_factor;
     vec centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared;
     vec centrifugal_force_by_aspect_per_centrifugal_force;
@@ -150,6 +158,7 @@ typedef struct {
     vec shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip;
     vec slip_by_aspect_offset;
+    vec shear_force_by_initial_turning_per_shear_log_factor_law;
     vec normal_velocity_by_gap_per_orbital_rate_squared;
     vec normal_velocity_by_normal_velocity_per_film_resistance_law;
     vec normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance;
@@ -166,7 +175,8 @@ typedef struct {
 /* Constants of the derivatives, computed once per collision. */
 static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
-    c->momentum_by_aspect = 2.0*v->aspect + 8.0;
+    c->momentum_by_aspect = 2.0*v->aspect*v->initial_turning + 8.0*v->initial_turning;
+    c->momentum_by_initial_turning = (v->aspect*v->aspect) + 8.0*v->aspect + 16.0;
     c->film_force_by_gap_factor = 1.0/v->stokes;
     c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared =
         -0.1875*v->aspect*(v->obliquity*v->obliquity);
@@ -176,6 +186,8 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
         -2.6666666666666665*(v->aspect*v->aspect)/v->stokes;
     c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip = 1.3333333333333333*v->aspect/v->stokes;
     c->slip_by_aspect_offset = -0.15625*c->momentum_by_aspect;
+    c->shear_force_by_initial_turning_per_shear_log_factor_law =
+        -0.20833333333333334*v->aspect*c->momentum_by_initial_turning/v->stokes;
     c->normal_velocity_by_gap_per_orbital_rate_squared =
         -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
     c->normal_velocity_by_normal_velocity_per_film_resistance_law = -1.0/v->stokes;
@@ -203,6 +215,8 @@ typedef struct {
     vec orbital_momentum_by_orbital_momentum[TERMS];
     vec orbital_momentum_by_stokes[TERMS];
     vec orbital_momentum_by_aspect[TERMS];
+    vec orbital_momentum_by_initial_turning[TERMS];
+    vec orbital_momentum_by_initial_spin[TERMS];
     vec turned_by_gap[TERMS];
     vec turned_by_orbital_momentum[TERMS];
     vec turned_by_aspect[TERMS];
@@ -232,6 +246,7 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
     vec shear_log_factor_law_by_aspect_by_slip[TERMS];
     vec slip_by_aspect_by_shear_log_factor_law[TERMS];
     vec shear_force_by_aspect[TERMS];
+    vec shear_force_by_initial_turning[TERMS];
     vec orbital_rate_over_distance[TERMS];
     vec over_orbital_rate_over_distance;
     vec distance_by_shear_force_by_gap[TERMS];
@@ -312,6 +327,17 @@ static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const sl
         c->turned_by_aspect_per_orbital_rate*of->orbital_rate[k];)
 #endif
     }
+    if (asked & (1u << BY_INITIAL_SPIN)) {
+        EACH_TERM(s->orbital_momentum_by_initial_spin[k] =
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->distance,
+        of->shear_log_factor_law.result, k);)
+    }
+    if (asked & (1u << BY_INITIAL_TURNING)) {
+        EACH_TERM(shear_force_by_initial_turning[k] =
+        shear*c->shear_force_by_initial_turning_per_shear_log_factor_law*of->shear_log_factor_law.result[k];)
+        EACH_TERM(s->orbital_momentum_by_initial_turning[k] = -product(of->distance,
+        shear_force_by_initial_turning, k);)
+    }
     if (asked & (1u << BY_OBLIQUITY)) {
         EACH_TERM(s->centrifugal_force_by_obliquity[k] =
         c->centrifugal_force_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];)
@@ -368,6 +394,12 @@ static inline void sources(const slopes *s, const series *of, int group, const v
         source[TURNED] = s->turned_by_obliquity;
 #endif
         break;
+    case BY_INITIAL_TURNING:
+        source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_initial_turning;
+        break;
+    case BY_INITIAL_SPIN:
+        source[ORBITAL_MOMENTUM] = s->orbital_momentum_by_initial_spin;
+        break;
     }
 }
 
@@ -389,7 +421,10 @@ static inline void start_along(const constants *v, int group, vec *after)
     after[ORBITAL_MOMENTUM] = splat(0.0);
     switch (group) {
     case BY_ASPECT:
-        after[ORBITAL_MOMENTUM] += 2.0*(v->aspect + 4.0);
+        after[ORBITAL_MOMENTUM] += 2.0*v->initial_turning*(v->aspect + 4.0);
+        break;
+    case BY_INITIAL_TURNING:
+        after[ORBITAL_MOMENTUM] += ((v->aspect + 4.0)*(v->aspect + 4.0));
         break;
     }
 }
@@ -415,19 +450,29 @@ static inline void outputs_along(const constants *v, const vec *y, const vec *t,
     (void)v;
     (void)y;
     shown[0] = t[NORMAL_VELOCITY];
-    shown[1] = -v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect + 4.0)*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0)))*t[GAP] + 1.0/((v->aspect + 4.0)*(v->aspect*y[GAP] + 4.0))*t[ORBITAL_MOMENTUM];
+    shown[1] = -v->aspect*y[ORBITAL_MOMENTUM]/(v->initial_turning*(v->aspect + 4.0)*((v->aspect*y[GAP] +
+        4.0)*(v->aspect*y[GAP] + 4.0)))*t[GAP] + 1.0/(v->initial_turning*(v->aspect + 4.0)*(v->aspect*y[GAP] +
+        4.0))*t[ORBITAL_MOMENTUM];
     shown[2] = -2.0*v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
         4.0)*(v->aspect*y[GAP] + 4.0))*t[GAP] + 1.0/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
         4.0))*t[ORBITAL_MOMENTUM];
     shown[3] = (-0.15625)*t[ORBITAL_MOMENTUM];
     switch (group) {
     case BY_ASPECT:
-        shown[1] += -2.0*y[ORBITAL_MOMENTUM]*(v->aspect*y[GAP] + 2.0*y[GAP] + 2.0)/(((v->aspect +
-        4.0)*(v->aspect + 4.0))*((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] + 4.0)));
+        shown[1] += -2.0*y[ORBITAL_MOMENTUM]*(v->aspect*y[GAP] + 2.0*y[GAP] +
+        2.0)/(v->initial_turning*((v->aspect + 4.0)*(v->aspect + 4.0))*((v->aspect*y[GAP] +
+        4.0)*(v->aspect*y[GAP] + 4.0)));
         shown[2] += -2.0*y[GAP]*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
         4.0)*(v->aspect*y[GAP] + 4.0));
-        shown[3] += 0.3125*(v->aspect + 4.0);
+        shown[3] += 0.3125*v->initial_turning*(v->aspect + 4.0);
+        break;
+    case BY_INITIAL_TURNING:
+        shown[1] += -y[ORBITAL_MOMENTUM]/((v->initial_turning*v->initial_turning)*(v->aspect +
+        4.0)*(v->aspect*y[GAP] + 4.0));
+        shown[3] += 0.15625*((v->aspect + 4.0)*(v->aspect + 4.0));
+        break;
+    case BY_INITIAL_SPIN:
+        shown[3] += 1.0;
         break;
     }
 }
@@ -445,7 +490,7 @@ static inline vec tangential_edge_along(const constants *v, int group)
 }
 
 /* The groups that each quantity in SI moves, as bits. */
-const unsigned moved_groups[QUANTITIES] = { 27, 1, 32, 64, 16, 16, 25, 58, 8, 25, 4 };
+const unsigned moved_groups[QUANTITIES] = { 115, 1, 128, 256, 64, 64, 97, 226, 32, 113, 8, 16 };
 
 /* How the groups change with a quantity in SI. */
 static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)
@@ -456,6 +501,7 @@ static inline void scale_along(const constants *v, const vec *q, int quantity, v
     case SI_REDUCED_RADIUS:
         slope[BY_STOKES] = -2.0*v->stokes/q[SI_REDUCED_RADIUS];
         slope[BY_ASPECT] = -v->aspect/q[SI_REDUCED_RADIUS];
+        slope[BY_INITIAL_SPIN] = v->initial_spin/q[SI_REDUCED_RADIUS];
         slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_REDUCED_RADIUS];
         slope[BY_ELASTIC_GAP] = 0.6*v->elastic_gap/q[SI_REDUCED_RADIUS];
         break;
@@ -493,11 +539,17 @@ static inline void scale_along(const constants *v, const vec *q, int quantity, v
         break;
     case SI_SPEED:
         slope[BY_STOKES] = v->stokes/q[SI_SPEED];
+        slope[BY_INITIAL_SPIN] = -v->initial_spin/q[SI_SPEED];
         slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_SPEED];
         slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_SPEED];
         break;
     case SI_ANGLE:
-        slope[BY_OBLIQUITY] = (vec_tan(q[SI_ANGLE])*vec_tan(q[SI_ANGLE])) + 1.0;
+        slope[BY_INITIAL_TURNING] = ((vec_tan(q[SI_ANGLE])*vec_tan(q[SI_ANGLE])) +
+        1.0)/vec_larger(splat(1e-300), v->obliquity);
+        break;
+    case SI_IMPACT_SPIN:
+        slope[BY_INITIAL_SPIN] = 4.0*q[SI_REDUCED_RADIUS]/(q[SI_SPEED]*vec_larger(splat(1e-300),
+        v->obliquity));
         break;
     }
 }

@@ -16,7 +16,7 @@ import numpy as np
 from ....generated.automaton import LOOSEST
 from ...model.model import ModelKey, select_model
 from ...scene.contact import NEVER_MET
-from ...scene.groups import si_values
+from ...scene.groups import si_values, sideways
 from ...scene.scene import Scene
 from ...settings import STEPS
 from .build import Variant, for_few, kernel
@@ -35,6 +35,11 @@ class Impacts:
     speed: np.ndarray
     angle: np.ndarray
     others: Mapping[str, np.ndarray]
+
+    @property
+    def oblique(self) -> np.ndarray:
+        """Mask of the collisions in which something moves sideways."""
+        return sideways(self.scene, self.angle, self.others)
 
     def part(self, which: np.ndarray | slice) -> Impacts:
         """A subset of the collisions."""
@@ -81,7 +86,7 @@ def run_kernel(
             approach as well (nor is the smallest gap).
     """
     found = np.zeros(impacts.angle.size, ANSWER)
-    turns = impacts.angle > 0
+    turns = impacts.oblique
     for oblique, those in ((True, turns), (False, ~turns)):
         count = int(np.count_nonzero(those))
         if count and not _fill(

@@ -20,6 +20,7 @@ ANSWER = np.dtype(
         ("smallest_gap", "f8"),
         ("turned", "f8"),
         ("final_gap", "f8"),
+        ("slip", "f8"),  # of the surfaces at the contact, at separation over initial contact; NaN where there is none
         ("outcome", "i4"),
         ("certified", "i4"),
         ("status", "i4"),

@@ -12,6 +12,7 @@ from ....generated.automaton import LOOSEST
 from ...host.compiler import compiler
 from ...model.model import select_model
 from ...scene.contact import ENTRIES, TIE
+from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ...settings import STEPS
 from .build import Variant, kernel
@@ -28,6 +29,7 @@ DISTANCES = {  # boundaries whose measure is a distance reported by `sensitiviti
     8: ("half turn at separation", "rotation"),
 }
 STRICTER = 4.0  # stricter tolerance, by this factor, of steps that are not limited by directions
+_SPINS = {"impact_spin": "initial_spin", "impact_partner_spin": "initial_partner_spin"}
 _CHUNK = 1024  # number of collisions whose derivatives are computed at a time
 
 
@@ -76,13 +78,14 @@ def run_tangent(
     if backward:
         budget, rtol = min(budget, MOST_STEPS), min(rtol, LOOSEST) / STRICTER
     quantities, groups = names(library, "quantity_names"), names(library, "group_names")
+    spinning = any(np.any(si_values(impacts.scene, None, None).get(name, 0.0)) for name in _SPINS)
     count, results = impacts.angle.size, 1 if backward else RESULTS
     answers, slopes = np.zeros(count, ANSWER), np.zeros((count, len(quantities), results))
     near = np.full(count, np.inf, NEARNESS)
     for first in range(0, count, _CHUNK):
         part = slice(first, min(first + _CHUNK, count))
         asked = task(library, impacts.part(part), min(rtol, LOOSEST), budget, answers[part])
-        asked.number("asked", _asked(library, quantities, moved))
+        asked.number("asked", _asked(library, quantities, moved, spinning))
         asked.buffer("by_group", np.zeros((part.stop - first, len(groups), results)))
         asked.buffer("gradients", slopes[part])
         asked.buffer("near", near[part])
@@ -117,11 +120,12 @@ def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> b
     return compiler() is not None and all(headers(choice) and tangents(choice) for choice in choices)
 
 
-def _asked(library: ctypes.CDLL, quantities: tuple[str, ...], moved: Sequence[str] | None) -> int:
-    """The groups affected by these quantities, as bits."""
+def _asked(library: ctypes.CDLL, quantities: tuple[str, ...], moved: Sequence[str] | None, spinning: bool) -> int:
+    """The groups affected by these quantities, as bits; groups of spins that are zero are moved by spins alone."""
     bits = (ctypes.c_uint * len(quantities)).in_dll(library, "moved_groups")
+    still = sum(1 << k for k, group in enumerate(names(library, "group_names")) if group in _SPINS.values())
     found = 0
     for name, own in zip(quantities, bits, strict=True):
         if moved is None or name in moved:
-            found |= own
+            found |= own if spinning or name in _SPINS else own & ~still
     return found

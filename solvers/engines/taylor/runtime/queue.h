@@ -200,6 +200,12 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
         outputs(&f->c, l->y, shown);
         for (int k = 0; k < OUTPUTS; k++)
             a->shown[k] = shown[k][lane];
+#if OBLIQUE
+        vec first[STATES];
+        start(&f->c, first);
+        double slip = surface_slip(&f->c, first)[lane];
+        a->slip = fabs(slip) < LEAST_SLIP ? NAN : surface_slip(&f->c, l->y)[lane]/slip;
+#endif
 #if GRADIENTS
         nearness *near = q->near + l->index[lane];
         near->least = l->along.near[lane];
