@@ -10,7 +10,16 @@ from ..equations.invariants import conserved_momentum
 from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.structure import structures
-from ..vocabulary.quantities import aspect, gap, normal_velocity, obliquity, orbital_momentum, spin
+from ..vocabulary.quantities import (
+    aspect,
+    gap,
+    initial_spin,
+    initial_turning,
+    normal_velocity,
+    obliquity,
+    orbital_momentum,
+    spin,
+)
 from .base import Check, vanishing
 from .closed import slope_along
 
@@ -24,13 +33,14 @@ def least_energy() -> Check:
             continue
         outputs = dict(model["effective_potential"].outputs)
         value, slope = model.expanded(outputs["energy"]), model.expanded(outputs["slope"])
-        momentum = sp.Symbol("L", positive=True)  # over m a^2 omega0
+        momentum = sp.Symbol("L", real=True)  # over m a^2 Omega
         inertia = (4 + aspect * gap) ** 2 + sp.Rational(32, 5)
         expected: sp.Expr = sp.Integer(0)
         change: sp.Expr = sp.Integer(0)
         if structure.oblique:
-            own = orbital_momentum + sp.Rational(32, 5) * spin if not structure.reduced else (4 + aspect) ** 2
-            fixed = momentum**2 * obliquity**2 / (32 * inertia)  # omega0 = v0 tan(theta0)/(4a)
+            turning, spun = (initial_turning, initial_spin) if structure.reduced else (orbital_momentum, spin)
+            own = ((4 + aspect) ** 2 if structure.reduced else 1) * turning + sp.Rational(32, 5) * spun
+            fixed = momentum**2 * obliquity**2 / (32 * inertia)  # Omega = v0 T/(4a)
             expected += fixed.subs(momentum, own)
             change += fixed.diff(gap).subs(momentum, own)
         if structure.strings:
@@ -52,7 +62,7 @@ def least_energy_is_a_minimum() -> Check:
     """
     left: list[sp.Expr] = []
     convex = True
-    tangent, momentum = sp.symbols("tangent L", positive=True)
+    tangent, momentum = sp.Symbol("tangent", positive=True), sp.Symbol("L", real=True)
     for structure in structures():
         if structure.reduced or structure.strings:
             continue  # the strings' energy does not depend on velocities; `reduced form` covers the reduced equations

@@ -32,9 +32,9 @@ from ..vocabulary.quantities import (
     m,
     normal_velocity,
     omega,
-    omega0,
     orbital_momentum,
     r,
+    rate_scale,
     spin,
     v0,
     x,
@@ -103,7 +103,7 @@ def angular_momentum(lever: Law) -> Check:
     """dL/dt for an arm along the emitted equations, for any tangential and bridge law: zero, -x F_t, or a failure."""
     name, left = f"angular momentum, {lever.name} arm", []
     expected = torque(lever)
-    per_time = x0 / (v0 * m * a**2 * omega0)
+    per_time = x0 / (v0 * m * a**2 * rate_scale)
     lost = nondimensional(expected.subs(F_t, force_laws()[F_t]) * per_time) if expected != 0 else expected
     for structure in structures():
         if structure.oblique and not structure.strings and not structure.reduced:

@@ -10,7 +10,6 @@ from ..equations.events import CONTACT_GAPS
 from ..equations.model import Model, derive
 from ..physics.forces import FILM, SHEAR, force_laws
 from ..physics.laws import LAWS
-from ..physics.laws.start import start_values
 from ..physics.mechanics import F_t, equations_of_motion, sphere_inertia
 from ..physics.scaling import group_definitions, nondimensional
 from ..physics.structure import Structure, structures
@@ -22,17 +21,19 @@ from ..vocabulary.quantities import (
     beta,
     contact_angle,
     gap,
+    impact_spin,
+    initial_spin,
+    m,
     mu,
     normal_velocity,
     nu,
-    obliquity,
     omega,
     omega0,
     orbital_momentum,
     p_gt,
     r,
+    rate_scale,
     spin,
-    theta0,
     u,
     v0,
     volume,
@@ -78,31 +79,39 @@ def inward_is_minus_the_acceleration() -> Check:
 
 
 def momentum_is_the_bodies() -> Check:
-    """The emitted angular momentum is L = m (r^2 omega + (32/5) a^2 xi) over its initial value."""
+    """The emitted angular momentum is 1 + the change of L = m (r^2 omega + (32/5) a^2 xi) over its first size."""
     whole = equations_of_motion().angular_momentum
-    expected = nondimensional(whole / whole.subs(start_values()).subs(sp.tan(theta0), obliquity))
+    orbital, spun = (whole.coeff(rate) * rate for rate in (omega, xi))
+    first = {x: x0, omega: omega0, xi: impact_spin}
+    parts = [_per_unit(part.subs(first)) for part in (orbital, spun)]
+    expected = 1 + (_per_unit(whole) - sum(parts)) / sum(sp.Abs(part) for part in parts)
     left = []
     for structure in structures():
         if structure.oblique and not structure.reduced:
             model = derive(structure)
             left.append(_value(model, "angular_momentum", "angular_momentum") - model.expanded(expected))
-    return vanishing("emitted angular momentum", "L(t)/L(0), L = m [r^2 omega + (32/5) a^2 xi]", left)
+    return vanishing("emitted angular momentum", "1 + (L(t) - L(0))/|L(0)|, L = m [r^2 omega + (32/5) a^2 xi]", left)
+
+
+def _per_unit(momentum: sp.Expr) -> sp.Expr:
+    """An angular momentum over m a^2 Omega; spins at initial contact in their scale."""
+    return nondimensional(sp.expand(momentum.subs(impact_spin, rate_scale * initial_spin) / (m * a**2 * rate_scale)))
 
 
 def outputs_are_the_definitions() -> Check:
-    """e_n = u/v0, e_t = r omega/(r0 omega0), and both rates over omega0."""
+    """e_n = u/v0, e_t = r omega/(r0 omega0), and both rates over their scale."""
     defined = {
         "restitution": u / v0,
         "tangential_restitution": r * omega / (r.subs(x, x0) * omega0),
-        "final_rotation_rate": omega / omega0,
-        "final_spin": xi / omega0,
+        "final_rotation_rate": omega / rate_scale,
+        "final_spin": xi / rate_scale,
     }
     scaled = {name: nondimensional(value) for name, value in defined.items()}
     left = []
     for structure in structures():
         model = derive(structure)
         left += [model.expanded(value) - model.expanded(scaled[name]) for name, value in model["outputs"].outputs]
-    return vanishing("outputs", "e_n = u/v0, e_t = r omega/(r0 omega0), rates over omega0", left)
+    return vanishing("outputs", "e_n = u/v0, e_t = r omega/(r0 omega0), rates over Omega", left)
 
 
 def _si_events() -> dict[str, sp.Expr]:
@@ -144,11 +153,11 @@ def tangential_force_is_the_published() -> Check:
     """F_t = 8 pi mu a^2 (omega - xi) ln(2a/x), in SI and as the torque on a sphere in the emitted equations."""
     published = 8 * sp.pi * mu * a**2 * (omega - xi) * sp.log(2 * a / x)
     force = filled(force_laws()[F_t], _MIDGAP).subs(SHEAR, 1)
-    spun = published * r / 2 / sphere_inertia() * x0 / (v0 * omega0)
+    spun = published * r / 2 / sphere_inertia() * x0 / (v0 * rate_scale)
     model = derive(_FREE)
     emitted = filled(emitted_rates(model)[spin], _MIDGAP).subs(SHEAR, 1)
-    slip = nondimensional((omega - xi) / omega0)
-    factor = nondimensional(spun / ((omega - xi) / omega0) / sp.log(2 * a / x))
+    slip = nondimensional((omega - xi) / rate_scale)
+    factor = nondimensional(spun / ((omega - xi) / rate_scale) / sp.log(2 * a / x))
     logarithm = sp.log(2 * a / x).subs(x, gap * x0).subs(x0, a * aspect)
     left = [sp.expand_log(force - published, force=True), emitted - model.expanded(slip * factor) * logarithm]
     return vanishing("tangential force", "F_t = 8 pi mu a^2 (omega - xi) ln(2a/x), (16/5) m a^2 dxi/dt = F_t r/2", left)

@@ -7,7 +7,7 @@ import sympy as sp
 from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.structure import Structure, structures
-from ..vocabulary.quantities import aspect, beta, orbital_momentum, spin
+from ..vocabulary.quantities import aspect, beta, initial_spin, initial_turning, orbital_momentum, spin
 from .base import Check, vanishing
 from .closed import emitted_rates, filled
 
@@ -20,7 +20,7 @@ def reduced_is_full() -> Check:
         if not structure.reduced:
             continue
         reduced, full = derive(structure), derive(Structure(True, structure.bridge, False))
-        initial = (4 + aspect) ** 2  # L/(m a^2 omega0) at initial contact, where nothing spins
+        initial = (4 + aspect) ** 2 * initial_turning + sp.Rational(32, 5) * initial_spin  # L/(m a^2 Omega) at first
         eliminated = {spin: (initial - orbital_momentum) * sp.Rational(5, 32)}
         rates, full_rates = emitted_rates(reduced), emitted_rates(full)
         left += [filled(full_rates[s], midgap).subs(eliminated) - rate for s, rate in rates.items()]

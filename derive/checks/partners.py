@@ -14,6 +14,9 @@ from ..vocabulary.quantities import (
     a,
     decay,
     gap,
+    initial_partner_spin,
+    initial_spin,
+    initial_turning,
     mass_ratio,
     mu,
     normal_velocity,
@@ -134,7 +137,7 @@ def equal_is_the_doublet() -> Check:
     """A pair of ratio 1 keeps its spins equal, and is then the doublet of equal spheres."""
     left = []
     pair, equal = derive(_PAIR), derive(Structure(True, True, False, attraction=True))
-    together = {radius_ratio: 1, mass_ratio: 1, partner_spin: spin}
+    together = {radius_ratio: 1, mass_ratio: 1, partner_spin: spin, initial_partner_spin: initial_spin}
     for arm in LAWS["arm"].values():
         rates = {s: filled(rate, {"arm": arm}).subs(together) for s, rate in emitted_rates(pair).items()}
         expected = {s: filled(rate, {"arm": arm}) for s, rate in emitted_rates(equal).items()}
@@ -189,13 +192,16 @@ def wall_is_head_on() -> Check:
 
 
 def wall_friction_decays() -> Check:
-    """Slide and roll as sums of two exponentials of one state solve the equations of friction, and stay positive."""
+    """Slide and roll as sums of two exponentials of one state solve the equations of friction.
+
+    They stay positive if the sphere does not spin at first.
+    """
     model = derive(_WALL)
     known, (rate,) = dict(model.definitions), wall.rotation().rates.values()
     definitions, rates = wall.friction_rates()
     modes = {wall.SLOW_MODE: known[wall.SLOW_MODE], wall.FAST_MODE: known[wall.FAST_MODE]}
     solved = {state: known[state].subs(modes) for state in (slide, roll)}
-    left = [solved[slide].subs(decay, 0) - 1, solved[roll].subs(decay, 0)]
+    left = [solved[slide].subs(decay, 0) - initial_turning, solved[roll].subs(decay, 0) - initial_spin]
     left += [solved[s].diff(decay) * rate - rates[s].subs(dict(definitions)).subs(solved) for s in (slide, roll)]
     check = vanishing(
         "wall: friction",
@@ -204,7 +210,8 @@ def wall_friction_decays() -> Check:
     )
     ratio = known[wall.FAST_MODE].args[0] / -decay
     slower = sp.Symbol("slower", positive=True)
-    shares = [known[s].subs(wall.SLOW_MODE, wall.FAST_MODE + slower) for s in (slide, roll)]
+    unspun = {initial_turning: 1, initial_spin: 0}
+    shares = [known[s].subs(unspun).subs(wall.SLOW_MODE, wall.FAST_MODE + slower) for s in (slide, roll)]
     positive = sp.simplify(ratio) > 1 and all(sp.expand(share).is_positive for share in shares)
     return check if positive else Check(check.name, check.statement, False, f"not positive: {shares}")
 

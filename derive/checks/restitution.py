@@ -15,11 +15,15 @@ from ..vocabulary.quantities import (
     a,
     aspect,
     gap,
+    impact_spin,
+    initial_spin,
+    initial_turning,
     m,
     normal_velocity,
     obliquity,
     omega,
     r,
+    rate_scale,
     theta0,
     u,
     v0,
@@ -36,6 +40,8 @@ _work = sp.Symbol("W_c", real=True)  # of the bridge, W_c(x_f) - W_c(x0)
 
 def ceiling() -> sp.Expr:
     """Upper bound of e_n^2 of a free doublet from L and the ledger, keeping W_c and dropping every other loss, in SI.
+
+    For any spin at initial contact.
 
     e_n^2 m v0^2/2 = T(0) - T_rot(t_f) - W_c - losses. Among all (omega_f, xi_f) with the initial L, the one with the
     least rotational energy is used: a stationary point, and a minimum because the energy is convex.
@@ -58,8 +64,11 @@ def ceiling_is_the_published() -> Check:
     start_distance, inertia = r.subs(x, x0), doublet_inertia().subs(x, _final)
     oblique = (start_distance * sp.tan(theta0) / (4 * a)) ** 2
     published = 1 + oblique * (1 - m * start_distance**2 / inertia) - 2 * _work / (m * v0**2)
-    left, grows = [found - published], True
-    scaled = nondimensional((found + 2 * _work / (m * v0**2)).subs({_final: x, sp.tan(theta0): obliquity}))
+    left, grows = [found.subs(impact_spin, 0) - published], True
+    turned = found.subs(
+        {_final: x, sp.tan(theta0): obliquity * initial_turning, impact_spin: rate_scale * initial_spin}
+    )
+    scaled = nondimensional(turned + 2 * _work / (m * v0**2))
     for structure in structures():
         if structure.strings:
             continue
@@ -68,7 +77,9 @@ def ceiling_is_the_published() -> Check:
         left.append(emitted - (model.expanded(scaled) if structure.oblique else 1))
         if structure.oblique:  # from 1 upwards with the angle and, since I(x) grows, with the gap
             left.append(emitted.subs({obliquity: 0}) - 1)
-            grows &= sp.factor(emitted.diff(gap) / obliquity**2).is_positive is True
+            slope = sp.factor(emitted.diff(gap) / obliquity**2)  # a square, of L, times what is positive
+            grows &= slope.subs({initial_spin: 0, initial_turning: 1}).is_positive is True
+            grows &= slope.subs(initial_spin, sp.Symbol("any", positive=True)).is_nonnegative is True
     check = vanishing(
         "ceiling of e_n^2",
         "e_n^2 <= 1 + (r0 tan(theta0)/4a)^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2), from L and the ledger",
@@ -112,7 +123,7 @@ def decomposition() -> Check:
 
 def rotation_can_be_released() -> Check:
     """The energy that rigid rotation can release grows with the gap: I(x) grows and L^2/(2 I) decreases."""
-    momentum = equations_of_motion().angular_momentum.subs(start_values()).subs(initial_rate(), omega)
+    momentum = equations_of_motion().angular_momentum.subs(start_values()).subs({initial_rate(): omega, impact_spin: 0})
     least = momentum**2 / (2 * doublet_inertia())
     slope = sp.factor(least.diff(x))
     growing = sp.factor(-slope / omega**2).is_positive

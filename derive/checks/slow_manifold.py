@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import sympy as sp
 
 from ..equations.certificates.slow_manifold import admits, coefficients
+from ..equations.intermediates import MOMENTUM
 from ..equations.model import Model, derive
 from ..physics.forces import FILM, SHEAR
 from ..physics.laws import Law
@@ -72,8 +73,8 @@ def coefficients_are_monotonic() -> Check:
             -found["centrifugal"].diff(DISTANCE),
             lever.diff(DISTANCE),
             -(lever / DISTANCE).diff(DISTANCE),
-            found["rigid"].diff(DISTANCE),
-            -found["rigid"].diff(DISTANCE, 2),
+            (found["rigid"] / MOMENTUM).diff(DISTANCE),
+            -(found["rigid"] / MOMENTUM).diff(DISTANCE, 2),
         )
         for slope in slopes:
             open_ = sp.factor(sp.together(model.expanded(slope).subs(DISTANCE, 4 + _OPEN)))
@@ -81,7 +82,7 @@ def coefficients_are_monotonic() -> Check:
             signs.append(sp.expand(over).is_nonnegative is True and sp.expand(under).is_positive is True)
     return Check(
         "slow manifold: monotonic",
-        "c, s/(r ln) and dJ_r/dx fall with the gap, s/ln and J_r rise",
+        "c, s/(r ln) and dJ_r/dx fall with the gap, s/ln and J_r rise (J_r over L)",
         bool(signs) and all(signs),
         f"{sum(signs)} of {len(signs)} signs",
     )

@@ -1,10 +1,10 @@
-"""Initial conditions: initial contact at x = x0, impact with normal speed v0 at angle theta0, no spin."""
+"""Initial conditions: initial contact at x = x0, impact with normal speed v0 at angle theta0, spheres that may spin."""
 
 from __future__ import annotations
 
 import sympy as sp
 
-from ...vocabulary.quantities import a, beta, omega, theta0, u, v0, x, x0, xi
+from ...vocabulary.quantities import a, beta, impact_spin, omega, theta0, u, v0, x, x0, xi
 
 
 def initial_rate() -> sp.Expr:
@@ -14,4 +14,4 @@ def initial_rate() -> sp.Expr:
 
 def start_values() -> dict[sp.Symbol, sp.Expr]:
     """SI initial values of x, u, omega, xi and beta."""
-    return {x: x0, u: -v0, omega: initial_rate(), xi: sp.Integer(0), beta: sp.Integer(0)}
+    return {x: x0, u: -v0, omega: initial_rate(), xi: impact_spin, beta: sp.Integer(0)}
