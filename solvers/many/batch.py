@@ -18,7 +18,7 @@ from ..model.validity import NEEDS
 from ..scene.groups import sideways
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS, SPEEDS, SPINS, Field, unknown_entry
+from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
 from ..settings import check_engine, check_rtol
@@ -146,6 +146,8 @@ def batch(scene: Scene, columns: dict[str, np.ndarray], rtol: float, engine: str
 def engine_for(request: Batch, count: int) -> str:
     """The engine for a batch that is one scene's part of `count` collisions."""
     spins = {FIELDS[name].quantity: request.vary[name] for name in SPINS if name in request.vary}
+    if "impact_spin" in spins and not request.scene.pair:
+        spins["impact_partner_spin"] = spins["impact_spin"]
     turns = sideways(request.scene, request.angle, spins)
     return bulk_engine(
         request.asked,
@@ -202,6 +204,7 @@ def checked_vary(
 ) -> tuple[Scene, dict[str, np.ndarray]]:
     """Other entries that vary, SI, and the scene with `bridge.volume` in the same unit; InputError for a wrong entry.
 
+    A spin that varies is an entry of the scene.
     Values of `bridge.volume` with a unit are volumes in m^3 and plain numbers are V/R^3, whatever the scene gives.
 
     Arguments:
@@ -212,8 +215,9 @@ def checked_vary(
     found = {}
     for name, values in vary.items():
         check_varies(name, values, label, scene.package, texts)
-        if "." in name and name.partition(".")[0] not in {given.partition(".")[0] for given, _ in scene.given}:
-            accepted = ", ".join(given for given, _ in scene.given if not given.startswith("impact."))
+        tables = {"impact", *(given.partition(".")[0] for given, _ in scene.given)}
+        if "." in name and name.partition(".")[0] not in tables:
+            accepted = ", ".join(given for given, _ in scene.given if given not in MEETING)
             raise InputError(label, name, accepted, f"is of a table that the scene {scene.name} has not".strip())
     for name, values in vary.items():
         entry = fields(scene.package)[name]
@@ -224,6 +228,8 @@ def checked_vary(
         found[name] = checked_numbers(name, values, entry.measured if measured else entry, most)
         if entry.or_unit and found[name].size and scene.ways.volume != ("absolute" if measured else "relative"):
             scene = _with_any(scene, name, found[name], f" {entry.or_unit}" if measured else "")
+        if name in SPINS and name not in scene.entries and found[name].size:
+            scene = _with_any(scene, name, found[name], "")
     return scene, found
 
 
@@ -253,12 +259,12 @@ def _with_any(scene: Scene, name: str, values: np.ndarray, unit: str) -> Scene:
 def check_varies(
     name: str, values: object, label: str = "vary", package: Package | None = None, texts: bool = False
 ) -> None:
-    """Raise InputError unless the entry is a number outside [impact], or with `texts` a choice."""
+    """Raise InputError unless the entry is a number but not the impact's speed or angle, or with `texts` a choice."""
     known = fields(package)
     if name not in known:
         raise unknown(name, values, package) or unknown_entry(name, values)
-    if name.startswith("impact."):
-        raise InputError(label, name, "entries that are not of the impact", "has an argument of its own")
+    if name in MEETING:
+        raise InputError(label, name, "entries other than the impact's speed and angle", "has an argument of its own")
     if known[name].flag or (known[name].choices and not texts):
         raise InputError(label, name, "entries that are numbers", "is a choice")
 

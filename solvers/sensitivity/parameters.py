@@ -110,9 +110,8 @@ def references(scene: Scene, kind: Kind, speed: float, angle: float) -> np.ndarr
 def _scale_of_zero(name: str, values: Mapping[str, SX], ways: Ways) -> SX:
     """Scale of a parameter whose reference value is zero."""
     unit = FIELDS[name].unit if name in FIELDS else None
-    if unit == "rad/s":
-        of = quantities(values, ways)
-        return SX(of["speed"] / of["reduced_radius"])
+    if unit == "rad/s":  # of a surface that moves at 1 m/s
+        return SX(1 / quantities(values, ways)["reduced_radius"])
     return film(values) if unit == "m" else SX(1)
 
 
