@@ -85,7 +85,7 @@ def gradients_by_kernel(
     if found is None:
         return None
     # the quantities' derivatives are those at the reference, except for speed and angle
-    paces = {"speed": impacts.speed / SPEED, "angle": impacts.angle / (angle or 1.0)}
+    paces = {"speed": impacts.speed / SPEED, "angle": impacts.angle / angle if angle else np.ones(impacts.angle.size)}
     steep = _steep(impacts.angle) if kind.held == RELATIVE and angle > 0 and "impact.angle" in wrt else None
     value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
     separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0

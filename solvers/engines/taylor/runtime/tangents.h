@@ -71,10 +71,12 @@ static void along_start(carried *a, const constants *v, int lane)
     for (int group = 0; group < GROUPS; group++) {
         memset(at, 0, sizeof at);
         start_along(v, group, at);
-        for (int state = 0; state < STATES; state++)
-            a->t[group][state][lane] = at[state][lane];
-        a->time[group][lane] = a->smallest[group][lane] = 0.0;
         a->there[group][lane] = FLOWS[group] ? -1 : 0;
+        for (int state = 0; state < STATES; state++) {
+            a->t[group][state][lane] = at[state][lane];
+            a->there[group][lane] |= at[state][lane] != 0.0 ? -1 : 0;
+        }
+        a->time[group][lane] = a->smallest[group][lane] = 0.0;
     }
     a->least[lane] = 1.0;
     a->near[lane] = a->hint[lane] = INFINITY;
