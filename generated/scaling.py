@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 dd273931940f015882811faba77361d8d284e5a88de6313821a1acd694610ff5
+# Equations sha256 b265fcdbbfce5b239a3565f60a33719a8f1c5e519cd6b79ec992943b1818dc1e
 """Dimensionless groups, as ratios of the model's terms, and scales from SI quantities.
 
 Each is a function of floats or CasADi expressions; ARGUMENTS has the names of its arguments, in order.
@@ -289,7 +289,7 @@ def initial_turning(angle: Any, obliquity: Any) -> Any:
     - angle [rad]: impact angle, 0 along the line of centres
     - obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
     """
-    return tan(angle)/fmax(1e-300, obliquity)
+    return tan(angle)/obliquity
 
 
 def initial_spin(rate_scale: Any, impact_spin: Any) -> Any:
@@ -298,7 +298,7 @@ def initial_spin(rate_scale: Any, impact_spin: Any) -> Any:
     - rate_scale [rad/s]: scale of angular velocities, omega0 unless the spheres spin at first
     - impact_spin [rad/s]: spin at initial contact
     """
-    return impact_spin/fmax(1e-300, rate_scale)
+    return impact_spin/rate_scale
 
 
 def initial_partner_spin(rate_scale: Any, impact_partner_spin: Any) -> Any:
@@ -307,4 +307,4 @@ def initial_partner_spin(rate_scale: Any, impact_partner_spin: Any) -> Any:
     - rate_scale [rad/s]: scale of angular velocities, omega0 unless the spheres spin at first
     - impact_partner_spin [rad/s]: spin of the partner at initial contact
     """
-    return impact_partner_spin/fmax(1e-300, rate_scale)
+    return impact_partner_spin/rate_scale

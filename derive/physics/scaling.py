@@ -144,8 +144,8 @@ def scale_definitions() -> dict[sp.Symbol, sp.Expr]:
 def impact_groups(partner: str = "") -> dict[sp.Symbol, sp.Expr]:
     """T, and the rates at initial contact over their scale, for a partner: "", "pair" or "wall".
 
-    T is a scale and no more: no result depends on it, so its own derivatives are never needed. It vanishes only
-    where nothing moves sideways, and no rate is then scaled.
+    T is a scale and no more: no result depends on it, so its own derivatives are never needed. Where nothing moves
+    sideways it vanishes, and any other number does.
     """
     from .partners.bodies import radii
 
@@ -157,23 +157,19 @@ def impact_groups(partner: str = "") -> dict[sp.Symbol, sp.Expr]:
         sideways = [tangent, first * sp.Abs(impact_spin) / v0, second * sp.Abs(impact_partner_spin) / v0]
     else:
         sideways = [tangent, (a if partner else R) * sp.Abs(impact_spin) / v0]
-    rates = first_rates(scale.subs(obliquity, sp.Max(obliquity, _LEAST)))
+    rates = first_rates(scale)
     if partner != "pair":
         del rates[initial_partner_spin]
     return {obliquity: sp.Max(*sideways), **rates}
 
 
 def first_rates(scale: sp.Expr) -> dict[sp.Symbol, sp.Expr]:
-    """The rates at initial contact over their scale; zero, and not undefined, where nothing moves sideways."""
-    unit = sp.Max(scale, _LEAST) if scale.is_Symbol else scale
+    """The rates at initial contact over their scale."""
     return {
-        initial_turning: sp.tan(theta0) / sp.Max(obliquity, _LEAST),
-        initial_spin: impact_spin / unit,
-        initial_partner_spin: impact_partner_spin / unit,
+        initial_turning: sp.tan(theta0) / obliquity,
+        initial_spin: impact_spin / scale,
+        initial_partner_spin: impact_partner_spin / scale,
     }
-
-
-_LEAST = sp.Float("1e-300")  # in place of a scale that vanishes, where nothing is divided that does not
 
 
 def generalised_centrifugal(force: sp.Expr) -> sp.Expr:

@@ -149,9 +149,8 @@ static inline void scale(constants *c, const vec *q)
     c->aspect = q[SI_FILM_THICKNESS]/q[SI_REDUCED_RADIUS];
     c->obliquity = vec_larger(vec_tan(q[SI_ANGLE]),
         2.0*q[SI_REDUCED_RADIUS]*vec_abs(q[SI_IMPACT_SPIN])/q[SI_SPEED]);
-    c->initial_turning = vec_tan(q[SI_ANGLE])/vec_larger(splat(1e-300), c->obliquity);
-    c->initial_spin = 4.0*q[SI_IMPACT_SPIN]*q[SI_REDUCED_RADIUS]/(q[SI_SPEED]*vec_larger(splat(1e-300),
-        c->obliquity));
+    c->initial_turning = vec_tan(q[SI_ANGLE])/c->obliquity;
+    c->initial_spin = 4.0*q[SI_IMPACT_SPIN]*q[SI_REDUCED_RADIUS]/(c->obliquity*q[SI_SPEED]);
     c->capillary =
         3.0*q[SI_REDUCED_RADIUS]*q[SI_SPEED]*q[SI_VISCOSITY]/(q[SI_FILM_THICKNESS]*q[SI_SURFACE_TENSION]);
     c->volume = q[SI_VOLUME];

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from ..scene.scene import Scene
 
 
+FIRST_RATES = ("initial_turning", "initial_spin", "initial_partner_spin")
+
+
 @dataclass(frozen=True)
 class DimensionlessGroups:
     """Groups by name, and the SI scales of length, time, angular velocity and energy.
@@ -37,7 +40,7 @@ class DimensionlessGroups:
     @property
     def oblique(self) -> bool:
         """True if something moves sideways: the impact has an angle, or a sphere spins."""
-        return self.groups["obliquity"] > 0
+        return any(self.groups.get(name, 0.0) != 0 for name in FIRST_RATES)
 
     def in_si(self, error: ComputationError) -> ComputationError:
         """A `ComputationError` with dimensionless time and state, converted to SI units."""

@@ -44,6 +44,8 @@ def _formulas(wall: bool, pair: bool, law: str | None, package: Package | None) 
     kind, more = ("wall", ()) if wall else ("pair", ("initial_rate", "centrifugal")) if pair else ("", ())
     for name in (*more, "obliquity", "rate_scale") if kind else ():
         found[name] = getattr(scaling, f"{name}_{kind}"), scaling.ARGUMENTS[f"{name}_{kind}"]
+    formula, arguments = found["obliquity"]
+    found["obliquity"] = (lambda *values: _or_one(formula(*values))), arguments
     if law is not None:
         rupture_distance = _law(package, "bridge", law).rupture_distance
 
@@ -54,6 +56,11 @@ def _formulas(wall: bool, pair: bool, law: str | None, package: Package | None) 
     if package is not None:
         found |= {name: (function, arguments) for name, (arguments, function) in package.groups.items()}
     return found
+
+
+def _or_one(scale: Any) -> Any:
+    """A scale, or 1 where it vanishes: nothing moves sideways then, and rates that are zero need some scale."""
+    return scale + (scale == 0)
 
 
 def _nothing(surface_tension: Any) -> Any:

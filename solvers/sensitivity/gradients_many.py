@@ -29,7 +29,7 @@ from ..scene.schema import SPEEDS
 from ..settings import FEW, RTOL, STEPS, check_engine
 from . import by_kernel as kernel
 from .boundary_distance import LOOK, limit, refused
-from .parameters import RELATIVE, Kind, check_wrt, hold_of, kind_of, references
+from .parameters import RELATIVE, SIDEWAYS, Kind, check_wrt, hold_of, kind_of, references
 from .problem import NEAR, SHARPEST
 from .result import Near
 from .results import DIFFERENTIATED, check_quantities
@@ -168,7 +168,7 @@ def gradients_many(
 def _by_kernel(asked: _Asked) -> np.ndarray:
     """Compute collisions by the kernel; returns the indices of those left to CasADi."""
     moves = sideways(asked.scene, asked.angle, {})
-    turns = any(DIFFERENTIATED[name].odd for name in asked.of) and "impact.angle" in asked.wrt
+    turns = any(DIFFERENTIATED[name].odd for name in asked.of) and bool({*asked.wrt} & {*SIDEWAYS})
     parts, left = [], [np.flatnonzero(~moves) if turns else np.zeros(0, int)]
     for which in (np.flatnonzero(asked.angle > 0), np.flatnonzero((asked.angle == 0) & (moves | (not turns)))):
         parts += [which[k : k + _STRETCH] for k in range(0, which.size, _STRETCH)]

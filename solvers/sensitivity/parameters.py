@@ -20,8 +20,9 @@ from ..scene.contact import GAPS
 from ..scene.groups import Formula, formulas
 from ..scene.quantities import Ways, film, normal_speed, quantities
 from ..scene.scene import Scene
-from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS
+from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS, SPINS
 
+SIDEWAYS = ("impact.angle", *SPINS)
 IMPACT = ("impact.speed", "impact.stokes", "impact.angle")
 HOLDS = ("speed", "stokes", "relative_speed")
 SCALES = ("length", "time", "rate", "energy")
@@ -50,7 +51,8 @@ def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt")
 def _defaults(scene: Scene) -> dict[str, float]:
     """Numeric entries that take their defaults."""
     tables = {name.partition(".")[0] for name, _ in scene.si}
-    return {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in tables}
+    barred = () if scene.pendulum is None else SPINS
+    return {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in tables and name not in barred}
 
 
 def hold_of(scene: Scene, hold: object, label: str = "hold") -> str:

@@ -17,7 +17,7 @@ from ..scene.scene import Scene
 from . import boundary_distance as nearness
 from .derivatives import LANDED_WELL, settled
 from .directions import differentiated, landed, second_derivatives
-from .parameters import RELATIVE, SCALES, Kind, ParameterMap, kind_of, parameter_map, references
+from .parameters import RELATIVE, SCALES, SIDEWAYS, Kind, ParameterMap, kind_of, parameter_map, references
 from .result import Near
 from .results import DIFFERENTIATED
 from .trajectory_expression import course_of, influential, trajectory_expression
@@ -70,8 +70,8 @@ class Problem:
         return path, near
 
     def odd(self, of: tuple[str, ...]) -> tuple[str, ...]:
-        """The requested quantities that are odd in the angle, with a derivative at zero."""
-        return tuple(name for name in of if DIFFERENTIATED[name].odd) if "impact.angle" in self.wrt else ()
+        """The requested quantities that are odd in angle and spins, with a derivative where these are zero."""
+        return tuple(name for name in of if DIFFERENTIATED[name].odd) if {*self.wrt} & {*SIDEWAYS} else ()
 
     def from_small_angle(self, of: tuple[str, ...], method: str, plugin: str, rtol: float) -> dict[str, float]:
         """Derivatives in the angle of quantities that are odd in it, from a small angle.

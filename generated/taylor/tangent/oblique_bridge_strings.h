@@ -902,12 +902,10 @@ static inline void scale_along(const constants *v, const vec *q, int quantity, v
         slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_SPEED];
         break;
     case SI_ANGLE:
-        slope[BY_INITIAL_TURNING] = ((vec_tan(q[SI_ANGLE])*vec_tan(q[SI_ANGLE])) +
-        1.0)/vec_larger(splat(1e-300), v->obliquity);
+        slope[BY_INITIAL_TURNING] = ((vec_tan(q[SI_ANGLE])*vec_tan(q[SI_ANGLE])) + 1.0)/v->obliquity;
         break;
     case SI_IMPACT_SPIN:
-        slope[BY_INITIAL_SPIN] = 4.0*q[SI_REDUCED_RADIUS]/(q[SI_SPEED]*vec_larger(splat(1e-300),
-        v->obliquity));
+        slope[BY_INITIAL_SPIN] = 4.0*q[SI_REDUCED_RADIUS]/(v->obliquity*q[SI_SPEED]);
         break;
     case SI_VOLUME:
         slope[BY_VOLUME] = splat(1.0);
