@@ -165,7 +165,13 @@ def _scene(draw: random.Random) -> dict[str, float]:
         "g": 9.81,
         "v0": draw.uniform(0.01, 2),
         "theta": draw.uniform(0.2, 1.4),
+        "spin": draw.uniform(-3, 3) / a,
     }
+
+
+def _scale(scene: dict[str, float]) -> float:
+    """T: the largest of tan(theta0) and R |xi|/v0."""
+    return max(math.tan(scene["theta"]), 2 * scene["a"] * abs(scene["spin"]) / scene["v0"])
 
 
 def _groups(scene: dict[str, float], names: tuple[str, ...]) -> dict[str, float]:
@@ -174,7 +180,9 @@ def _groups(scene: dict[str, float], names: tuple[str, ...]) -> dict[str, float]
     every = {
         "stokes": m * v0 / (6 * pi * mu * a**2),
         "aspect": x0 / a,
-        "obliquity": math.tan(scene["theta"]),
+        "obliquity": _scale(scene),
+        "initial_turning": math.tan(scene["theta"]) / _scale(scene),
+        "initial_spin": scene["spin"] / (v0 * _scale(scene) / (4 * a)),
         "capillary": 3 * mu * a * v0 / (scene["sigma"] * x0),
         "volume": scene["V"],
         "contact_angle": scene["phi"],
@@ -201,7 +209,7 @@ def test_emitted_equations_are_the_si_equations(structure: Structure):
         )
         scene = _scene(draw)
         a, x0, v0 = scene["a"], scene["x0"], scene["v0"]
-        omega0 = v0 * math.tan(scene["theta"]) / (4 * a)
+        omega0, unit = v0 * math.tan(scene["theta"]) / (4 * a), v0 * _scale(scene) / (4 * a)
         edge = float(filled.shear.edge(x0 / a)) * x0
         # in the film, beyond the film but sheared if the law shears there, and beyond both
         for x in (draw.uniform(0.01, 0.99) * x0, draw.uniform(1.05, 1.9) * x0, draw.uniform(1.05, 2) * max(edge, x0)):
@@ -209,14 +217,14 @@ def test_emitted_equations_are_the_si_equations(structure: Structure):
             omega = draw.uniform(0.1, 2) * omega0 if structure.oblique else 0.0
             xi = draw.uniform(-0.5, 1) * omega0 if structure.oblique else 0.0
             if structure.reduced:  # L keeps its start value
-                xi = ((4 * a + x0) ** 2 * omega0 - r * r * omega) / (32 / 5 * a**2)
+                xi = ((4 * a + x0) ** 2 * omega0 - r * r * omega) / (32 / 5 * a**2) + scene["spin"]
             beta = draw.uniform(0.01, 3) if structure.oblique else 0.0
             si = {"x": x, "u": draw.uniform(-1.5, 1.5) * v0, "omega": omega, "xi": xi, "beta": beta}
             state = {
                 "gap": x / x0,
                 "normal_velocity": si["u"] / v0,
-                "orbital_momentum": r * r * omega / (a * a * omega0),
-                "spin": xi / omega0,
+                "orbital_momentum": r * r * omega / (a * a * unit),
+                "spin": xi / unit,
                 "rotation": beta,
             }
             rates = module.right_hand_side(
@@ -228,13 +236,13 @@ def test_emitted_equations_are_the_si_equations(structure: Structure):
             )
             expected = si_rates(scene, si, structure, laws)
             if structure.reduced:  # the eliminated spin is itself a difference
-                magnitude = ((4 * a + x0) ** 2 * omega0 + r * r * omega) / (32 / 5 * a**2)
+                magnitude = ((4 * a + x0) ** 2 * omega0 + r * r * omega) / (32 / 5 * a**2) + abs(scene["spin"])
                 expected = {key: (value, terms * (1 + magnitude / abs(xi))) for key, (value, terms) in expected.items()}
             scales = {
                 "gap": ("x", v0),
                 "normal_velocity": ("u", v0**2 / x0),
-                "orbital_momentum": ("r2omega", a * a * omega0 * v0 / x0),
-                "spin": ("xi", omega0 * v0 / x0),
+                "orbital_momentum": ("r2omega", a * a * unit * v0 / x0),
+                "spin": ("xi", unit * v0 / x0),
                 "rotation": ("beta", v0 / x0),
             }
             assert set(rates) == set(module.STATES)
@@ -272,9 +280,22 @@ def test_emitted_groups_are_the_published_ones():
             "radius_ratio": 2.5,
             "initial_rate": 7.0,
             "attraction_force": 3e-5,
+            "impact_spin": scene["spin"],
+            "impact_partner_spin": -2 / a,
+            "obliquity": 1.7,
+            "rate_scale": 11.0,
         }
         theta_e = 2 * (1 - extra["nu"] ** 2) / (pi * extra["E"])
+        tangent, turned = math.tan(scene["theta"]), abs(scene["spin"]) / v0
         published = _groups(scene, ("stokes", "aspect", "obliquity", "capillary", "weight", "string_ratio")) | {
+            "initial_turning": tangent / 1.7,
+            "initial_spin": scene["spin"] / 11.0,
+            "initial_partner_spin": -2 / a / 11.0,
+            "obliquity_pair": max(tangent, 1.4 * a * turned, 3.5 * a * (2 / a) / v0),
+            "obliquity_wall": max(tangent, a * turned),
+            "rate_scale": 1.7 * v0 / (4 * a),
+            "rate_scale_pair": 1.7 * v0 / (4.9 * a),
+            "rate_scale_wall": 1.7 * v0 / a,
             "centrifugal": m * (v0 * math.tan(scene["theta"]) / (4 * a)) ** 2 / scene["sigma"],
             "reynolds": extra["rho"] * v0 * x0 / mu,
             "glass_number": extra["p"] / (3 * mu * a * v0 / x0**2),
@@ -285,7 +306,6 @@ def test_emitted_groups_are_the_published_ones():
             "adhesion": 1e-19 * a / (6 * x0**2) / (6 * pi * mu * a**2 * v0 / x0),
             # R1 = a (1 + ratio)/ratio and R2 = a (1 + ratio)
             "initial_rate_pair": v0 * math.tan(scene["theta"]) / (1.4 * a + 3.5 * a),
-            "initial_rate_wall": v0 * math.tan(scene["theta"]) / a,
             "centrifugal_pair": m * (v0 * math.tan(scene["theta"]) / (4.9 * a)) ** 2 / scene["sigma"],
             "generalised_centrifugal": m * 7.0**2 * a / 3e-5,
         }

@@ -24,10 +24,10 @@ FILLED = {slot: LAWS[slot][name] for slot, name in DEFAULT.items()}
 @pytest.mark.parametrize("others", [{}, FILLED], ids=["any laws", "laws filled in"])
 @pytest.mark.parametrize("name", ["oblique", "oblique_bridge"])
 def test_midgap_conserves_angular_momentum_and_nothing_else(models, name: str, others):
-    """The search finds L = m (r^2 omega + (32/5) a^2 xi) over m a^2 omega0, whatever the other laws are."""
+    """The search finds L = m (r^2 omega + (32/5) a^2 xi) over m a^2 Omega, whatever the other laws are."""
     (found,) = invariants(models[name], MIDGAP | others)
     assert found.expression == q.orbital_momentum + sp.Rational(32, 5) * q.spin
-    assert found.describe() == "orbital_momentum + (32/5) spin: angular momentum L/(m a^2 omega0)"
+    assert found.describe() == "orbital_momentum + (32/5) spin: angular momentum L/(m a^2 Omega)"
     assert found.is_angular_momentum
 
 
@@ -109,14 +109,14 @@ def test_the_surface_arms_range_is_that_of_its_power():
 
 def test_the_ceiling_is_the_least_energy_found_by_search():
     """The closed-form ceiling agrees with a search over omega_f for the least rotational energy at this L."""
-    m, a, x0, xf, v0, theta = 5.2e-9, 50e-6, 8e-6, 46e-6, 0.5, math.radians(75)
+    m, a, x0, xf, v0, theta, spin = 5.2e-9, 50e-6, 8e-6, 46e-6, 0.5, math.radians(75), -7000.0
     rate = v0 * math.tan(theta) / (4 * a)
-    momentum = m * (4 * a + x0) ** 2 * rate
-    omega = np.linspace(0, 2 * rate, 200001)
+    momentum = m * (4 * a + x0) ** 2 * rate + 6.4 * m * a**2 * spin
+    omega = np.linspace(-rate, 2 * rate, 200001)
     xi = (momentum - m * (4 * a + xf) ** 2 * omega) / (6.4 * m * a**2)
     turning = 0.5 * m * (4 * a + xf) ** 2 * omega**2 + 3.2 * m * a**2 * xi**2
-    start = 0.5 * m * (v0**2 + (4 * a + x0) ** 2 * rate**2)
-    values = {q.m: m, q.a: a, q.x0: x0, q.v0: v0, q.theta0: theta, "x_f": xf, "W_c": 0.0}
+    start = 0.5 * m * (v0**2 + (4 * a + x0) ** 2 * rate**2) + 3.2 * m * a**2 * spin**2
+    values = {q.impact_spin: spin, q.m: m, q.a: a, q.x0: x0, q.v0: v0, q.theta0: theta, "x_f": xf, "W_c": 0.0}
     named = {symbol: values.get(symbol, values.get(symbol.name)) for symbol in ceiling().free_symbols}
     assert float(ceiling().subs(named)) == pytest.approx((start - turning.min()) * 2 / (m * v0**2), rel=1e-8)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 import sympy as sp
 from wetdoublet.derive.equations.model import Model
@@ -200,8 +202,8 @@ def test_rupture_distance():
 
 
 def test_start():
-    """At initial contact x = x0, u = -v0, omega = v0 tan(theta0)/(4a), xi = beta = 0."""
-    published = {x: x0, u: -v0, omega: v0 * sp.tan(q.theta0) / (4 * a), xi: 0, beta: 0}
+    """At initial contact x = x0, u = -v0, omega = v0 tan(theta0)/(4a), xi as it arrives, beta = 0."""
+    published = {x: x0, u: -v0, omega: v0 * sp.tan(q.theta0) / (4 * a), xi: q.impact_spin, beta: 0}
     assert start_values() == published
 
 
@@ -245,10 +247,26 @@ def test_groups_undo_the_scaling():
 
 
 def test_start_of_the_states(models: dict[str, Model]):
-    """The dimensionless start is s = 1, w = -1, J = (4 + x0/a)^2, no spin, no angle."""
+    """The dimensionless start is s = 1, w = -1, J = (4 + x0/a)^2 tan(theta0)/T, the spin over its scale, no angle."""
     outputs = dict(models["oblique_strings"]["start"].outputs)
     published = {"gap": 1, "normal_velocity": -1, "orbital_momentum": (4 + eps) ** 2, "spin": 0, "rotation": 0}
-    assert outputs == published
+    unspun = {q.initial_turning: 1, q.initial_spin: 0}
+    assert {name: sp.sympify(value).subs(unspun) for name, value in outputs.items()} == published
+    assert (outputs["orbital_momentum"] / (4 + eps) ** 2, outputs["spin"]) == (q.initial_turning, q.initial_spin)
+
+
+@pytest.mark.parametrize(("partner", "radii"), [("", (2 * a, 2 * a)), ("wall", (a,))])
+def test_rates_at_first(partner: str, radii: tuple[sp.Expr, ...]):
+    """T is the largest of tan(theta0) and R |xi|/v0; rates over their scale are SI rates, whatever T is."""
+    groups, scales = scaling.impact_groups(partner), scaling.scale_definitions()
+    unit = scales[q.rate_scale_wall if partner else q.rate_scale]
+    assert same(groups[q.initial_spin] * unit, q.impact_spin)
+    apart = a if partner else 4 * a
+    assert same(groups[q.initial_turning] * unit, v0 * sp.tan(q.theta0) / apart)
+    for spin, angle in ((3.0, 0.2), (-3.0, 0.2), (0.1, 1.2), (0.0, 0.4)):
+        at = {q.impact_spin: spin, q.theta0: angle, v0: 2.0, a: 0.5}
+        expected = max(math.tan(angle), *(float(radius.subs(at)) * abs(spin) / 2.0 for radius in radii))
+        assert float(groups[q.obliquity].subs(at)) == pytest.approx(expected, rel=1e-14)
 
 
 def test_closing_alone_in_the_film(models: dict[str, Model]):
@@ -273,7 +291,8 @@ def test_certificate_slope(models: dict[str, Model], name: str):
     inertia = m * a**2 * ((4 + at / a) ** 2 + sp.Rational(32, 5))
     work = sp.pi * 2 * a * sigma * 2 * sp.cos(q.contact_angle) * at  # of the constant law from s = 0
     level = momentum**2 / (2 * inertia) + work
-    spinning = sp.Rational(32, 5) * q.spin if name == "oblique_bridge" else (4 + eps) ** 2 - q.orbital_momentum
+    first = (4 + eps) ** 2 * q.initial_turning + sp.Rational(32, 5) * q.initial_spin
+    spinning = sp.Rational(32, 5) * q.spin if name == "oblique_bridge" else first - q.orbital_momentum
     held = m * a**2 * v0 * sp.tan(theta) / (4 * a) * (q.orbital_momentum + spinning)
     groups = {St: GROUPS["stokes"], Ca: GROUPS["capillary"], eps: x0 / a, tan0: sp.tan(theta)}
     scale = m * v0**2
