@@ -153,16 +153,15 @@ def by_casadi(kind: str, partner: str, sticks: int, seed: int) -> dict[str, list
                 one.on(LONG)
             phases = [step.phase for step in one.path.steps[1:]]
             states += list(zip(one.path.ends, phases, strict=False))
+            states += [] if one.path.separated else [(one.y, one.phase)]
             proved = {type(proof).__name__ for proof in proofs if _holds(proof, states)}
             asked += bool(proved)
             for name in proved:
                 tally = found.setdefault(name, [0, 0])
                 tally[0] += 1
                 tally[1] += one.path.separated
-            if asked >= sticks:
+            if asked >= sticks or count * ROUND + k > MOST * sticks:
                 return found
-        if count >= MOST or (count > 0 and not asked):
-            break
     return found
 
 
