@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 dca3a5bc2c5948c21f05b9d5f56be5d9d171989af5c1d4e9159bfa3c2516a41d
+# Equations sha256 4dbaf745996f6b1c39492b66dbe756a16367e2fdc73a110eb42641d5bb843887
 """Oblique doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -27,7 +27,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fabs
+from casadi import fabs, fmax, fmin
 
 
 Values = Mapping[str, Any]
@@ -59,12 +59,13 @@ FUNCTIONS = (
     "angular_momentum",
     "outputs",
     "surface_slip",
+    "spin_down_margins",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "dca3a5bc2c5948c21f05b9d5f56be5d9d171989af5c1d4e9159bfa3c2516a41d"
+DIGEST = "4dbaf745996f6b1c39492b66dbe756a16367e2fdc73a110eb42641d5bb843887"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -323,6 +324,39 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     lever = laws.arm.lever(distance)
     return {
         "surface_slip": distance*orbital_rate - 2*lever*spin,
+    }
+
+
+def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
+    < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error.
+
+    Total operations: 82
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
+    spin = state["spin"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    dry_restitution = groups["dry_restitution"]
+    distance = aspect*gap + 4
+    orbital_rate = orbital_momentum/distance**2
+    beyond = gap/2 + fmin(1, laws.shear.edge(aspect))/2
+    contact = fmax(elastic_gap, rough_gap)
+    near = aspect*contact - aspect*gap + distance
+    far = aspect*beyond - aspect*gap + distance
+    leak = laws.shear.log_factor(beyond, aspect)
+    rate = aspect*leak*(5*far*near + 32)/(12*far*stokes)
+    return {
+        "stays": stokes*(2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(near**3*rate) + fmax(normal_velocity, -dry_restitution*normal_velocity)) + laws.film.stopping(beyond) - laws.film.stopping(gap),
+        "rate": rate,
+        "momentum": fmax(0, fmax(-6.4*initial_spin - initial_turning*(aspect + 4)**2, 6.4*initial_spin + initial_turning*(aspect + 4)**2) - 3.552713678800501e-15*initial_turning*(aspect + 4)**2 - 3.552713678800501e-15*fmax(-6.4*initial_spin, 6.4*initial_spin)),
     }
 
 

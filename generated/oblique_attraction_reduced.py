@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a27d02de673dc6a3cbe9301694c4702b205a37eb56bdfc635ee303d45004f7c7
+# Equations sha256 f622f686fbfd6f739068904e843ff480e23ebd51a2bd1ed2b8993fa9e2f7693a
 """Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -27,7 +27,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, sqrt
+from casadi import fmax, fmin, sqrt
 
 
 Values = Mapping[str, Any]
@@ -68,7 +68,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "a27d02de673dc6a3cbe9301694c4702b205a37eb56bdfc635ee303d45004f7c7"
+DIGEST = "f622f686fbfd6f739068904e843ff480e23ebd51a2bd1ed2b8993fa9e2f7693a"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -325,7 +325,7 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
     """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
     escape < 0 and rebound < 0 exclude separation.
 
-    Total operations: 39
+    Total operations: 43
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -344,7 +344,7 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
     nearest = aspect*contact + 4
     farthest = aspect + 4
     spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_momentum = fmax(orbital_momentum, spun_up)
+    largest_momentum = fmax(fmax(fmax(-orbital_momentum, orbital_momentum), -spun_up), spun_up)
     least_attraction = adhesion*laws.attraction.force(1)/stokes
     hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
     return {
@@ -407,7 +407,7 @@ def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the slip
     energy for either lever arm; energies over m v0^2.
 
-    Total operations: 33
+    Total operations: 63
     """
     gap = state["gap"]
     orbital_momentum = state["orbital_momentum"]
@@ -424,7 +424,7 @@ def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "slip": slip,
         "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
-        "midgap": rotation_energy_unit*(orbital_momentum/distance**2 - spin)**2/(0.3125 + 2/distance**2),
+        "midgap": rotation_energy_unit*(0.15625 + 1/distance**2)*(fmax(fmin(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)), fmin(orbital_momentum, fmax(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)))) - distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4))**2/2,
     }
 
 

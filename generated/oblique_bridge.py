@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 70c239f220f1f85fd32f6eacf22211e1cbf9ffbabd9c0cace8e1a5bf8000e162
+# Equations sha256 c2a2ee4d64a71660be8d74f3ec8fe14c2ec83a223073cc161fe4444defc4f0b2
 """Oblique doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -31,7 +31,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fabs, fmax, sqrt
+from casadi import fabs, fmax, fmin, sqrt
 
 
 Values = Mapping[str, Any]
@@ -76,7 +76,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "70c239f220f1f85fd32f6eacf22211e1cbf9ffbabd9c0cace8e1a5bf8000e162"
+DIGEST = "c2a2ee4d64a71660be8d74f3ec8fe14c2ec83a223073cc161fe4444defc4f0b2"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -363,7 +363,7 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
     """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
     escape < 0 and rebound < 0 exclude separation.
 
-    Total operations: 39
+    Total operations: 43
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -384,7 +384,7 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
     nearest = aspect*contact + 4
     farthest = aspect*rupture_gap + 4
     spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_momentum = fmax(orbital_momentum, spun_up)
+    largest_momentum = fmax(fmax(fmax(-orbital_momentum, orbital_momentum), -spun_up), spun_up)
     least_attraction = laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
     hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
     return {
@@ -449,7 +449,7 @@ def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the slip
     energy for either lever arm; energies over m v0^2.
 
-    Total operations: 73
+    Total operations: 103
     """
     gap = state["gap"]
     orbital_momentum = state["orbital_momentum"]
@@ -464,7 +464,7 @@ def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "slip": slip,
         "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
-        "midgap": rotation_energy_unit*(orbital_momentum/distance**2 - spin)**2/(0.3125 + 2/distance**2),
+        "midgap": rotation_energy_unit*(0.15625 + 1/distance**2)*(fmax(fmin(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)), fmin(orbital_momentum, fmax(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)))) - distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4))**2/2,
         "surface": rotation_energy_unit*(orbital_momentum**2/(2*distance**2) - (sqrt(orbital_momentum) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 bb8aa852d22e813d6c88b8e73c6cf11fc4a690c979c07093db907a8095646f59
+# Equations sha256 a7a4c4141733e5b275433623a8f39c5e06c9a0918d8aa07a202ef94a785ccaba
 """Oblique doublet with a liquid bridge and another attraction, spin eliminated through the conserved angular
 momentum.
 
@@ -32,7 +32,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, sqrt
+from casadi import fmax, fmin, sqrt
 
 
 Values = Mapping[str, Any]
@@ -77,7 +77,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "bb8aa852d22e813d6c88b8e73c6cf11fc4a690c979c07093db907a8095646f59"
+DIGEST = "a7a4c4141733e5b275433623a8f39c5e06c9a0918d8aa07a202ef94a785ccaba"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -354,7 +354,7 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
     """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
     escape < 0 and rebound < 0 exclude separation.
 
-    Total operations: 46
+    Total operations: 50
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -377,7 +377,7 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
     nearest = aspect*contact + 4
     farthest = aspect*rupture_gap + 4
     spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_momentum = fmax(orbital_momentum, spun_up)
+    largest_momentum = fmax(fmax(fmax(-orbital_momentum, orbital_momentum), -spun_up), spun_up)
     least_attraction = (
         adhesion*laws.attraction.force(rupture_gap)/stokes
         + laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
@@ -452,7 +452,7 @@ def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the slip
     energy for either lever arm; energies over m v0^2.
 
-    Total operations: 33
+    Total operations: 63
     """
     gap = state["gap"]
     orbital_momentum = state["orbital_momentum"]
@@ -469,7 +469,7 @@ def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "slip": slip,
         "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
-        "midgap": rotation_energy_unit*(orbital_momentum/distance**2 - spin)**2/(0.3125 + 2/distance**2),
+        "midgap": rotation_energy_unit*(0.15625 + 1/distance**2)*(fmax(fmin(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)), fmin(orbital_momentum, fmax(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)))) - distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4))**2/2,
     }
 
 

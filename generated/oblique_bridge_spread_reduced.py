@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 5e1b1de5cf9f21f1770d43cb4a949adb2c2c14035df0bc5e85020adcc07f60a8
+# Equations sha256 8abebdcdf3e4885f4f0955e986821ee178439a58f48c0f127587031d9fcb284e
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume, spin eliminated through
 the conserved angular momentum.
 
@@ -31,7 +31,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, sqrt
+from casadi import fmax, fmin, sqrt
 
 
 Values = Mapping[str, Any]
@@ -75,7 +75,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "5e1b1de5cf9f21f1770d43cb4a949adb2c2c14035df0bc5e85020adcc07f60a8"
+DIGEST = "8abebdcdf3e4885f4f0955e986821ee178439a58f48c0f127587031d9fcb284e"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -342,7 +342,7 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
     """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
     escape < 0 and rebound < 0 exclude separation.
 
-    Total operations: 42
+    Total operations: 46
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -364,7 +364,7 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
     nearest = aspect*contact + 4
     farthest = aspect*rupture_gap + 4
     spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_momentum = fmax(orbital_momentum, spun_up)
+    largest_momentum = fmax(fmax(fmax(-orbital_momentum, orbital_momentum), -spun_up), spun_up)
     least_attraction = laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
     hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
     return {
@@ -435,7 +435,7 @@ def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the slip
     energy for either lever arm; energies over m v0^2.
 
-    Total operations: 33
+    Total operations: 63
     """
     gap = state["gap"]
     orbital_momentum = state["orbital_momentum"]
@@ -452,7 +452,7 @@ def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "slip": slip,
         "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
-        "midgap": rotation_energy_unit*(orbital_momentum/distance**2 - spin)**2/(0.3125 + 2/distance**2),
+        "midgap": rotation_energy_unit*(0.15625 + 1/distance**2)*(fmax(fmin(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)), fmin(orbital_momentum, fmax(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)))) - distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4))**2/2,
     }
 
 

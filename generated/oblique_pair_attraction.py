@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 43dee1db2038e2684706f0c4c07ec381035b26ad9f8b6f013f027e608941765a
+# Equations sha256 b98d29c8788cb1b2a816db423b7b8e58575ad61c5b3dd2e0c6c8b5db4025413a
 """Oblique unequal doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -74,7 +74,7 @@ FUNCTIONS = (
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "43dee1db2038e2684706f0c4c07ec381035b26ad9f8b6f013f027e608941765a"
+DIGEST = "b98d29c8788cb1b2a816db423b7b8e58575ad61c5b3dd2e0c6c8b5db4025413a"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

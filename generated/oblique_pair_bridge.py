@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 82cf8afdaf23d67ada603fafa118348c9c99a72c8abd2820c338c53cb4f8e193
+# Equations sha256 3add5317b91d35ba617192e63bf8cf5f56c4b33b60af0085d7f0e915312010b0
 """Oblique unequal doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -80,7 +80,7 @@ FUNCTIONS = (
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "82cf8afdaf23d67ada603fafa118348c9c99a72c8abd2820c338c53cb4f8e193"
+DIGEST = "3add5317b91d35ba617192e63bf8cf5f56c4b33b60af0085d7f0e915312010b0"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

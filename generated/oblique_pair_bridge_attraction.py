@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 60ebc139341092e7d99b8eac145a2503c39ccab25b02f83c16e1b72fbdf11be0
+# Equations sha256 d60202416e45937cb6b801219aea2afb3979228bd6fb8210700cab08113b058d
 """Oblique unequal doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -82,7 +82,7 @@ FUNCTIONS = (
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "60ebc139341092e7d99b8eac145a2503c39ccab25b02f83c16e1b72fbdf11be0"
+DIGEST = "d60202416e45937cb6b801219aea2afb3979228bd6fb8210700cab08113b058d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

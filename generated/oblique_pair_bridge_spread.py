@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 1b1284c2e968fcf533c490d1d19a1e13b75c0ca3d64d47705039cf4cf1a2ce30
+# Equations sha256 3dea9cf9d4813b8d92c20ecb07ee8a42d28ac2440a3e7d07de72fe504ab95a0d
 """Oblique unequal doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -80,7 +80,7 @@ FUNCTIONS = (
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "1b1284c2e968fcf533c490d1d19a1e13b75c0ca3d64d47705039cf4cf1a2ce30"
+DIGEST = "3dea9cf9d4813b8d92c20ecb07ee8a42d28ac2440a3e7d07de72fe504ab95a0d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 57781d31050733158c44ee29f88740bf7c7ed77a6143907b3a15d391d72ee645
+# Equations sha256 e4205a2577b2fef3156a2deba341945d4bbc2b986c711defc349f54584a86083
 """Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -25,6 +25,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from casadi import fmax, fmin
 
 
 Values = Mapping[str, Any]
@@ -55,12 +57,13 @@ FUNCTIONS = (
     "rebound_loss",
     "outputs",
     "surface_slip",
+    "spin_down_margins",
     "effective_potential",
     "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "57781d31050733158c44ee29f88740bf7c7ed77a6143907b3a15d391d72ee645"
+DIGEST = "e4205a2577b2fef3156a2deba341945d4bbc2b986c711defc349f54584a86083"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -299,6 +302,40 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     slip = orbital_rate - spin
     return {
         "surface_slip": distance*slip,
+    }
+
+
+def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
+    """Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
+    < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error.
+
+    Total operations: 93
+    """
+    gap = state["gap"]
+    normal_velocity = state["normal_velocity"]
+    orbital_momentum = state["orbital_momentum"]
+    stokes = groups["stokes"]
+    aspect = groups["aspect"]
+    obliquity = groups["obliquity"]
+    initial_turning = groups["initial_turning"]
+    initial_spin = groups["initial_spin"]
+    elastic_gap = groups["elastic_gap"]
+    rough_gap = groups["rough_gap"]
+    dry_restitution = groups["dry_restitution"]
+    distance = aspect*gap + 4
+    orbital_rate = orbital_momentum/distance**2
+    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
+    spin = 5*momentum/32 - 5*orbital_momentum/32
+    beyond = gap/2 + fmin(1, laws.shear.edge(aspect))/2
+    contact = fmax(elastic_gap, rough_gap)
+    near = aspect*contact - aspect*gap + distance
+    far = aspect*beyond - aspect*gap + distance
+    leak = laws.shear.log_factor(beyond, aspect)
+    rate = aspect*leak*(5*far*near + 32)/(12*far*stokes)
+    return {
+        "stays": stokes*(2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(near**3*rate) + fmax(normal_velocity, -dry_restitution*normal_velocity)) + laws.film.stopping(beyond) - laws.film.stopping(gap),
+        "rate": rate,
+        "momentum": fmax(0, fmax(-6.4*initial_spin - initial_turning*(aspect + 4)**2, 6.4*initial_spin + initial_turning*(aspect + 4)**2) - 3.552713678800501e-15*initial_turning*(aspect + 4)**2 - 3.552713678800501e-15*fmax(-6.4*initial_spin, 6.4*initial_spin)),
     }
 
 

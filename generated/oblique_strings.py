@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 0b0908e03ade38ffd807e16903ecc810de76e99e8289ace793ee03a2ab67a1bc
+# Equations sha256 9b375d9c055b31fe9c7425d4020956ae98781f125cbf3b4ca045e44ae0894ecf
 """Oblique doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -68,7 +68,7 @@ FUNCTIONS = (
     "approach_step",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "0b0908e03ade38ffd807e16903ecc810de76e99e8289ace793ee03a2ab67a1bc"
+DIGEST = "9b375d9c055b31fe9c7425d4020956ae98781f125cbf3b4ca045e44ae0894ecf"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -37,11 +37,13 @@ from .laws import (
 )
 from .limits import head_on_is_oblique_at_rest, reduced_is_full
 from .mechanics import inertia_is_rigid_rotation, strings_are_conservative
+from .mirror import mirror
 from .orbital_momentum_certificate import orbital_momentum_certificate
 from .partners import partner_checks
 from .pendulum_certificate import pendulum_certificate
 from .restitution import ceiling_is_the_published, decomposition, rotation_can_be_released
 from .slow_manifold import films_fall, slow_manifold
+from .spin_down_certificate import spin_down_certificate
 
 __all__ = ["Admission", "Check", "certificate", "symbolic_checks"]
 
@@ -86,6 +88,7 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     yield from _once(decomposition)
     yield from _once(ceiling_is_the_published)
     yield from _once(rotation_can_be_released)
+    yield from _once(mirror)
     yield from _once(least_energy)
     yield from _once(least_energy_is_a_minimum)
     yield from _once(pendulum_certificate)
@@ -94,6 +97,7 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     yield from _once(slow_manifold)
     yield from films_fall([*of("film"), *of("shear")])
     yield from _once(approach_certificate)
+    yield from _once(spin_down_certificate)
     yield from certificates(own)
     yield from _once(groups_span_the_nullspace)
     yield from _once(groups_are_the_papers)

@@ -71,7 +71,7 @@ def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> 
     held += [f"{check.name} ({check.statement})" for check in checks if check.ok]
     against += [f"{check.name}: {check.figure}" for check in checks if not check.ok]
     if not _has_barrier(structure):
-        against.append("no barrier: L^2/(2 I) falls with the gap and nothing attracts, an oblique doublet always parts")
+        against.append("no barrier: L^2/(2 I) falls with the gap and nothing attracts, a doublet parts unless L = 0")
     return Admission(structure, _argument(structure), tuple(held), tuple(against))
 
 

@@ -9,9 +9,10 @@ import sympy as sp
 from ..equations.certificates.attraction import admits
 from ..equations.events import contact_gap
 from ..equations.model import derive
+from ..physics.forces import SHEAR
 from ..physics.laws import LAWS, Law
 from ..physics.scaling import DISTANCE
-from ..physics.structure import structures
+from ..physics.structure import Structure, structures
 from ..vocabulary.quantities import (
     aspect,
     beta,
@@ -26,6 +27,7 @@ from ..vocabulary.quantities import (
     weight,
 )
 from .base import Check, vanishing
+from .closed import emitted_rates, filled
 
 _COSINE = sp.Symbol("cosine", nonnegative=True)  # for a contact angle up to 90 deg
 
@@ -65,7 +67,11 @@ def margins_are_the_forces() -> Check:
         momentum = orbital_momentum + sp.Rational(32, 5) * spin
         least, most = attraction.subs(gap, end), strings.subs({gap: end, beta: sp.pi}, simultaneous=True)
         away = outward.subs(
-            {gap: contact, orbital_momentum: sp.Max(orbital_momentum, momentum * share)}, simultaneous=True
+            {
+                gap: contact,
+                orbital_momentum: sp.Max(*(s * j for j in (orbital_momentum, momentum * share) for s in (1, -1))),
+            },
+            simultaneous=True,
         )
         hold = least + strings.subs(gap, contact) - away
         found = {name: model.expanded(value) for name, value in model["attraction_margins"].outputs}
@@ -77,7 +83,34 @@ def margins_are_the_forces() -> Check:
     return vanishing("held: margins", "inward force at its least, at J_max and at the rupture distance", left)
 
 
+def momentum_is_bounded() -> Check:
+    """|J| falls where it exceeds |s L|, the largest in rigid rotation up to a gap, for L of either sign.
+
+    Let J be positive (`mirror`: a reflection reverses every rotation), and at least the share at the end of |L|. There
+    J - s L, to which the slip is proportional, is positive for every L between -|L| and |L|.
+    """
+    model = derive(Structure(oblique=True, bridge=True, strings=False))
+    here = 4 + aspect * gap
+    momentum = orbital_momentum + sp.Rational(32, 5) * spin
+    share = here**2 / (here**2 + sp.Rational(32, 5))
+    rate = filled(emitted_rates(model)[orbital_momentum], {"arm": LAWS["arm"]["midgap"]})
+    log_factor = sp.Function("shear.log_factor", real=True)(gap, aspect)
+    relaxation = sp.factor(-rate / (orbital_momentum - share * momentum))
+    grows = sp.factor(sp.together((DISTANCE**2 / (DISTANCE**2 + sp.Rational(32, 5))).diff(DISTANCE)))
+    excess, whole, rest, now, later = sp.symbols("excess whole rest now later", nonnegative=True)
+    above = (now + later) * whole + excess - now * (whole - rest)  # J - s L with J >= (s + later) |L|, L = |L| - rest
+    ok = (
+        not relaxation.free_symbols & {orbital_momentum, spin}
+        and (relaxation / (SHEAR * log_factor)).subs(gap, sp.Symbol("x", positive=True)).is_positive is True
+        and grows.is_positive is True
+        and sp.expand(above).is_nonnegative is True
+    )
+    return Check(
+        "held: momentum", "d|J|/dt <= 0 where |J| >= s(x_f) |L|: dJ/dt = -k (J - s L), s rises", ok, f"k = {relaxation}"
+    )
+
+
 def attraction_certificate() -> tuple[Check, ...]:
     """Every check of the attraction certificate."""
     laws = [law for slot in ("bridge", "attraction") for law in LAWS[slot].values()]
-    return (*force_falls(laws), margins_are_the_forces())
+    return (*force_falls(laws), momentum_is_bounded(), margins_are_the_forces())

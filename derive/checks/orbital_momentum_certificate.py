@@ -10,8 +10,11 @@ from ..equations.certificates.orbital_momentum import (
     exchanged,
     lag,
     midgap,
+    midgap_of,
     midgap_within,
+    rigid_momentum,
     rigid_share,
+    spheres_inertia,
     surface,
 )
 from ..equations.model import derive
@@ -93,6 +96,44 @@ def midgap_ends() -> Check:
     return replace(same, ok=same.ok and falls)
 
 
+def transferable_bounds() -> tuple[Check, ...]:
+    """What can be transferred, for momenta of any sign: where |J| falls G falls, elsewhere the sum with slip energy.
+
+    dG/dJ = J (1/r^2 - 1/d^2), and dJ = -k (J - J_r(x)) with J_r = L r^2/(r^2 + 32/5). With L >= 0 (`mirror`): for J < 0
+    and for J > J_d, J (J - J_r) >= 0. The slip energy of J is a square that vanishes at J_d, and at the ends of both
+    ranges the bound is continuous: 0 at J_d, the slip energy of J = 0 at 0.
+    """
+    inertia = spheres_inertia()
+    momentum, turning = sp.symbols("momentum turning", real=True)
+    rigid = rigid_momentum(_FAR, momentum, turning)
+    energy = (momentum - rigid) ** 2 * (1 / _FAR**2 + 1 / inertia) / 2
+    left = [energy - midgap(_FAR, momentum, turning)]  # for every sign: no square roots
+    margin = momentum**2 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + midgap(_FAR, momentum, turning)
+    change = margin.diff(turning) - exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR)) * margin.diff(momentum)
+    ratio = _settled(change / (momentum / _NEAR**2 - turning))
+    whole, excess = sp.symbols("whole excess", nonnegative=True)
+    closer = 4 + _CLOSER
+    share = rigid_momentum(sp.Symbol("r", positive=True), whole, sp.Integer(0))
+    here, there = (share.subs(sp.Symbol("r", positive=True), d) for d in (closer, closer + _BEYOND))
+    products = [(there + excess) * (there + excess - here), -excess * (-excess - here)]
+    fall = all(_no_negative(part) for value in products for part in sp.fraction(sp.cancel(sp.together(value))))
+    same = vanishing("exchange takes, any sign", "d(margin) = -c (omega - xi) dxi for momenta of any sign", left)
+    bounded = Check(
+        "what can be transferred",
+        "J (J - J_r) >= 0 for J >= J_d and for J <= 0 <= L: |J| falls, and G with it",
+        fall and ratio.is_number and bool(ratio < 0),
+        f"slip energy (J - J_d)^2 {sp.factor((1 / _FAR**2 + 1 / inertia) / 2)}",
+    )
+    return same, bounded
+
+
+def _clamped(value: sp.Expr) -> sp.Expr:
+    """An expression in J and J_d as one in J, Max and Min of which have arguments in one form."""
+    return value.replace(
+        lambda node: isinstance(node, (sp.Max, sp.Min)), lambda node: node.func(*map(sp.cancel, node.args))
+    )
+
+
 def surface_takes() -> Check:
     """Lever arm at the surface: the same sign at every distance r <= d, for rho between 4 and d, d - rho <= 4.
 
@@ -130,7 +171,8 @@ def as_emitted() -> Check:
         unit = obliquity**2 / 16  # omega0 = v0 tan(theta0)/(4a)
         left.append(found["slip"] - (orbital_momentum / here**2 - turning))
         left.append(found["orbital_energy"] - unit * orbital_momentum**2 / (2 * here**2))
-        left.append(found["midgap"] - unit * midgap(here, orbital_momentum, turning))
+        rigid = sp.cancel(rigid_momentum(here, orbital_momentum, turning))
+        left.append(_clamped(found["midgap"] / unit) - _clamped(midgap_of(here, orbital_momentum, rigid)))
         if "surface" in found:
             own = surface(here, orbital_momentum, turning, rigid_share(orbital_momentum, turning))
             left.append(found["surface"] - unit * own)
@@ -139,4 +181,12 @@ def as_emitted() -> Check:
 
 def orbital_momentum_certificate() -> tuple[Check, ...]:
     """Every check of the orbital-momentum certificate."""
-    return (exchange(), stationary(), midgap_takes(), midgap_ends(), surface_takes(), as_emitted())
+    return (
+        exchange(),
+        stationary(),
+        midgap_takes(),
+        midgap_ends(),
+        *transferable_bounds(),
+        surface_takes(),
+        as_emitted(),
+    )

@@ -19,7 +19,8 @@ ORBITAL_RATE, SLIP = sp.symbols("orbital_rate slip", real=True)
 FILM_FORCE, BRIDGE_FORCE, SHEAR_FORCE = sp.symbols("film_force bridge_force shear_force", real=True)
 STRING_PULL, STRING_SIDEWAYS, CENTRIFUGAL_FORCE = sp.symbols("string_pull string_sideways centrifugal_force", real=True)
 ATTRACTION_FORCE = sp.Symbol("attraction_force", real=True)
-LEVER, MOMENTUM, INERTIA_RATIO = sp.symbols("lever momentum inertia_ratio", positive=True)
+LEVER, INERTIA_RATIO = sp.symbols("lever inertia_ratio", positive=True)
+MOMENTUM = sp.Symbol("momentum", real=True)
 
 
 Conserved = tuple[Invariant, sp.Expr]  # an invariant and its initial value

@@ -41,7 +41,7 @@ from ..vocabulary.quantities import (
     volume,
     weight,
 )
-from .certificates import approach
+from .certificates import approach, spin_down
 from .certificates import attraction as attraction_certificate
 from .certificates import orbital_momentum as orbital_certificate
 from .certificates.pendulum import definitions as pendulum_definitions
@@ -118,6 +118,8 @@ def derive(structure: Structure) -> Model:
         definitions += approach.definitions(structure)
     if orbital_certificate.admits(structure):
         definitions += orbital_certificate.definitions(structure)
+    if spin_down.admits(structure):
+        definitions += spin_down.definitions(structure)
     used = _closure(functions, definitions)
     unlisted = used - {*states, *GROUPS, FILM, SHEAR, *(symbol for symbol, _ in definitions)}
     if unlisted:
@@ -307,6 +309,15 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                 "Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the "
                 "slip energy for either lever arm; energies over m v0^2.",
                 tuple(orbital_certificate.margins(structure).items()),
+            )
+        )
+    if spin_down.admits(structure):
+        functions.append(
+            ModelFunction(
+                "spin_down_margins",
+                "Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): "
+                "stays < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error.",
+                tuple(spin_down.margins(structure).items()),
             )
         )
     if not (structure.oblique and structure.strings):  # rotating strings have no least-energy argument

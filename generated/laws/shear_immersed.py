@@ -13,6 +13,9 @@ from typing import Any
 from casadi import log
 
 
+FALLS = True
+
+
 def log_factor(gap: Any, aspect: Any) -> Any:
     """Tangential force over 8 pi mu a^2 (omega - xi), inside its edge.
 

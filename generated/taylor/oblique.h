@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 dca3a5bc2c5948c21f05b9d5f56be5d9d171989af5c1d4e9159bfa3c2516a41d */
+ * Equations sha256 4dbaf745996f6b1c39492b66dbe756a16367e2fdc73a110eb42641d5bb843887 */
 
 /* Oblique doublet with a film only.
  *
@@ -82,6 +82,8 @@ typedef struct {
     vec slope_per_distance_by_momentum_squared_over_inertia_ratio_squared;
     vec combination_offset;
     vec angular_momentum_per_combination;
+    vec first_momentum;
+    vec contact;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
     film_resistance_constants film_resistance_law;
@@ -142,6 +144,11 @@ static inline void prepare(constants *c)
     c->combination_offset = -6.4*c->initial_spin - c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0));
     c->angular_momentum_per_combination = 1.0/(c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0)) +
         6.4*vec_abs(c->initial_spin));
+    c->first_momentum = vec_larger(splat(0.0), vec_larger(6.4*c->initial_spin + c->initial_turning*((c->aspect
+        + 4.0)*(c->aspect + 4.0)), -6.4*c->initial_spin - c->initial_turning*((c->aspect + 4.0)*(c->aspect +
+        4.0))) - 3.552713678800501e-15*c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0)) -
+        3.552713678800501e-15*vec_larger(-6.4*c->initial_spin, 6.4*c->initial_spin));
+    c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
     film_resistance_prepare(&c->film_resistance_law);
@@ -410,6 +417,30 @@ static inline vec angular_momentum(const constants *c, const vec *y)
     vec angular_momentum = c->angular_momentum_per_combination*combination + 1.0;
     return angular_momentum;
 }
+
+#if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)
+#define SPIN_DOWN MIDGAP_ARM
+/* Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
+ * < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. */
+static inline void spin_down_margins(const constants *c, const vec *y, vec *stays, vec *rate_margin)
+{
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
+    vec beyond = 0.5*y[GAP] + 0.5*vec_smaller(splat(1.0), shear_edge(c->aspect));
+    vec near = c->aspect*c->contact + distance - c->aspect*y[GAP];
+    vec far = c->aspect*beyond + distance - c->aspect*y[GAP];
+    vec leak = shear_log_factor_value(&c->shear_log_factor_law, beyond);
+    vec rate = 0.08333333333333333*c->aspect*leak*(5.0*far*near + 32.0)/(far*c->stokes);
+    *stays =
+        c->stokes*(2.0*c->aspect*(distance*distance)*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
+        + 0.2*(c->obliquity*c->obliquity)*(y[SPIN]*y[SPIN]))/((near*near*near)*rate) +
+        vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY])) + film_stopping(beyond) -
+        film_stopping(y[GAP]);
+    *rate_margin = rate;
+}
+#else
+#define SPIN_DOWN 0
+#endif
 
 #define SLOW_MANIFOLD 0
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 70c239f220f1f85fd32f6eacf22211e1cbf9ffbabd9c0cace8e1a5bf8000e162 */
+ * Equations sha256 c2a2ee4d64a71660be8d74f3ec8fe14c2ec83a223073cc161fe4444defc4f0b2 */
 
 /* Oblique doublet with a liquid bridge.
  *
@@ -529,7 +529,8 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 {
     vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
-    vec largest_momentum = vec_larger(y[ORBITAL_MOMENTUM], spun_up);
+    vec largest_momentum = vec_larger(vec_larger(vec_larger(y[ORBITAL_MOMENTUM], spun_up),
+        -y[ORBITAL_MOMENTUM]), -spun_up);
     vec least_attraction = bridge_force_value(&c->bridge_force_law,
         0.5*c->aspect*c->rupture_gap)/(c->capillary*c->stokes);
     vec hold = least_attraction -

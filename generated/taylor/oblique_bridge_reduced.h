@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 07179a967507fe90d941878c62cd04e80b19da4ee78be4a0b1794047e109f3e7 */
+ * Equations sha256 a92fe9b4be5308c7f8575a6ec97281d513fe0ae27d86204fcaa218592589f687 */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *
@@ -393,7 +393,8 @@ static inline vec surface_slip(const constants *c, const vec *y)
 static inline void attraction_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec
     *rebound)
 {
-    vec largest_momentum = vec_larger(y[ORBITAL_MOMENTUM], c->spun_up);
+    vec largest_momentum = vec_larger(vec_larger(vec_larger(y[ORBITAL_MOMENTUM], c->spun_up),
+        -y[ORBITAL_MOMENTUM]), -c->spun_up);
     vec least_attraction = bridge_force_value(&c->bridge_force_law,
         0.5*c->aspect*c->rupture_gap)/(c->capillary*c->stokes);
     vec hold = least_attraction -

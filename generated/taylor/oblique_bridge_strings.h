@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 46c335977d85436ab7c7795a56490ae75b5727cc5a9424dcf86c108c220a6e2b */
+ * Equations sha256 41d6f17f063acb7097ac0d5bfd50e561c0205c4d6484b471559b5ee9edb4740d */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *
@@ -513,7 +513,8 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 {
     vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
     vec spun_up = (c->farthest*c->farthest)*momentum/((c->farthest*c->farthest) + 6.4);
-    vec largest_momentum = vec_larger(y[ORBITAL_MOMENTUM], spun_up);
+    vec largest_momentum = vec_larger(vec_larger(vec_larger(y[ORBITAL_MOMENTUM], spun_up),
+        -y[ORBITAL_MOMENTUM]), -spun_up);
     vec least_attraction = bridge_force_value(&c->bridge_force_law,
         0.5*c->aspect*c->rupture_gap)/(c->capillary*c->stokes);
     vec hold = least_attraction + c->weight*(c->aspect*c->contact +

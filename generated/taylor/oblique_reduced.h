@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 57781d31050733158c44ee29f88740bf7c7ed77a6143907b3a15d391d72ee645 */
+ * Equations sha256 e4205a2577b2fef3156a2deba341945d4bbc2b986c711defc349f54584a86083 */
 
 /* Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
  *
@@ -63,6 +63,8 @@ typedef struct {
     vec tangential_restitution_factor;
     vec energy_per_inverse_inertia_ratio;
     vec slope_per_distance_over_inertia_ratio_squared;
+    vec first_momentum;
+    vec contact;
     vec relaxation_per_combination_by_shear_log_factor_law_over_distance;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
@@ -120,6 +122,11 @@ static inline void prepare(constants *c)
     c->energy_per_inverse_inertia_ratio = 0.03125*(c->momentum*c->momentum)*(c->obliquity*c->obliquity);
     c->slope_per_distance_over_inertia_ratio_squared =
         -0.0625*c->aspect*(c->momentum*c->momentum)*(c->obliquity*c->obliquity);
+    c->first_momentum = vec_larger(splat(0.0), vec_larger(6.4*c->initial_spin + c->initial_turning*((c->aspect
+        + 4.0)*(c->aspect + 4.0)), -6.4*c->initial_spin - c->initial_turning*((c->aspect + 4.0)*(c->aspect +
+        4.0))) - 3.552713678800501e-15*c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0)) -
+        3.552713678800501e-15*vec_larger(-6.4*c->initial_spin, 6.4*c->initial_spin));
+    c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->relaxation_per_combination_by_shear_log_factor_law_over_distance =
         0.041666666666666664*c->aspect/c->stokes;
     c->edge = shear_edge(c->aspect);
@@ -321,6 +328,31 @@ static inline vec surface_slip(const constants *c, const vec *y)
     vec surface_slip = distance*slip;
     return surface_slip;
 }
+
+#if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)
+#define SPIN_DOWN 1
+/* Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
+ * < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. */
+static inline void spin_down_margins(const constants *c, const vec *y, vec *stays, vec *rate_margin)
+{
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
+    vec spin = 0.15625*c->momentum - 0.15625*y[ORBITAL_MOMENTUM];
+    vec beyond = 0.5*y[GAP] + 0.5*vec_smaller(splat(1.0), shear_edge(c->aspect));
+    vec near = c->aspect*c->contact + distance - c->aspect*y[GAP];
+    vec far = c->aspect*beyond + distance - c->aspect*y[GAP];
+    vec leak = shear_log_factor_value(&c->shear_log_factor_law, beyond);
+    vec rate = 0.08333333333333333*c->aspect*leak*(5.0*far*near + 32.0)/(far*c->stokes);
+    *stays =
+        c->stokes*(2.0*c->aspect*(distance*distance)*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
+        + 0.2*(c->obliquity*c->obliquity)*(spin*spin))/((near*near*near)*rate) +
+        vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY])) + film_stopping(beyond) -
+        film_stopping(y[GAP]);
+    *rate_margin = rate;
+}
+#else
+#define SPIN_DOWN 0
+#endif
 
 #if defined(FILM_RESISTANCE_FALLS) && defined(SHEAR_LOG_FACTOR_FALLS) && !defined(FILM_CAVITATES)
 #define SLOW_MANIFOLD 1

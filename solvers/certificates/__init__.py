@@ -11,6 +11,7 @@ from .energy_barrier import Barrier, EnergyCertificate
 from .film import FilmCertificate
 from .orbital_momentum import OrbitalMomentumCertificate
 from .pendulum import PendulumCertificate
+from .spin_down import SpinDownCertificate
 
 __all__ = [
     "AttractionCertificate",
@@ -23,6 +24,7 @@ __all__ = [
     "NoCertificate",
     "OrbitalMomentumCertificate",
     "PendulumCertificate",
+    "SpinDownCertificate",
     "at_maximum",
     "energy_proof",
     "limit_of_circling",

@@ -55,7 +55,7 @@ class Certificate(Protocol):
 
 
 class NoCertificate:
-    """No certificate: an oblique doublet with a film alone separates; with strings see `PendulumCertificate`."""
+    """No certificate: an oblique doublet with a film alone separates, unless its angular momentum vanishes."""
 
     watches: str | None = None
 

@@ -24,7 +24,7 @@ def chatters(maxima: Sequence[np.ndarray], kept: slice, margin: float) -> bool:
         kept: indices of the states that must not grow.
         margin: relative error of the states.
     """
-    last = np.array([y[kept] for y in maxima[-1 - CYCLES :]])
+    last = np.abs([y[kept] for y in maxima[-1 - CYCLES :]])  # of a momentum, the size
     return len(last) > CYCLES and not bool(np.any(last[1:] > last[:-1] * (1 + margin)))
 
 
@@ -32,9 +32,10 @@ class ChatterCertificate:
     """For unequal spheres or a user's laws: a stick of a doublet that has rebounded many times and is confined by an
     attraction.
 
-    At constant gap, the orbital momentum is that of rigid rotation plus two decaying modes. Where it decreases and is
-    above the rigid value, it never returns to its present value; with no larger orbital momentum, the inward force at a
-    maximum of the gap allows no higher maximum. The gap is not exactly constant, so this is not a theorem.
+    At constant gap, the orbital momentum is that of rigid rotation plus two decaying modes. Where its size decreases
+    and is above that of the rigid value, it never returns to its present one; with no larger orbital momentum, the
+    inward force at a maximum of the gap allows no higher maximum. The gap is not exactly constant, so this is not a
+    theorem.
 
     Arguments:
         beside: another certificate, tried first.
@@ -58,7 +59,7 @@ class ChatterCertificate:
     def _held(self, y: np.ndarray) -> bool:
         gaps = float(y[0]) + (self.end - float(y[0])) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
         at_end = np.array([self.end, *y[1:]])
-        if y[2] < self.model.values("rigid_rotation", at_end, self.p)["orbital_momentum"]:
+        if abs(y[2]) < abs(self.model.values("rigid_rotation", at_end, self.p)["orbital_momentum"]):
             return False
         pull = np.cumsum(panels(lambda x: self._inward(x, y), gaps))
         weight = np.cumsum(panels(lambda x: self._size(x, y), gaps))

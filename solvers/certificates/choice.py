@@ -13,6 +13,8 @@ from .film import FilmCertificate
 from .film_and_attraction import FilmAndAttractionCertificate
 from .orbital_momentum import OrbitalMomentumCertificate, covers
 from .pendulum import PendulumCertificate
+from .spin_down import SpinDownCertificate
+from .spin_down import covers as spins_down
 
 
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:
@@ -29,6 +31,8 @@ def _first(model: Model, p: np.ndarray, rtol: float) -> Certificate:
     if model.has("pendulum_margins") and model.choice.law("arm") == "midgap" and _integrable(model):
         return PendulumCertificate(model, p, rtol)
     turning = model.oblique and not model.wall
+    if spins_down(model):
+        return SpinDownCertificate(model, p, rtol)
     if turning and _holds(model):
         return AttractionCertificate(model, p, rtol, None if model.strings else EnergyCertificate(model, p, rtol))
     if turning and (model.strings or not model.works):

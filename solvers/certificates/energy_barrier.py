@@ -94,9 +94,9 @@ class EnergyCertificate:
         that of the deviation from it (`derive.checks.partners.slip_energy_adds`). The slip energy thus bounds the
         excess of the orbital momentum over its rigid value. Twice this bound is used where angular momentum drifts.
         """
-        model, margin, orbital_momentum = self.model, SAFETY * self.rtol, self._rigid(y, float(y[0]))
-        if model.reduced:  # a single slip, which decreases without changing sign
-            orbital_momentum = max(float(y[2]), orbital_momentum)
+        model, margin, orbital_momentum = self.model, SAFETY * self.rtol, abs(self._rigid(y, float(y[0])))
+        if model.reduced:  # a single slip, which decreases without changing sign: J stays between its ends
+            orbital_momentum = max(abs(float(y[2])), orbital_momentum)
         else:
             rigid = list(model.values("rigid_rotation", y, self.p).values())
             deviation = np.array([y[0], 0.0, *(y[2 : len(model.state)] - rigid[2:])])
@@ -131,7 +131,7 @@ class EnergyCertificate:
 
         The lever arm is shorter than r/2 by the fraction x/r, so |dL| = (x/r) |dJ|. J can change by its deviation from
         rigid rotation and, as the gap varies, by the change of its rigid value. Energy and barrier change by omega dL
-        each, where omega L/2 is the energy of rigid rotation.
+        each, where |omega| is taken as the larger of the present one and that of rigid rotation.
         """
         if self.theorem:
             return 0.0
@@ -139,14 +139,11 @@ class EnergyCertificate:
         rigid = self._rigid(y, float(y[0]))
         change, reach = abs(orbital_momentum - rigid), float(y[0])
         if not phase.resting:
-            change += self._rigid(y, barrier) - self._rigid(y, 0.0)
+            change += abs(self._rigid(y, barrier) - self._rigid(y, 0.0))
             reach = barrier
         lost = change * self.groups["aspect"] * reach / (4 + self.groups["aspect"] * reach)
-        energy = self.model.values("effective_potential", y, self.p)["energy"]
-        # without spin at initial contact L is orbital, and that L is the unit of `angular_momentum`
-        momentum = self.model.values("angular_momentum", y, self.p)["angular_momentum"]
-        whole = momentum * self.model.values("start", y, self.p)["orbital_momentum"]
-        return float(4 * energy * max(orbital_momentum / rigid, 1.0) * lost / whole)
+        energy = self._kinetic(self._turning(y, 1.0))  # of J = 1, half of omega/J
+        return float(4 * energy * max(abs(orbital_momentum), abs(rigid)) * lost)
 
     def _rigid(self, y: np.ndarray, gap: float) -> float:
         """Orbital angular momentum of rigid rotation at this gap, with the total angular momentum of `y`."""

@@ -82,6 +82,8 @@ class OrbitalMomentumCertificate:
         Arguments:
             settled: assume omega = xi at the edge of the tangential force with the surface lever arm as well.
         """
+        if self._drifts and y[2] < 0:  # a reflection: its bound is for positive momenta
+            y = np.array([*y[:2], *-y[2:4], *y[4:]])
         gap, normal_velocity, orbital_momentum = map(float, y[:3])
         if not gap < self.end:
             return False
@@ -96,8 +98,10 @@ class OrbitalMomentumCertificate:
             self.model.function("orbital_margins")(self._states(edges[1:], y, orbital_momentum), self.p).full()
         )
         slips = found[self.model.names("orbital_margins").index("slip")]
-        needed = normal_velocity**2 / 2 - inward + self._exchange(edges[1:], y, found, settled or not self._drifts)
-        turned = (self.obliquity**2 / 16) * abs(orbital_momentum) * np.maximum(-slips, 0.0)
+        exchanged = self._exchange(edges[1:], y, found, settled or not self._drifts)
+        needed = normal_velocity**2 / 2 - inward + exchanged
+        size = abs(orbital_momentum) + np.abs(slips) * (4 + self.aspect * edges[1:]) ** 2
+        turned = (self.obliquity**2 / 16) * size * np.where(exchanged > 0, np.abs(slips), 0.0)
         error = normal_velocity**2 + abs(normal_velocity) + 2 * np.abs(attraction) + np.abs(inward) + turned
         return bool(np.any(needed < -self.margin * error))  # a comparison with NaN is false
 
@@ -108,12 +112,12 @@ class OrbitalMomentumCertificate:
         """
         names = self.model.names("orbital_margins")
         slips, energy = found[names.index("slip")], found[names.index(self.lever)]
-        possible: np.ndarray = np.where(slips < 0, energy, 0.0)
+        possible: np.ndarray = np.where(slips < 0, energy, 0.0) if self._drifts else energy
         beyond = gaps > self.edge
         if not settled or self.model.strings or not beyond.any():
             return possible
         rigid = self.model.values("rigid_rotation", np.array([self.edge, *y[1:]]), self.p)
-        if y[2] >= rigid["orbital_momentum"]:
+        if y[2] * np.sign(rigid["orbital_momentum"]) >= abs(rigid["orbital_momentum"]):
             return np.where(beyond, 0.0, possible)
         at_edge = np.array([self.edge, 0.0, *list(rigid.values())[2:]])  # orbital momentum, and spin if it is a state
         left = np.asarray(
@@ -121,7 +125,7 @@ class OrbitalMomentumCertificate:
                 self._states(gaps, at_edge, rigid["orbital_momentum"]), self.p
             ).full()
         )
-        return np.where(beyond, energy - left[names.index(self.lever)], possible)
+        return np.where(beyond, energy - left[names.index(self.lever)], possible)  # of J at most, or of J = 0
 
     def _work(self, edges: np.ndarray, y: np.ndarray, orbital_momentum: float) -> np.ndarray:
         """Work against the inward force from the first gap to each of the others, at the given orbital momentum."""

@@ -202,7 +202,7 @@ def _leaving(finder: EventLocator, step: PhaseRun, y: np.ndarray) -> Iterator[Ne
     model = finder.model
     held = model.bridge or model.strings or model.choice.law("attraction") is not None
     if step.event != "rupture" or (model.oblique and not model.wall and not held):
-        return  # an oblique doublet with a film alone always separates
+        return  # with a film alone a doublet separates for any angular momentum but none
     yield Near(RIM, float(y[1, -1]) ** (2 if held else 1), _HINT)
     if model.strings and model.oblique:
         names = list(model.state)

@@ -22,7 +22,7 @@ def surface_arm(group: str, sample: Sample, integral: Callable[[Followed], float
     """Findings for a scene with the surface lever arm: the drift, and its difference from the integral of -x F_t dt.
 
     Arguments:
-        integral: function of a trajectory that returns the integral over L(0); `torque` if None.
+        integral: function of a trajectory that returns the integral over the size of L(0); `torque` if None.
     """
     integral = torque if integral is None else integral
     scene = sample.scene
@@ -53,14 +53,14 @@ def surface_arm(group: str, sample: Sample, integral: Callable[[Followed], float
 
 
 def torque(followed: Followed) -> float:
-    """-(integral of x F_t dt)/L(0) along a trajectory, phase by phase."""
-    groups = dict(zip(followed.model.groups, followed.p, strict=True))
+    """-(integral of x F_t dt) over the size of L(0) along a trajectory, phase by phase."""
     total = 0.0
     for piece in followed.replayed.pieces:
         run = _torque(piece.flow, followed.tolerance.relative, followed.tolerance.absolute)
         start = vertcat(*piece.start, 0.0)
         total += float(run(x0=start, p=vertcat(followed.p, piece.duration))["xf"][-1])
-    return total / (4 + float(groups["aspect"])) ** 2
+    first = followed.model.values("start", followed.replayed.y, followed.p)
+    return total / (abs(first["orbital_momentum"]) + 6.4 * abs(first["spin"]))
 
 
 @own_cache(32)

@@ -69,7 +69,7 @@ def computed(impacts: Impacts, rtol: float, jumps: int) -> np.ndarray:
 
 
 def separated(impacts: Impacts) -> int:
-    """How many of these oblique sticks separate without certificates."""
+    """How many of these sticks, in which something moves sideways, separate without certificates."""
     if not impacts.angle.size:
         return 0
     variant = variant_for_many(impacts.scene, True, RTOL, False, fold=not impacts.others)

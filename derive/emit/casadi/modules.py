@@ -67,8 +67,9 @@ def law_module(law: Law) -> str:
 
 
 def _falls(law: Law) -> list[str]:
-    """The constant FALLS of a law whose force decreases with the gap; no lines for other laws."""
-    return ["", "FALLS = True", ""] if any(each.falls and each.name == "force" for each in law.functions) else []
+    """The constant FALLS of a law whose force, or shear, decreases with the gap; no lines for other laws."""
+    falls = any(each.falls and each.name in ("force", "log_factor") for each in law.functions)
+    return ["", "FALLS = True", ""] if falls else []
 
 
 def _validity(law: Law) -> list[str]:

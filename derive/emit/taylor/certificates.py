@@ -71,6 +71,29 @@ def attraction_functions(model: Model, constants: Constants, prepared: dict[tupl
     ]
 
 
+def spin_down_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+    """The margins of the spin-down certificate, for laws with what it uses; arguments as above.
+
+    The angular momentum at initial contact is one of the constants.
+    """
+    outputs = dict(model["spin_down_margins"].outputs)
+    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
+    by_state = {key: outputs[key] for key in ("stays", "rate")}
+    kept, _ = needed(list(by_state.values()), model.definitions)
+    constants.define(sp.Symbol("first_momentum"), outputs["momentum"])
+    return [
+        "#if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)",
+        f"#define SPIN_DOWN {'MIDGAP_ARM' if 'arm' in model.slots else '1'}",
+        *margin_function(
+            "spin_down_margins", model["spin_down_margins"].doc, kept, by_state, moving, constants, prepared
+        ),
+        "#else",
+        "#define SPIN_DOWN 0",
+        "#endif",
+        "",
+    ]
+
+
 def approach_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
     """The functions of the approach certificate, for laws with what it uses; arguments as above."""
     falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]

@@ -14,7 +14,7 @@ from ...physics.laws.base import is_slot_call
 from ...vocabulary.quantities import VOCABULARY, normal_velocity
 from ..text import needed
 from .c_text import Constants, Recurrences
-from .certificates import approach_functions, attraction_functions, pendulum_functions
+from .certificates import approach_functions, attraction_functions, pendulum_functions, spin_down_functions
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
 from .groups_from_si import scale_function
 from .layout import comment, function
@@ -342,6 +342,8 @@ class Header:
             lines += pendulum_functions(model, self.constants, prepared)
         if any(each.name == "attraction_margins" for each in model.functions):
             lines += attraction_functions(model, self.constants, prepared)
+        if any(each.name == "spin_down_margins" for each in model.functions):
+            lines += spin_down_functions(model, self.constants, prepared)
         lines += slow_manifold_functions(model, self.constants, prepared)
         if any(each.name == "approach_step" for each in model.functions):
             lines += approach_functions(model, self.constants, prepared)

@@ -11,8 +11,9 @@ in, for any partner and any rotation at the start:
 2. The glass pressure grows with the speed and as the gap closes. If it stays below its limit at the end of each part
    for the largest speed within the part, and the gap above solid contact, no criterion is met.
 3. C = 2 E_orb/r, and the energy of rotation, E_rot >= E_orb, only gains the work of C: E_rot r^2 never grows on the
-   way in, and C <= 2 E_rot(x0) r0^2/r_contact^3. Attractions that decrease with the gap pull with F(x0) at least. So
-   E_rot + W gains at most `outward` = max(C - F(x0), 0) times the depth.
+   way in, and C <= 2 E_rot(x0) r0^2/r_contact^3. E_rot includes the spins, whatever their sense, so that what they
+   give to the orbit is in it, and the shear only takes from their sum. Attractions that decrease with the gap pull
+   with F(x0) at least. So E_rot + W gains at most `outward` = max(C - F(x0), 0) times the depth.
 4. Hence, without a criterion before, a doublet that is still closing at the depth y has at most the energy
    w^2/2 + E_rot + W + outward y, with E_rot and W of initial contact, and one that has turned before has less. If this
    is below the energy barrier beyond the film, it sticks, whatever happens afterwards.

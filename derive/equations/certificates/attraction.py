@@ -3,7 +3,9 @@
 For oblique collisions with attractions F that decrease with the gap, with or without strings, lever arm at mid-gap,
 per unit mass:
 
-1. As in `pendulum`, L never grows and F_t reduces the slip omega - xi, so J = r^2 omega never exceeds J_max.
+1. F_t reduces the slip omega - xi, so that J = r^2 omega tends to the share s = r^2/(r^2 + (32/5) a^2) of L, that of
+   rigid rotation at the present gap. s grows with the gap and |L| never does (strings take from L >= 0). So |J| never
+   exceeds J_max, the larger of |J| and of |s L| at the farthest gap, for L and J of any sign, opposite ones too.
 2. F decreases with the gap, S_n increases with gap and angle. So at every later gap the force inward, lubrication
    excluded, is at least `hold` = F(x_f) + S_n(contact, beta) - J_max^2/r^3 (in contact), which must be > 0.
 3. A doublet that opens now, or rebounds with e_dry times the present approach velocity, is stopped before x_f: its
@@ -80,7 +82,7 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
         (NEAREST, 4 + aspect * CONTACT),
         (FARTHEST, 4 + aspect * end),
         (SPUN_UP, rigid_momentum(MOMENTUM, FARTHEST)),
-        (LARGEST_MOMENTUM, sp.Max(orbital_momentum, SPUN_UP)),
+        (LARGEST_MOMENTUM, sp.Max(orbital_momentum, -orbital_momentum, SPUN_UP, -SPUN_UP)),
         (LEAST, _least(structure)),
         (HOLD, LEAST + pull - outward_at(LARGEST_MOMENTUM, NEAREST)),
     ]

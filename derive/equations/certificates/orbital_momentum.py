@@ -4,21 +4,24 @@ Per unit mass, with r = d a the centre distance at that gap, J = r^2 omega the o
 attractions:
 
 1. To reach the gap with the present J requires G = u^2/2 + W(x) - W(gap) + (J^2/2)(1/r(x)^2 - 1/r^2) >= 0. Film and
-   solids only reduce u^2, and as J decreases, J^2/r(x)^2 decreases by more than J^2/r^2. So G never grows while
-   omega >= xi, since F_t then reduces J, for any lever arm. (Strings also reduce J, and their pull only grows.)
-2. J may grow while xi > omega. F_t exchanges momenta at a fixed ratio, dJ = -(32/5) a^2 (d/2 lever) dxi. Let
-   `slip_energy` be the energy that this exchange, at the distance d, can still transfer from the rotation: zero if
-   omega = xi at d, never negative. G + slip_energy never grows, at whatever distance the exchange happens (proved in
-   `checks`).
-3. So while omega >= xi at d for the present J, G < 0 excludes the gap. Once omega = xi there, slip_energy = 0, and from
-   then on G + slip_energy < 0 excludes it. Both are one test: G + slip_energy (where xi > omega) < 0.
+   solids only reduce u^2, and as |J| decreases, J^2/r(x)^2 decreases by more than J^2/r^2. So G never grows while F_t
+   reduces |J|, for any lever arm. (Strings also reduce J, and their pull only grows.)
+2. |J| may grow where the spins are faster than the line of centres, in the sense of J. F_t exchanges momenta at a fixed
+   ratio, dJ = -(32/5) a^2 (d/2 lever) dxi. Let the slip energy be the energy that this exchange, at the distance d, can
+   still transfer from the rotation: zero if omega = xi at d, never negative. G + slip energy never grows, at whatever
+   distance the exchange happens (proved in `checks`).
+3. Lever arm at mid-gap: L is conserved, and J tends to J_r(x), which has the sign of L and is largest, J_d, at d. Let
+   L >= 0, which a reflection permits. While J > J_d, or J < 0, |J| decreases and G does not grow; between 0 and J_d
+   G + slip energy does not. So what can still be transferred is the slip energy of J, or of the nearer of 0 and J_d if
+   J is not between them (`transferable`): none from above J_d, and from J < 0 that of J = 0. If the sum of G and this
+   is negative, d is excluded, for any signs of J, xi and L; with L = 0 G alone is tested.
+4. If no shear acts beyond a distance e < d, J stops growing at J_e, where omega = xi at e, and the slip energy that
+   remains at d in that state is never transferred: it is subtracted in 3. If J is beyond J_e, nothing is transferred
+   (`midgap_within`).
+5. Lever arm at the surface: the exchange conserves sqrt(J) + (8/5) sqrt(xi) a along states of rigid rotation, which
+   replaces L, where J and xi have one sign, positive after a reflection. The slip energy counts where xi > omega at d.
 
-4. If no shear acts beyond a distance e < d, J stops growing once omega = xi at e. With conserved L (lever arm at
-   mid-gap) that state is known in advance, and the slip energy that remains at d in it is never transferred: it is
-   subtracted in 3. If the present J is already larger, nothing is transferred (`midgap_within`).
-
-With the lever arm at mid-gap the sum is the energy above the least one with this L at d. With the lever arm at the
-surface the exchange conserves sqrt(J) + (8/5) sqrt(xi) a along states of rigid rotation, which replaces L.
+With the lever arm at mid-gap, G + slip energy is the energy above the least one with this L at d.
 """
 
 from __future__ import annotations
@@ -65,6 +68,17 @@ def rigid_momentum(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp
     return distance**2 * (momentum + inertia * turning) / (distance**2 + inertia)
 
 
+def transferable(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
+    """Slip energy of the present J, or of the nearer of 0 and J_d if J is not between them (lever arm at mid-gap)."""
+    return midgap_of(distance, momentum, rigid_momentum(distance, momentum, turning))
+
+
+def midgap_of(distance: sp.Expr, momentum: sp.Expr, rigid: sp.Expr) -> sp.Expr:
+    """`transferable` for J_d, which stands for L."""
+    within = sp.Max(sp.Min(momentum, sp.Max(rigid, 0)), sp.Min(rigid, 0))
+    return (within - rigid) ** 2 * (1 / distance**2 + 1 / spheres_inertia()) / 2
+
+
 def midgap_within(distance: sp.Expr, edge: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
     """Slip energy that a shear ending at the distance `edge` can transfer, while omega < xi there."""
     rigid = rigid_momentum(edge, momentum, turning)
@@ -105,10 +119,13 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
-    """The margins at the state's gap: omega - xi, J^2/(2 r^2), slip energy for either lever arm; over m v0^2."""
+    """The margins at the state's gap, over m v0^2: omega - xi, J^2/(2 r^2), slip energy for either lever arm.
+
+    For `midgap` it is what can be transferred; for `surface` it is where xi > omega >= 0, which a reflection permits.
+    """
     found = {
         "slip": SLIP,
         "orbital_energy": UNIT * orbital_momentum**2 / (2 * DISTANCE**2),
-        "midgap": UNIT * midgap(DISTANCE, orbital_momentum, spin),
+        "midgap": UNIT * transferable(DISTANCE, orbital_momentum, spin),
     }
     return found if structure.reduced else {**found, "surface": UNIT * surface(DISTANCE, orbital_momentum, spin, RIGID)}

@@ -1,7 +1,8 @@
 """Pendulum certificate: margins of a doublet on strings that exclude separation, with their derivation.
 
 Per unit mass, lever arm at mid-gap, strings and a film (no bridge), 0 <= beta <= pi and omega >= 0 (otherwise a
-cut-off has ended the trajectory as a stick), for any spin:
+cut-off has ended the trajectory as a stick). On strings nothing spins at first, and F_t drives xi towards omega >= 0:
+xi, J and L are never negative.
 
 1. L decreases, since the strings pull back with the torque r S_t >= 0, and F_t reduces the slip omega - xi. So
    J = r^2 omega never exceeds J_max, the larger of its present value and the share s = r_f^2/(r_f^2 + (32/5) a^2) of L,

@@ -18,7 +18,9 @@ that hold for both solutions, its logarithmic norm in max(|e|, |j|/p) is at most
 
 each term at its worst. The integral of that bound over the gap is the contraction that the kernel requires before it
 replaces a trajectory by the slow manifold (solvers/engines/taylor/runtime/slow_manifold.h). f, s and A fall with the
-gap for the laws that are declared so, and c does: their values at the ends of a range bound them within it.
+gap for the laws that are declared so, and c does: their values at the ends of a range bound them within it. J_r is L
+times a share that rises with the gap. L and J may have any sign: bounds take |J_r| and |J - J_r|, and a range counts
+only where the force F is outward for every J in it. So with L = 0 nothing is replaced.
 
 On the slow manifold u = F/(f + u') and J = J_r - u J'/s, from which its series in x follow by iteration.
 """

@@ -38,7 +38,8 @@ RADIUS, PARTNER_RADIUS, SPIN_INERTIA, PARTNER_INERTIA = sp.symbols(
     "radius partner_radius spin_inertia partner_inertia", positive=True
 )
 ORBITAL_RATE, SLIP, PARTNER_SLIP = sp.symbols("orbital_rate slip partner_slip", real=True)
-LEVER, MOMENTUM, INERTIA_RATIO, DRAG = sp.symbols("lever momentum inertia_ratio drag", positive=True)
+LEVER, INERTIA_RATIO, DRAG = sp.symbols("lever inertia_ratio drag", positive=True)
+MOMENTUM = sp.Symbol("momentum", real=True)
 TORQUE, PARTNER_TORQUE, SHEAR_FORCE = sp.symbols("torque partner_torque shear_force", real=True)
 
 

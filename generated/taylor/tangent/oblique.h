@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 dca3a5bc2c5948c21f05b9d5f56be5d9d171989af5c1d4e9159bfa3c2516a41d */
+ * Equations sha256 4dbaf745996f6b1c39492b66dbe756a16367e2fdc73a110eb42641d5bb843887 */
 
 /* Oblique doublet with a film only.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 70c239f220f1f85fd32f6eacf22211e1cbf9ffbabd9c0cace8e1a5bf8000e162 */
+ * Equations sha256 c2a2ee4d64a71660be8d74f3ec8fe14c2ec83a223073cc161fe4444defc4f0b2 */
 
 /* Oblique doublet with a liquid bridge.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 07179a967507fe90d941878c62cd04e80b19da4ee78be4a0b1794047e109f3e7 */
+ * Equations sha256 a92fe9b4be5308c7f8575a6ec97281d513fe0ae27d86204fcaa218592589f687 */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 46c335977d85436ab7c7795a56490ae75b5727cc5a9424dcf86c108c220a6e2b */
+ * Equations sha256 41d6f17f063acb7097ac0d5bfd50e561c0205c4d6484b471559b5ee9edb4740d */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 57781d31050733158c44ee29f88740bf7c7ed77a6143907b3a15d391d72ee645 */
+ * Equations sha256 e4205a2577b2fef3156a2deba341945d4bbc2b986c711defc349f54584a86083 */
 
 /* Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
  *

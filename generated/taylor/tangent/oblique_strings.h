@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 0b0908e03ade38ffd807e16903ecc810de76e99e8289ace793ee03a2ab67a1bc */
+ * Equations sha256 9b375d9c055b31fe9c7425d4020956ae98781f125cbf3b4ca045e44ae0894ecf */
 
 /* Oblique doublet with pendulum strings.
  *

@@ -153,12 +153,24 @@ def test_both_forms_take_the_same_away() -> None:
 
 
 def test_slip_energy_is_the_energy_above_rigid_rotation() -> None:
-    """Midgap: slip energy is what is left of the rotation's energy beside L^2/(2 I) at that gap."""
+    """Midgap: slip energy is what is left of the rotation's energy beside L^2/(2 I) at that gap.
+
+    It can be transferred by J between 0 and its rigid value; from beyond none, and against its sense that of J = 0.
+    """
     one = trajectory(impacts(1, "midgap", 2)[0])
     model, p = one.model, one.p
-    for gap, orbit in ((0.3, 14.0), (1.0, 9.0), (4.0, 12.0)):
-        y = np.array([gap, 0.0, orbit])
-        found = model.values("orbital_margins", y, p)
+    for gap, orbit, counts in (
+        (0.3, 10.0, 10.0),
+        (1.0, 9.0, 9.0),
+        (4.0, 1.0, 1.0),
+        (1.0, 14.0, None),
+        (1.0, -2.0, 0.0),
+    ):
+        found = model.values("orbital_margins", np.array([gap, 0.0, orbit]), p)
+        if counts is None:
+            assert found["midgap"] == 0
+            continue
+        y = np.array([gap, 0.0, counts])
         rest = model.values("energies", y, p)["kinetic"] - model.values("effective_potential", y, p)["energy"]
         assert found["midgap"] == pytest.approx(rest, rel=1e-12)
 

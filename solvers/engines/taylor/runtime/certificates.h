@@ -160,18 +160,36 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
 }
 #endif
 
+#if !defined(SPIN_DOWN)
+#define SPIN_DOWN 0
+#endif
+#if SPIN_DOWN
+/* Spin-down certificate: without angular momentum the rotation dies out, and the film alone keeps the doublet
+ * (derive/equations/certificates/spin_down.py). Rate is not positive beyond the edge of the shear.
+ */
+static inline mask spun_down(const constants *c, const vec *y, mask asked, double tolerance)
+{
+    asked &= (c->first_momentum == 0.0) & (y[GAP] >= contact_gap(c)*(1.0 - SAFETY*tolerance));
+    if (!bits(asked))
+        return asked;
+    vec stays, rate;
+    spin_down_margins(c, y, &stays, &rate);
+    return asked & (rate > 0.0) & (stays < -SAFETY*tolerance*vec_larger(c->stokes, splat(1.0)));
+}
+#endif
+
 #define RESTS_FOR_GOOD (TURNS && ATTRACTS && !STRINGS)
 #if RESTS_FOR_GOOD
-/* Resting contact that persists while the slip decays: J exceeds its value in rigid rotation by no more than the slip
+/* Resting contact that persists while the slip decays: |J| exceeds that of rigid rotation by no more than the slip
  * energy allows, or by twice that where angular momentum drifts (solvers/certificates/energy_barrier.py `rests`).
  */
 static mask rests_for_good(const constants *c, const vec *y, double tolerance)
 {
-    vec margin = splat(SAFETY*tolerance), momentum = rigid_momentum(c, y), there[STATES];
+    vec margin = splat(SAFETY*tolerance), momentum = vec_abs(rigid_momentum(c, y)), there[STATES];
     memset(there, 0, sizeof there);
     there[GAP] = y[GAP];
 #if REDUCED
-    momentum = vec_larger(y[ORBITAL_MOMENTUM], momentum);
+    momentum = vec_larger(vec_abs(y[ORBITAL_MOMENTUM]), momentum);
 #else
     there[ORBITAL_MOMENTUM] = splat(1.0);
     vec rigid[STATES], slip[STATES]; /* deviation from rigid rotation: no cancellation in its energy */
@@ -224,6 +242,9 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
 static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
 {
     (void)c; (void)y; (void)asked; (void)tolerance;
+#if SPIN_DOWN
+    return spun_down(c, y, asked, tolerance);
+#endif
 #if PENDULUM
     return held_at_turn(c, y, asked, tolerance);
 #endif

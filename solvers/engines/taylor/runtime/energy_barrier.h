@@ -191,15 +191,18 @@ static inline vec work_done(const constants *c, const vec *y, const barrier *b)
  */
 static inline mask out_of_reach(const constants *c, const vec *y, const barrier *b, vec gap, vec work, double tolerance)
 {
-    vec here[ORBITAL], there[ORBITAL], beyond[STATES];
-    memcpy(beyond, y, sizeof beyond);
+    vec here[ORBITAL], there[ORBITAL], beyond[STATES], sense = choose(y[ORBITAL_MOMENTUM] < 0.0, splat(-1.0), splat(1.0));
+    memcpy(beyond, y, sizeof beyond); /* reflected: the bound is for positive momenta */
+    beyond[ORBITAL_MOMENTUM] *= sense;
+    beyond[SPIN] *= sense;
+    orbital_margins(c, beyond, here);
     beyond[GAP] = gap;
-    orbital_margins(c, y, here);
     orbital_margins(c, beyond, there);
     vec needed = 0.5*y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY] + work_done(c, y, b) - work + here[ORBITAL_ENERGY] - there[ORBITAL_ENERGY]
                  + only(there[SLIP_RATE] < 0.0, there[SLIP_ENERGY]);
     vec margin = SAFETY*tolerance*(b->largest + vec_abs(work)); /* infinite without a barrier: test false */
-    return (gap > y[GAP]) & (y[ORBITAL_MOMENTUM] >= 16.0*y[SPIN]) & (needed < -margin);
+    mask covered = (beyond[SPIN] >= 0.0) & (beyond[ORBITAL_MOMENTUM] >= 16.0*beyond[SPIN]);
+    return (gap > y[GAP]) & covered & (needed < -margin);
 }
 
 static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
@@ -223,12 +226,14 @@ static inline vec rigid_at(const constants *c, const vec *y, vec gap)
  */
 static inline mask below(const constants *c, const vec *y, const barrier *b, vec gap, vec work, mask rests, double tolerance)
 {
-    vec first[STATES], rigid = rigid_momentum(c, y), reach = choose(rests, y[GAP], gap);
-    start(c, first);
-    vec change = vec_abs(y[ORBITAL_MOMENTUM] - rigid) + only(~rests, rigid_at(c, y, gap) - rigid_at(c, y, splat(0.0)));
+    vec one[STATES], rigid = rigid_momentum(c, y), reach = choose(rests, y[GAP], gap);
+    vec risen = vec_abs(rigid_at(c, y, gap) - rigid_at(c, y, splat(0.0)));
+    vec change = vec_abs(y[ORBITAL_MOMENTUM] - rigid) + only(~rests, risen);
     vec lost = change*c->aspect*reach/(4.0 + c->aspect*reach);
-    vec drift = 4.0*potential_energy(c, y)*vec_larger(y[ORBITAL_MOMENTUM]/rigid, splat(1.0))*lost
-                /(angular_momentum(c, y)*first[ORBITAL_MOMENTUM]);
+    memset(one, 0, sizeof one);
+    one[GAP] = y[GAP];
+    one[ORBITAL_MOMENTUM] = splat(1.0);
+    vec drift = 4.0*stored_energy(c, one)*vec_larger(vec_abs(y[ORBITAL_MOMENTUM]), vec_abs(rigid))*lost;
     vec height = work + energy_at(c, y, gap), margin = SAFETY*tolerance*(b->largest + vec_abs(height));
     return (gap > y[GAP]) & (stored_energy(c, y) + work_done(c, y, b) < height - margin - drift);
 }

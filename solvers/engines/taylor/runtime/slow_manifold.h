@@ -219,7 +219,7 @@ static inline vec taken(const constants *c, vec gap)
 }
 
 /* Bounds the opening of doublets at initial contact; returns the lanes that surely turn in the film without meeting a
- * rebound criterion.
+ * rebound criterion. Momenta are taken in the sense of rigid rotation, in which they have to stay positive.
  *
  * While the net force is outward, the closing speed is at most what the film alone leaves of it, a closed form, which
  * gives the lowest gap. It is less by the impulse of that force, which bounds the time, and with it the highest gap.
@@ -237,7 +237,9 @@ static mask descends(slow_series *s, const fixed *f, const vec *y, opening *o)
     mask sound = (y[NORMAL_VELOCITY] < 0.0) & (low > f->contact), closes = splat_mask(-1);
     place at[2];
     look_at(s, c, y[GAP], &at[0]);
-    vec off = y[ORBITAL_MOMENTUM] - at[0].rigid, span = y[GAP] - low, most = speed, least = speed;
+    vec off = (y[ORBITAL_MOMENTUM] - at[0].rigid)*choose(at[0].rigid < 0.0, splat(-1.0), splat(1.0));
+    at[0].rigid = vec_abs(at[0].rigid);
+    vec span = y[GAP] - low, most = speed, least = speed;
     vec below = vec_larger(-off, splat(0.0)), above = vec_larger(off, splat(0.0)), there_rigid = at[0].rigid;
     o->lowest = low;
     o->highest = y[GAP];
@@ -245,6 +247,7 @@ static mask descends(slow_series *s, const fixed *f, const vec *y, opening *o)
     for (int k = 1; k <= STAGES; k++) {
         vec gap = k < STAGES ? low + span*ldexp(1.0, -k) : low;
         look_at(s, c, gap, &at[1]);
+        at[1].rigid = vec_abs(at[1].rigid);
         const place *a = &at[1], *b = &at[0];
         vec width = b->gap - a->gap, film_leaves = speed - taken(c, gap), slowest = a->rigid - below;
         vec closest[STATES];

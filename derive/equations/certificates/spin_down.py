@@ -1,0 +1,135 @@
+"""Spin-down certificate: a film alone keeps a doublet without angular momentum, whose rotation dies out.
+
+With L = 0 nothing is left of the rotation once the shear has stopped every slip, and then no force opens the film. Per
+unit mass, with the lever arm at mid-gap and neither strings nor attractions, for any partner and any signs:
+
+1. All rotation is slip. At a given gap the shear takes at least the share `rate` of the energy of rotation, E_rot, per
+   time: twice the slower decay rate of the slips. They obey ds/dt = -A s, A a mobility of the slips times the friction,
+   both symmetric and positive definite. A smaller mobility makes all decay rates smaller. The mobility has a part that
+   falls with the distance and a part that rises; the logarithm of the friction falls with the gap. So each at its least
+   up to a gap d gives a lower bound of A, and det A/tr A one of its smaller eigenvalue.
+2. E_rot only changes by the shear and by the work of the centrifugal force C = 2 E_orb/r <= 2 E_rot/r: it falls while
+   the doublet opens, E_rot r^2 falls while it closes, both at `rate` at least. Hence the impulse of C from now on, as
+   long as the gap is below d, is at most 2 E_rot r^2/(r_contact^3 rate).
+3. The film takes S(x) - S(d) over St from a doublet that opens from x to d, with S the integral of its resistance. So
+   one that does not rebound never reaches d if St u + St impulse < S(x) - S(d).
+4. Nothing pulls inward: a doublet that closes at -u is slowed, and one that opens never closes again. So there is at
+   most one rebound, from a gap x' <= x, with e_dry (St |u| - S(x') + S(x)) over St at most, which is largest in excess
+   of S(x') at x' = x. Both cases are one test: St max(u, -e_dry u) + St impulse < S(x) - S(d) (`stays` < 0).
+
+L counts as zero below its own rounding error: it is the sum of an orbital part and of those of the spins.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import sympy as sp
+
+from ...physics.forces import SHEAR
+from ...physics.laws import LAWS, slot_call
+from ...physics.laws.base import filled, is_slot_call
+from ...physics.scaling import DISTANCE
+from ...physics.structure import Structure
+from ...vocabulary.quantities import (
+    aspect,
+    e_dry,
+    gap,
+    normal_velocity,
+    orbital_momentum,
+    partner_spin,
+    spin,
+    stokes,
+)
+from ..events import contact_gap, start
+from ..intermediates import SLIP, intermediates
+from ..observables import energies
+from ..rates import rates
+
+BEYOND, NEAR, FAR = sp.symbols("beyond near far", positive=True)  # d, and the distances in contact and at d, over a
+RATE, LEAK, CONTACT = sp.symbols("rate leak contact", positive=True)
+ROUNDING = sp.Float(2.0**-48)  # relative to the parts of L: some steps of doubles
+
+
+def admits(structure: Structure) -> bool:
+    """True for the structures covered: oblique, a film alone, no wall."""
+    alone = not (structure.bridge or structure.attraction or structure.strings)
+    return structure.oblique and alone and structure.partner != "wall"
+
+
+def _full(structure: Structure) -> Structure:
+    return replace(structure, reduced=False)
+
+
+def slips(structure: Structure) -> tuple[sp.Symbol, ...]:
+    """The slips of the spheres, omega - xi_i, by name."""
+    named = dict(intermediates(_full(structure)))
+    return tuple(symbol for symbol in named if symbol.name in (SLIP.name, "partner_slip"))
+
+
+def decay(structure: Structure, near: sp.Expr, far: sp.Expr, logarithm: sp.Expr) -> sp.Matrix:
+    """The matrix A of ds/dt = -A s, its mobility of the line of centres at `far`, of the spins at `near`, per v0/x0.
+
+    It is that of the equations where both are the distance, and `logarithm` is the shear's at the gap.
+    """
+    full = _full(structure)
+    states = [spin, partner_spin] if structure.partner else [spin]
+    named, known = rates(full), dict(intermediates(full))
+    kept = {*slips(structure), DISTANCE, *(s for s in known if s.name in _SIZES)}
+
+    def opened(expression: sp.Expr) -> sp.Expr:
+        for symbol, value in reversed(list(known.items())):
+            if symbol not in kept:
+                expression = expression.subs(symbol, value)
+        expression = filled(expression, {"arm": LAWS["arm"]["midgap"]}).subs(SHEAR, 1)
+        calls = {node: logarithm for node in expression.atoms(sp.Function) if is_slot_call(node)}
+        return sp.expand(expression.xreplace(calls))
+
+    line = opened(named[orbital_momentum] / DISTANCE**2).subs(DISTANCE, far)
+    own = [opened(named[state]).subs(DISTANCE, near) for state in states]
+    return sp.Matrix([[sp.factor(-(line - turn).coeff(s)) for s in slips(structure)] for turn in own])
+
+
+_SIZES = ("centres", "radius", "partner_radius", "spin_inertia", "partner_inertia")
+
+
+def slowest(matrix: sp.Matrix) -> sp.Expr:
+    """A lower bound of the smaller eigenvalue."""
+    return matrix[0, 0] if matrix.rows == 1 else sp.factor(matrix.det()) / sp.factor(matrix.trace())
+
+
+def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
+    """Named intermediates of `margins`, in order."""
+    edge = sp.Min(1, slot_call("shear", "edge", aspect))
+    first = DISTANCE - aspect * gap
+    logarithm = slot_call("shear", "log_factor", BEYOND, aspect)
+    return (
+        (BEYOND, (gap + edge) / 2),
+        (CONTACT, contact_gap),
+        (NEAR, first + aspect * CONTACT),
+        (FAR, first + aspect * BEYOND),
+        (LEAK, logarithm),
+        (RATE, 2 * slowest(decay(structure, NEAR, FAR, LEAK))),
+    )
+
+
+def impulse(structure: Structure) -> sp.Expr:
+    """Bound of the impulse of the centrifugal force below d, over m v0."""
+    rotating = energies(structure)["kinetic"] - normal_velocity**2 / 2
+    return 2 * aspect * rotating * DISTANCE**2 / (NEAR**3 * RATE)
+
+
+def margins(structure: Structure) -> dict[str, sp.Expr]:
+    """The margins: a stick is certain if `stays` is negative, `rate` positive and `momentum` zero."""
+    film = slot_call("film", "stopping", gap) - slot_call("film", "stopping", BEYOND)
+    outward = stokes * (sp.Max(normal_velocity, -e_dry * normal_velocity) + impulse(structure))
+    return {"stays": outward - film, "rate": RATE, "momentum": first_momentum(structure)}
+
+
+def first_momentum(structure: Structure) -> sp.Expr:
+    """|L| at initial contact in excess of its rounding error, over m a^2 times the scale of rates."""
+    first, known = start(_full(structure)), dict(intermediates(_full(structure)))
+    (whole,) = (sp.expand(value) for symbol, value in known.items() if symbol.name == "momentum")
+    parts = [whole.coeff(state) * first[state] for state in (orbital_momentum, spin, partner_spin) if whole.has(state)]
+    size = sp.Max(sp.Add(*parts), -sp.Add(*parts))
+    return sp.Max(size - ROUNDING * sp.Add(*(sp.Max(part, -part) for part in parts)), 0)

@@ -1,0 +1,41 @@
+"""Spin-down certificate: without angular momentum the rotation dies out, and a film alone keeps the doublet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...generated.automaton import SAFETY
+from ..model.model import Model
+from ..model.phases import Phase
+from ..scene.contact import contact_gap
+from .base import Certainty
+
+
+def covers(model: Model) -> bool:
+    """True if the certificate applies: the film has an integral, shear falls with the gap, the lever arm keeps L."""
+    laws = model.laws
+    usable = model.has("spin_down_margins") and hasattr(laws.film, "stopping") and getattr(laws.shear, "FALLS", False)
+    return usable and model.choice.law("arm") in (None, "midgap")
+
+
+class SpinDownCertificate:
+    """Certificate for an oblique collision with a film alone, without angular momentum; with some, it separates."""
+
+    watches: str | None = None
+
+    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
+        self.model, self.p, self.margin = model, p, SAFETY * rtol
+        groups = dict(zip(model.groups, p, strict=True))
+        self._error = self.margin * max(groups["stokes"], 1.0)
+        self._nearest = contact_gap(groups) * (1 - self.margin)
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return None
+
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        if not y[0] >= self._nearest:
+            return Certainty.OPEN  # the margins assume a gap above solid contact; initial contact may lie below it
+        found = self.model.values("spin_down_margins", y[: len(self.model.state)], self.p)
+        return Certainty.of(found["momentum"] == 0 and found["rate"] > 0 and found["stays"] < -self._error)

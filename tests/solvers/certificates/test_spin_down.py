@@ -1,0 +1,82 @@
+"""A doublet with a film alone and no angular momentum: what is proved to stick does, and what is not separates."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.certificates import SpinDownCertificate, proof_for
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
+
+pytestmark = pytest.mark.slow
+
+DEGREES = (65, 88)
+FILM = Scene.load("granulation-dry-bridge").with_entries({"particles.roughness": "0 um"})
+
+
+def balanced(stokes: float, angle: float, excess: float = 0.0) -> Scene:
+    """The film with an impact whose spins take the angular momentum of the orbit, but for a part of it."""
+    scene = FILM.with_impact(stokes=stokes, angle=angle)
+    a, film, speed = scene.reduced_radius, scene.liquid.film_thickness, scene.speed_of(stokes)
+    orbit = (4 * a + film) ** 2 * speed * math.tan(angle) / (4 * a)
+    return scene.with_entries({"impact.spin": -orbit * (1 - excess) / (6.4 * a**2)})
+
+
+def leaves(scene: Scene) -> bool:
+    """True if the doublet leaves its film: m u' = m J^2/r^3 - F_n and J' = -k J, as L = 0, in SI."""
+    a, m, mu = scene.reduced_radius, scene.reduced_mass, scene.liquid.viscosity
+    x0, speed, angle = scene.liquid.film_thickness, *scene.need_impact()
+
+    def rates(_: float, y: np.ndarray) -> tuple[float, float, float]:
+        x, u, momentum = y
+        r = 4 * a + x
+        film = 6 * math.pi * mu * a**2 * u / x * (1 - x / x0) ** 2
+        shear = 8 * math.pi * mu * a**2 * math.log(2 * a / x) * momentum * (1 / r**2 + 5 / (32 * a**2))
+        return u, momentum**2 / r**3 - film / m, -shear * r / m
+
+    def out(_: float, y: np.ndarray) -> float:
+        return float(y[0] - x0) if y[1] > 0 else -1.0
+
+    out.terminal = True  # type: ignore[attr-defined]
+    start = [x0 * (1 - 1e-12), -speed, (4 * a + x0) ** 2 * speed * math.tan(angle) / (4 * a)]
+    found = solve_ivp(rates, (0.0, 1e5 * x0 / speed), start, "Radau", rtol=1e-9, atol=1e-30, events=out)
+    return bool(found.t_events[0].size)
+
+
+def test_it_sticks_where_the_rotation_dies_out_first() -> None:
+    """Proved to stick at small angles, and separated at large ones, as an integration of the equations has it."""
+    found = {}
+    for degrees in DEGREES:
+        scene = balanced(0.04, math.radians(degrees)).with_entries({"liquid.glass_transition_pressure": 1e30})
+        each = [collide(scene, engine=engine, ledger=False) for engine in ("rosenbrock", "taylor")]
+        assert all(one.certified == (one.outcome == "stick") for one in each)
+        found[degrees] = each[0].outcome != "stick"
+        assert (each[1].outcome != "stick") == found[degrees] == leaves(scene)
+    assert set(found.values()) == {True, False}
+
+
+def test_with_any_angular_momentum_it_separates() -> None:
+    """What is left of the angular momentum presses the doublet apart: e_n falls with it, and no stick is proved."""
+    excesses = 10.0 ** -np.arange(1.0, 6.0)
+    found = [collide(balanced(0.04, 0.5, excess), ledger=False) for excess in excesses]
+    assert all(one.outcome == "stick-rotate-separate" for one in found)
+    powers = np.diff(np.log([one.restitution for one in found])) / np.diff(np.log(excesses))
+    assert powers[-1] == pytest.approx(1.2, abs=0.01)  # u ~ F^(3/5) where the film ends, F ~ L^2
+    assert collide(balanced(0.04, 0.5), ledger=False).outcome == "stick"
+
+
+def test_opposite_spins_of_a_pair() -> None:
+    """Along the line of centres, spins that cancel are all slip: proved for unequal spheres, in two modes of slip."""
+    scene = FILM.with_entries({"partner.radius": "150 um", "partner.density": 2500.0, "impact.spin": 300.0})
+    weights = scene.radius_ratio**2 * scene.mass_ratio  # I_2/I_1
+    scene = scene.with_entries({"impact.partner_spin": -300.0 / weights}).with_impact(stokes=0.04, angle=0.0)
+    found = collide(scene, engine="rosenbrock", ledger=False)
+    assert (found.outcome, found.certified) == ("stick", True)
+    n = nondimensionalise(scene, *scene.need_impact())
+    model = load(select_model(scene, oblique=True))
+    proof = proof_for(model, model.group_values(n.groups), 1e-9)
+    assert isinstance(proof, SpinDownCertificate)
