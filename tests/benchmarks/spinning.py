@@ -1,0 +1,167 @@
+"""Random collisions with spins beside the independent reference of the tests.
+
+    python -m tests.benchmarks.spinning [COUNT] [SEED] [MODELS]
+
+COUNT (1000) random collisions of MODELS (24) structures and laws, partners, walls, films, attractions and head-on ones
+among them, by `collide_many` at rtol 1e-12 and by `tests/helpers/spinning.py`, in two processes. Prints the largest
+differences and every disagreement with its scene; status 1 where there is one. What differs by more than 1e-8 is
+compared with the reference's own change for a speed that differs by 1e-7: near a boundary no engine can do better.
+"""
+
+# ruff: noqa: T201 -- a script that prints
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+from itertools import groupby
+
+import numpy as np
+from wetdoublet.solvers import Scene, collide_many
+
+from ..helpers.flow import Unfinished
+from ..helpers.random_spinning import Model, impact_of, scenes, tables
+from ..helpers.spinning import PARTNER, SPIN, TURNING, Chatter, End, Impact, Mechanics, collided
+from ..helpers.two_bodies import Bodies, bodies_of
+
+RTOL, SAME, STEP = 1e-12, 1e-8, 1e-7
+OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
+RATES = ("final_spin", "final_spin_partner", "final_rotation_rate")
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """One comparison: `apart` by quantity, `sharpest` what an engine can be held to."""
+
+    tables: dict[str, object]
+    expected: str
+    found: str
+    apart: dict[str, float]
+    sharpest: float
+    said: str = ""
+
+    @property
+    def agrees(self) -> bool:
+        return self.expected == self.found and max(self.apart.values(), default=0.0) <= self.sharpest
+
+
+def quantities(bodies: Bodies, impact: Impact, end: End) -> dict[str, float]:
+    """Restitution, and spins and rates as surface speeds over all initial ones; NaN for a stick."""
+    if end.outcome == "stick":
+        return {"restitution": 0.0, **dict.fromkeys(RATES, math.nan)}
+    rates = end.state[SPIN], end.state[PARTNER], 0.0 if bodies.wall else end.state[TURNING]
+    return {"restitution": end.restitution(impact), **dict(zip(RATES, rates, strict=True))}
+
+
+def scales(bodies: Bodies, impact: Impact) -> dict[str, float]:
+    """By what differences are divided: 1, and the initial surface speeds over the radius or the distance."""
+    spun = [abs(impact.spin) * bodies.radii[0]]
+    spun += [] if bodies.wall else [abs(impact.partner_spin) * bodies.radii[1]]
+    fast = impact.speed * (1 + math.tan(impact.angle)) + sum(spun)
+    return {
+        "restitution": 1.0,
+        "final_spin": fast / bodies.radii[0],
+        "final_spin_partner": fast / bodies.radii[1] if not bodies.wall else 1.0,
+        "final_rotation_rate": fast / bodies.contact if not bodies.wall else 1.0,
+    }
+
+
+def differences(bodies: Bodies, impact: Impact, one: dict[str, float], other: dict[str, float]) -> dict[str, float]:
+    """Scaled differences of what both have."""
+    unit = scales(bodies, impact)
+    both = {name for name in one if name in other and not (math.isnan(one[name]) and math.isnan(other[name]))}
+    apart = {name: abs(one[name] - other[name]) / unit[name] for name in both}
+    apart["restitution"] /= max(1e-3, abs(one["restitution"]))
+    return apart
+
+
+def judged(model: Model, entries: dict[str, float], found: dict[str, float]) -> Verdict:
+    """The reference's answer beside the one found."""
+    scene = Scene.from_dict(tables(model, entries))
+    bodies, impact = bodies_of(scene), impact_of(scene)
+    outcome = "failed" if found["outcome"] < 0 else OUTCOMES[int(found["outcome"])]
+    described = tables(model, entries)
+    try:
+        end = collided(bodies, impact)
+    except (Chatter, Unfinished) as error:
+        return Verdict(described, type(error).__name__, outcome, {}, SAME, str(error))
+    if end.outcome != outcome:
+        return Verdict(described, end.outcome, outcome, {}, SAME, f"{end.events} {end.time}")
+    expected = quantities(bodies, impact, end)
+    apart = differences(bodies, impact, expected, {name: found[name] for name in expected if name in found})
+    sharpest = SAME
+    if max(apart.values()) > SAME:
+        beside = replace(impact, speed=impact.speed * (1 + STEP))
+        try:
+            other = collided(bodies, beside)
+            sharpest *= max(
+                1.0, max(differences(bodies, impact, expected, quantities(bodies, beside, other)).values()) / STEP
+            )
+        except (Chatter, Unfinished):
+            sharpest = math.inf
+    mechanics, size = Mechanics(bodies), Mechanics(bodies).kinetic(end.start)
+    gap = mechanics.kinetic(end.state) + sum(end.state[6:]) + end.dry - size
+    said = "" if abs(gap) < 1e-9 * size else f"reference's ledger is open by {gap / size:.1e}"
+    return Verdict(described, end.outcome, outcome, apart, sharpest, said)
+
+
+def computed(model: Model, entries: list[dict[str, float]]) -> list[dict[str, float]]:
+    """What `collide_many` says of scenes of one model."""
+    scene = Scene.from_dict(tables(model, entries[0]))
+    names = [name for name in entries[0] if name not in ("impact.stokes", "impact.angle")]
+    of = [
+        name
+        for name in RATES
+        if name != "final_spin_partner" or model.partner == "pair" or "impact.partner_spin" in names
+    ]
+    found = collide_many(
+        scene,
+        stokes=[one["impact.stokes"] for one in entries],
+        angle=[one["impact.angle"] for one in entries],
+        vary={name: [one[name] for one in entries] for name in names},
+        rtol=RTOL,
+        of=of,
+    )
+    columns = {name: np.asarray(found[name]) for name in ("outcome", "restitution", *of)}
+    return [{name: float(column[k]) for name, column in columns.items()} for k in range(len(entries))]
+
+
+def compared(count: int, seed: int, of: int) -> list[Verdict]:
+    """All comparisons, in two processes."""
+    verdicts: list[Verdict] = []
+    with ProcessPoolExecutor(2) as pool:
+        for model, group in groupby(scenes(count, seed, of), key=lambda each: each[0]):
+            entries = [one for _, one in group]
+            found = computed(model, entries)
+            verdicts += pool.map(judged, [model] * len(entries), entries, found, chunksize=8)
+    return verdicts
+
+
+def main(count: int = 1000, seed: int = 16, of: int = 24) -> int:
+    verdicts = compared(count, seed, of)
+    print(Counter((one.expected, one.found) for one in verdicts))
+    for name in ("restitution", *RATES):
+        apart = sorted((one.apart[name], one.sharpest) for one in verdicts if name in one.apart)
+        if apart:
+            beyond = sum(value > SAME for value, _ in apart)
+            print(f"{name:22} {len(apart)} largest {apart[-1][0]:.1e}, {beyond} beyond {SAME:g}")
+    settled = [one for one in verdicts if one.expected not in ("Chatter", "Unfinished")]
+    disagree = [one for one in settled if not one.agrees]
+    for one in disagree:
+        print(
+            f"\n{one.expected} found {one.found} {one.apart} limit {one.sharpest:.1e} {one.said}",
+            json.dumps(one.tables),
+            sep="\n",
+        )
+    for one in verdicts:
+        if (one.said and one.agrees) or one.expected == "Unfinished":
+            print(f"\n{one.expected}: {one.said}\n{json.dumps(one.tables)}")
+    print(f"{len(verdicts)} collisions, {len(verdicts) - len(settled)} not followed, {len(disagree)} disagreements")
+    return bool(disagree)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*(int(each) for each in sys.argv[1:4])))
