@@ -23,8 +23,9 @@ import numpy as np
 from wetdoublet.solvers import Scene, collide_many
 
 from ..helpers.flow import Unfinished
+from ..helpers.phases import Chatter, End
 from ..helpers.random_spinning import Model, impact_of, scenes, tables
-from ..helpers.spinning import PARTNER, SPIN, TURNING, Chatter, End, Impact, Mechanics, collided
+from ..helpers.spinning import FILM, PARTNER, SPIN, TURNING, Impact, Planar, U, collided
 from ..helpers.two_bodies import Bodies, bodies_of
 
 RTOL, SAME, STEP = 1e-12, 1e-8, 1e-7
@@ -53,7 +54,7 @@ def quantities(bodies: Bodies, impact: Impact, end: End) -> dict[str, float]:
     if end.outcome == "stick":
         return {"restitution": 0.0, **dict.fromkeys(RATES, math.nan)}
     rates = end.state[SPIN], end.state[PARTNER], 0.0 if bodies.wall else end.state[TURNING]
-    return {"restitution": end.restitution(impact), **dict(zip(RATES, rates, strict=True))}
+    return {"restitution": end.state[U] / impact.speed, **dict(zip(RATES, rates, strict=True))}
 
 
 def scales(bodies: Bodies, impact: Impact) -> dict[str, float]:
@@ -102,8 +103,9 @@ def judged(model: Model, entries: dict[str, float], found: dict[str, float]) -> 
             )
         except (Chatter, Unfinished):
             sharpest = math.inf
-    mechanics, size = Mechanics(bodies), Mechanics(bodies).kinetic(end.start)
-    gap = mechanics.kinetic(end.state) + sum(end.state[6:]) + end.dry - size
+    kinetic = Planar(bodies, impact).kinetic
+    size = kinetic(end.start)
+    gap = kinetic(end.state) + sum(end.state[FILM:]) + end.dry - size
     said = "" if abs(gap) < 1e-9 * size else f"reference's ledger is open by {gap / size:.1e}"
     return Verdict(described, end.outcome, outcome, apart, sharpest, said)
 

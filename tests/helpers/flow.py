@@ -1,21 +1,23 @@
 """A differential equation up to the first of some guards, in double precision: what independent references share.
 
-Scipy's DOP853 where it is not stiff, LSODA where it is. A guard is crossed where it rises through zero; the crossing is
-located by integrating again from the step's beginning, not on an interpolant, so that its error is that of rounding.
+Scipy's DOP853 where it is not stiff, collocation where it is. A guard is crossed where it rises through zero, which is
+located by integrating again from the beginning of the step, not on an interpolant, so that its error is rounding's.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import ode
 
+from . import collocation
+
 RTOL = 1e-13
-STIFF = 4000  # steps after which DOP853 gives way to LSODA
-STEPS = 400_000
+STIFF = 2000  # steps after which DOP853 gives way to collocation
+STEPS = 20_000
 FAR = 1e30
 
 State = list[float]
@@ -57,18 +59,21 @@ class Flow:
             watch.run_stiff()
         return watch.arrival()
 
-    def state_after(self, y: State, h: float) -> State:
-        """The state a short time `h` later."""
+    def state_after(self, y: State, h: float, *, stiff: bool = False) -> State:
+        """The state a time `h` later, of the order of a step."""
         if h == 0.0:
             return list(y)
-        solver = self.solver("dop853", 20_000)
+        if stiff:
+            *_, (_, z) = self.stiff_steps(y, h, h)
+            return self.unscaled(z)
+        solver = self.explicit()
         solver.set_initial_value(self.scaled(y), 0.0)
         found = solver.integrate(h)
         if not solver.successful():
             raise Unfinished(f"{h} s from {y}")
         return self.unscaled(found)
 
-    def solver(self, name: str, steps: int, **options: str) -> ode:
+    def scaled_rates(self) -> Callable[[float, np.ndarray], State]:
         sizes, rates = tuple(self.sizes), self.rates
 
         def scaled(t: float, z: np.ndarray) -> State:
@@ -78,7 +83,16 @@ class Flow:
                 return [FAR] * len(sizes)
             return [each / size for each, size in zip(slopes, sizes)]
 
-        return ode(scaled).set_integrator(name, rtol=RTOL, atol=1e-2 * RTOL, nsteps=steps, **options)
+        return scaled
+
+    def explicit(self) -> ode:
+        """DOP853, of scaled states."""
+        return ode(self.scaled_rates()).set_integrator("dop853", rtol=RTOL, atol=1e-2 * RTOL, nsteps=STEPS)
+
+    def stiff_steps(self, y: State, first: float, most: float) -> Iterator[tuple[float, np.ndarray]]:
+        """Collocation's steps, of scaled states."""
+        rates = self.scaled_rates()
+        return collocation.steps(lambda z: np.array(rates(0.0, z)), np.array(self.scaled(y)), first, most)
 
     def scaled(self, y: Sequence[float]) -> State:
         return [each / size for each, size in zip(y, self.sizes, strict=True)]
@@ -102,6 +116,7 @@ class _Watch:
         self.t, self.y = t, list(y)
         self.values = self._values(self.y)
         self.found: Arrival | None = None
+        self.stiff, self.step = False, 0.0
 
     def _values(self, y: Sequence[float]) -> dict[str, tuple[float, float]]:
         slopes = self.flow.rates(0.0, y)
@@ -121,7 +136,7 @@ class _Watch:
             return -1 if self._take(t, y, only_past=True) or count >= STIFF else 0
 
         while self.found is None and count < STIFF:
-            solver = self.flow.solver("dop853", STEPS)
+            solver = self.flow.explicit()
             solver.set_solout(step)
             solver.set_initial_value(self.flow.scaled(self.y), self.t)
             solver.integrate(self.t + self.flow.longest)
@@ -131,16 +146,13 @@ class _Watch:
         return self.found is not None
 
     def run_stiff(self) -> None:
-        """LSODA, step by step, from where it is."""
-        solver = self.flow.solver("lsoda", STEPS, method="bdf")
-        solver.set_initial_value(self.flow.scaled(self.y), self.t)
-        for _ in range(STEPS):
-            y = solver.integrate(self.t + self.flow.longest, step=True)
-            if not solver.successful():
-                break
-            if self._take(float(solver.t), self.flow.unscaled(y)):
+        """Collocation, step by step, from where it is."""
+        begin, self.stiff = self.t, True
+        for k, (t, z) in enumerate(self.flow.stiff_steps(self.y, 0.1 * self.step, self.flow.longest)):
+            if self._take(begin + t, self.flow.unscaled(z)):
                 return
-        raise Unfinished(f"{STEPS} steps")
+            if k > STEPS:
+                raise Unfinished(f"{STEPS} steps")
 
     def _take(self, t: float, y: State, *, only_past: bool = False) -> bool:
         """Take the step to (t, y); whether it was the last.
@@ -161,10 +173,12 @@ class _Watch:
                 crossed[name] = self._located(name, reach)
         if crossed:
             first = min(crossed, key=lambda name: crossed[name])
-            self.found = Arrival(self.t + crossed[first], self.flow.state_after(self.y, crossed[first]), first)
+            self.found = Arrival(
+                self.t + crossed[first], self.flow.state_after(self.y, crossed[first], stiff=self.stiff), first
+            )
         elif self.done(t, y):
             self.found = Arrival(t, y, None)
-        self.t, self.y, self.values = t, y, after
+        self.t, self.y, self.values, self.step = t, y, after, h
         return self.found is not None
 
     @staticmethod
@@ -178,7 +192,7 @@ class _Watch:
         return top if self._guard(name, top)[0] >= 0.0 else None
 
     def _guard(self, name: str, h: float) -> tuple[float, float]:
-        y = self.flow.state_after(self.y, h)
+        y = self.flow.state_after(self.y, h, stiff=self.stiff)
         return self.guards[name](y, self.flow.rates(0.0, y))
 
     def _located(self, name: str, h: float) -> float:

@@ -1,4 +1,4 @@
-"""Random scenes of any two wet bodies that arrive with spins: a few models, and for each numbers that matter together."""
+"""Random scenes of any two wet bodies that arrive with spins: a few models, and numbers for each that matter."""
 
 from __future__ import annotations
 
@@ -38,14 +38,15 @@ def models(count: int, seed: int) -> list[Model]:
     found = []
     for k in range(count):
         law = LAWS[k % len(LAWS)]
-        films = ("finite", "finite", "infinite", "cavitating", *(("constant-volume",) if law else ()))
+        film = str(draw.choice(("finite", "finite", "infinite", "cavitating", *(("constant-volume",) if law else ()))))
+        rim = film != "constant-volume"  # which has none at x0
         found.append(
             Model(
                 partner=PARTNERS[k % len(PARTNERS)],
                 law=law,
-                film=str(draw.choice(films)),
-                tangential=str(draw.choice(("immersed", "film"), p=(0.6, 0.4))),
-                glass=str(draw.choice(("literal", "film-corrected"), p=(0.7, 0.3))),
+                film=film,
+                tangential=str(draw.choice(("immersed", "film"), p=(0.6, 0.4))) if rim else "immersed",
+                glass=str(draw.choice(("literal", "film-corrected"), p=(0.7, 0.3))) if rim else "literal",
                 arm=str(draw.choice(("midgap", "surface"), p=(0.85, 0.15))),
                 rupture=str(draw.choice(("common", "own"), p=(0.8, 0.2))) if law in ("mikami", "willett") else "common",
                 attracted=bool(draw.random() < 0.3),
@@ -74,7 +75,7 @@ def numbers(model: Model, draw: np.random.Generator) -> dict[str, float]:
         "particles.radius": radius,
         "particles.mass": mass,
         "particles.roughness": x0 * log(1e-4, 0.5),
-        "particles.dry_restitution": min(1.0, float(draw.uniform(0.3, 1.1))),
+        "particles.dry_restitution": 1.0 if not model.law and draw.random() < 0.2 else float(draw.uniform(0.2, 0.98)),
         "liquid.viscosity": viscosity,
         "liquid.film_thickness": x0,
         "liquid.glass_transition_pressure": pressure * log(0.5, 1e5),
