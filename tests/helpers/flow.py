@@ -7,6 +7,7 @@ located by integrating again from the beginning of the step, not on an interpola
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -18,6 +19,7 @@ from . import collocation
 RTOL = 1e-13
 STIFF = 2000  # steps after which DOP853 gives way to collocation
 STEPS = 20_000
+COLLOCATIONS = 1000
 FAR = 1e30
 
 State = list[float]
@@ -68,7 +70,9 @@ class Flow:
             return self.unscaled(z)
         solver = self.explicit()
         solver.set_initial_value(self.scaled(y), 0.0)
-        found = solver.integrate(h)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)
+            found = solver.integrate(h)
         if not solver.successful():
             raise Unfinished(f"{h} s from {y}")
         return self.unscaled(found)
@@ -139,7 +143,9 @@ class _Watch:
             solver = self.flow.explicit()
             solver.set_solout(step)
             solver.set_initial_value(self.flow.scaled(self.y), self.t)
-            solver.integrate(self.t + self.flow.longest)
+            with warnings.catch_warnings():  # what stops it is looked at below
+                warnings.simplefilter("ignore", UserWarning)
+                solver.integrate(self.t + self.flow.longest)
             self._take(*last)
             if not solver.successful():
                 break
@@ -151,8 +157,8 @@ class _Watch:
         for k, (t, z) in enumerate(self.flow.stiff_steps(self.y, 0.1 * self.step, self.flow.longest)):
             if self._take(begin + t, self.flow.unscaled(z)):
                 return
-            if k > STEPS:
-                raise Unfinished(f"{STEPS} steps")
+            if k > COLLOCATIONS:
+                raise Unfinished(f"{COLLOCATIONS} steps")
 
     def _take(self, t: float, y: State, *, only_past: bool = False) -> bool:
         """Take the step to (t, y); whether it was the last.
