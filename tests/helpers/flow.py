@@ -34,7 +34,7 @@ class Unfinished(ArithmeticError):
 
 @dataclass(frozen=True)
 class Arrival:
-    """Where it stopped: at a guard (its name), where `done` holds (None), at time `t`."""
+    """Where it stopped: at a guard (its name), where `done` holds or after the longest time (None), at time `t`."""
 
     t: float
     y: State
@@ -240,6 +240,4 @@ class _Watch:
         return at
 
     def arrival(self) -> Arrival:
-        if self.found is None:
-            raise Unfinished("no event")
-        return self.found
+        return self.found or Arrival(self.t, self.y, None)

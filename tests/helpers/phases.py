@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from .flow import Flow, Guard, Rates, State
+from .flow import Flow, Guard, Rates, State, Unfinished
 from .two_bodies import Bodies
 
 PHASES = 400
@@ -168,6 +168,8 @@ class Course(ABC):
                 arrival = flow.until(self.end.time, self.y, self.guards(), self.sticks)
                 self.end.time, self.y[:] = arrival.t, arrival.y
                 if arrival.guard is None:
+                    if not (self.bodies.cohesive or self.sticks(arrival.t, self.y)):
+                        raise Unfinished(f"neither parted nor held after {arrival.t} s")
                     return self.end
                 name = arrival.guard
             if self._after(name):

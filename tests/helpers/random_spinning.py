@@ -99,12 +99,12 @@ def numbers(model: Model, draw: np.random.Generator) -> dict[str, float]:
     if model.law:
         least = 2.0 * (x0 / (2 * a)) ** 3
         found |= {
-            "bridge.surface_tension": 3 * viscosity * a * speed / x0 / log(0.1, 1e4),
+            "bridge.surface_tension": 3 * viscosity * a * speed / x0 / log(3.0, 1e5),
             "bridge.volume": log(max(1e-4, least), 0.5),
             "bridge.contact_angle": max(0.0, math.radians(float(draw.uniform(-20.0, 80.0)))),
         }
     if model.attracted:
-        found["attraction.hamaker"] = 36 * math.pi * viscosity * a * speed * x0 * log(1e-6, 1e-1)
+        found["attraction.hamaker"] = 36 * math.pi * viscosity * a * speed * x0 * log(1e-6, 1e-2)
     return {name: float(f"{value:.9g}") for name, value in found.items()}
 
 
