@@ -159,7 +159,7 @@ def main(count: int = 1000, seed: int = 16, of: int = 24) -> int:
             sep="\n",
         )
     for one in verdicts:
-        if (one.said and one.agrees) or "failed" == one.found or one.expected == "Unfinished":
+        if (one.said and one.agrees) or one.found == "failed" or one.expected == "Unfinished":
             print(f"\n{one.expected}: {one.said}, found {one.found}\n{json.dumps(one.tables)}")
     print(f"{len(verdicts)} collisions, {len(verdicts) - len(settled)} not followed, {len(disagree)} disagreements")
     return bool(disagree)
