@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from .flow import Flow, Guard, Rates, State, Unfinished
 from .two_bodies import Bodies
 
-PHASES = 400
+PHASES = 200
 RESTS = 1e-9  # of v0: a slower rebound against attraction rests
 MARGIN = 1e-6  # of all energies, by which a stick has to lie below the barrier
 DRIFTS = 0.02  # the same, of the energy of rotation, where angular momentum is not conserved
