@@ -142,7 +142,11 @@ class Course(ABC):
             if b.arm == "surface":
                 margin += DRIFTS * rotation
             return kinetic + held + margin < b.barrier(x, self.momentum(y))
-        if rotation > 1e-20 * self.energy or not b.wets(self.inside, not self.closing):
+        if not b.wets(self.inside, not self.closing):
+            return False
+        outward, rate = self.centrifugal(y, self.rates()(0.0, y))
+        time = b.film_thickness / self.speed
+        if max(abs(outward), abs(rate) * time) > 1e-20 * self.speed / time:
             return False
         far = b.pressure(x, u, 0.0)[0] < 0.5 * b.glass and x > 1.001 * self.solid
         return abs(u) < 1e-12 * self.speed and (far or not self.closing)
