@@ -66,7 +66,8 @@ class EnergyCertificate:
         return Certainty.of(self._below(y, phase), self.theorem)
 
     def _below(self, y: np.ndarray, phase: Phase) -> bool:
-        if phase.resting and (not self.model.oblique or self.model.wall or not phase.shear):
+        unchanging = not phase.shear and not self.model.friction
+        if phase.resting and (not self.model.oblique or self.model.wall or unchanging):
             return True  # no motion can separate the pair or change the rotation, and the force is inward
         if phase.resting and self.rests(y):
             return True

@@ -88,6 +88,7 @@ def _energy(scene: Scene, n: DimensionlessGroups, book: np.void) -> Energy:
         capillary=own["capillary"],
         attraction=own["attraction"] if scene.attraction is not None else None,
         dry_contact=own["dry"],
+        dry_friction=own["friction"] if scene.particles.friction is not None and n.oblique else None,
         strings=own["lifted"] if scene.pendulum is not None else 0.0,
     )
 
