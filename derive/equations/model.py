@@ -142,8 +142,8 @@ def derive(structure: Structure) -> Model:
 
 def _pendulum(structure: Structure) -> bool:
     """True if the pendulum certificate covers the structure: oblique, strings, and a film only."""
-    return structure.oblique and structure.strings and not (
-        structure.bridge or structure.attraction or structure.friction
+    return (
+        structure.oblique and structure.strings and not (structure.bridge or structure.attraction or structure.friction)
     )
 
 

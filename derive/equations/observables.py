@@ -122,7 +122,7 @@ def outputs(structure: Structure) -> dict[str, sp.Expr]:
 def surface_slip(structure: Structure) -> sp.Expr:
     """Relative velocity of the surfaces at the contact, at the lever arms of the torques, over a Omega."""
     if structure.partner:
-        return rotation(structure.partner).surface_slip
+        return rotation(structure.partner, structure.friction).surface_slip
     if structure.reduced:  # the lever arm is r/2
         return DISTANCE * SLIP
     return DISTANCE * ORBITAL_RATE - 2 * LEVER * spin

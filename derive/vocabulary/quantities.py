@@ -57,9 +57,7 @@ a = _quantity("reduced_radius", "a", LENGTH, "m", "reduced radius, R/2 for equal
 m = _quantity("reduced_mass", "m", MASS, "kg", "reduced mass, M/2 for equal spheres")
 x_b = _quantity("roughness", "x_b", LENGTH, "m", "height of the surface roughness")
 e_dry = _quantity("dry_restitution", "e_{dry}", ONE, "1", "restitution of the dry contact", nonnegative=True)
-mu_f = _quantity(
-    "friction", r"\mu_f", ONE, "1", "Coulomb coefficient of the dry contact", WALTON, nonnegative=True
-)
+mu_f = _quantity("friction", r"\mu_f", ONE, "1", "Coulomb coefficient of the dry contact", WALTON, nonnegative=True)
 beta_0 = _quantity(
     "contact_tangential_restitution",
     r"\beta_0",

@@ -131,7 +131,8 @@ class EnergyCertificate:
         """Bound of the energy that a drift of angular momentum can add, over m v0^2 (surface lever arm; else 0).
 
         The lever arm is shorter than r/2 by the fraction x/r, so |dL| = (x/r) |dJ|. J can change by its deviation from
-        rigid rotation and, as the gap varies, by the change of its rigid value. Energy and barrier change by omega dL
+        rigid rotation and, as the gap varies, by the change of its rigid value; with friction, by this deviation at each
+        of the rebounds that reverse it. Energy and barrier change by omega dL
         each, where omega L/2 is the energy of rigid rotation.
         """
         if self.theorem:
@@ -139,6 +140,9 @@ class EnergyCertificate:
         orbital_momentum = y[list(self.model.state).index("orbital_momentum")]
         rigid = self._rigid(y, float(y[0]))
         change, reach = abs(orbital_momentum - rigid), float(y[0])
+        if self.model.friction:  # impulses reverse the slip again and again
+            reversed_part = self.groups["contact_tangential_restitution"]
+            change *= (1 + reversed_part) / (1 - reversed_part) if reversed_part < 1 else np.inf
         if not phase.resting:
             change += self._rigid(y, barrier) - self._rigid(y, 0.0)
             reach = barrier

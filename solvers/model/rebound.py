@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
-from casadi import SX, Function, densify, fmax, fmin, vertcat
+from casadi import SX, Function, densify, if_else, vertcat
 
 from ..host.thread_caches import own_cache
 from ..scene.contact import GAPS
@@ -14,11 +15,18 @@ from .model import Model, ModelKey, load
 
 @dataclass(frozen=True)
 class Rebound:
-    """A rebound: the state after it, and the energies lost along the line of centres and by friction, over m v0^2."""
+    """A rebound.
+
+    Arguments:
+        after: the state after it.
+        dry, friction: energies lost along the line of centres and by friction, over m v0^2.
+        grip: logarithm of the impulse that sticks over Coulomb's limit: positive if it slides; infinite without friction.
+    """
 
     after: np.ndarray
     dry: float
-    friction: float
+    friction: float = 0.0
+    grip: float = math.inf
 
 
 def rubs(model: Model, kind: str) -> bool:
@@ -30,9 +38,12 @@ def rebounded(model: Model, kind: str, y: np.ndarray, p: np.ndarray) -> Rebound:
     """The rebound of a state (leading entries of `y`) by a criterion."""
     if not model.friction:
         after = np.array(list(model.values("rebound", y, p).values()))
-        return Rebound(after, model.values("rebound_loss", y, p)["dry_contact"], 0.0)
-    found = [part.full().ravel() for part in jump(model.choice)(y[: len(model.state)], p, float(rubs(model, kind)))]
-    return Rebound(found[0], float(found[1][0]), float(found[2][0]))
+        return Rebound(after, model.values("rebound_loss", y, p)["dry_contact"])
+    rubbing, impulses = rubs(model, kind), model.values("dry_slip", y, p)
+    found = [part.full().ravel() for part in jump(model.choice)(y[: len(model.state)], p, float(rubbing))]
+    sticking, most = abs(impulses["sticking"]), impulses["most"]
+    grip = math.log(sticking / most) if rubbing and sticking > 0 and most > 0 else math.inf
+    return Rebound(found[0], float(found[1][0]), float(found[2][0]), grip)
 
 
 @own_cache(128)
@@ -45,7 +56,8 @@ def jump(choice: ModelKey) -> Function:
     after, friction = model("rebound"), SX(0)
     if model.friction:
         found = model("dry_slip")
-        impulse = rubbing * fmax(-found["most"], fmin(found["most"], found["sticking"]))
+        sticking, most = found["sticking"], rubbing * found["most"]
+        impulse = if_else(sticking > most, most, if_else(sticking < -most, -most, sticking))
         after = model("rubbed", region={"impulse": impulse}) | {"normal_velocity": after["normal_velocity"]}
         friction = model("friction_loss", region={"impulse": impulse})["dry_friction"]
     dry = model("rebound_loss")["dry_contact"]

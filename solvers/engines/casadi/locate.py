@@ -53,6 +53,7 @@ class PhaseRun:
         kinds: events reported at its end, in order.
         rebounds: the doublet rebounds at its end.
         holds: the normal velocity is zero from here on, or until release.
+        grip: of a rebound with friction (`model.rebound`).
     """
 
     phase: Phase
@@ -61,6 +62,7 @@ class PhaseRun:
     kinds: tuple[str, ...]
     rebounds: bool = False
     holds: bool = False
+    grip: float = np.inf
 
 
 @dataclass
@@ -404,7 +406,8 @@ class EventLocator:
         if self.y[0] >= self.rupture_gap:
             self.path.separated = True
             kinds += (KINDS[EventKind.RUPTURE],)
-            self._next(PhaseRun(self.phase, elapsed, event, kinds, rebounds=True), self._opening(self.phase))
+            rebound = PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, grip=jump.grip)
+            self._next(rebound, self._opening(self.phase))
             return
         inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
         holds = inward > 0 and self._too_weak(float(self.y[_VELOCITY]), inward)
@@ -418,7 +421,7 @@ class EventLocator:
                 kinds += (KINDS[EventKind.ROLLS],) if phase.rolling else ()
         else:
             phase = self._opening(self.phase)
-        self._next(PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, holds=holds), phase)
+        self._next(PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, holds=holds, grip=jump.grip), phase)
 
     def _rubbing(self, phase: Phase) -> Phase:
         """The mode of resting contact with friction."""

@@ -12,6 +12,9 @@
 #if !defined(BY_ORBITAL_MOMENTUM) /* the structure does not have the orbital-momentum certificate */
 #define BY_ORBITAL_MOMENTUM 0
 #endif
+#if !defined(FRICTION) /* of the dry contact */
+#define FRICTION 0
+#endif
 
 typedef struct {
     vec near_gap, near_height; /* the first maximum not exceeded by any beyond it, and the next such maximum */
@@ -225,7 +228,11 @@ static inline mask below(const constants *c, const vec *y, const barrier *b, vec
 {
     vec first[STATES], rigid = rigid_momentum(c, y), reach = choose(rests, y[GAP], gap);
     start(c, first);
-    vec change = vec_abs(y[ORBITAL_MOMENTUM] - rigid) + only(~rests, rigid_at(c, y, gap) - rigid_at(c, y, splat(0.0)));
+    vec deviation = vec_abs(y[ORBITAL_MOMENTUM] - rigid);
+#if FRICTION /* impulses that reverse the slip again and again */
+    deviation *= (1.0 + c->contact_tangential_restitution)/(1.0 - c->contact_tangential_restitution);
+#endif
+    vec change = deviation + only(~rests, rigid_at(c, y, gap) - rigid_at(c, y, splat(0.0)));
     vec lost = change*c->aspect*reach/(4.0 + c->aspect*reach);
     vec drift = 4.0*potential_energy(c, y)*vec_larger(y[ORBITAL_MOMENTUM]/rigid, splat(1.0))*lost
                 /(angular_momentum(c, y)*first[ORBITAL_MOMENTUM]);

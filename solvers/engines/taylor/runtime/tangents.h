@@ -15,7 +15,7 @@ _Static_assert(BACKWARD || RESULTS == BY_TURNED + 1, "a column each");
 
 /* Boundaries between outcomes, by the measures of distance to them (solvers/sensitivity/boundary_distance.py).
  */
-enum { FAR, GLASS_GRAZE, CONTACT_GRAZE, PASSAGE, RIM, CHATTERS, TIE, TOUCH, HALF_TURNED, UNWOUND };
+enum { FAR, GLASS_GRAZE, CONTACT_GRAZE, PASSAGE, RIM, CHATTERS, TIE, TOUCH, HALF_TURNED, UNWOUND, GRIPS };
 
 /* Relative margin of the glass criterion: 1 - p/p_gt. The clearance without motion is the limit itself. */
 static inline vec pressure_margin(const constants *c, const vec *y)
@@ -96,6 +96,25 @@ static void along_rebound(carried *a, const constants *v, const vec *y, int lane
         }
     }
 }
+
+#if FRICTION
+/* The friction of a rebound, before it is applied to the states: it sticks, or slides with this sign (0: no friction). */
+static void along_friction(
+    carried *a, const constants *v, const vec *y, int lane, double impulse, int sticks, double slides)
+{
+    vec after[STATES], found[IMPULSES];
+    for (int group = 0; group < GROUPS; group++) {
+        dry_slip_along(v, y, a->t[group], group, found);
+        double moved = sticks ? found[STICKING][lane] : slides*found[MOST][lane];
+        memcpy(after, a->t[group], sizeof after);
+        rubbed_along(v, y, a->t[group], group, splat(impulse), splat(moved), after);
+        for (int state = 0; state < STATES; state++) {
+            a->t[group][state][lane] = after[state][lane];
+            a->there[group][lane] |= after[state][lane] != 0.0 ? -1 : 0;
+        }
+    }
+}
+#endif
 
 /* Derivatives of the results for a separated doublet, one row per group. */
 static void along_finished(const carried *a, const constants *v, const vec *y, int lane, double (*rows)[RESULTS])

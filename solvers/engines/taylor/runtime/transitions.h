@@ -33,12 +33,40 @@ static void new_phase(lanes *l, int lane)
     l->fresh[lane] = -1;
 }
 
+#if FRICTION
+/* Friction of a rebound, in a lane's state: the impulse that sticks, within Coulomb's limit. */
+static void rub(queue *q, lanes *l, fixed *f, int lane, int kind)
+{
+    vec found[IMPULSES], after[STATES];
+    dry_slip(&f->c, l->y, found);
+    int rubs = kind != KIND_GLASS || FRICTION_ON_GLASS;
+    double most = rubs ? found[MOST][lane] : 0.0, sticking = found[STICKING][lane];
+    double impulse = sticking > most ? most : sticking < -most ? -most : sticking;
+    memcpy(after, l->y, sizeof after);
+    rubbed(&f->c, l->y, splat(impulse), after);
+#if GRADIENTS
+    if (most > 0.0)
+        along_near(&l->along, lane, fabs(log(fabs(sticking)/most)), GRIPS);
+    along_friction(&l->along, &f->c, l->y, lane, impulse, fabs(sticking) < most, !rubs ? 0.0 : sticking < 0.0 ? -1.0 : 1.0);
+#endif
+#if WITH_LEDGER
+    book_friction(q->books + l->index[lane], &f->c, l->y, impulse, lane);
+#endif
+    (void)q;
+    for (int state = 0; state < MODEL_STATES; state++)
+        l->y[state][lane] = after[state][lane];
+}
+#endif
+
 /* A rebound; one too weak to open the gap becomes resting contact, one at the rupture gap separates the doublet. */
 static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 {
     vec after[STATES];
 #if WITH_LEDGER
     book_rebound(q->books + l->index[lane], &f->c, l->y, lane);
+#endif
+#if FRICTION
+    rub(q, l, f, lane, kind);
 #endif
     memcpy(after, l->y, sizeof after);
     rebound(&f->c, l->y, after);
@@ -73,7 +101,7 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         l->y[NORMAL_VELOCITY][lane] = 0.0;
         l->resting[lane] = -1;
         l->closing[lane] = 0;
-        if (!TURNS || (PROOF_BY_ENERGY && l->shear[lane] == 0.0)) /* the forces no longer change */
+        if (!TURNS || (PROOF_BY_ENERGY && !FRICTION && l->shear[lane] == 0.0)) /* the forces no longer change */
             finish(q, l, f, lane, DECIDED, STICK, 1);
     } else
         opens(l, f, lane);
@@ -99,6 +127,26 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
         if (any >> lane & 1)
             rebounds(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, l->y[GAP][lane], lane));
 }
+
+#if FRICTION && TURNS
+/* Ends the lanes that rest: as sticks where that is proved; else their sliding and rolling is left to others. Returns
+ * whether there were any. */
+static int rests_ended(queue *q, lanes *l, fixed *f)
+{
+    mask rests = l->alive & l->resting;
+    if (!bits(rests))
+        return 0;
+    mask proved = proved_underway(l, f, q->rtol);
+#if WITH_TRAJECTORY
+    proved &= provable(q, l->closing);
+#endif
+    for (unsigned left = bits(rests); left; left &= left - 1) {
+        int lane = __builtin_ctz(left), sure = proved[lane] != 0;
+        finish(q, l, f, lane, sure ? DECIDED : RESTS_IN_FRICTION, STICK, sure);
+    }
+    return 1;
+}
+#endif
 
 /* Criteria on entry into a closing phase.
  *
