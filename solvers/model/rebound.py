@@ -20,7 +20,7 @@ class Rebound:
     Arguments:
         after: the state after it.
         dry, friction: energies lost along the line of centres and by friction, over m v0^2.
-        grip: logarithm of the impulse that sticks over Coulomb's limit: positive if it slides; infinite without friction.
+        grip: logarithm of the impulse that sticks over Coulomb's limit, positive if it slides; infinite without one.
     """
 
     after: np.ndarray

@@ -6,14 +6,12 @@
 #pragma once
 
 #include "automaton.h"
+#include "friction.h"
 #include "model.h"
 
 #define ATTRACTS (BRIDGE || ATTRACTION)
 #if !defined(BY_ORBITAL_MOMENTUM) /* the structure does not have the orbital-momentum certificate */
 #define BY_ORBITAL_MOMENTUM 0
-#endif
-#if !defined(FRICTION) /* of the dry contact */
-#define FRICTION 0
 #endif
 
 typedef struct {

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "friction.h"
 #include "layout.h"
 #include "model.h"
 

@@ -5,6 +5,7 @@
  */
 #pragma once
 
+#include "friction.h"
 #include "model.h"
 
 #if GRADIENTS
@@ -83,6 +84,22 @@ static void along_start(carried *a, const constants *v, int lane)
     a->boundary[lane] = FAR;
 }
 
+#if FRICTION
+/* The friction of a rebound, before it is applied to the states. */
+static void along_friction(carried *a, const constants *v, const vec *y, const touch *o, int lane)
+{
+    vec after[STATES];
+    for (int group = 0; group < GROUPS; group++) {
+        memcpy(after, a->t[group], sizeof after);
+        friction_along(v, y, a->t[group], group, o, lane, after);
+        for (int state = 0; state < MODEL_STATES; state++) {
+            a->t[group][state][lane] = after[state][lane];
+            a->there[group][lane] |= after[state][lane] != 0.0 ? -1 : 0;
+        }
+    }
+}
+#endif
+
 /* The jump at a rebound, before it is applied to the states. */
 static void along_rebound(carried *a, const constants *v, const vec *y, int lane)
 {
@@ -96,25 +113,6 @@ static void along_rebound(carried *a, const constants *v, const vec *y, int lane
         }
     }
 }
-
-#if FRICTION
-/* The friction of a rebound, before it is applied to the states: it sticks, or slides with this sign (0: no friction). */
-static void along_friction(
-    carried *a, const constants *v, const vec *y, int lane, double impulse, int sticks, double slides)
-{
-    vec after[STATES], found[IMPULSES];
-    for (int group = 0; group < GROUPS; group++) {
-        dry_slip_along(v, y, a->t[group], group, found);
-        double moved = sticks ? found[STICKING][lane] : slides*found[MOST][lane];
-        memcpy(after, a->t[group], sizeof after);
-        rubbed_along(v, y, a->t[group], group, splat(impulse), splat(moved), after);
-        for (int state = 0; state < STATES; state++) {
-            a->t[group][state][lane] = after[state][lane];
-            a->there[group][lane] |= after[state][lane] != 0.0 ? -1 : 0;
-        }
-    }
-}
-#endif
 
 /* Derivatives of the results for a separated doublet, one row per group. */
 static void along_finished(const carried *a, const constants *v, const vec *y, int lane, double (*rows)[RESULTS])

@@ -3,6 +3,7 @@
 
 #include "certificates.h"
 #include "criteria.h"
+#include "friction.h"
 #include "ledger.h"
 #include "queue.h"
 #include "state.h"
@@ -34,23 +35,22 @@ static void new_phase(lanes *l, int lane)
 }
 
 #if FRICTION
-/* Friction of a rebound, in a lane's state: the impulse that sticks, within Coulomb's limit. */
+/* Friction of a rebound, in a lane's state. */
 static void rub(queue *q, lanes *l, fixed *f, int lane, int kind)
 {
-    vec found[IMPULSES], after[STATES];
-    dry_slip(&f->c, l->y, found);
-    int rubs = kind != KIND_GLASS || FRICTION_ON_GLASS;
-    double most = rubs ? found[MOST][lane] : 0.0, sticking = found[STICKING][lane];
-    double impulse = sticking > most ? most : sticking < -most ? -most : sticking;
+    vec after[STATES];
+    touch o = touched(&f->c, l->y, lane, kind);
     memcpy(after, l->y, sizeof after);
-    rubbed(&f->c, l->y, splat(impulse), after);
+    rubbed(&f->c, l->y, splat(o.impulse), after);
 #if GRADIENTS
-    if (most > 0.0)
-        along_near(&l->along, lane, fabs(log(fabs(sticking)/most)), GRIPS);
-    along_friction(&l->along, &f->c, l->y, lane, impulse, fabs(sticking) < most, !rubs ? 0.0 : sticking < 0.0 ? -1.0 : 1.0);
+    if (o.most > 0.0)
+        along_near(&l->along, lane, fabs(log(fabs(o.sticking)/o.most)), GRIPS);
+#if !BACKWARD
+    along_friction(&l->along, &f->c, l->y, &o, lane);
+#endif
 #endif
 #if WITH_LEDGER
-    book_friction(q->books + l->index[lane], &f->c, l->y, impulse, lane);
+    book_friction(q->books + l->index[lane], &f->c, l->y, o.impulse, lane);
 #endif
     (void)q;
     for (int state = 0; state < MODEL_STATES; state++)
@@ -65,14 +65,15 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 #if WITH_LEDGER
     book_rebound(q->books + l->index[lane], &f->c, l->y, lane);
 #endif
+#if BACKWARD
+    rebound_on_tape(q, lane, l->y, kind);
+#endif
 #if FRICTION
     rub(q, l, f, lane, kind);
 #endif
     memcpy(after, l->y, sizeof after);
     rebound(&f->c, l->y, after);
-#if BACKWARD
-    rebound_on_tape(q, lane, l->y);
-#elif GRADIENTS
+#if GRADIENTS && !BACKWARD
     along_rebound(&l->along, &f->c, l->y, lane);
 #endif
     l->y[NORMAL_VELOCITY][lane] = after[NORMAL_VELOCITY][lane];
