@@ -1,4 +1,4 @@
-"""Friction of the dry contact in the states of a structure: the impulse at a rebound, and the force in resting contact."""
+"""Friction of the dry contact in the states of a structure: the impulse of a rebound, and the force while it rests."""
 
 from __future__ import annotations
 

@@ -19,10 +19,10 @@ from ..vocabulary.quantities import (
     m,
     obliquity,
     omega,
-    rate_scale,
     orbital_momentum,
     partner_spin,
     partner_spin_rate,
+    rate_scale,
     roll,
     slide,
     slide_rate,
@@ -129,9 +129,7 @@ def _pair() -> Rubbing:
     return _scaled(unequal_spheres(), scaled, {omega: orbital_momentum, **spins})
 
 
-def _scaled(
-    answer: Answer, scaled: Callable[[sp.Expr], sp.Expr], states: Mapping[sp.Symbol, sp.Symbol]
-) -> Rubbing:
+def _scaled(answer: Answer, scaled: Callable[[sp.Expr], sp.Expr], states: Mapping[sp.Symbol, sp.Symbol]) -> Rubbing:
     """The dry contact of two spheres: velocities in a rate_scale, impulses in m a rate_scale."""
     unit = m * a * rate_scale
     changes = {}

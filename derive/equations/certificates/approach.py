@@ -43,7 +43,8 @@ LEFT = sp.Symbol("left", real=True)
 def admits(structure: Structure) -> bool:
     """True for the structures covered: attractions without strings, or strings alone."""
     attracts = structure.bridge or structure.attraction
-    held = attracts and not structure.strings or structure.strings and not (attracts or structure.friction)
+    by_strings = structure.strings and not (attracts or structure.friction)
+    held = by_strings or (attracts and not structure.strings)
     return held and (structure.oblique or attracts)
 
 
