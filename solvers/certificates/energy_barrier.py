@@ -131,8 +131,8 @@ class EnergyCertificate:
         """Bound of the energy that a drift of angular momentum can add, over m v0^2 (surface lever arm; else 0).
 
         The lever arm is shorter than r/2 by the fraction x/r, so |dL| = (x/r) |dJ|. J can change by its deviation from
-        rigid rotation and, as the gap varies, by the change of its rigid value; with friction by this deviation again at
-        each rebound that reverses it. Energy and barrier change by omega dL each, where omega L/2 is the energy of
+        rigid rotation and, as the gap varies, by the change of its rigid value; with friction by this deviation
+        again at each rebound that reverses it. Energy and barrier change by omega dL each, where omega L/2 is that of
         rigid rotation.
         """
         if self.theorem:
