@@ -30,7 +30,7 @@ IMPULSE = sp.Symbol("impulse", real=True)
 # Flags of resting contact, named as in emitted code: the sign of the slip (0: it does not slide), and whether it rolls
 SLIDING, ROLLING = sp.symbols("sliding rolling", real=True)
 DRY_SLIP, HOLDING_FORCE, DRY_FORCE = sp.symbols("dry_slip holding_force dry_force", real=True)
-COMPLIANCE, GRIP = sp.symbols("compliance grip", positive=True)
+COMPLIANCE, GRIP = sp.symbols("tangential_compliance grip", positive=True)
 
 
 def definitions(structure: Structure, reaction: sp.Expr) -> tuple[Definition, ...]:

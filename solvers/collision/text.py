@@ -248,7 +248,7 @@ def _energy(collision: Outcome) -> list[str]:
         ("dry contact", energy.dry_contact),
     ]
     if energy.dry_friction is not None:
-        terms.append(("friction of the contact", energy.dry_friction))
+        terms.append(("contact friction", energy.dry_friction))
     if scene.bridge is not None:
         terms.append(("capillary work", energy.capillary))
     if energy.attraction is not None:
