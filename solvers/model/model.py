@@ -197,7 +197,7 @@ class Model:
         return vector(self.groups)
 
     def __call__(
-        self, name: str, state: Mapping[str, SX] | None = None, region: Mapping[str, int] | None = None
+        self, name: str, state: Mapping[str, SX] | None = None, region: Mapping[str, int | SX] | None = None
     ) -> dict[str, SX]:
         """A function of the structure module as named expressions."""
         found: dict[str, SX] = getattr(self.structure, name)(

@@ -110,8 +110,8 @@ def as_located(path: EventSequence, choice: ModelKey) -> Replay:
     """The located trajectory itself with its extras: its own solution, which meets its events by construction."""
     start = path.model.start(path.p)
     begun = np.concatenate([start, np.zeros(len(path.extras))])
-    losses = {"dry_loss": path.dry_loss, "friction_loss": path.friction_loss}
-    replayed = Replay(path.y, path.extras, smallest_gap=path.smallest_gap, **losses)
+    replayed = Replay(path.y, path.extras, smallest_gap=path.smallest_gap, dry_loss=path.dry_loss)
+    replayed.friction_loss = path.friction_loss
     for step, end in zip(path.steps, path.ends, strict=True):
         if step.duration > 0:
             flow = Flow(choice, step.phase.region, path.extras)
