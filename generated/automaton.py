@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 3a74be6c95cea758a742676c42b29985bbe8df03f157a55e43ed1ce9a9e2195e
+# Automaton sha256 10d0e15ec3cfe3df5157011f39422b145bc1c1ee87e772db3bf54f0caaa00d4f
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -30,6 +30,8 @@ class EventKind(IntEnum):
     RUPTURE = 9  # the bridge ruptures; without a bridge, the films part
     ROTATION_REVERSES = 10  # the strings turn the rotation back
     HALF_TURN = 11  # the line of centres has turned by pi and the strings cross
+    ROLLS = 12  # friction holds the surfaces of a resting doublet together: its slip stays zero
+    SLIDES = 13  # the surfaces of a resting doublet slide from zero slip: rolling needs more than friction gives
 
 KINDS = (
     "glass",
@@ -44,6 +46,8 @@ KINDS = (
     "rupture",
     "rotation reverses",
     "half turn",
+    "rolls",
+    "slides",
 )
 
 
@@ -95,6 +99,7 @@ class Status(IntEnum):
     NOT_FINITE = 3  # the state is not finite
     CHATTER = 4  # the budget of steps is exhausted after more than CHATTER_PHASES phases
     TOO_OBLIQUE = 5  # the centrifugal force is beyond MOST_OBLIQUE
+    RESTS_IN_FRICTION = 6  # resting contact with friction, whose modes the kernel does not integrate
 
 
 LAST_ANSWER = Status.PROVED_AT_TOUCH
@@ -113,6 +118,7 @@ MOST_OBLIQUE = 1000000000.0  # in v0^2/x0: a larger centrifugal force reverses t
 LOOSEST = 1e-06  # largest relative tolerance; a larger one is reduced to it, as certificates need it
 SAFETY = 30.0  # least margin of a certificate in tolerances of the largest energy: errors of the fastest motion persist in the energy, and errors of many steps add up
 STILL = 1e-09  # in v0: a slower motion is at a turning point
+NO_SLIP = 1e-12  # in units of the tangential velocity: a smaller slip in resting contact is none
 CHATTER_PHASES = 100  # number of phases beyond which a trajectory is treated as chatter
 FILM_DEPTHS = 16  # gaps in geometric sequence down to contact at which the film certificate bounds the pressure
 ATTRACTED_FILM_DEPTHS = 48  # the same with an attraction, which grows at small gaps
@@ -140,6 +146,8 @@ class Event(NamedTuple):
 # Component of the mode -> event; conditions on it are ignored in structures without that event.
 VOID_WITHOUT = {
     "film": "film_edge",
+    "sliding": "slipping",
+    "rolling": "slipping",
 }
 
 ENDS = ("separate", "cut off")  # actions that end a collision
@@ -223,6 +231,30 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(("resting", 1),),
         words=("released",),
         actions=("open",),
+        follows="",
+        dips=True,
+        within_reach=False,
+        scale="",
+        chosen_by="",
+    ),
+    Event(
+        name="slipping",
+        functions=("slipping",),
+        where=(("resting", 1), ("rolling", 0)),
+        words=("rolls", "slides"),
+        actions=("roll or slide",),
+        follows="sliding",
+        dips=True,
+        within_reach=False,
+        scale="",
+        chosen_by="grip",
+    ),
+    Event(
+        name="rolling",
+        functions=("rolling",),
+        where=(("resting", 1), ("rolling", 1)),
+        words=("slides",),
+        actions=("slide",),
         follows="",
         dips=True,
         within_reach=False,

@@ -190,6 +190,15 @@ REFERENCES = {
         1986,
         '10.1017/S0022112086002392',
     ),
+    "walton1986viscosity": Reference(
+        ('Walton, O. R.', 'Braun, R. L.'),
+        'Viscosity, granular-temperature, and stress calculations for shearing assemblies of inelastic, frictional disks',
+        'Journal of Rheology',
+        '30',
+        '949–980',
+        1986,
+        '',
+    ),
 }
 CITED: dict[str, tuple[str, ...]] = {
     "paper": ('donahue2012mechanisms',),
@@ -223,4 +232,5 @@ CITED: dict[str, tuple[str, ...]] = {
     "friction pair": ('jeffrey1984calculation',),
     "friction wall": ('goldman1967slow',),
     "elastic length": ('davis2002rebound', 'davis1986collision'),
+    "friction contact": ('walton1986viscosity',),
 }

@@ -21,6 +21,7 @@ from .conservation import energy
 from .dimensions import dimension_checks
 from .dissipation import arms, bridge_does_work, film_dissipates, rebound_dissipates
 from .emitted import emitted
+from .friction import friction_checks
 from .groups import (
     centrifugal_number,
     groups_are_the_papers,
@@ -78,6 +79,7 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     yield from (film_dissipates(law) for law in films)
     yield from _once(bridge_does_work)
     yield from _once(rebound_dissipates)
+    yield from _once(friction_checks)
     yield from _once(reduced_is_full)
     yield from _once(head_on_is_oblique_at_rest)
     yield from head_on_closed_form(films)

@@ -39,6 +39,10 @@ COMPONENTS = (
     Component("resting", ((0, "moving"), (1, "resting")), "resting: the gap is held in contact"),
     Component("cavitated", ((0, "wetting"), (1, "cavitated")),
               "cavitated: the film exerts no force (a cavitating liquid while opening)"),
+    Component("sliding", ((0, "not sliding"), (1, "sliding"), (-1, "sliding back")),
+              "with friction, the sign of the slip in resting contact", void_without="slipping"),
+    Component("rolling", ((0, "not rolling"), (1, "rolling")),
+              "with friction, a resting doublet that does not slip", void_without="slipping"),
 )  # fmt: skip
 
 
@@ -110,6 +114,8 @@ WORDS = (
     Word("rupture", "the bridge ruptures; without a bridge, the films part"),
     Word("rotation reverses", "the strings turn the rotation back"),
     Word("half turn", "the line of centres has turned by pi and the strings cross"),
+    Word("rolls", "friction holds the surfaces of a resting doublet together: its slip stays zero"),
+    Word("slides", "the surfaces of a resting doublet slide from zero slip: rolling needs more than friction gives"),
 )  # fmt: skip
 
 
@@ -132,6 +138,8 @@ ACTIONS = (
     Action("cross film edge", "inside the film becomes beyond; the tangential edge is crossed as well if it coincides"),
     Action("cross tangential edge", "inside the tangential edge becomes beyond, and beyond becomes inside"),
     Action("open", "the next phase opens from the present gap; on an edge, it is beyond that edge"),
+    Action("roll or slide", "rolling if friction can hold the surfaces together, else sliding"),
+    Action("slide", "sliding in the direction in which the surfaces are driven past each other"),
     Action("separate", "the collision ends: separated"),
     Action("cut off", "the collision ends: a stick without a certificate"),
 )  # fmt: skip
@@ -144,12 +152,14 @@ class Event:
     Arguments:
         functions: event functions of the structures; if several, the first to vanish triggers the event.
         where: mode components and the values for which it is watched.
-        follows: the guard is the function times this component: the sign of the motion, or +1 inside and -1 beyond.
+        follows: the guard is the function times this component: the sign of the motion or of the slip, or +1 inside
+            and -1 beyond.
         dips: the function may become negative and positive again within one integration step.
         within_reach: watched only where its gap lies between contact and rupture and is not the film's edge.
         scale: dimensionless group that gives the magnitude of the function; 1 if empty.
         words: names under which it may be reported.
-        chosen_by: what selects among the words: "motion" (closing, opening), "larger gap" (the criterion met first).
+        chosen_by: what selects among the words: "motion" (closing, opening), "larger gap" (the criterion met first),
+            "grip" (whether friction holds the surfaces).
         actions: the effect, in order.
     """
 
@@ -192,6 +202,9 @@ EVENTS = (
     Event("tangential_edge", ("tangential_edge",), (_MOVING,), ("tangential edge",),
           ("gap = tangential edge", "cross tangential edge"), follows="shear", within_reach=True),
     Event("release", ("release",), (_RESTING,), ("released",), ("open",), dips=True),
+    Event("slipping", ("slipping",), (_RESTING, ("rolling", 0)), ("rolls", "slides"), ("roll or slide",),
+          follows="sliding", dips=True, chosen_by="grip"),
+    Event("rolling", ("rolling",), (_RESTING, ("rolling", 1)), ("slides",), ("slide",), dips=True),
     Event("half_turn", ("half_turn",), (), ("half turn",), ("cut off",)),
     Event("unwinding", ("unwinding",), (), ("rotation reverses",), ("cut off",), dips=True),
 )  # fmt: skip
@@ -216,6 +229,11 @@ RULES = (
     Rule("rest", "after a rebound the net force points inward, and the rebound is slower than REST_SPEED or, "
          "without drag, would rise by less than the relative tolerance times the gap",
          "the gap is held in contact; the energy of the rebound is booked as dry contact", ("rests",)),
+    Rule("friction", "a rebound of a scene with friction, by solid contact or, if asked for, by glass",
+         "a tangential impulse that reverses the slip times contact_tangential_restitution (it sticks), or Coulomb's "
+         "limit if that is less (it slides)"),
+    Rule("grip", "a rebound of a scene with friction rests",
+         "it slides; if it has no slip (less than NO_SLIP) and friction can hold the surfaces, it rolls", ("rolls",)),
     Rule("opening", "the doublet opens on the edge of the film or of the tangential force", "it is beyond that edge"),
     Rule("obliqueness", "the centrifugal force exceeds MOST_OBLIQUE times v0^2/x0", "the collision is refused"),
 )  # fmt: skip
@@ -257,6 +275,7 @@ STATUSES = (
     Status("NOT_FINITE", "the state is not finite"),
     Status("CHATTER", "the budget of steps is exhausted after more than CHATTER_PHASES phases"),
     Status("TOO_OBLIQUE", "the centrifugal force is beyond MOST_OBLIQUE"),
+    Status("RESTS_IN_FRICTION", "resting contact with friction, whose modes the kernel does not integrate"),
 )  # fmt: skip
 
 
@@ -291,6 +310,7 @@ CONSTANTS = (
     Constant("SAFETY", 30.0, "least margin of a certificate in tolerances of the largest energy: errors of the fastest "
              "motion persist in the energy, and errors of many steps add up"),
     Constant("STILL", 1e-9, "in v0: a slower motion is at a turning point"),
+    Constant("NO_SLIP", 1e-12, "in units of the tangential velocity: a smaller slip in resting contact is none"),
     Constant("CHATTER_PHASES", 100, "number of phases beyond which a trajectory is treated as chatter"),
     Constant("FILM_DEPTHS", 16, "gaps in geometric sequence down to contact at which the film certificate bounds the "
              "pressure"),

@@ -21,6 +21,7 @@ from ..vocabulary.quantities import (
     rupture_gap,
     spin,
 )
+from . import friction
 from .automaton import CONTACTS
 from .rates import inward_force
 
@@ -32,7 +33,7 @@ def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """State at initial contact: closing at v0, with the rotation of the line of centres and the spins of the impact."""
     touching: dict[sp.Symbol, sp.Expr] = {gap: sp.Integer(1), normal_velocity: sp.Integer(-1)}
     if structure.partner:
-        return touching | dict(rotation(structure.partner).start)
+        return touching | dict(rotation(structure.partner, structure.friction).start)
     return touching | {
         orbital_momentum: (4 + aspect) ** 2 * initial_turning,
         spin: initial_spin,
@@ -54,6 +55,9 @@ def events(structure: Structure) -> dict[str, sp.Expr]:
         functions["tangential_edge"] = slot_call("shear", "edge", aspect) - gap
     if structure.oblique and structure.partner != "wall":  # beside a wall there is no centrifugal force
         functions["release"] = inward_force(structure)
+    if structure.friction:
+        functions["slipping"] = friction.DRY_SLIP
+        functions["rolling"] = friction.GRIP**2 - friction.HOLDING_FORCE**2
     if structure.oblique and structure.strings:
         functions["half_turn"] = sp.pi - beta
         functions["unwinding"] = orbital_momentum

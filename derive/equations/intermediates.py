@@ -35,7 +35,7 @@ def intermediates(structure: Structure, conserved: Conserved | None = None) -> t
     laws = force_laws(structure.spread)
     definitions: list[Definition] = [(DISTANCE, 4 + aspect * gap)]
     if structure.partner:
-        definitions = list(rotation(structure.partner).definitions)
+        definitions = list(rotation(structure.partner, structure.friction).definitions)
     elif structure.oblique:
         definitions += _rotation(conserved)
         slip_form = _scaled(laws[F_t], TANGENTIAL)

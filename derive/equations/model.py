@@ -21,6 +21,7 @@ from ..vocabulary.quantities import (
     adhesion,
     aspect,
     beta,
+    beta_0,
     capillary,
     contact_angle,
     e_dry,
@@ -30,6 +31,7 @@ from ..vocabulary.quantities import (
     initial_spin,
     initial_turning,
     mass_ratio,
+    mu_f,
     normal_velocity,
     obliquity,
     orbital_momentum,
@@ -41,6 +43,7 @@ from ..vocabulary.quantities import (
     volume,
     weight,
 )
+from . import friction
 from .certificates import approach, spin_down
 from .certificates import attraction as attraction_certificate
 from .certificates import orbital_momentum as orbital_certificate
@@ -70,6 +73,7 @@ class ModelFunction:
     doc: str
     outputs: tuple[tuple[str, sp.Expr], ...]
     regional: bool = False  # depends on the flags of film and shear
+    given: tuple[sp.Symbol, ...] = ()  # further arguments
 
 
 @dataclass(frozen=True)
@@ -120,8 +124,11 @@ def derive(structure: Structure) -> Model:
         definitions += orbital_certificate.definitions(structure)
     if spin_down.admits(structure):
         definitions += spin_down.definitions(structure)
+    if structure.friction:
+        definitions += friction.definitions(structure, inward_force(structure))
     used = _closure(functions, definitions)
-    unlisted = used - {*states, *GROUPS, FILM, SHEAR, *(symbol for symbol, _ in definitions)}
+    given = {symbol for function in functions for symbol in function.given}
+    unlisted = used - {*states, *GROUPS, FILM, SHEAR, *given, *(symbol for symbol, _ in definitions)}
     if unlisted:
         names = ", ".join(sorted(map(str, unlisted)))
         raise ValueError(f"{structure.name} uses {names}: neither a state nor an intermediate, nor among GROUPS")
@@ -137,13 +144,16 @@ def derive(structure: Structure) -> Model:
 
 def _pendulum(structure: Structure) -> bool:
     """True if the pendulum certificate covers the structure: oblique, strings, and a film only."""
-    return structure.oblique and structure.strings and not (structure.bridge or structure.attraction)
+    return (
+        structure.oblique and structure.strings and not (structure.bridge or structure.attraction or structure.friction)
+    )
 
 
 # In the order in which modules list those that they use.
 GROUPS = (
     stokes, aspect, obliquity, initial_turning, initial_spin, initial_partner_spin, capillary, volume, contact_angle,
     adhesion, weight, string_ratio, radius_ratio, mass_ratio, glass_number, *CONTACT_GAPS.values(), rupture_gap, e_dry,
+    mu_f, beta_0,
 )  # fmt: skip
 
 
@@ -160,7 +170,7 @@ def _conserved(structure: Structure) -> tuple[Invariant, sp.Expr]:
 def _states(structure: Structure) -> tuple[sp.Symbol, ...]:
     states = [gap, normal_velocity]
     if structure.partner:
-        return (*states, *rotation(structure.partner).states)
+        return (*states, *rotation(structure.partner, structure.friction).states)
     if structure.oblique:
         states += [orbital_momentum] + ([] if structure.reduced else [spin]) + ([beta] if structure.strings else [])
     return tuple(states)
@@ -185,6 +195,38 @@ def _closure(functions: tuple[ModelFunction, ...], definitions: tuple[Definition
     return used
 
 
+def _friction(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[ModelFunction, ...]:
+    """The functions of the dry contact's friction."""
+    after = friction.rubbed(structure, states)
+    return (
+        ModelFunction(
+            "dry_slip",
+            "Friction of a rebound that starts from this state: the slip of the surfaces, the impulse with which they "
+            "stick, and the largest impulse, with which they slide.",
+            tuple(friction.at_rebound(structure).items()),
+        ),
+        ModelFunction(
+            "rubbed",
+            "State just after a tangential impulse.",
+            tuple((state.name, after[state]) for state in states),
+            given=(friction.IMPULSE,),
+        ),
+        ModelFunction(
+            "friction_loss",
+            "Energy that a tangential impulse takes from this state, over m v0^2.",
+            (("dry_friction", friction.loss(structure)),),
+            given=(friction.IMPULSE,),
+        ),
+        ModelFunction(
+            "dry_forces",
+            "Forces of resting contact, over the unit of the tangential impulse per x0/v0: Coulomb's limit, and the "
+            "force that holds the surfaces together where they roll.",
+            (("limit", friction.GRIP), ("holding", friction.HOLDING_FORCE)),
+            regional=True,
+        ),
+    )
+
+
 def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[ModelFunction, ...]:
     """Every function of `structure`, in the order of emission."""
 
@@ -199,8 +241,9 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             ModelFunction(
                 "resting_rates",
                 "Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on.",
-                of_states(resting_rates(structure)),
+                of_states(friction.resting_rates(structure) if structure.friction else resting_rates(structure)),
                 regional=True,
+                given=(friction.SLIDING, friction.ROLLING) if structure.friction else (),
             ),
         ]
         turning = turning_rate(structure)
@@ -223,12 +266,14 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             "Event functions, each positive before its event: rebound criteria while closing, `turning` the normal "
             "velocity (negative while closing), `release` in resting contact.",
             tuple(events(structure).items()),
+            regional=bool(structure.friction),
         ),
         ModelFunction(
             "rebound",
             "State just after a rebound: u -> -e_dry u; the other states are continuous.",
             of_states(rebound(states)),
         ),
+        *(_friction(structure, states) if structure.friction else ()),
         ModelFunction("start", "State at initial contact.", of_states(start(structure))),
         ModelFunction("energies", "Energies of the state over m v0^2.", tuple(energies(structure).items())),
         ModelFunction(
@@ -236,6 +281,7 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             "Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.",
             tuple(energy_rates(structure).items()),
             regional=True,
+            given=(friction.SLIDING,) if structure.friction else (),
         ),
         ModelFunction(
             "rebound_loss",

@@ -7,6 +7,7 @@ from itertools import product
 from typing import Literal
 
 Partner = Literal["", "pair", "wall"]
+Friction = Literal["", "solid", "all"]
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Structure:
         attraction: with an attraction besides the bridge's (van der Waals).
         spread: the rim of the film follows from the bridge volume, so there is no film edge event.
         partner: the partner of the sphere: "" an equal sphere, "pair" another sphere, "wall" a wall.
+        friction: of the dry contact: at no rebound, at those by solid contact, or at all.
     """
 
     oblique: bool
@@ -30,6 +32,7 @@ class Structure:
     attraction: bool = False
     spread: bool = False
     partner: Partner = ""
+    friction: Friction = ""
 
     def __post_init__(self) -> None:
         if self.reduced and (self.strings or not self.oblique):
@@ -38,6 +41,8 @@ class Structure:
             raise ValueError("a film of constant volume needs the bridge whose volume it is")
         if self.partner and (not self.oblique or self.strings or self.reduced):
             raise ValueError("another partner than an equal is oblique (head-on it makes no difference) and free")
+        if self.friction and (not self.oblique or self.reduced):
+            raise ValueError("friction is oblique, and acts on the spin, which stays a state")
 
     @property
     def name(self) -> str:
@@ -45,6 +50,7 @@ class Structure:
         parts = ["oblique" if self.oblique else "head_on"]
         parts += [self.partner] if self.partner else []
         parts += [word for word in ("bridge", "strings", "attraction", "spread", "reduced") if getattr(self, word)]
+        parts += {"": [], "solid": ["friction"], "all": ["friction", "all"]}[self.friction]
         return "_".join(parts)
 
 
@@ -56,22 +62,25 @@ def structures() -> tuple[Structure, ...]:
 
 
 def known() -> tuple[Structure, ...]:
-    """Every structure that a scene can request: also with another partner, another attraction, or a spreading film."""
+    """Every structure that a scene can request: another partner, another attraction, a spreading film, friction."""
     others = [Structure(True, bridge, False, partner=partner) for partner in _PARTNERS for bridge in _EITHER]
     shapes = (*structures(), *others)
     extended = []
     for attraction, spread in product(_EITHER, repeat=2):
         extended += [replace(s, attraction=attraction, spread=spread) for s in shapes if s.bridge or not spread]
-    return tuple(extended)
+    rough = [replace(s, friction=friction) for friction in _FRICTIONS for s in extended if s.oblique and not s.reduced]
+    return (*extended, *rough)
 
 
 def committed() -> tuple[Structure, ...]:
     """The structures emitted in advance; the others are derived when a scene first needs them.
 
-    Structures that combine more than one of strings, another attraction and a spreading film are left out.
+    Structures that combine more than one of strings, another attraction and a spreading film are left out, and those
+    with friction.
     """
-    return tuple(s for s in known() if s.strings + s.attraction + s.spread < 2)
+    return tuple(s for s in known() if s.strings + s.attraction + s.spread < 2 and not s.friction)
 
 
 _EITHER = (False, True)
 _PARTNERS: tuple[Partner, ...] = ("pair", "wall")
+_FRICTIONS: tuple[Friction, ...] = ("solid", "all")

@@ -15,6 +15,7 @@ from .dimensions import FORCE, LENGTH, MASS, ONE, PRESSURE, RATE, SPEED, TIME, D
 
 PAPER = "Donahue et al. 2012"
 HAMAKER = "Hamaker 1937"
+WALTON = "Walton & Braun 1986"
 PAIR = "two unequal spheres, or a wall"
 SPIN = "spins at initial contact"
 
@@ -56,6 +57,16 @@ a = _quantity("reduced_radius", "a", LENGTH, "m", "reduced radius, R/2 for equal
 m = _quantity("reduced_mass", "m", MASS, "kg", "reduced mass, M/2 for equal spheres")
 x_b = _quantity("roughness", "x_b", LENGTH, "m", "height of the surface roughness")
 e_dry = _quantity("dry_restitution", "e_{dry}", ONE, "1", "restitution of the dry contact", nonnegative=True)
+mu_f = _quantity("friction", r"\mu_f", ONE, "1", "Coulomb coefficient of the dry contact", WALTON, nonnegative=True)
+beta_0 = _quantity(
+    "contact_tangential_restitution",
+    r"\beta_0",
+    ONE,
+    "1",
+    "tangential restitution of a dry contact that sticks: slip after over slip before, reversed",
+    WALTON,
+    nonnegative=True,
+)
 E = _quantity("youngs_modulus", "E", PRESSURE, "Pa", "Young's modulus of the spheres", "Davis, Rager & Good 2002")
 nu = _quantity(
     "poisson_ratio", r"\nu", ONE, "1", "Poisson's ratio of the spheres", "Davis, Rager & Good 2002", real=True
@@ -126,6 +137,12 @@ slide = _quantity(
 )
 decay = _quantity(
     "decay", r"\Lambda", ONE, "1", "e-foldings of the slower mode of sliding and rolling beside a wall", PAIR, real=True
+)
+last_slide = _quantity(
+    "last_slide", r"\hat v_r", ONE, "v0 T", "slide beside a wall just after the last rebound", PAIR, real=True
+)
+last_roll = _quantity(
+    "last_roll", r"\hat\xi_r", ONE, "v0 T/a", "roll beside a wall just after the last rebound", PAIR, real=True
 )
 roll = _quantity("roll", r"\hat\xi_w", ONE, "v0 T/a", "spin beside a wall", PAIR, real=True)
 

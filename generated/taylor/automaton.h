@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 3a74be6c95cea758a742676c42b29985bbe8df03f157a55e43ed1ce9a9e2195e */
+ * Automaton sha256 10d0e15ec3cfe3df5157011f39422b145bc1c1ee87e772db3bf54f0caaa00d4f */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H
@@ -13,6 +13,8 @@ enum {
     AT_FILM_EDGE,
     AT_TANGENTIAL_EDGE,
     AT_RELEASE,
+    AT_SLIPPING,
+    AT_ROLLING,
     AT_HALF_TURN,
     AT_UNWINDING,
 };
@@ -31,6 +33,8 @@ enum {
     KIND_RUPTURE, /* the bridge ruptures; without a bridge, the films part */
     KIND_ROTATION_REVERSES, /* the strings turn the rotation back */
     KIND_HALF_TURN, /* the line of centres has turned by pi and the strings cross */
+    KIND_ROLLS, /* friction holds the surfaces of a resting doublet together: its slip stays zero */
+    KIND_SLIDES, /* the surfaces of a resting doublet slide from zero slip: rolling needs more than friction gives */
 };
 
 /* How a collision ends. */
@@ -48,6 +52,7 @@ enum {
     NOT_FINITE, /* the state is not finite */
     CHATTER, /* the budget of steps is exhausted after more than CHATTER_PHASES phases */
     TOO_OBLIQUE, /* the centrifugal force is beyond MOST_OBLIQUE */
+    RESTS_IN_FRICTION, /* resting contact with friction, whose modes the kernel does not integrate */
 };
 enum { LAST_ANSWER = PROVED_AT_TOUCH };
 
@@ -63,6 +68,7 @@ static const double MOST_OBLIQUE = 1000000000.0; /* in v0^2/x0: a larger centrif
 static const double LOOSEST = 1e-06; /* largest relative tolerance; a larger one is reduced to it, as certificates need it */
 static const double SAFETY = 30.0; /* least margin of a certificate in tolerances of the largest energy: errors of the fastest motion persist in the energy, and errors of many steps add up */
 static const double STILL = 1e-09; /* in v0: a slower motion is at a turning point */
+static const double NO_SLIP = 1e-12; /* in units of the tangential velocity: a smaller slip in resting contact is none */
 enum { CHATTER_PHASES = 100 }; /* number of phases beyond which a trajectory is treated as chatter */
 enum { FILM_DEPTHS = 16 }; /* gaps in geometric sequence down to contact at which the film certificate bounds the pressure */
 enum { ATTRACTED_FILM_DEPTHS = 48 }; /* the same with an attraction, which grows at small gaps */

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 3a74be6c95cea758a742676c42b29985bbe8df03f157a55e43ed1ce9a9e2195e
+ * Automaton sha256 10d0e15ec3cfe3df5157011f39422b145bc1c1ee87e772db3bf54f0caaa00d4f
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

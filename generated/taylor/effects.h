@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 3a74be6c95cea758a742676c42b29985bbe8df03f157a55e43ed1ce9a9e2195e
+ * Automaton sha256 10d0e15ec3cfe3df5157011f39422b145bc1c1ee87e772db3bf54f0caaa00d4f
  *
  * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
  * known. */
@@ -42,6 +42,16 @@ static void act(queue *q, lanes *l, fixed *f, int lane, int event)
         note(q, l->index[lane], KIND_RELEASED, l->time[lane]);
         new_phase(l, lane);
         opens(l, f, lane);
+        break;
+    case AT_SLIPPING:
+        note(q, l->index[lane], KIND_ROLLS, l->time[lane]);
+        new_phase(l, lane);
+        finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);
+        break;
+    case AT_ROLLING:
+        note(q, l->index[lane], KIND_SLIDES, l->time[lane]);
+        new_phase(l, lane);
+        finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);
         break;
     case AT_HALF_TURN:
         note(q, l->index[lane], KIND_HALF_TURN, l->time[lane]);

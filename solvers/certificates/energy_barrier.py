@@ -66,7 +66,8 @@ class EnergyCertificate:
         return Certainty.of(self._below(y, phase), self.theorem)
 
     def _below(self, y: np.ndarray, phase: Phase) -> bool:
-        if phase.resting and (not self.model.oblique or self.model.wall or not phase.shear):
+        unchanging = not phase.shear and not self.model.friction
+        if phase.resting and (not self.model.oblique or self.model.wall or unchanging):
             return True  # no motion can separate the pair or change the rotation, and the force is inward
         if phase.resting and self.rests(y):
             return True
@@ -130,14 +131,18 @@ class EnergyCertificate:
         """Bound of the energy that a drift of angular momentum can add, over m v0^2 (surface lever arm; else 0).
 
         The lever arm is shorter than r/2 by the fraction x/r, so |dL| = (x/r) |dJ|. J can change by its deviation from
-        rigid rotation and, as the gap varies, by the change of its rigid value. Energy and barrier change by omega dL
-        each, where |omega| is taken as the larger of the present one and that of rigid rotation.
+        rigid rotation and, as the gap varies, by the change of its rigid value; with friction by this deviation
+        again at each rebound that reverses it. Energy and barrier change by omega dL each, where |omega| is taken as
+        the larger of the present one and that of rigid rotation.
         """
         if self.theorem:
             return 0.0
         orbital_momentum = y[list(self.model.state).index("orbital_momentum")]
         rigid = self._rigid(y, float(y[0]))
         change, reach = abs(orbital_momentum - rigid), float(y[0])
+        if self.model.friction:  # impulses reverse the slip again and again
+            reversed_part = self.groups["contact_tangential_restitution"]
+            change *= (1 + reversed_part) / (1 - reversed_part) if reversed_part < 1 else np.inf
         if not phase.resting:
             change += abs(self._rigid(y, barrier) - self._rigid(y, 0.0))
             reach = barrier

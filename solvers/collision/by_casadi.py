@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 Find = Callable[[Model, dict[str, float], float, tuple[str, ...]], EventSequence]
 ToleranceFor = Callable[[float, str, dict[str, float]], Tolerance]
 _TIGHTEST = 1e-13
-_LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction")
+_LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction", "dry_friction")
 
 
 def by_casadi(
@@ -170,6 +170,7 @@ def _ledger(model: Model, replayed: Replay, p: np.ndarray, n: DimensionlessGroup
         capillary=taken("capillary") * n.energy,
         attraction=taken("attraction") * n.energy if "attraction" in model.works else None,
         dry_contact=replayed.dry_loss * n.energy,
+        dry_friction=(replayed.friction_loss + taken("dry_friction")) * n.energy if model.friction else None,
         strings=(last["strings"] - first["strings"]) * n.energy if model.strings else 0.0,
     )
 

@@ -12,6 +12,7 @@ from ..engines.taylor.record import Recorded, Steps, run_recorded
 from ..model.dimensionless import DimensionlessGroups
 from ..model.model import load, select_model
 from ..model.phases import Phase
+from ..model.rebound import rebounded
 from ..scene.scene import Scene
 from ..settings import STEPS
 from .assemble import Finding, assembled
@@ -88,6 +89,7 @@ def _energy(scene: Scene, n: DimensionlessGroups, book: np.void) -> Energy:
         capillary=own["capillary"],
         attraction=own["attraction"] if scene.attraction is not None else None,
         dry_contact=own["dry"],
+        dry_friction=own["friction"] if scene.particles.friction is not None and n.oblique else None,
         strings=own["lifted"] if scene.pendulum is not None else 0.0,
     )
 
@@ -105,9 +107,10 @@ def _trajectory(scene: Scene, n: DimensionlessGroups, rtol: float, recorded: Rec
     assert recorded.steps is not None
     model = load(select_model(scene, n.oblique, full=full, fold=True))
     attrs = attributes(scene, OUTCOMES[recorded.answers["outcome"][0]], "taylor", rtol)
-    first = model.start(model.group_values(n.groups))
-    if recorded.answers["reversal"][0] >= 0:  # where initial contact decides, the state after it
-        first[list(model.state).index("normal_velocity")] = n.groups["dry_restitution"]
+    p = model.group_values(n.groups)
+    first, reversal = model.start(p), int(recorded.answers["reversal"][0])
+    if reversal >= 0:  # where initial contact decides, the state after it
+        first = rebounded(model, KINDS[reversal], first, p).after
     return dataset(stretches(recorded.steps, len(model.state)), model, n, first, attrs)
 
 

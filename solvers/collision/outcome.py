@@ -35,7 +35,8 @@ class Energy:
     """The energy ledger (budget) of a collision, J.
 
     `initial` and `final` are kinetic energies, `strings` is the gain of potential energy, `attraction` the work against
-    van der Waals forces (None without them); `residual` is initial - final - (all losses and works).
+    van der Waals forces (None without them), `dry_friction` the loss by friction of the dry contact (None without);
+    `residual` is initial - final - (all losses and works).
     """
 
     initial: float
@@ -46,11 +47,12 @@ class Energy:
     dry_contact: float
     strings: float
     attraction: float | None = None
+    dry_friction: float | None = None
 
     @property
     def residual(self) -> float:
         spent = self.normal_lubrication + self.tangential_lubrication + self.capillary + self.dry_contact + self.strings
-        return self.initial - self.final - spent - (self.attraction or 0.0)
+        return self.initial - self.final - spent - (self.attraction or 0.0) - (self.dry_friction or 0.0)
 
     def is_open(self, rtol: float) -> bool:
         """True if the residual exceeds what the tolerance explains, so that the trajectory must be wrong."""
@@ -71,6 +73,7 @@ class Energy:
             "dry_contact",
             "strings",
             *(["attraction"] if self.attraction is not None else []),
+            *(["dry_friction"] if self.dry_friction is not None else []),
         )
         return {name: getattr(self, name) for name in (*names, "residual")}
 

@@ -247,6 +247,8 @@ def _energy(collision: Outcome) -> list[str]:
         ("tangential lubrication", energy.tangential_lubrication),
         ("dry contact", energy.dry_contact),
     ]
+    if energy.dry_friction is not None:
+        terms.append(("contact friction", energy.dry_friction))
     if scene.bridge is not None:
         terms.append(("capillary work", energy.capillary))
     if energy.attraction is not None:

@@ -73,6 +73,8 @@ def _uses(scene: Scene) -> Iterator[tuple[str, str]]:
     for partner, what in (("pair", "friction of unequal spheres"), ("wall", "friction beside a wall")):
         if partner in choice.structure.split("_"):
             yield what, f"friction {partner}"
+    if scene.particles.friction is not None:
+        yield "friction of the dry contact", "friction contact"
     if scene.particles.youngs_modulus is not None:
         yield "elastic criterion", "elastic length"
 

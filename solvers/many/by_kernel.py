@@ -38,6 +38,7 @@ _TERMS = {
     "capillary": "capillary",
     "attraction": "attraction",
     "dry_contact": "dry",
+    "dry_friction": "friction",
     "strings": "lifted",
 }  # of the ledger, and the kernel's name for each
 _CODES = np.full(len(KINDS) + 1, NONE, dtype=np.int8)  # of reversals, by the number of the event; the last for none
@@ -184,9 +185,11 @@ def _ledger(request: Batch, books: np.ndarray, impacts: Impacts) -> Block:
     """The ledger in J, and the drift of the angular momentum; NaN where the scene has no such term."""
     scene, others = request.scene, impacts.others
     unit = np.asarray(others.get("reduced_mass", scene.reduced_mass)) * impacts.speed**2
-    absent = {"attraction": scene.attraction is None, "lifted": scene.pendulum is None}
+    smooth = scene.particles.friction is None
+    absent = {"attraction": scene.attraction is None, "friction": smooth, "lifted": scene.pendulum is None}
+    undefined = ("attraction", "dry_friction")
     terms = {
-        name: np.full(books.size, np.nan if name == "attraction" else 0.0) if absent.get(own) else books[own] * unit
+        name: np.full(books.size, np.nan if name in undefined else 0.0) if absent.get(own) else books[own] * unit
         for name, own in _TERMS.items()
     }
     spent = [np.nan_to_num(terms[name]) for name in list(_TERMS)[2:]]

@@ -34,6 +34,7 @@ LEDGER: dict[str, tuple[str, str]] = {
     "energy.capillary": ("J", "work against the bridge"),
     "energy.attraction": ("J", "work against van der Waals forces"),
     "energy.dry_contact": ("J", "lost in the rebounds"),
+    "energy.dry_friction": ("J", "lost by friction of the dry contact"),
     "energy.strings": ("J", "gain of the strings' potential energy"),
     "energy.residual": ("J", "error of the integration: what the ledger leaves"),
     "angular_momentum_drift": ("1", "change of L over its size at initial contact"),

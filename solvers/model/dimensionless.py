@@ -104,7 +104,10 @@ def nondimensionalise(scene: Scene, speed: float, angle: float) -> Dimensionless
     A group exists if the scene has all its quantities; without an elastic criterion elastic_gap is 0.
     """
     values = dict(si_values(scene, speed, angle))
-    plain = ("dry_restitution", "volume", "contact_angle", "radius_ratio", "mass_ratio")
+    plain = (
+        "dry_restitution", "friction", "contact_tangential_restitution", "volume", "contact_angle", "radius_ratio",
+        "mass_ratio",
+    )  # fmt: skip
     groups: dict[str, float] = {name: values[name] for name in plain if name in values}
     if scene.package is not None:
         scene.package.demand(scene.entries)

@@ -52,7 +52,9 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
     alike = fold and scene.radius_ratio == 1 and scene.mass_ratio == 1 and scene.impact.partner_spin is None
     equal = not (scene.pair or scene.wall) or alike
     partner = "" if equal or not oblique else "wall" if scene.wall else "pair"  # head-on, only a and m matter
-    reduced = oblique and not partner and scene.pendulum is None and scene.model.arm == "midgap" and not full
+    friction = oblique and scene.particles.friction is not None
+    free = oblique and not partner and scene.pendulum is None and scene.model.arm == "midgap"
+    reduced = free and not full and not friction
     spread = scene.model.film == "constant-volume"
     words = {
         "bridge": scene.bridge is not None,
@@ -60,6 +62,8 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
         "attraction": scene.attraction is not None,
         "spread": spread,
         "reduced": reduced,
+        "friction": friction,
+        "all": friction and scene.model.contact_friction == "all",
     }
     parts = ["oblique" if oblique else "head_on", *([partner] if partner else [])]
     parts += [word for word, there in words.items() if there]
@@ -139,6 +143,11 @@ class Model:
         return "orbital_momentum" in self.state and "spin" not in self.state
 
     @property
+    def friction(self) -> bool:
+        """True if the dry contact has friction."""
+        return self.has("rubbed")
+
+    @property
     def cavitates(self) -> bool:
         """True if the film cavitates, so that it does not resist separation."""
         return hasattr(self.laws.film, "suction")
@@ -188,7 +197,7 @@ class Model:
         return vector(self.groups)
 
     def __call__(
-        self, name: str, state: Mapping[str, SX] | None = None, region: Mapping[str, int] | None = None
+        self, name: str, state: Mapping[str, SX] | None = None, region: Mapping[str, int | SX] | None = None
     ) -> dict[str, SX]:
         """A function of the structure module as named expressions."""
         found: dict[str, SX] = getattr(self.structure, name)(

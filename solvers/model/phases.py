@@ -25,6 +25,8 @@ class Phase:
         motion: CLOSING or OPENING.
         resting: the spheres stay in contact at a constant gap.
         cavitated: inside the film, which does not act because it cavitates on opening.
+        sliding: with friction, the sign of the slip in resting contact; 0 otherwise.
+        rolling: with friction, resting without slip.
     """
 
     film: int
@@ -32,6 +34,8 @@ class Phase:
     motion: int
     resting: bool = False
     cavitated: bool = False
+    sliding: int = 0
+    rolling: bool = False
 
     def __str__(self) -> str:
         if self.resting:
@@ -43,7 +47,7 @@ class Phase:
 
     @property
     def region(self) -> Region:
-        return Region(self.film, self.shear, self.resting, self.cavitated)
+        return Region(self.film, self.shear, self.resting, self.cavitated, self.sliding, self.rolling)
 
 
 @dataclass(frozen=True)
@@ -54,11 +58,18 @@ class Region:
     shear: int
     resting: bool
     cavitated: bool = False
+    sliding: int = 0
+    rolling: bool = False
 
     @property
     def flags(self) -> dict[str, int]:
         """Flags of the acting forces, as arguments of the structure's functions."""
         return {"film": int(self.film and not self.cavitated), "shear": self.shear}
+
+    @property
+    def rubbing(self) -> dict[str, int]:
+        """Flags of friction in resting contact, as arguments of the functions that depend on it."""
+        return {"sliding": self.sliding, "rolling": int(self.rolling)}
 
 
 @dataclass(frozen=True)
@@ -91,13 +102,14 @@ class Expressions:
 def expressions(flow: Flow) -> Expressions:
     """Variables and rates of a flow, in time x0/v0."""
     model, region = flow.model, flow.region
-    flags = region.flags
+    flags = region.flags | (region.rubbing if region.resting and model.friction else {})
     state = {**model.guarded, "normal_velocity": SX(0)} if region.resting else model.guarded
     rates = model("resting_rates" if region.resting and model.oblique else "right_hand_side", state, flags)
     if region.resting and not model.oblique:
         rates = dict.fromkeys(rates, SX(0))  # head-on, no state changes in resting contact
     extra_rates: dict[str, SX] = {}
     if flow.extras:
+        flags.pop("rolling", None)  # rolling loses nothing
         extra_rates = model("energy_rates", state, flags)
         if model.has("turning_rate"):
             extra_rates |= model("turning_rate", state)
@@ -140,7 +152,7 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tupl
     the relative margin by which the pendulum certificate must hold.
     """
     model, region = flow.model, flow.region
-    found = model("events")
+    found = model("events", region=region.flags if model.friction else None)
     table = [
         Event(row.name, _guard(row, found, region, motion), row.dips)
         for row in EVENTS
@@ -167,7 +179,7 @@ def _guard(row: Row, found: dict[str, SX], region: Region, motion: SX) -> SX:
     if row.follows == "motion":
         value = motion * value
     elif row.follows:
-        value = value * (1 if getattr(region, row.follows) else -1)
+        value = value * (getattr(region, row.follows) or -1)
     directions = [wanted for part, wanted in row.where if part == "motion"]
     return if_else(motion == directions[0], value, 1) if directions else value
 

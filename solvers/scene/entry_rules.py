@@ -119,6 +119,7 @@ def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None 
 
 def check_ways(given: Mapping[str, Any], values: Mapping[str, Any]) -> None:
     """InputError for entries (as they are kept, and SI) that lack those which they are meant with."""
+    _check_friction(given)
     own, its, fraction = "liquid.coating_thickness", "partner.coating_thickness", "bridge.coating_fraction"
     if its in given and own not in given:
         accepted = f"{own} beside it: liquid.film_thickness is both coatings together"
@@ -136,6 +137,14 @@ def check_ways(given: Mapping[str, Any], values: Mapping[str, Any]) -> None:
         raise InputError(fraction, given[fraction], accepted, f"is given with bridge.volume = {shown(volume)}")
     if fraction in given and "partner.wall" in given:
         raise InputError(fraction, given[fraction], "no such entry beside a wall", "is no part of a wall's liquid")
+
+
+def _check_friction(given: Mapping[str, Any]) -> None:
+    """InputError for an entry of the dry contact's friction without the coefficient."""
+    for name in ("particles.contact_tangential_restitution", "model.contact_friction"):
+        if name in given and "particles.friction" not in given:
+            accepted = f"particles.friction = {FIELDS['particles.friction'].example} beside it, or no such entry"
+            raise InputError(name, given[name], accepted, "is given without particles.friction")
 
 
 def spheres(values: Mapping[str, Any]) -> dict[str, Any]:

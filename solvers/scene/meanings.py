@@ -26,6 +26,9 @@ ENTRIES = {
     "particles.density": "density of the spheres; the mass follows from it",
     "particles.roughness": "$x_b$, the gap at which the asperities of the surfaces touch",
     "particles.dry_restitution": "$e_{dry}$, normal restitution of the dry spheres",
+    "particles.friction": r"$\mu_f$, Coulomb coefficient of the dry contact; without it the contact has no friction",
+    "particles.contact_tangential_restitution": r"$\beta_0$ of a dry contact that sticks: the slip is reversed, "
+    r"$v_s' = -\beta_0 v_s$ (Walton & Braun 1986, *J. Rheol.* 30, 949); goes with `friction`, 0 without it",
     "particles.youngs_modulus": "$E$ of the spheres; without it there is no elastic criterion",
     "particles.poisson_ratio": r"$\nu$ of the spheres; goes with `youngs_modulus`",
     "liquid.viscosity": r"viscosity $\mu$",
@@ -55,6 +58,7 @@ ENTRIES = {
     "model.tangential": "outer cut-off of the tangential logarithm",
     "model.glass": "pressure that the glass criterion looks at",
     "model.film": "normal lubrication force",
+    "model.contact_friction": "rebounds that have friction, where there is `particles.friction`",
     "impact.stokes": r"normal Stokes number $St = m v_0/(6 \pi \mu a^2)$",
     "impact.speed": "$v_0$, the *normal* component of the approach velocity",
     "impact.relative_speed": r"magnitude of the relative velocity, $v_0/\cos\theta_0$",
@@ -95,6 +99,10 @@ CHOICES = {
     "model.glass": {
         "literal": r"$3 \mu a |u|/x^2$ as published; it can be met at initial contact",
         "film-corrected": "with the pressure at the rim of the film, $1/x^2 - 1/x_0^2$: zero at initial contact",
+    },
+    "model.contact_friction": {
+        "solid": "those by solid contact (elastic, rough)",
+        "all": "those on the liquid in its glassy state as well",
     },
     "model.film": {
         "finite": "film of thickness $x_0$, the same on approach and rebound; the paper's",

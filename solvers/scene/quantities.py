@@ -61,6 +61,8 @@ def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
     found.setdefault("impact_spin", 0.0)
     if not ways.wall:
         found.setdefault("impact_partner_spin", found["impact_spin"])
+    if "friction" in found:
+        found.setdefault("contact_tangential_restitution", 0.0)
     found |= sphere(entries)
     if "liquid.coating_thickness" in entries:
         found["film_thickness"] = film(entries)

@@ -34,7 +34,8 @@ class Table:
 
 @dataclass(frozen=True)
 class Particles(Table):
-    """The spheres: a (m), m (kg), x_b (m), e_dry, E (Pa) and nu (both None: no elastic rebound criterion).
+    """The spheres: a (m), m (kg), x_b (m), e_dry, E (Pa) and nu (both None: no elastic rebound criterion), mu_f (None:
+    no friction) and beta_0 of the dry contact.
 
     a = R/2 and m = M/2 of either sphere; with a `Partner`, of the first. `Scene.reduced_radius` is that of the pair.
     """
@@ -44,6 +45,8 @@ class Particles(Table):
     reduced_mass: float
     roughness: float
     dry_restitution: float
+    friction: float | None = None
+    contact_tangential_restitution: float | None = None
     youngs_modulus: float | None = None
     poisson_ratio: float | None = None
 
@@ -108,6 +111,7 @@ class Model(Table):
     tangential: str = "immersed"
     glass: str = "literal"
     film: str = "finite"
+    contact_friction: str = "solid"
 
 
 @dataclass(frozen=True)

@@ -39,6 +39,7 @@ GLASS = "graze of the glass criterion"
 CONTACT = "graze of the contact gap"
 SADDLE = "separatrix (saddle of the effective potential)"
 RIM = "separatrix (rim: it just reaches the rupture gap)"
+GRIP = "switch between sliding and sticking contact"
 
 
 def limit(rtol: float) -> float:
@@ -140,6 +141,8 @@ def _suspects(finder: EventLocator, path: EventSequence) -> Iterator[Near]:
         else:
             yield from _leaving(finder, step, y)
         yield from _passing(finder, step, y)
+        if step.grip < math.inf:
+            yield Near(GRIP, abs(step.grip), "particles.friction")
 
 
 def _criteria(
@@ -240,7 +243,8 @@ def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseR
         y = before[:, None]
         if step.duration > 0:
             y = np.column_stack([before, end if inside is None else inside])
-            y[:, -1] = np.where(np.arange(end.size) == 1, y[:, -1], end)  # speed before the jump
+            still = np.arange(end.size) == 0 if step.grip < math.inf else np.arange(end.size) != 1
+            y[:, -1] = np.where(still, end, y[:, -1])  # the others before the jump
             if not step.rebounds:
                 y[1, -1] = end[1]
         yield step, y

@@ -112,7 +112,9 @@ def gradients_by_kernel(
             if steep is not None and quantity == "speed":
                 sums += (row * (bent - 1)).T * paced
         first[place] = sums.T
-        if name == "final_spin":  # separation at initial contact: the spin is zero up to rounding
+        if (
+            name == "final_spin" and scene.particles.friction is None
+        ):  # separation at initial contact: the spin is zero up to rounding
             plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
         if DIFFERENTIATED[name].scale is not None:
             scale, relative = scales().of(name)

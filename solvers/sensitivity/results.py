@@ -42,6 +42,7 @@ _ALL = (
     Quantity("energy.capillary", "J", "energy", "capillary"),
     Quantity("energy.attraction", "J", "energy", "attraction"),
     Quantity("energy.dry_contact", "J", "energy"),
+    Quantity("energy.dry_friction", "J", "energy", "dry_friction"),
     Quantity("energy.strings", "J", "energy"),
     Quantity("energy.residual", "J", "energy"),
 )

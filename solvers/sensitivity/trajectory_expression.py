@@ -18,6 +18,7 @@ from ..engines.casadi.locate import EventSequence
 from ..host.thread_caches import own_cache
 from ..model.model import Model, ModelKey, load
 from ..model.phases import Flow, Phase, WatchedEvents
+from ..model.rebound import jump, rubs
 from ..scene.contact import GAPS, contact_word
 from .results import DIFFERENTIATED
 
@@ -34,6 +35,7 @@ class Leg:
     event: str | None
     rebounds: bool
     holds: bool
+    rubs: bool = False  # with friction of the dry contact
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,13 @@ class Course:
 
 def course_of(path: EventSequence, choice: ModelKey) -> Course:
     """The course of a located path, for its own model or the full form of it."""
-    legs = tuple(Leg(step.phase, step.duration > 0, step.event, step.rebounds, step.holds) for step in path.steps)
+    legs = tuple(
+        Leg(
+            step.phase, step.duration > 0, step.event, step.rebounds, step.holds,
+            rubs=step.rebounds and rubs(path.model, step.kinds[0]),
+        )
+        for step in path.steps
+    )  # fmt: skip
     gaps = [1.0, *(float(end[0]) for end in path.ends)]
     return Course(choice, legs, path.watch.tangential_edge, int(np.argmin(gaps)) - 1)
 
@@ -82,6 +90,7 @@ class CourseState:
     y: MX
     time: MX
     dry: MX
+    friction: MX
     nearest: MX
     shifts: list[MX]
 
@@ -93,7 +102,7 @@ def follow_course(
     model = course.model
     size = len(model.state)
     start = model.function("start")(DM.zeros(size), p)
-    at = CourseState(start, vertcat(start, DM.ones(len(extras)) * tolerance.offset), MX(0), MX(0), start[0], [])
+    at = CourseState(start, vertcat(start, DM.ones(len(extras)) * tolerance.offset), MX(0), MX(0), MX(0), start[0], [])
     for k, leg in enumerate(course.legs):
         if leg.lasts:
             flow = Flow(course.choice, leg.phase.region, extras)
@@ -108,8 +117,10 @@ def follow_course(
         if k == course.nearest:
             at.nearest = at.y[0]
         if leg.rebounds:
-            at.dry += model.function("rebound_loss")(at.y[:size], p)
-            at.y = vertcat(model.function("rebound")(at.y[:size], p), at.y[size:])
+            after, dry, friction = jump(course.choice)(at.y[:size], p, float(leg.rubs))
+            at.dry += dry
+            at.friction += friction
+            at.y = vertcat(after, at.y[size:])
         if leg.holds:
             at.y = vertcat(at.y[0], 0, at.y[2:])
     return at
@@ -134,6 +145,7 @@ def trajectory_expression(
     for k, name in enumerate(extras):
         key = name if name == "rotation" else f"energy.{name}"
         found[key] = at.y[size + k] - tolerance.offset
+    found["energy.dry_friction"] = found.get("energy.dry_friction", MX(0)) + at.friction
     column = vertcat(*(found.get(name, MX(0)) for name in of))
     missed = vertcat(*at.shifts) if at.shifts else MX(0, 1)
     return TrajectoryExpression(Function("trajectory", [p, durations], [column, missed]), of, tuple(model.groups))
@@ -180,5 +192,6 @@ def influential(course: Course, groups: dict[str, float]) -> list[bool]:
         "glass_number": "glass" not in landed,
         **{gap: gap != met for gap in GAPS.values()},
         "dry_restitution": not any(leg.rebounds for leg in course.legs),
+        **dict.fromkeys(("friction", "contact_tangential_restitution"), not any(leg.rubs for leg in course.legs)),
     }
     return [not absent.get(name, False) for name in course.model.groups]

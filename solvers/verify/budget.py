@@ -100,6 +100,7 @@ def terms(one: Collision) -> dict[str, float]:
         "residual": one.energy.residual / unit,
         "ceiling": ceiling(one),
     } | {name: getattr(one.energy, name) / unit for name in LOSSES}
+    found["dry_contact"] += (one.energy.dry_friction or 0.0) / unit  # all that the solids take
     lost = sum(found[name] for name in LOSSES) + found["residual"]
     return found | {"gap": found["excess"] - found["rotation_released"] + lost}
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...physics.laws import LAWS
 from ...physics.laws.elastic_length import ELASTIC
-from ...physics.laws.references import PAPER, Reference
+from ...physics.laws.references import PAPER, WALTON, Reference
 from ...physics.laws.rupture import COMMON
 from ...physics.partners import PUBLISHED
 from .modules import _PROVENANCE
@@ -27,7 +27,7 @@ def cited() -> dict[str, tuple[Reference, ...]]:
                     found[f"rupture {law.name}"] = function.references
     found["rupture common"] = COMMON
     found |= {f"friction {partner}": references for partner, references in PUBLISHED.items()}
-    return found | {"elastic length": ELASTIC}
+    return found | {"elastic length": ELASTIC, "friction contact": (WALTON,)}
 
 
 def references_module() -> str:

@@ -70,13 +70,15 @@ def automaton_page(provenance: str) -> str:
 def _reported_by() -> list[str]:
     return [
         "If there are two words, the first is reported while closing and the second while opening; at a contact, the",
-        "criterion with the largest positive gap is reported, or the last one if none is positive.",
+        "criterion with the largest positive gap is reported, or the last one if none is positive; where the slip",
+        "vanishes, whether friction holds the surfaces.",
     ]
 
 
 def _guard(event: Event) -> str:
     functions = [f"`{name}`" for name in event.functions]
-    sign = {"": "", "motion": ", negative while closing", "film": ", negative beyond", "shear": ", negative beyond"}
+    sign = {"": "", "motion": ", negative while closing", "sliding": ", negative while sliding back"}
+    sign |= dict.fromkeys(("film", "shear"), ", negative beyond")
     said = (functions[0] if len(functions) == 1 else f"the smallest of {', '.join(functions)}") + sign[event.follows]
     return f"{said}, if its gap lies within reach" if event.within_reach else said
 

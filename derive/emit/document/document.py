@@ -72,17 +72,20 @@ class Document:
         return "\n".join(body)
 
 
-def document(title: str, laws: Mapping[str, str], own: UserModel | None, absent: Iterable[str] = ()) -> Document:
+def document(
+    title: str, laws: Mapping[str, str], own: UserModel | None, absent: Iterable[str] = (), friction: bool = False
+) -> Document:
     """The document for a choice of laws.
 
     Arguments:
         laws: slot -> name of its law, of the library or of `own`.
         own: the user's model, if there is one.
         absent: slots that the scene lacks (`bridge`, `strings`, `glass`): their terms are left out.
+        friction: of the dry contact.
     """
     found: dict[str, Law] = {slot: law_of(slot, name, own) for slot, name in laws.items()}
     with naming(_names(own)):
-        lines = [line for line in _without(theory(found), tuple(absent)) if line.expression != 0]
+        lines = [line for line in _without(theory(found, friction), tuple(absent)) if line.expression != 0]
         lines += [
             Equation("Groups", latex(group.symbol), group.definition, group.quantity.meaning)
             for group in (own.groups if own else ())

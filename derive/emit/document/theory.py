@@ -10,6 +10,7 @@ from sympy.core.function import AppliedUndef
 
 from ...equations.automaton import CRITERIA
 from ...equations.events import rebound
+from ...physics.contact_friction import equal_spheres
 from ...physics.forces import FILM, SHEAR, force_laws
 from ...physics.laws import LAWS, Law, fill
 from ...physics.laws.base import is_slot_call
@@ -35,10 +36,13 @@ from ...vocabulary.quantities import (
     VOCABULARY,
     a,
     beta,
+    beta_0,
     capillary,
     centrifugal,
+    e_dry,
     gap,
     m,
+    mu_f,
     normal_velocity,
     omega,
     omega0,
@@ -64,6 +68,7 @@ DEFAULTS: Mapping[str, str] = {
 """The law of each slot where no other is asked for."""
 
 _SWING, _COMPLIANCE = sp.symbols("swing compliance", positive=True)  # distance d of the strings, theta_e of the spheres
+_SLIP, _TANGENTIAL_MASS, _IMPULSE = sp.symbols("v_s m_t Q")
 _RIM = sp.Symbol("rim", positive=True)  # rim H of a film of constant volume, in SI
 _ROMAN = ("i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "ix", "x")
 _TWO_FIFTHS = sp.Rational(2, 5)
@@ -84,12 +89,17 @@ class Equation:
         return f"{self.left} {self.relation} {latex(self.expression)}"
 
 
-def theory(choice: Mapping[str, str | Law] | None = None) -> tuple[Equation, ...]:
-    """Every line of the theory, with laws from `choice` (slot to name, or a law in SI) or else the default ones."""
+def theory(choice: Mapping[str, str | Law] | None = None, friction: bool = False) -> tuple[Equation, ...]:
+    """Every line of the theory, with laws from `choice` (slot to name, or a law in SI) or else the default ones.
+
+    Arguments:
+        friction: of the dry contact.
+    """
     chosen = {**DEFAULTS, **(choice or {})}
     laws = {slot: law if isinstance(law, Law) else LAWS[slot][law] for slot, law in chosen.items()}
     parts = (_motion(laws), _film(laws), _bridge(laws["bridge"]), _attraction(laws), _strings(laws), _course(laws))
-    return (*(line for part in parts for line in part), *_groups())
+    rubbing = tuple(_friction(laws)) if friction else ()
+    return (*(line for part in parts for line in part), *rubbing, *_groups())
 
 
 def _rate(symbol: sp.Symbol) -> str:
@@ -223,6 +233,20 @@ def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
         r"\to",
     )
     yield Equation(group, "x_f", rupture_distance(bridge=True), f"rupture (${latex(x0)}$ without a bridge)")
+
+
+def _friction(laws: Mapping[str, Law]) -> Iterator[Equation]:
+    group, answer = "Friction of the dry contact", equal_spheres()
+    lever = sp.expand(fill(force_laws()[arm], laws))
+    sticking = _TANGENTIAL_MASS * (1 + beta_0) * sp.Abs(_SLIP)
+    limit = mu_f * m * (1 + e_dry) * sp.Abs(u)
+    mass = sp.simplify(1 / answer.compliance.subs(arm, lever))
+    yield Equation(group, latex(_SLIP), answer.slip.subs(arm, lever), "slip of the surfaces")
+    yield Equation(group, latex(_TANGENTIAL_MASS), mass, f"effective tangential mass ({laws['arm'].name} arm)")
+    yield Equation(group, "|Q|", sticking, "tangential impulse of a rebound that sticks")
+    yield Equation(group, "|Q|", limit, "of one that slides: the smaller of the two acts")
+    for rate, change in answer.rates.items():
+        yield Equation(group, rf"\Delta {latex(rate)}", change.subs(arm, lever) * _IMPULSE)
 
 
 def _groups() -> Iterator[Equation]:

@@ -25,6 +25,8 @@ _STATEMENTS = {
     ),
     "cross tangential edge": ("l->shear[lane] = 1.0 - l->shear[lane];",),
     "open": ("opens(l, f, lane);",),
+    "roll or slide": ("finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);",),
+    "slide": ("finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);",),
     "separate": ("separated(q, l, f, lane);",),
     "cut off": ("finish(q, l, f, lane, DECIDED, STICK, 0);",),
 }

@@ -102,6 +102,8 @@ class Header:
             "ATTRACTION": shape.attraction, "SPREAD": shape.spread, "WALL": shape.partner == "wall",
         }  # fmt: skip
         lines = [f"#define {name} {int(value)}" for name, value in flags.items()]
+        if shape.friction:
+            lines += ["#define FRICTION 1", f"#define FRICTION_ON_GLASS {int(shape.friction == 'all')}"]
         if self.work_rate is not None:
             closed = [f"defined({slot.upper()}_FORCE_WORK)" for slot in attracting(self.model)]
             lines += [
@@ -242,14 +244,20 @@ class Header:
         results: dict[str, str],
         doc: str,
         constants: Constants | None = None,
+        given: tuple[sp.Symbol, ...] = (),
     ) -> list[str]:
         constants = constants or self.constants
-        program = Program(self.model.states)
+        program = Program((*self.model.states, *given))
+        own_names = {symbol.name for symbol in given}
         kept, _ = needed([expression for _, expression in outputs], self.model.definitions)
         for symbol, expression in kept:
             program.define(symbol, expression)
         found = {key: self._of(program, sp.sympify(expression), key) for key, expression in outputs}
-        made = Recurrences(program, constants, lambda series: f"y[{series.upper()}]")
+
+        def where(series: str) -> str:
+            return series if series in own_names else f"y[{series.upper()}]"
+
+        made = Recurrences(program, constants, where)
         for operation in program.operations:
             if operation.kind == "call":
                 assert operation.call is not None
@@ -258,7 +266,7 @@ class Header:
         own = {operation.name for operation in program.operations}
         for key, result in found.items():
             if isinstance(result, str):
-                text = result if result in own else f"y[{result.upper()}]"
+                text = result if result in own else where(result)
             else:
                 text = constants.text.vector(result)
             body.append(f"{results[key]} {text};" if results[key] == "return" else f"{results[key]} = {text};")
@@ -272,6 +280,7 @@ class Header:
         lines += self._value(
             "rebound", "static inline void rebound(const constants *c, const vec *y, vec *after)", after
         )
+        lines += self._friction() if shape.friction else []
         lines += self._value(
             "inward_force",
             "static inline vec inward_force(const constants *c, const vec *y)",
@@ -355,6 +364,23 @@ class Header:
         if shape.oblique:
             edge = dict(model["events"].outputs)["tangential_edge"]
             lines += edge_function(edge, self.constants)
+        return lines
+
+    def _friction(self) -> list[str]:
+        """The friction of a rebound: impulses, what an impulse does to the states, and what it costs."""
+        model = self.model
+        found = {"slip": "found[SLIP]", "sticking": "found[STICKING]", "most": "found[MOST]"}
+        lines = ["enum { SLIP, STICKING, MOST, IMPULSES };"]
+        lines += self._value(
+            "dry_slip", "static inline void dry_slip(const constants *c, const vec *y, vec *found)", found
+        )
+        for name, kind, result in (("rubbed", "void", ", vec *after"), ("friction_loss", "vec", "")):
+            told, head = (
+                model[name],
+                f"static inline {kind} {name}(const constants *c, const vec *y, vec impulse{result})",
+            )
+            places = {key: f"after[{key.upper()}]" if result else "return" for key, _ in told.outputs}
+            lines += self._valued(list(told.outputs), head, places, told.doc, given=told.given)
         return lines
 
 

@@ -6,14 +6,17 @@ per step from those of the flow. A direction then costs as many products as the 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from itertools import groupby
+from types import MappingProxyType
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ...equations.friction import IMPULSE
 from ...equations.model import Model
-from ...physics.laws.base import is_slot_call
+from ...physics.laws import LAWS
+from ...physics.laws.base import Law, filled, is_slot_call
 from .adjoint import Adjoint, contraction
 from .c_text import Text
 from .groups_from_si import scale_slopes
@@ -209,6 +212,7 @@ class Tangent(LinearFlow):
             "static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)",
             states, True, "Derivative of the state just after a rebound.",
         )  # fmt: skip
+        lines += self._friction(states) if self.model.structure.friction else []
         shown = {key: f"shown[{place}]" for place, (key, _) in enumerate(self.model["outputs"].outputs)}
         lines += self._directed(
             "outputs",
@@ -219,9 +223,44 @@ class Tangent(LinearFlow):
             lines += self._edge()
         return lines
 
-    def _directed(self, name: str, head: str, targets: dict[str, str], moves: bool, doc: str) -> list[str]:
-        outputs = {key: self.model.expanded(sp.sympify(value)) for key, value in self.model[name].outputs}
-        text = Text(self._plain_name)
+    def _friction(self, states: dict[str, str]) -> list[str]:
+        """The impulses of a rebound, and the state after one, in a direction; for either lever arm of the library."""
+        own = "const constants *v, const vec *y, const vec *t, int group, "
+        impulses = {"sticking": "found[STICKING]", "most": "found[MOST]"}
+        jumps = (
+            ("dry_slip", "vec *found", impulses, "Derivatives of the impulses of a rebound.", ()),
+            ("rubbed", "vec impulse, vec moved, vec *after", states,
+             "Derivative of the state just after an impulse, which moves as well.", (IMPULSE,)),
+        )  # fmt: skip
+        lines = []
+        for name, arguments, targets, doc, moved in jumps:
+            head = f"static inline void {name}_along({own}{arguments})"
+            if "arm" not in self.model.slots:
+                lines += self._directed(name, head, targets, True, doc, moved)
+                continue
+            for arm in LAWS["arm"].values():
+                made = self._directed(name, head, targets, True, doc, moved, {"arm": arm})
+                lines += [f"#if {arm.name.upper()}_ARM", *made, "#endif"]
+        return [*lines, ""]
+
+    def _directed(
+        self,
+        name: str,
+        head: str,
+        targets: dict[str, str],
+        moves: bool,
+        doc: str,
+        moved: tuple[sp.Symbol, ...] = (),
+        laws: Mapping[str, Law] = MappingProxyType({}),
+    ) -> list[str]:
+        """A function's derivative.
+
+        Arguments:
+            moved: further arguments of the function, whose derivatives are passed as `moved`.
+            laws: that fill their slots.
+        """
+        outputs = {key: filled(self.model.expanded(sp.sympify(value)), laws) for key, value in self.model[name].outputs}
+        text = Text(lambda symbol: symbol.name if symbol in moved else self._plain_name(symbol))
         body = ["(void)v;"] + (["(void)y;"] if moves else [])
         for key, target in targets.items():
             terms = [
@@ -229,6 +268,7 @@ class Tangent(LinearFlow):
                 else f"t[{state.name.upper()}]"
                 for state in self.model.states if moves and outputs[key].diff(state) != 0
             ]  # fmt: skip
+            terms += [f"({text(outputs[key].diff(each))})*moved" for each in moved if outputs[key].diff(each) != 0]
             body.append(f"{target} = {' + '.join(terms) or 'splat(0.0)'};")
         body += _switch(
             (group.name, [(target, outputs[key].diff(group)) for key, target in targets.items()], text)

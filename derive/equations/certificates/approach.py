@@ -44,7 +44,9 @@ LEFT = sp.Symbol("left", real=True)
 def admits(structure: Structure) -> bool:
     """True for the structures covered: attractions without strings, or strings alone."""
     attracts = structure.bridge or structure.attraction
-    return attracts != structure.strings and (structure.oblique or attracts)
+    by_strings = structure.strings and not (attracts or structure.friction)
+    held = by_strings or (attracts and not structure.strings)
+    return held and (structure.oblique or attracts)
 
 
 def attractions(structure: Structure, at: sp.Expr) -> sp.Expr:

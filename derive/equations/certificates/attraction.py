@@ -53,7 +53,7 @@ LEAST, HOLD = sp.symbols("least_attraction hold", real=True)
 def admits(structure: Structure) -> bool:
     """True for the structures covered: oblique, equal spheres, with an attraction."""
     attracts = structure.bridge or structure.attraction
-    return structure.oblique and attracts and not structure.partner
+    return structure.oblique and attracts and not (structure.partner or structure.friction)
 
 
 def _least(structure: Structure) -> sp.Expr:

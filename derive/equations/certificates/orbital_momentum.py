@@ -109,7 +109,8 @@ def surface(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr, share: sp.Ex
 
 def admits(structure: Structure) -> bool:
     """True for the structures covered: oblique, equal spheres, with an attraction."""
-    return structure.oblique and (structure.bridge or structure.attraction) and not structure.partner
+    attracts = structure.bridge or structure.attraction
+    return structure.oblique and attracts and not (structure.partner or structure.friction)
 
 
 def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:

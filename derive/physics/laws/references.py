@@ -106,6 +106,12 @@ JEFFREY = Reference(
     "Calculation of the resistance and mobility functions for two unequal rigid spheres in low-Reynolds-number flow",
     "Journal of Fluid Mechanics", "J. Fluid Mech.", "139", "261–290", 1984, "10.1017/S0022112084000355",
 )  # fmt: skip
+WALTON = Reference(
+    "walton1986viscosity",
+    ("Walton, O. R.", "Braun, R. L."),
+    "Viscosity, granular-temperature, and stress calculations for shearing assemblies of inelastic, frictional disks",
+    "Journal of Rheology", "J. Rheol.", "30", "949–980", 1986,
+)  # fmt: skip
 GOLDMAN = Reference(
     "goldman1967slow",
     ("Goldman, A. J.", "Cox, R. G.", "Brenner, H."),

@@ -10,9 +10,13 @@ PUBLISHED: dict[str, tuple[Reference, ...]] = {"pair": (JEFFREY,), "wall": (GOLD
 """Publications of the friction of a partner, to its leading logarithm."""
 
 
-def rotation(partner: str) -> Rotation:
-    """The rotation of a structure with partner "pair" or "wall", for its equations."""
-    return pair.rotation() if partner == "pair" else wall.rotation()
+def rotation(partner: str, friction: str = "") -> Rotation:
+    """The rotation of a structure with partner "pair" or "wall", for its equations.
+
+    Arguments:
+        friction: of the dry contact, whose impulses start the modes beside a wall anew.
+    """
+    return pair.rotation() if partner == "pair" else wall.rotation(bool(friction))
 
 
 __all__ = ["PUBLISHED", "Rotation", "rotation"]

@@ -6,7 +6,8 @@ line of centres does not turn, and the normal motion is independent of the tange
 Friction is linear in sliding and rolling, and its matrix depends on the gap through one common factor only. Its two
 eigenmodes are therefore constant along the trajectory: slide and roll are sums of exp(-decay) and exp(-ratio decay),
 with one state `decay`, the integral of the slower mode's rate. A decayed mode is then a small exponential that limits
-no step size and keeps its sign.
+no step size and keeps its sign. A tangential impulse of the dry contact starts the modes anew, from the slide and roll
+just after it, which are then states that only a rebound changes.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from ...vocabulary.quantities import (
     decay,
     initial_spin,
     initial_turning,
+    last_roll,
+    last_slide,
     m,
     mass_ratio,
     obliquity,
@@ -140,17 +143,23 @@ def _force_unit() -> sp.Expr:
 
 
 @cache
-def rotation() -> Rotation:
-    """The rotation of a sphere beside a wall, for its equations."""
+def rotation(impulses: bool = False) -> Rotation:
+    """The rotation of a sphere beside a wall, for its equations.
+
+    Arguments:
+        impulses: with tangential impulses, so that the modes may start from any slide and roll.
+    """
     definitions, rates = friction_rates()
-    begin = {slide: initial_turning, roll: initial_spin}
+    first = {slide: initial_turning, roll: initial_spin}
+    begin = {slide: last_slide, roll: last_roll} if impulses else first
+    last = {begin[state]: value for state, value in first.items()} if impulses else {}
     found = modes({state: rate.subs(dict(definitions)) for state, rate in rates.items()}, begin)
     both = (SLOW_MODE, FAST_MODE)
     unit = _force_unit()
     kinetic = (m * slide_rate**2 + limit(inertias()[0]) * xi**2) / 2
     power = (F_t * slide_rate - T_1 * xi).subs({F_t: unit * SHEAR_FORCE, T_1: unit * a * TORQUE})
     return Rotation(
-        states=(decay,),
+        states=(decay, *last),
         definitions=(
             (SLOW_MODE, sp.exp(-decay)),
             (FAST_MODE, sp.exp(-found.ratio * decay)),
@@ -159,7 +168,7 @@ def rotation() -> Rotation:
             *definitions,
         ),
         centrifugal=sp.Integer(0),
-        rates={decay: found.rate},
+        rates={decay: found.rate, **dict.fromkeys(last, sp.Integer(0))},
         turning=None,
         kinetic=scaled(kinetic / (m * v0**2)),
         power=scaled(power * x0 / v0 / (m * v0**2)),
@@ -171,6 +180,6 @@ def rotation() -> Rotation:
         },
         surface_slip=slide - roll,
         least=(sp.Integer(0), sp.Integer(0)),
-        rigid={decay: decay},
-        start={decay: sp.Integer(0)},
+        rigid={decay: decay, **{state: state for state in last}},
+        start={decay: sp.Integer(0), **last},
     )

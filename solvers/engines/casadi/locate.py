@@ -19,6 +19,7 @@ from ....generated.automaton import (
     KINDS,
     LOOSEST,
     MOST_OBLIQUE,
+    NO_SLIP,
     OPENING,
     REST_SPEED,
     ROTATE,
@@ -30,6 +31,7 @@ from ...certificates import Certainty, Certificate, NoCertificate, OrbitalMoment
 from ...errors import CheckFailed, ComputationError
 from ...model.model import Model
 from ...model.phases import Flow, Phase, WatchedEvents
+from ...model.rebound import rebounded
 from ...scene.contact import contact_gap, contact_word
 from ...settings import CALL, STEPS
 from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance_for
@@ -51,6 +53,7 @@ class PhaseRun:
         kinds: events reported at its end, in order.
         rebounds: the doublet rebounds at its end.
         holds: the normal velocity is zero from here on, or until release.
+        grip: of a rebound with friction (`model.rebound`).
     """
 
     phase: Phase
@@ -59,6 +62,7 @@ class PhaseRun:
     kinds: tuple[str, ...]
     rebounds: bool = False
     holds: bool = False
+    grip: float = np.inf
 
 
 @dataclass
@@ -77,6 +81,7 @@ class EventSequence:
     smallest_gap: float = 1.0
     extras: tuple[str, ...] = ()
     dry_loss: float = 0.0  # dissipated by rebounds and rests, over m v0^2
+    friction_loss: float = 0.0  # dissipated by the friction of rebounds
     decided: float | None = None  # time at which the stick was certain, if the trajectory continues beyond it
 
     @property
@@ -339,6 +344,8 @@ class EventLocator:
             return event.words[self.phase.motion == OPENING]
         if event.chosen_by == "larger gap":
             return contact_word(self.groups)
+        if event.chosen_by == "grip":
+            return event.words[not self._grips(self.phase).rolling]
         return event.words[0]
 
     def _done(self, action: str, phase: Phase) -> Phase:
@@ -362,7 +369,11 @@ class EventLocator:
             case "cross tangential edge":
                 return phase.with_(shear=1 - phase.shear)
             case "open":
-                return self._opening(phase.with_(resting=False))
+                return self._opening(phase.with_(resting=False, sliding=0, rolling=False))
+            case "roll or slide":
+                return self._grips(phase)
+            case "slide":
+                return self._slides(phase)
             case "separate":
                 self.path.separated = True
             case "cut off":
@@ -387,25 +398,50 @@ class EventLocator:
         The contact that holds a resting doublet is that of the rebound criterion, the glassy liquid included
         (docs/explanation/events.md).
         """
-        after = self.model.values("rebound", self.y, self.p)
-        self.path.dry_loss += self.model.values("rebound_loss", self.y, self.p)["dry_contact"]
-        self.y = self.path.y = np.concatenate([list(after.values()), self.y[len(after) :]])
+        jump = rebounded(self.model, kind, self.y, self.p)
+        self.path.dry_loss += jump.dry
+        self.path.friction_loss += jump.friction
+        self.y = self.path.y = np.concatenate([jump.after, self.y[jump.after.size :]])
         kinds: tuple[str, ...] = (kind,)
         if self.y[0] >= self.rupture_gap:
             self.path.separated = True
             kinds += (KINDS[EventKind.RUPTURE],)
-            self._next(PhaseRun(self.phase, elapsed, event, kinds, rebounds=True), self._opening(self.phase))
+            rebound = PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, grip=jump.grip)
+            self._next(rebound, self._opening(self.phase))
             return
         inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
-        holds = inward > 0 and self._too_weak(after["normal_velocity"], inward)
+        holds = inward > 0 and self._too_weak(float(self.y[_VELOCITY]), inward)
         if holds:
             kinds += (KINDS[EventKind.RESTS],)
             self.path.dry_loss += float(self.y[1]) ** 2 / 2
             self.y[1] = 0.0
             phase = self.phase.with_(resting=True, motion=OPENING)
+            if self.model.friction:
+                phase = self._rubbing(phase)
+                kinds += (KINDS[EventKind.ROLLS],) if phase.rolling else ()
         else:
             phase = self._opening(self.phase)
-        self._next(PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, holds=holds), phase)
+        self._next(PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, holds=holds, grip=jump.grip), phase)
+
+    def _rubbing(self, phase: Phase) -> Phase:
+        """The mode of resting contact with friction."""
+        slip = self.model.values("dry_slip", self.y, self.p)["slip"]
+        return self._grips(phase) if abs(slip) < NO_SLIP else phase.with_(sliding=int(np.sign(slip)), rolling=False)
+
+    def _grips(self, phase: Phase) -> Phase:
+        """The mode without slip: rolling if friction can hold the surfaces together, else sliding."""
+        forces = self._dry_forces(phase)
+        if abs(forces["holding"]) <= forces["limit"]:
+            return phase.with_(sliding=0, rolling=True)
+        return self._slides(phase)
+
+    def _slides(self, phase: Phase) -> Phase:
+        """The mode of sliding in the direction in which the surfaces are driven past each other."""
+        return phase.with_(sliding=int(np.sign(self._dry_forces(phase)["holding"])), rolling=False)
+
+    def _dry_forces(self, phase: Phase) -> dict[str, float]:
+        flags = phase.region.flags
+        return self.model.values("dry_forces", self.y, self.p, flags["film"], flags["shear"])
 
     def _opening(self, phase: Phase) -> Phase:
         """The phase that opens from here; on an edge, the phase is beyond that edge."""

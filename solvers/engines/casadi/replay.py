@@ -15,6 +15,7 @@ from ....generated.automaton import EVENTS
 from ...host.thread_caches import own_cache
 from ...model.model import ModelKey
 from ...model.phases import Flow, WatchedEvents, event_table, expressions
+from ...model.rebound import rebounded
 from ...settings import STEPS
 from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
 from .locate import EventSequence, PhaseRun
@@ -59,6 +60,7 @@ class Replay:
     steps: int = 0
     smallest_gap: float = 1.0
     dry_loss: float = 0.0
+    friction_loss: float = 0.0
     events: list[tuple[str, float]] = field(default_factory=list)
     pieces: list[Piece] = field(default_factory=list)
 
@@ -94,9 +96,10 @@ def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, s
         replayed.events += [(kind, replayed.time) for kind in step.kinds]
         replayed.smallest_gap = min(replayed.smallest_gap, float(replayed.y[0]))
         if step.rebounds:
-            replayed.dry_loss += model.values("rebound_loss", replayed.y, p)["dry_contact"]
-            after = model.values("rebound", replayed.y, p)
-            replayed.y = np.concatenate([list(after.values()), replayed.y[size:]])
+            jump = rebounded(model, step.kinds[0], replayed.y, p)
+            replayed.dry_loss += jump.dry
+            replayed.friction_loss += jump.friction
+            replayed.y = np.concatenate([jump.after, replayed.y[size:]])
         if step.holds:  # chatter dissipates what remains of the rebound's energy
             replayed.dry_loss += float(replayed.y[1]) ** 2 / 2
             replayed.y[1] = 0.0
@@ -108,6 +111,7 @@ def as_located(path: EventSequence, choice: ModelKey) -> Replay:
     start = path.model.start(path.p)
     begun = np.concatenate([start, np.zeros(len(path.extras))])
     replayed = Replay(path.y, path.extras, smallest_gap=path.smallest_gap, dry_loss=path.dry_loss)
+    replayed.friction_loss = path.friction_loss
     for step, end in zip(path.steps, path.ends, strict=True):
         if step.duration > 0:
             flow = Flow(choice, step.phase.region, path.extras)

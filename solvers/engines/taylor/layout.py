@@ -43,6 +43,7 @@ LEDGER = np.dtype(
             "capillary",
             "attraction",
             "dry",
+            "friction",
             "momentum",  # angular momentum over its initial value
         )
     ],

@@ -27,6 +27,7 @@ DISTANCES = {  # boundaries whose measure is a distance reported by `sensitiviti
     6: (TIE, list(ENTRIES.values())[-1]),
     7: ("glass criterion met at initial contact", "liquid.glass_transition_pressure"),
     8: ("half turn at separation", "rotation"),
+    10: ("switch between sliding and sticking contact", "particles.friction"),
 }
 STRICTER = 4.0  # stricter tolerance, by this factor, of steps that are not limited by directions
 _SPINS = {"impact_spin": "initial_spin", "impact_partner_spin": "initial_partner_spin"}

@@ -9,6 +9,8 @@ import sys
 import pytest
 from wetdoublet.derive.emit.write import GENERATED
 from wetdoublet.derive.equations.automaton import ACTIONS, COMPONENTS, EVENTS, OUTCOMES, RULES, STATUSES, WORDS
+from wetdoublet.derive.equations.model import derive
+from wetdoublet.derive.physics.structure import Structure
 
 # as the interface has them; further criteria add theirs
 KINDS = {
@@ -26,6 +28,8 @@ def event_functions(name: str) -> set[str]:
 
 
 STRUCTURES = {path.name: event_functions(path.name) for path in GENERATED.glob("*.py") if event_functions(path.name)}
+_ROUGH = derive(Structure(True, True, False, friction="solid"))  # derived when a scene asks for friction
+STRUCTURES[_ROUGH.structure.name] = set(dict(_ROUGH["events"].outputs))
 
 
 @pytest.mark.parametrize("name", sorted(STRUCTURES))

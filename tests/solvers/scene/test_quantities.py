@@ -13,7 +13,8 @@ from wetdoublet.solvers.scene.schema import FIELDS
 NUMBERS = [name for name, field in FIELDS.items() if not (field.choices or field.flag)]
 FULL = {
     "particles.radius": 1e-4, "particles.density": 2500.0, "particles.roughness": 2e-7,
-    "particles.dry_restitution": 0.9, "particles.youngs_modulus": 7e10, "particles.poisson_ratio": 0.2,
+    "particles.dry_restitution": 0.9, "particles.friction": 0.2, "particles.contact_tangential_restitution": 0.3,
+    "particles.youngs_modulus": 7e10, "particles.poisson_ratio": 0.2,
     "liquid.viscosity": 2.0, "liquid.film_thickness": 8e-6, "liquid.glass_transition_pressure": 2e7,
     "liquid.density": 1e3, "bridge.surface_tension": 0.025, "bridge.volume": 0.1, "bridge.contact_angle": 0.3,
     "attraction.hamaker": 1e-19, "partner.radius": 2e-4, "partner.density": 2000.0, "pendulum.length": 0.5,

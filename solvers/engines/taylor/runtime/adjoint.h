@@ -156,11 +156,18 @@ static void undo_rebound(sweep *r, const taped_rebound *own, int lane)
     vec y[STATES], at[STATES], behind[STATES], found[STATES];
     for (int state = 0; state < STATES; state++)
         y[state] = splat(own->y[state]);
+#if FRICTION
+    touch o = touched(&r->f.c, y, lane, own->kind);
+#endif
     for (int by = 0; by < STATES + GROUPS; by++) {
         memset(at, 0, sizeof at);
         if (by < STATES)
             at[by] = splat(1.0);
         memcpy(behind, at, sizeof behind);
+#if FRICTION
+        friction_along(&r->f.c, y, at, by < STATES ? GROUPS : by - STATES, &o, lane, behind);
+        memcpy(at, behind, sizeof at);
+#endif
         rebound_along(&r->f.c, y, at, by < STATES ? GROUPS : by - STATES, behind);
         vec sum = splat(0.0);
         for (int state = 0; state < STATES; state++)

@@ -70,6 +70,10 @@ static void run(queue *q)
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
         criteria_met(q, &l, &f);
+#if FRICTION && TURNS
+        if (rests_ended(q, &l, &f)) /* other collisions may have taken these lanes */
+            continue;
+#endif
         if (!bits(l.alive))
             continue;
         for (int state = 0; state < STATES; state++)

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "automaton.h"
+#include "friction.h"
 #include "model.h"
 
 #define ATTRACTS (BRIDGE || ATTRACTION)
@@ -228,7 +229,11 @@ static inline mask below(const constants *c, const vec *y, const barrier *b, vec
 {
     vec one[STATES], rigid = rigid_momentum(c, y), reach = choose(rests, y[GAP], gap);
     vec risen = vec_abs(rigid_at(c, y, gap) - rigid_at(c, y, splat(0.0)));
-    vec change = vec_abs(y[ORBITAL_MOMENTUM] - rigid) + only(~rests, risen);
+    vec deviation = vec_abs(y[ORBITAL_MOMENTUM] - rigid);
+#if FRICTION /* impulses that reverse the slip again and again */
+    deviation *= (1.0 + c->contact_tangential_restitution)/(1.0 - c->contact_tangential_restitution);
+#endif
+    vec change = deviation + only(~rests, risen);
     vec lost = change*c->aspect*reach/(4.0 + c->aspect*reach);
     memset(one, 0, sizeof one);
     one[GAP] = y[GAP];

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "friction.h"
 #include "layout.h"
 #include "model.h"
 
@@ -13,6 +14,14 @@ static void book_rebound(ledger *book, const constants *c, const vec *y, int lan
 {
     book->dry += rebound_loss(c, y)[lane];
 }
+
+#if FRICTION
+/* Books what a tangential impulse costs in this state. */
+static void book_friction(ledger *book, const constants *c, const vec *y, double impulse, int lane)
+{
+    book->friction += friction_loss(c, y, splat(impulse))[lane];
+}
+#endif
 
 /* Books the remaining kinetic energy of a rebound that rests as dry contact. */
 static void book_rest(ledger *book, const vec *y, int lane)

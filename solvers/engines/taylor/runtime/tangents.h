@@ -5,6 +5,7 @@
  */
 #pragma once
 
+#include "friction.h"
 #include "model.h"
 
 #if GRADIENTS
@@ -15,7 +16,7 @@ _Static_assert(BACKWARD || RESULTS == BY_TURNED + 1, "a column each");
 
 /* Boundaries between outcomes, by the measures of distance to them (solvers/sensitivity/boundary_distance.py).
  */
-enum { FAR, GLASS_GRAZE, CONTACT_GRAZE, PASSAGE, RIM, CHATTERS, TIE, TOUCH, HALF_TURNED, UNWOUND };
+enum { FAR, GLASS_GRAZE, CONTACT_GRAZE, PASSAGE, RIM, CHATTERS, TIE, TOUCH, HALF_TURNED, UNWOUND, GRIPS };
 
 /* Relative margin of the glass criterion: 1 - p/p_gt. The clearance without motion is the limit itself. */
 static inline vec pressure_margin(const constants *c, const vec *y)
@@ -82,6 +83,22 @@ static void along_start(carried *a, const constants *v, int lane)
     a->near[lane] = a->hint[lane] = INFINITY;
     a->boundary[lane] = FAR;
 }
+
+#if FRICTION
+/* The friction of a rebound, before it is applied to the states. */
+static void along_friction(carried *a, const constants *v, const vec *y, const touch *o, int lane)
+{
+    vec after[STATES];
+    for (int group = 0; group < GROUPS; group++) {
+        memcpy(after, a->t[group], sizeof after);
+        friction_along(v, y, a->t[group], group, o, lane, after);
+        for (int state = 0; state < MODEL_STATES; state++) {
+            a->t[group][state][lane] = after[state][lane];
+            a->there[group][lane] |= after[state][lane] != 0.0 ? -1 : 0;
+        }
+    }
+}
+#endif
 
 /* The jump at a rebound, before it is applied to the states. */
 static void along_rebound(carried *a, const constants *v, const vec *y, int lane)

@@ -16,6 +16,7 @@ typedef struct {
 typedef struct {
     long after, before; /* number of steps before the rebound; the lane's rebound before it, or -1 */
     double y[STATES];
+    int kind;
 } taped_rebound;
 
 /* A trajectory that separated: a lane's steps from `begun` to `after`. */
@@ -72,7 +73,7 @@ static void begin_on_tape(const queue *q, int lane)
     q->tape->rebound[lane] = -1;
 }
 
-static void rebound_on_tape(const queue *q, int lane, const vec *y)
+static void rebound_on_tape(const queue *q, int lane, const vec *y, int kind)
 {
     struct tape *t = q->tape;
     if (t->rebounded == REBOUND_ROOM) {
@@ -82,6 +83,7 @@ static void rebound_on_tape(const queue *q, int lane, const vec *y)
     taped_rebound *own = &t->rebounds[t->rebounded];
     own->after = t->stepped;
     own->before = t->rebound[lane];
+    own->kind = kind;
     t->rebound[lane] = t->rebounded++;
     for (int state = 0; state < STATES; state++)
         own->y[state] = y[state][lane];

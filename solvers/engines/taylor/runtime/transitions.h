@@ -3,6 +3,7 @@
 
 #include "certificates.h"
 #include "criteria.h"
+#include "friction.h"
 #include "ledger.h"
 #include "queue.h"
 #include "state.h"
@@ -33,6 +34,30 @@ static void new_phase(lanes *l, int lane)
     l->fresh[lane] = -1;
 }
 
+#if FRICTION
+/* Friction of a rebound, in a lane's state. */
+static void rub(queue *q, lanes *l, fixed *f, int lane, int kind)
+{
+    vec after[STATES];
+    touch o = touched(&f->c, l->y, lane, kind);
+    memcpy(after, l->y, sizeof after);
+    rubbed(&f->c, l->y, splat(o.impulse), after);
+#if GRADIENTS
+    if (o.most > 0.0)
+        along_near(&l->along, lane, fabs(log(fabs(o.sticking)/o.most)), GRIPS);
+#if !BACKWARD
+    along_friction(&l->along, &f->c, l->y, &o, lane);
+#endif
+#endif
+#if WITH_LEDGER
+    book_friction(q->books + l->index[lane], &f->c, l->y, o.impulse, lane);
+#endif
+    (void)q;
+    for (int state = 0; state < MODEL_STATES; state++)
+        l->y[state][lane] = after[state][lane];
+}
+#endif
+
 /* A rebound; one too weak to open the gap becomes resting contact, one at the rupture gap separates the doublet. */
 static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 {
@@ -40,11 +65,15 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 #if WITH_LEDGER
     book_rebound(q->books + l->index[lane], &f->c, l->y, lane);
 #endif
+#if BACKWARD
+    rebound_on_tape(q, lane, l->y, kind);
+#endif
+#if FRICTION
+    rub(q, l, f, lane, kind);
+#endif
     memcpy(after, l->y, sizeof after);
     rebound(&f->c, l->y, after);
-#if BACKWARD
-    rebound_on_tape(q, lane, l->y);
-#elif GRADIENTS
+#if GRADIENTS && !BACKWARD
     along_rebound(&l->along, &f->c, l->y, lane);
 #endif
     l->y[NORMAL_VELOCITY][lane] = after[NORMAL_VELOCITY][lane];
@@ -73,7 +102,7 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         l->y[NORMAL_VELOCITY][lane] = 0.0;
         l->resting[lane] = -1;
         l->closing[lane] = 0;
-        if (!TURNS || (PROOF_BY_ENERGY && l->shear[lane] == 0.0)) /* the forces no longer change */
+        if (!TURNS || (PROOF_BY_ENERGY && !FRICTION && l->shear[lane] == 0.0)) /* the forces no longer change */
             finish(q, l, f, lane, DECIDED, STICK, 1);
     } else
         opens(l, f, lane);
@@ -99,6 +128,26 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
         if (any >> lane & 1)
             rebounds(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, l->y[GAP][lane], lane));
 }
+
+#if FRICTION && TURNS
+/* Ends the lanes that rest: as sticks where that is proved; else their sliding and rolling is left to others. Returns
+ * whether there were any. */
+static int rests_ended(queue *q, lanes *l, fixed *f)
+{
+    mask rests = l->alive & l->resting;
+    if (!bits(rests))
+        return 0;
+    mask proved = proved_underway(l, f, q->rtol);
+#if WITH_TRAJECTORY
+    proved &= provable(q, l->closing);
+#endif
+    for (unsigned left = bits(rests); left; left &= left - 1) {
+        int lane = __builtin_ctz(left), sure = proved[lane] != 0;
+        finish(q, l, f, lane, sure ? DECIDED : RESTS_IN_FRICTION, STICK, sure);
+    }
+    return 1;
+}
+#endif
 
 /* Criteria on entry into a closing phase.
  *

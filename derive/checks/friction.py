@@ -1,0 +1,119 @@
+"""Friction of the dry contact: the emitted impulse, its loss and the force of resting contact against the equations."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+
+from ..equations.friction import COMPLIANCE, DRY_SLIP, IMPULSE, ROLLING, SLIDING
+from ..equations.intermediates import MOMENTUM
+from ..equations.model import Model, derive
+from ..physics.contact_friction import beside_wall, equal_spheres, unequal_spheres
+from ..physics.laws import LAWS
+from ..physics.mechanics import arm
+from ..physics.partners.pair import LEVER
+from ..physics.structure import Partner, Structure
+from ..vocabulary.quantities import a, aspect, beta_0, decay, gap, m
+from .base import Check, vanishing
+from .closed import filled
+from .signs import nonnegative
+
+_PARTNERS: tuple[Partner, ...] = ("", "pair", "wall")
+_FREE = tuple(Structure(True, False, False, partner=partner, friction="solid") for partner in _PARTNERS)
+_share, _beyond = sp.Symbol("share", positive=True), sp.Symbol("z", nonnegative=True)
+
+
+def _after(model: Model, expression: sp.Expr) -> sp.Expr:
+    """An expression in the states just after `IMPULSE`."""
+    jump = {s: model.expanded(dict(model["rubbed"].outputs)[s.name]) for s in model.states}
+    return model.expanded(expression).subs(jump, simultaneous=True)
+
+
+def _kinetic(model: Model) -> sp.Expr:
+    return model.expanded(dict(model["energies"].outputs)["kinetic"])
+
+
+def effective_mass() -> Check:
+    """With the lever arm on the surface, spheres answer a tangential impulse with 2/7 of their reduced mass."""
+    answers = (equal_spheres(), unequal_spheres(), beside_wall())
+    left = [answer.compliance.subs({arm: 2 * a, LEVER: 1}) - sp.Rational(7, 2) / m for answer in answers]
+    return vanishing("friction: effective mass", "2 m/7 for spheres: equal, unequal, beside a wall (surface arm)", left)
+
+
+def sticking_reverses_the_slip() -> Check:
+    """The impulse that sticks leaves -beta_0 times the slip."""
+    left = []
+    for structure in _FREE:
+        model = derive(structure)
+        sticking = model.expanded(dict(model["dry_slip"].outputs)["sticking"])
+        slip = model.expanded(DRY_SLIP)
+        left.append(_after(model, DRY_SLIP).subs(IMPULSE, sticking) + beta_0 * slip)
+    return vanishing("friction: sticking", "v_s' = -beta_0 v_s after the emitted impulse, for any lever arm", left)
+
+
+def energy_is_booked() -> Check:
+    """Any impulse takes from the kinetic energy what `friction_loss` says."""
+    left = []
+    for structure in _FREE:
+        model = derive(structure)
+        kinetic, lost = _kinetic(model), model.expanded(dict(model["friction_loss"].outputs)["dry_friction"])
+        left.append(kinetic - _after(model, kinetic) - lost)
+    return vanishing("friction: energy", "kinetic energy before - after = friction_loss, for any impulse", left)
+
+
+def never_gains() -> Check:
+    """An impulse of at most the one that sticks dissipates, for 0 <= beta_0 <= 1."""
+    model = derive(_FREE[0])
+    lost = dict(model["friction_loss"].outputs)["dry_friction"]
+    part = _share * (1 + 1 / (1 + _beyond)) * DRY_SLIP / COMPLIANCE  # beta_0 = 1/(1 + z)
+    sign = nonnegative(sp.factor(lost.subs(IMPULSE, part)), _share, sp.Integer(1))
+    statement = "friction_loss >= 0 for any part of the impulse that sticks and 0 <= beta_0 <= 1"
+    return Check("friction dissipates", statement, sign.proved, sign.shown)
+
+
+def angular_momentum() -> tuple[Check, ...]:
+    """L is kept with the lever arm at mid-gap; on the surface it changes by minus the gap times the impulse."""
+    kept, moved = [], []
+    for structure in _FREE[:2]:
+        model = derive(structure)
+        change = _after(model, MOMENTUM) - model.expanded(MOMENTUM)
+        kept.append(filled(change, {"arm": LAWS["arm"]["midgap"]}))
+        moved.append(filled(change, {"arm": LAWS["arm"]["surface"]}) + aspect * gap * IMPULSE)
+    return (
+        vanishing("friction: angular momentum", "an impulse keeps L (midgap arm)", kept),
+        vanishing("friction: its drift", "an impulse Q changes L by -x Q (surface arm)", moved),
+    )
+
+
+def resting_contact() -> tuple[Check, ...]:
+    """In resting contact sliding takes what the ledger books, and rolling keeps the slip."""
+    booked, held = [], []
+    for structure in (_FREE[0], _FREE[2]):
+        model = derive(structure)
+        rates = {s: model.expanded(dict(model["resting_rates"].outputs)[s.name]) for s in model.states}
+        taken = dict(model["energy_rates"].outputs)
+        spent = model.expanded(taken["tangential_lubrication"] + taken["dry_friction"])
+        sliding, rolling = {SLIDING: SLIDING, ROLLING: 0}, {SLIDING: 0, ROLLING: 1}
+        still = {decay: sp.Integer(0)}  # beside a wall, since the rebound
+        kinetic, slip = _kinetic(model), model.expanded(DRY_SLIP)
+        changing = [s for s in model.states if rates[s] != 0]
+        booked.append((sum(kinetic.diff(s) * rates[s] for s in changing) + spent).subs(sliding).subs(still))
+        held.append(sum(slip.diff(s) * rates[s] for s in changing).subs(rolling).subs(still))
+    return (
+        vanishing("friction: sliding at rest", "d(kinetic)/dt = -(shear + friction power) in resting contact", booked),
+        vanishing("friction: rolling at rest", "d(slip)/dt = 0 with the emitted force of rolling", held),
+    )
+
+
+@cache
+def friction_checks() -> tuple[Check, ...]:
+    """All of them."""
+    return (
+        effective_mass(),
+        sticking_reverses_the_slip(),
+        energy_is_booked(),
+        never_gains(),
+        *angular_momentum(),
+        *resting_contact(),
+    )

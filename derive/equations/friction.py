@@ -1,0 +1,108 @@
+"""Friction of the dry contact in the states of a structure: the impulse of a rebound, and the force while it rests."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..physics.contact_friction import rubbing
+from ..physics.laws.base import Definition
+from ..physics.partners import wall
+from ..physics.scaling import DISTANCE
+from ..physics.structure import Structure
+from ..vocabulary.quantities import (
+    beta_0,
+    decay,
+    e_dry,
+    gap,
+    last_roll,
+    last_slide,
+    mu_f,
+    normal_velocity,
+    orbital_momentum,
+    roll,
+    slide,
+)
+from .intermediates import ORBITAL_RATE
+from .rates import rates
+
+IMPULSE = sp.Symbol("impulse", real=True)
+"""A tangential impulse, which an engine passes to the emitted functions: the smaller of the two of `at_rebound`."""
+# Flags of resting contact, named as in emitted code: the sign of the slip (0: it does not slide), and whether it rolls
+SLIDING, ROLLING = sp.symbols("sliding rolling", real=True)
+DRY_SLIP, HOLDING_FORCE, DRY_FORCE = sp.symbols("dry_slip holding_force dry_force", real=True)
+COMPLIANCE, GRIP = sp.symbols("tangential_compliance grip", positive=True)
+
+
+def definitions(structure: Structure, reaction: sp.Expr) -> tuple[Definition, ...]:
+    """Named intermediates of a structure with friction, in order.
+
+    Arguments:
+        reaction: normal force of resting contact, over m v0^2/x0.
+    """
+    contact = rubbing(structure.partner)
+    held = _smooth_rates(structure)
+    slip = contact.slip.subs(ORBITAL_RATE, orbital_momentum / DISTANCE**2)
+    slipping = sum((slip.diff(state) * rate for state, rate in held.items()), _ZERO)  # the gap is held
+    return (
+        (COMPLIANCE, contact.compliance),
+        (DRY_SLIP, contact.slip),
+        (GRIP, mu_f * contact.grip * reaction),
+        (HOLDING_FORCE, slipping / COMPLIANCE),
+        (DRY_FORCE, SLIDING * GRIP + ROLLING * HOLDING_FORCE),
+    )
+
+
+_ZERO = sp.Integer(0)
+
+
+def _smooth_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
+    """Rates of the tangential states in resting contact without friction."""
+    return wall.friction_rates()[1] if structure.partner == "wall" else rates(structure)
+
+
+def at_rebound(structure: Structure) -> dict[str, sp.Expr]:
+    """Slip before a rebound, the impulse that would make it stick, and Coulomb's limit of its magnitude."""
+    normal = (1 + e_dry) * -normal_velocity
+    return {
+        "slip": DRY_SLIP,
+        "sticking": (1 + beta_0) * DRY_SLIP / COMPLIANCE,
+        "most": mu_f * rubbing(structure.partner).grip * normal,
+    }
+
+
+def rubbed(structure: Structure, states: tuple[sp.Symbol, ...]) -> dict[sp.Symbol, sp.Expr]:
+    """State just after `IMPULSE`; the normal velocity is as before."""
+    contact = rubbing(structure.partner)
+    if structure.partner == "wall":
+        return {
+            **{state: state for state in states},
+            decay: _ZERO,
+            last_slide: slide + contact.changes[slide] * IMPULSE,
+            last_roll: roll + contact.changes[roll] * IMPULSE,
+        }
+    return {state: state + contact.changes.get(state, _ZERO) * IMPULSE for state in states}
+
+
+def loss(structure: Structure) -> sp.Expr:
+    """Energy that `IMPULSE` takes from the tangential motion, over m v0^2: the impulse times the mean slip."""
+    return rubbing(structure.partner).energy * IMPULSE * (DRY_SLIP - COMPLIANCE * IMPULSE / 2)
+
+
+def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
+    """Rates of the states in resting contact, with friction."""
+    contact, held = rubbing(structure.partner), _smooth_rates(structure)
+    if structure.partner == "wall":  # since the rebound, `decay` is zero
+        return {
+            gap: _ZERO,
+            normal_velocity: _ZERO,
+            decay: _ZERO,
+            last_slide: held[slide] + contact.changes[slide] * DRY_FORCE,
+            last_roll: held[roll] + contact.changes[roll] * DRY_FORCE,
+        }
+    rubbing_rates = {state: rate + contact.changes.get(state, _ZERO) * DRY_FORCE for state, rate in held.items()}
+    return {**rubbing_rates, gap: _ZERO, normal_velocity: _ZERO}
+
+
+def resting_power(structure: Structure) -> sp.Expr:
+    """Energy taken by sliding in resting contact per x0/v0, over m v0^2."""
+    return rubbing(structure.partner).energy * SLIDING * GRIP * DRY_SLIP

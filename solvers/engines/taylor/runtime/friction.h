@@ -1,0 +1,43 @@
+/* Friction of the dry contact: the tangential impulse of a rebound in one lane, and its derivative. */
+#pragma once
+
+#include "automaton.h"
+#include "model.h"
+
+#if !defined(FRICTION) /* the structure has none */
+#define FRICTION 0
+#endif
+
+#if FRICTION
+/* What the dry contact does in a lane: its impulse, whether it sticks, and the sign with which it slides (0: without
+ * friction). */
+typedef struct {
+    double impulse, most, sticking, slides;
+    int sticks;
+} touch;
+
+static touch touched(const constants *c, const vec *y, int lane, int kind)
+{
+    vec found[IMPULSES];
+    dry_slip(c, y, found);
+    touch o = {.sticking = found[STICKING][lane]};
+    if (kind != KIND_GLASS || FRICTION_ON_GLASS) {
+        o.most = found[MOST][lane];
+        o.slides = o.sticking < 0.0 ? -1.0 : 1.0;
+    }
+    o.sticks = fabs(o.sticking) < o.most;
+    o.impulse = o.sticking > o.most ? o.most : o.sticking < -o.most ? -o.most : o.sticking;
+    return o;
+}
+
+#if GRADIENTS
+/* Derivative of the state after the friction of a rebound, in a direction. */
+static void friction_along(const constants *v, const vec *y, const vec *t, int group, const touch *o, int lane, vec *after)
+{
+    vec found[IMPULSES];
+    dry_slip_along(v, y, t, group, found);
+    double moved = o->sticks ? found[STICKING][lane] : o->slides*found[MOST][lane];
+    rubbed_along(v, y, t, group, splat(o->impulse), splat(moved), after);
+}
+#endif
+#endif

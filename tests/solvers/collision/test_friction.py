@@ -1,0 +1,220 @@
+"""Friction of the dry contact against closed forms, between engines, and against differences."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import (
+    ComputationError,
+    InputError,
+    Scene,
+    collide,
+    collide_many,
+    gradients_many,
+    sensitivities,
+)
+from wetdoublet.solvers.engines.taylor.build import supported
+from wetdoublet.solvers.model.model import select_model
+
+# Hardly any film, and no bridge: what is left is the impact of dry spheres.
+DRY = {"liquid.viscosity": "1e-9 Pa s", "particles.roughness": "0.5 um", "particles.dry_restitution": 0.8}
+WET = {"liquid.glass_transition_pressure": "1e12 Pa", "liquid.viscosity": "0.01 Pa s", "particles.roughness": "1 um"}
+KINDS = {
+    "equal": {},
+    "surface": {"model.arm": "surface"},
+    "pair": {"partner.radius": "200 um", "partner.mass": "8e-5 g"},
+    "wall": {"partner.wall": "true"},
+}
+ANGLE = math.radians(30)
+
+
+def rough(entries: dict[str, object], friction: float, reversed_part: float = 0.0) -> Scene:
+    """Granulation with friction."""
+    own = {"particles.friction": friction, "particles.contact_tangential_restitution": reversed_part}
+    return Scene.load("granulation").with_entries({**WET, **entries, **own})
+
+
+def dry_wall(friction: float, reversed_part: float = 0.0) -> Scene:
+    """A sphere beside a wall, dry but for a trace of film."""
+    own = {"particles.friction": friction, "particles.contact_tangential_restitution": reversed_part}
+    return Scene.load("granulation-dry-bridge").with_entries({**DRY, "partner.wall": "true", **own})
+
+
+def along(scene: Scene, speed: float = 1.0) -> tuple[float, float]:
+    """Sliding velocity and surface speed of the spin after an impact, over the sliding velocity before."""
+    found = collide(scene, speed=speed, angle=ANGLE, engine="rosenbrock")
+    sideways = speed * math.tan(ANGLE)
+    return found.tangential_restitution or 0.0, (found.final_spin or 0.0) * scene.reduced_radius / sideways
+
+
+@pytest.mark.parametrize("reversed_part", [0.0, 0.6])
+def test_a_sphere_that_sticks_to_a_wall_leaves_rolling(reversed_part: float) -> None:
+    """5/7 of its sliding velocity is left, and it rolls; a part of the slip may be reversed (Walton & Braun)."""
+    sliding, rolling = along(dry_wall(5.0, reversed_part))
+    assert sliding == pytest.approx(1 - 2 / 7 * (1 + reversed_part), rel=1e-6)
+    assert rolling == pytest.approx(5 / 7 * (1 + reversed_part), rel=1e-6)
+
+
+def test_a_sphere_that_slides_takes_coulombs_impulse() -> None:
+    """That is mu (1 + e) |u|, whatever the tangential velocity, and 5/2 of that as the speed of its surface."""
+    sliding, rolling = along(dry_wall(0.05))
+    lost = 0.05 * 1.8 / math.tan(ANGLE)
+    assert sliding == pytest.approx(1 - lost, rel=1e-6)
+    assert rolling == pytest.approx(2.5 * lost, rel=1e-6)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("friction", [0.01, 0.3])
+def test_the_ledger_closes_with_a_loss_by_friction(kind: str, friction: float) -> None:
+    """Its own term, positive; angular momentum is kept at mid-gap, and drifts visibly with the arm on the surface."""
+    found = collide(rough(KINDS[kind], friction, 0.5), stokes=8.0, angle=ANGLE, engine="rosenbrock")
+    energy = found.energy
+    assert energy is not None and energy.dry_friction is not None
+    assert 0 < energy.dry_friction < energy.initial
+    assert abs(energy.residual) < 1e-10 * energy.initial
+    if kind != "wall":
+        assert found.angular_momentum_drift is not None
+        assert (found.angular_momentum_drift > 1e-5) == (kind == "surface")
+
+
+def test_without_friction_there_is_no_such_term() -> None:
+    """Neither a key of the ledger nor another structure; with a coefficient of zero the collision is the same."""
+    plain = Scene.load("granulation").with_entries(WET)
+    found = collide(plain, stokes=8.0, angle=ANGLE, engine="rosenbrock")
+    assert found.energy is not None and "dry_friction" not in found.energy.to_dict()
+    assert "friction" not in select_model(plain, True).structure
+    zero = collide(rough({}, 0.0), stokes=8.0, angle=ANGLE, engine="rosenbrock")
+    assert zero.restitution == pytest.approx(found.restitution, rel=1e-9)
+    assert zero.final_spin == pytest.approx(found.final_spin, rel=1e-8)
+
+
+def test_glass_has_friction_only_if_asked_for() -> None:
+    """By default the liquid in its glassy state gives none."""
+    glassy = {"liquid.glass_transition_pressure": "0.3 MPa"}
+    losses = []
+    for what in ("solid", "all"):
+        found = collide(rough(glassy | {"model.contact_friction": what}, 0.3), stokes=20.0, angle=ANGLE)
+        assert found.reversal == "glass" and found.energy is not None
+        losses.append(found.energy.dry_friction)
+    assert losses[0] == 0.0 < (losses[1] or 0.0)
+
+
+def test_a_resting_doublet_on_strings_rolls_and_slides() -> None:
+    """Both modes are met, by two integrators at the same times, and the ledger closes over them."""
+    entries = {
+        "liquid.glass_transition_pressure": "1e12 Pa", "particles.dry_restitution": 0.0, "particles.roughness": "20 um",
+        "liquid.viscosity": "0.1 Pa s", "particles.friction": 0.3,
+    }  # fmt: skip
+    scene = Scene.load("pendulum").with_entries(entries)
+    both = [collide(scene, stokes=20.0, angle="1 deg", engine=engine) for engine in ("rosenbrock", "cvodes")]
+    for found in both:
+        assert [event.kind for event in found.events] == ["rough", "rests", "rolls", "slides", "rotation reverses"]
+        assert found.energy is not None and (found.energy.dry_friction or 0.0) > 0
+        assert abs(found.energy.residual) < 1e-8 * found.energy.largest
+    times = [[event.time for event in found.events] for found in both]
+    assert times[0] == pytest.approx(times[1], rel=1e-8)
+
+
+def test_a_spinning_doublet_that_slides_at_rest_is_released() -> None:
+    """Friction turns spin into rotation until the centrifugal force opens the gap; energy and L are kept account of."""
+    entries = {
+        **WET, "liquid.viscosity": "0.001 Pa s", "particles.dry_restitution": 0.0, "particles.friction": 0.3,
+        "impact.spin": 16000.0,
+    }  # fmt: skip
+    found = collide(Scene.load("granulation").with_entries(entries), stokes=20.0, angle=0.0, engine="rosenbrock")
+    assert [event.kind for event in found.events][:3] == ["rough", "rests", "released"]
+    assert found.energy is not None and abs(found.energy.residual) < 1e-9 * found.energy.initial
+    assert found.angular_momentum_drift == pytest.approx(0.0, abs=1e-12)
+
+
+WRT = ("particles.friction", "particles.contact_tangential_restitution", "liquid.viscosity")
+OF = ("restitution", "tangential_restitution", "final_spin", "energy.dry_friction")
+
+
+@pytest.mark.parametrize("friction", [0.01, 0.3])
+def test_derivatives_are_those_of_differences(friction: float) -> None:
+    """By the coefficient and the tangential restitution too, for a contact that slides and one that sticks."""
+    scene, step = rough({}, friction, 0.4), 1e-5
+    speed = scene.speed_of(8.0)
+    exact = sensitivities(scene, OF, WRT, speed=speed, angle=ANGLE, engine="rosenbrock").gradient
+    for name in WRT:
+        value = float(scene.entries[name])
+        ends = [
+            collide(scene.with_si({name: value * (1 + sign * step)}), speed=speed, angle=ANGLE, rtol=1e-12,
+                    engine="rosenbrock")
+            for sign in (1, -1)
+        ]  # fmt: skip
+        for result in OF:
+            high, low = (
+                getattr(end.energy if result.startswith("energy.") else end, result.removeprefix("energy."))
+                for end in ends
+            )
+            slope = (high - low) / (2 * step * value)
+            assert exact[result][name] == pytest.approx(slope, rel=2e-5, abs=1e-6 * abs(high / value))
+
+
+def test_no_derivative_at_the_switch_between_sliding_and_sticking() -> None:
+    """It is named, with its distance in the coefficient of friction; beside it there is one."""
+    scene = rough({}, 0.1, 0.4)
+    near = sensitivities(scene, ("restitution",), WRT[:1], stokes=8.0, angle=ANGLE, engine="rosenbrock").near
+    assert near is not None and near.boundary == "switch between sliding and sticking contact"
+    at = [0.1 * math.exp(sign * near.distance) for sign in (1, -1)]
+    refused = 0
+    for friction in at:
+        try:
+            sensitivities(rough({}, friction, 0.4), ("restitution",), WRT[:1], stokes=8.0, angle=ANGLE)
+        except ComputationError as error:
+            refused += "switch between sliding and sticking contact" in str(error)
+    assert refused == 1
+
+
+@pytest.mark.skipif(not supported(Scene.load("granulation")), reason="no C compiler")
+@pytest.mark.parametrize("kind", ["wall", pytest.param("pair", marks=pytest.mark.slow)])
+def test_the_kernel_has_the_same_friction(kind: str) -> None:
+    """Outcomes, restitution and spins of random collisions, sliding and sticking, chattering and resting among them."""
+    chance = np.random.default_rng(16)
+    stokes, angle = 10 ** chance.uniform(0, 1.5, 24), chance.uniform(0.05, 1.4, 24)
+    scene = rough({**KINDS[kind], "particles.dry_restitution": 0.4, "impact.spin": -2000.0}, 0.1, 0.7)
+    of = ("restitution", "tangential_restitution", "final_spin")
+    ours, other = (
+        collide_many(scene, stokes=stokes, angle=angle, engine=engine, rtol=1e-10, of=of)
+        for engine in ("taylor", "rosenbrock")
+    )
+    assert ours.outcome.values.tolist() == other.outcome.values.tolist()
+    for name in of:
+        scale = np.nanmax(np.abs(other[name].values))
+        np.testing.assert_allclose(ours[name].values, other[name].values, rtol=0, atol=1e-8 * scale)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not supported(Scene.load("granulation")), reason="no C compiler")
+@pytest.mark.parametrize("kind", ["equal", "wall"])
+def test_the_kernel_differentiates_through_friction(kind: str) -> None:
+    """Forward for few parameters, backward for all of them, as CasADi does for the first few collisions."""
+    chance = np.random.default_rng(17)
+    stokes, angle = chance.uniform(4, 20, 150), chance.uniform(0.05, 1.4, 150)
+    scene = rough(KINDS[kind], 0.05, 0.4)
+    back = gradients_many(scene, stokes=stokes, angle=angle)
+    forward = gradients_many(scene, stokes=stokes, angle=angle, of=("restitution", "final_spin"))
+    scale = np.nanmax(np.abs(back.gradient.values[0]), axis=0) + 1e-300
+    np.testing.assert_allclose(back.gradient.values[0] / scale, forward.gradient.values[0] / scale, atol=1e-5)
+    alone = gradients_many(scene, stokes=stokes[:4], angle=angle[:4], engine="rosenbrock", wrt=WRT, of=("final_spin",))
+    own = forward.gradient.sel(quantity="final_spin", parameter=list(WRT)).values[:4]
+    np.testing.assert_allclose(own, alone.gradient.values[0], rtol=1e-5, atol=1e-6 * np.nanmax(np.abs(own)))
+
+
+@pytest.mark.parametrize(
+    ("entries", "said"),
+    [
+        ({"particles.contact_tangential_restitution": 0.3}, "without particles.friction"),
+        ({"model.contact_friction": "all"}, "without particles.friction"),
+        ({"particles.friction": -0.1}, "out of range"),
+        ({"particles.friction": 0.1, "particles.contact_tangential_restitution": 1.5}, "out of range"),
+    ],
+)
+def test_entries_that_make_no_sense_are_refused(entries: dict[str, object], said: str) -> None:
+    """By name, with what is accepted."""
+    with pytest.raises(InputError, match=said):
+        Scene.load("granulation").with_entries(entries)
