@@ -53,16 +53,23 @@ def _short(value: float) -> str:
 
 def _title(collision: Outcome) -> str:
     name = plain_text(name_of(collision.scene)) + against(collision.scene)
-    numbers = f"St {collision.stokes:.4g}, {math.degrees(collision.angle):.4g}°, $e_n$ = {collision.restitution:.4g}"
+    impact = f"St {collision.stokes:.4g}, {math.degrees(collision.angle):.4g}°{_spins(collision)}"
+    numbers = f"{impact}, $e_n$ = {collision.restitution:.4g}"
     parts = [reason(collision), stopped(collision) if collision.outcome == "stick" else ""]
     why = re.sub(r"(?<=\d )us\b", "µs", "; ".join(part for part in parts if part))
     return f"{name}: {collision.outcome}   ({numbers})\n{why}"
 
 
+def _spins(collision: Outcome) -> str:
+    """The spins at initial contact, where there are any."""
+    given = [spin for spin in (collision.scene.impact.spin, collision.scene.impact.partner_spin) if spin is not None]
+    return f", ξ₀ = {' and '.join(f'{spin:.4g}' for spin in given)} rad/s" if any(given) else ""
+
+
 def _note(collision: Outcome, pictures: Sequence[Frame]) -> str:
     text = "Seen from above, to scale (thin films thicker, to be seen); liquid in blue; arrows: velocities"
     text += "; lines: marks that met at initial contact."
-    if collision.scene.wall and collision.angle:
+    if collision.scene.wall and (collision.angle or collision.scene.impact.spin):
         text += "\nBeside a wall no line of centres turns (ω = 0): the sphere slides and rolls along it."
     if collision.contact_time == 0 or collision.until == 0:
         text += "\nThe outcome is certain at initial contact: there is no trajectory to follow."
