@@ -24,5 +24,5 @@ def generalised_centrifugal(scene: Scene, n: DimensionlessGroups) -> float | Non
     force = inward * n.energy / n.length
     if not force > 0:
         return None
-    rate = 0.0 if scene.wall else n.rate
+    rate = 0.0 if scene.wall else n.groups["initial_rate"]
     return float(scaling.generalised_centrifugal(scene.reduced_radius, scene.reduced_mass, rate, force))

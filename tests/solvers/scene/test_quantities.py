@@ -19,6 +19,7 @@ FULL = {
     "liquid.density": 1e3, "bridge.surface_tension": 0.025, "bridge.volume": 0.1, "bridge.contact_angle": 0.3,
     "attraction.hamaker": 1e-19, "partner.radius": 2e-4, "partner.density": 2000.0, "pendulum.length": 0.5,
     "pendulum.gravity": 9.8, "impact.stokes": 0.03, "impact.angle": 1.0,
+    "impact.spin": 300.0, "impact.partner_spin": -200.0,
 }  # fmt: skip
 OTHERS = {
     "particles.reduced_radius": ("particles.radius", 5e-5), "particles.reduced_mass": ("particles.density", 5e-9),
