@@ -126,7 +126,8 @@ def dataset(
         if "final_spin_partner" in outputs:
             values["spin_partner"] = outputs["final_spin_partner"] * n.rate
         if model.wall:
-            values["sliding_velocity"] = outputs["tangential_restitution"] * n.speed * n.groups["obliquity"]
+            slip = np.asarray(model.function("surface_slip")(y, p).full())[0]  # of sliding over rolling
+            values["sliding_velocity"] = (slip + outputs["final_spin"]) * n.speed * n.groups["obliquity"]
     else:
         values |= {"rotation_rate": zero, "spin": zero, "rotation": zero}
     variables = {
