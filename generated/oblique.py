@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 4dbaf745996f6b1c39492b66dbe756a16367e2fdc73a110eb42641d5bb843887
+# Equations sha256 250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e
 """Oblique doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -65,7 +65,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "4dbaf745996f6b1c39492b66dbe756a16367e2fdc73a110eb42641d5bb843887"
+DIGEST = "250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -329,9 +329,10 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
-    < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error.
+    < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. So do apart
+    < 0 and inside < 0 where J = 0.
 
-    Total operations: 82
+    Total operations: 96
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -347,15 +348,18 @@ def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any
     dry_restitution = groups["dry_restitution"]
     distance = aspect*gap + 4
     orbital_rate = orbital_momentum/distance**2
-    beyond = gap/2 + fmin(1, laws.shear.edge(aspect))/2
+    shear_end = laws.shear.edge(aspect)
+    beyond = gap/2 + fmin(1, shear_end)/2
     contact = fmax(elastic_gap, rough_gap)
     near = aspect*contact - aspect*gap + distance
     far = aspect*beyond - aspect*gap + distance
     leak = laws.shear.log_factor(beyond, aspect)
     rate = aspect*leak*(5*far*near + 32)/(12*far*stokes)
     return {
-        "stays": stokes*(2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(near**3*rate) + fmax(normal_velocity, -dry_restitution*normal_velocity)) + laws.film.stopping(beyond) - laws.film.stopping(gap),
+        "stays": 2*aspect*distance**2*stokes*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(near**3*rate) + stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) + laws.film.stopping(beyond) - laws.film.stopping(gap),
         "rate": rate,
+        "apart": fmax(stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) - laws.film.stopping(gap), laws.film.stopping(gap) - normal_velocity*stokes - laws.film.stopping(shear_end)),
+        "inside": shear_end - gap,
         "momentum": fmax(0, fmax(-6.4*initial_spin - initial_turning*(aspect + 4)**2, 6.4*initial_spin + initial_turning*(aspect + 4)**2) - 3.552713678800501e-15*initial_turning*(aspect + 4)**2 - 3.552713678800501e-15*fmax(-6.4*initial_spin, 6.4*initial_spin)),
     }
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 2ea7e91d4a4a1f23a22fd5ad6dd457abd00eca308b7eeaac9bcc44e09f0ef250
+# Equations sha256 b8bd93d9db22856269702d38b244efc5cdf170896cbc75cac32eaa65342c753c
 """Oblique unequal doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -71,7 +71,7 @@ FUNCTIONS = (
     "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "2ea7e91d4a4a1f23a22fd5ad6dd457abd00eca308b7eeaac9bcc44e09f0ef250"
+DIGEST = "b8bd93d9db22856269702d38b244efc5cdf170896cbc75cac32eaa65342c753c"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -401,9 +401,10 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
-    < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error.
+    < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. So do apart
+    < 0 and inside < 0 where J = 0.
 
-    Total operations: 153
+    Total operations: 167
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -428,7 +429,8 @@ def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any
     partner_radius = radius_ratio + 1
     spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
     partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    beyond = gap/2 + fmin(1, laws.shear.edge(aspect))/2
+    shear_end = laws.shear.edge(aspect)
+    beyond = gap/2 + fmin(1, shear_end)/2
     contact = fmax(elastic_gap, rough_gap)
     near = aspect*contact - aspect*gap + distance
     far = aspect*beyond - aspect*gap + distance
@@ -437,8 +439,10 @@ def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any
         2*aspect*leak*near*partner_radius**2*radius**2*(far*near + partner_inertia + spin_inertia)/(centres*stokes*(2*far*near*partner_inertia*radius**2 + 2*far*near*partner_radius**2*spin_inertia + 2*partner_inertia*partner_radius**2*spin_inertia + partner_inertia*partner_radius*radius*spin_inertia + 2*partner_inertia*radius**2*spin_inertia))
     )
     return {
-        "stays": stokes*(2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2))/(near**3*rate) + fmax(normal_velocity, -dry_restitution*normal_velocity)) + laws.film.stopping(beyond) - laws.film.stopping(gap),
+        "stays": 2*aspect*distance**2*stokes*(distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2))/(near**3*rate) + stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) + laws.film.stopping(beyond) - laws.film.stopping(gap),
         "rate": rate,
+        "apart": fmax(stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) - laws.film.stopping(gap), laws.film.stopping(gap) - normal_velocity*stokes - laws.film.stopping(shear_end)),
+        "inside": shear_end - gap,
         "momentum": fmax(0, fmax(-initial_partner_spin*partner_inertia - initial_spin*spin_inertia - initial_turning*(aspect + centres)**2, initial_partner_spin*partner_inertia + initial_spin*spin_inertia + initial_turning*(aspect + centres)**2) - 3.552713678800501e-15*initial_turning*(aspect + centres)**2 - 3.552713678800501e-15*fmax(-initial_partner_spin*partner_inertia, initial_partner_spin*partner_inertia) - 3.552713678800501e-15*fmax(-initial_spin*spin_inertia, initial_spin*spin_inertia)),
     }
 

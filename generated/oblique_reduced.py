@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 e4205a2577b2fef3156a2deba341945d4bbc2b986c711defc349f54584a86083
+# Equations sha256 0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34
 """Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -63,7 +63,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "e4205a2577b2fef3156a2deba341945d4bbc2b986c711defc349f54584a86083"
+DIGEST = "0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -307,9 +307,10 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
-    < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error.
+    < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. So do apart
+    < 0 and inside < 0 where J = 0.
 
-    Total operations: 93
+    Total operations: 107
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -326,15 +327,18 @@ def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any
     orbital_rate = orbital_momentum/distance**2
     momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
     spin = 5*momentum/32 - 5*orbital_momentum/32
-    beyond = gap/2 + fmin(1, laws.shear.edge(aspect))/2
+    shear_end = laws.shear.edge(aspect)
+    beyond = gap/2 + fmin(1, shear_end)/2
     contact = fmax(elastic_gap, rough_gap)
     near = aspect*contact - aspect*gap + distance
     far = aspect*beyond - aspect*gap + distance
     leak = laws.shear.log_factor(beyond, aspect)
     rate = aspect*leak*(5*far*near + 32)/(12*far*stokes)
     return {
-        "stays": stokes*(2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(near**3*rate) + fmax(normal_velocity, -dry_restitution*normal_velocity)) + laws.film.stopping(beyond) - laws.film.stopping(gap),
+        "stays": 2*aspect*distance**2*stokes*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(near**3*rate) + stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) + laws.film.stopping(beyond) - laws.film.stopping(gap),
         "rate": rate,
+        "apart": fmax(stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) - laws.film.stopping(gap), laws.film.stopping(gap) - normal_velocity*stokes - laws.film.stopping(shear_end)),
+        "inside": shear_end - gap,
         "momentum": fmax(0, fmax(-6.4*initial_spin - initial_turning*(aspect + 4)**2, 6.4*initial_spin + initial_turning*(aspect + 4)**2) - 3.552713678800501e-15*initial_turning*(aspect + 4)**2 - 3.552713678800501e-15*fmax(-6.4*initial_spin, 6.4*initial_spin)),
     }
 

@@ -6,7 +6,18 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ..equations.certificates.spin_down import BEYOND, FAR, NEAR, RATE, decay, definitions, impulse, slips, slowest
+from ..equations.certificates.spin_down import (
+    BEYOND,
+    EDGE,
+    FAR,
+    NEAR,
+    RATE,
+    decay,
+    definitions,
+    impulse,
+    slips,
+    slowest,
+)
 from ..equations.model import Model, derive
 from ..physics.forces import FILM, SHEAR
 from ..physics.laws import LAWS, slot_call
@@ -84,7 +95,7 @@ def slips_decay() -> Check:
         left += [product[0, -1] - product[-1, 0]]
         taken = _plain(opened(model, dict(model["energy_rates"].outputs)["tangential_lubrication"]))
         vector = sp.Matrix(named)
-        left.append(taken.subs(by_slip, simultaneous=True) - (vector.T * product * vector)[0, 0])
+        left.append(sp.cancel(taken.subs(by_slip, simultaneous=True) - (vector.T * product * vector)[0, 0]))
         minors = [product[:k, :k].det() / obliquity ** (2 * k) for k in range(1, len(named) + 1)]
         positive &= all(_is_positive(minor) for minor in minors)
     found = vanishing(
@@ -171,6 +182,16 @@ def film_takes() -> tuple[Check, ...]:
     return tuple(checks)
 
 
+def apart_from_shear() -> Check:
+    """Without shear J is constant, and without J there is no centrifugal force: the gap moves head-on."""
+    left: list[sp.Expr] = []
+    for structure in _COVERED:
+        rates = opened_rates(derive(structure))
+        film = FILM * normal_velocity * slot_call("film", "resistance", gap) / stokes
+        left += [rates[orbital_momentum].subs(SHEAR, 0), rates[normal_velocity].subs(orbital_momentum, 0) + film]
+    return vanishing("spin-down: beyond the shear", "dJ/dt = 0 without shear, du/dt = -film with J = 0", left)
+
+
 def as_emitted() -> Check:
     """The emitted margins are these bounds."""
     left: list[sp.Expr] = []
@@ -178,14 +199,18 @@ def as_emitted() -> Check:
         model = derive(structure)
         named, own = dict(model.definitions), dict(definitions(structure))
         left += [named[symbol] - value for symbol, value in own.items()]
-        left.append(named[BEYOND] - (gap + sp.Min(1, slot_call("shear", "edge", aspect))) / 2)
+        left += [named[EDGE] - slot_call("shear", "edge", aspect), named[BEYOND] - (gap + sp.Min(1, EDGE)) / 2]
         found = dict(model["spin_down_margins"].outputs)
         film = slot_call("film", "stopping", gap) - slot_call("film", "stopping", BEYOND)
         outward = sp.Max(normal_velocity, -e_dry * normal_velocity)
         left += [found["stays"] - (stokes * outward + stokes * impulse(structure) - film), found["rate"] - RATE]
+        opens = stokes * outward - slot_call("film", "stopping", gap)
+        closes = -stokes * normal_velocity - slot_call("film", "stopping", EDGE) + slot_call("film", "stopping", gap)
+        left += [found["apart"] - sp.Max(opens, closes), found["inside"] - (EDGE - gap)]
     return vanishing("spin-down: as emitted", "stays = St max(u, -e_dry u) + St impulse - (S(x) - S(d))", left)
 
 
 def spin_down_certificate() -> tuple[Check, ...]:
     """Every check of the spin-down certificate."""
-    return (slips_decay(), mobility_is_monotonic(), rotation_falls(), *film_takes(), as_emitted())
+    parts = (slips_decay(), mobility_is_monotonic(), rotation_falls(), *film_takes())
+    return (*parts, apart_from_shear(), as_emitted())

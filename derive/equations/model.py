@@ -362,7 +362,8 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
             ModelFunction(
                 "spin_down_margins",
                 "Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): "
-                "stays < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error.",
+                "stays < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. "
+                "So do apart < 0 and inside < 0 where J = 0.",
                 tuple(spin_down.margins(structure).items()),
             )
         )

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 4dbaf745996f6b1c39492b66dbe756a16367e2fdc73a110eb42641d5bb843887 */
+ * Equations sha256 250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e */
 
 /* Oblique doublet with a film only.
  *
@@ -421,22 +421,29 @@ static inline vec angular_momentum(const constants *c, const vec *y)
 #if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)
 #define SPIN_DOWN MIDGAP_ARM
 /* Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
- * < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. */
-static inline void spin_down_margins(const constants *c, const vec *y, vec *stays, vec *rate_margin)
+ * < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. So do apart
+ * < 0 and inside < 0 where J = 0. */
+static inline void spin_down_margins(const constants *c, const vec *y, vec *stays, vec *rate_margin, vec
+    *apart, vec *inside)
 {
     vec distance = c->aspect*y[GAP] + 4.0;
     vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
-    vec beyond = 0.5*y[GAP] + 0.5*vec_smaller(splat(1.0), shear_edge(c->aspect));
+    vec shear_end = shear_edge(c->aspect);
+    vec beyond = 0.5*y[GAP] + 0.5*vec_smaller(splat(1.0), shear_end);
     vec near = c->aspect*c->contact + distance - c->aspect*y[GAP];
     vec far = c->aspect*beyond + distance - c->aspect*y[GAP];
     vec leak = shear_log_factor_value(&c->shear_log_factor_law, beyond);
     vec rate = 0.08333333333333333*c->aspect*leak*(5.0*far*near + 32.0)/(far*c->stokes);
     *stays =
-        c->stokes*(2.0*c->aspect*(distance*distance)*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
+        2.0*c->aspect*(distance*distance)*c->stokes*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
         + 0.2*(c->obliquity*c->obliquity)*(y[SPIN]*y[SPIN]))/((near*near*near)*rate) +
-        vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY])) + film_stopping(beyond) -
-        film_stopping(y[GAP]);
+        c->stokes*vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY]) +
+        film_stopping(beyond) - film_stopping(y[GAP]);
     *rate_margin = rate;
+    *apart = vec_larger(film_stopping(y[GAP]) - y[NORMAL_VELOCITY]*c->stokes - film_stopping(shear_end),
+        c->stokes*vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY]) -
+        film_stopping(y[GAP]));
+    *inside = shear_end - y[GAP];
 }
 #else
 #define SPIN_DOWN 0

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 e4205a2577b2fef3156a2deba341945d4bbc2b986c711defc349f54584a86083 */
+ * Equations sha256 0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34 */
 
 /* Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
  *
@@ -332,23 +332,30 @@ static inline vec surface_slip(const constants *c, const vec *y)
 #if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)
 #define SPIN_DOWN 1
 /* Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
- * < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. */
-static inline void spin_down_margins(const constants *c, const vec *y, vec *stays, vec *rate_margin)
+ * < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. So do apart
+ * < 0 and inside < 0 where J = 0. */
+static inline void spin_down_margins(const constants *c, const vec *y, vec *stays, vec *rate_margin, vec
+    *apart, vec *inside)
 {
     vec distance = c->aspect*y[GAP] + 4.0;
     vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
     vec spin = 0.15625*c->momentum - 0.15625*y[ORBITAL_MOMENTUM];
-    vec beyond = 0.5*y[GAP] + 0.5*vec_smaller(splat(1.0), shear_edge(c->aspect));
+    vec shear_end = shear_edge(c->aspect);
+    vec beyond = 0.5*y[GAP] + 0.5*vec_smaller(splat(1.0), shear_end);
     vec near = c->aspect*c->contact + distance - c->aspect*y[GAP];
     vec far = c->aspect*beyond + distance - c->aspect*y[GAP];
     vec leak = shear_log_factor_value(&c->shear_log_factor_law, beyond);
     vec rate = 0.08333333333333333*c->aspect*leak*(5.0*far*near + 32.0)/(far*c->stokes);
     *stays =
-        c->stokes*(2.0*c->aspect*(distance*distance)*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
+        2.0*c->aspect*(distance*distance)*c->stokes*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
         + 0.2*(c->obliquity*c->obliquity)*(spin*spin))/((near*near*near)*rate) +
-        vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY])) + film_stopping(beyond) -
-        film_stopping(y[GAP]);
+        c->stokes*vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY]) +
+        film_stopping(beyond) - film_stopping(y[GAP]);
     *rate_margin = rate;
+    *apart = vec_larger(film_stopping(y[GAP]) - y[NORMAL_VELOCITY]*c->stokes - film_stopping(shear_end),
+        c->stokes*vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY]) -
+        film_stopping(y[GAP]));
+    *inside = shear_end - y[GAP];
 }
 #else
 #define SPIN_DOWN 0

@@ -21,7 +21,7 @@ def covers(model: Model) -> bool:
 
 
 class SpinDownCertificate:
-    """Certificate for an oblique collision with a film alone, without angular momentum; with some, it separates."""
+    """Certificate for oblique collisions with a film alone and no angular momentum, or none that shear reaches."""
 
     watches: str | None = None
 
@@ -38,4 +38,5 @@ class SpinDownCertificate:
         if not y[0] >= self._nearest:
             return Certainty.OPEN  # the margins assume a gap above solid contact; initial contact may lie below it
         found = self.model.values("spin_down_margins", y[: len(self.model.state)], self.p)
-        return Certainty.of(found["momentum"] == 0 and found["rate"] > 0 and found["stays"] < -self._error)
+        dies_out = found["momentum"] == 0 and found["rate"] > 0 and found["stays"] < -self._error
+        return Certainty.of(dies_out or (y[2] == 0 and found["inside"] < 0 and found["apart"] < -self._error))

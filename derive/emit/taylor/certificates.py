@@ -78,7 +78,7 @@ def spin_down_functions(model: Model, constants: Constants, prepared: dict[tuple
     """
     outputs = dict(model["spin_down_margins"].outputs)
     moving = {state: f"y[{state.name.upper()}]" for state in model.states}
-    by_state = {key: outputs[key] for key in ("stays", "rate")}
+    by_state = {key: value for key, value in outputs.items() if key != "momentum"}
     kept, _ = needed(list(by_state.values()), model.definitions)
     constants.define(sp.Symbol("first_momentum"), outputs["momentum"])
     return [

@@ -18,6 +18,10 @@ unit mass, with the lever arm at mid-gap and neither strings nor attractions, fo
    of S(x') at x' = x. Both cases are one test: St max(u, -e_dry u) + St impulse < S(x) - S(d) (`stays` < 0).
 
 L counts as zero below its own rounding error: it is the sum of an orbital part and of those of the spins.
+
+Beyond the edge of the shear nothing changes J. So with J = 0 there, for any spins, a doublet stays head-on until it has
+closed to the edge. The film stops it before if St |u| < S(edge) - S(x), and what opens, at once or after a rebound, if
+St max(u, -e_dry u) < S(x), by 4 (`apart` < 0 at gaps where `inside` < 0).
 """
 
 from __future__ import annotations
@@ -47,7 +51,7 @@ from ..observables import energies
 from ..rates import rates
 
 BEYOND, NEAR, FAR = sp.symbols("beyond near far", positive=True)  # d, and the distances in contact and at d, over a
-RATE, LEAK, CONTACT = sp.symbols("rate leak contact", positive=True)
+RATE, LEAK, CONTACT, EDGE = sp.symbols("rate leak contact shear_end", positive=True)
 ROUNDING = sp.Float(2.0**-48)  # relative to the parts of L: some steps of doubles
 
 
@@ -100,11 +104,11 @@ def slowest(matrix: sp.Matrix) -> sp.Expr:
 
 def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
-    edge = sp.Min(1, slot_call("shear", "edge", aspect))
     first = DISTANCE - aspect * gap
     logarithm = slot_call("shear", "log_factor", BEYOND, aspect)
     return (
-        (BEYOND, (gap + edge) / 2),
+        (EDGE, slot_call("shear", "edge", aspect)),
+        (BEYOND, (gap + sp.Min(1, EDGE)) / 2),
         (CONTACT, contact_gap),
         (NEAR, first + aspect * CONTACT),
         (FAR, first + aspect * BEYOND),
@@ -120,10 +124,19 @@ def impulse(structure: Structure) -> sp.Expr:
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
-    """The margins: a stick is certain if `stays` is negative, `rate` positive and `momentum` zero."""
-    film = slot_call("film", "stopping", gap) - slot_call("film", "stopping", BEYOND)
-    outward = stokes * (sp.Max(normal_velocity, -e_dry * normal_velocity) + impulse(structure))
-    return {"stays": outward - film, "rate": RATE, "momentum": first_momentum(structure)}
+    """The margins: a stick is certain if `stays` is negative, `rate` positive and `momentum` zero.
+
+    It is as well if `apart` and `inside` are negative and J is zero.
+    """
+    film = slot_call("film", "stopping", gap)
+    outward = stokes * sp.Max(normal_velocity, -e_dry * normal_velocity)
+    return {
+        "stays": outward + stokes * impulse(structure) - film + slot_call("film", "stopping", BEYOND),
+        "rate": RATE,
+        "apart": sp.Max(outward - film, film - slot_call("film", "stopping", EDGE) - stokes * normal_velocity),
+        "inside": EDGE - gap,
+        "momentum": first_momentum(structure),
+    }
 
 
 def first_momentum(structure: Structure) -> sp.Expr:

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 e4205a2577b2fef3156a2deba341945d4bbc2b986c711defc349f54584a86083 */
+ * Equations sha256 0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34 */
 
 /* Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
  *

@@ -80,3 +80,11 @@ def test_opposite_spins_of_a_pair() -> None:
     model = load(select_model(scene, oblique=True))
     proof = proof_for(model, model.group_values(n.groups), 1e-9)
     assert isinstance(proof, SpinDownCertificate)
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
+def test_a_film_thicker_than_the_spheres_are_wide(engine: str) -> None:
+    """Stopped where no shear acts yet, spinning spheres never turn about each other: proved at once."""
+    thick = FILM.with_entries({"liquid.film_thickness": "150 um", "impact.spin": 300.0})
+    found = collide(thick.with_impact(stokes=1e-3, angle=0.0), engine=engine, ledger=False)
+    assert (found.outcome, found.certified, found.events) == ("stick", True, ())

@@ -165,16 +165,18 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
 #endif
 #if SPIN_DOWN
 /* Spin-down certificate: without angular momentum the rotation dies out, and the film alone keeps the doublet
- * (derive/equations/certificates/spin_down.py). Rate is not positive beyond the edge of the shear.
+ * (derive/equations/certificates/spin_down.py). Rate is not positive beyond the edge of the shear, where without J
+ * nothing turns.
  */
 static inline mask spun_down(const constants *c, const vec *y, mask asked, double tolerance)
 {
-    asked &= (c->first_momentum == 0.0) & (y[GAP] >= contact_gap(c)*(1.0 - SAFETY*tolerance));
+    mask still = y[ORBITAL_MOMENTUM] == 0.0, none = c->first_momentum == 0.0;
+    asked &= (none | still) & (y[GAP] >= contact_gap(c)*(1.0 - SAFETY*tolerance));
     if (!bits(asked))
         return asked;
-    vec stays, rate;
-    spin_down_margins(c, y, &stays, &rate);
-    return asked & (rate > 0.0) & (stays < -SAFETY*tolerance*vec_larger(c->stokes, splat(1.0)));
+    vec stays, rate, apart, inside, error = SAFETY*tolerance*vec_larger(c->stokes, splat(1.0));
+    spin_down_margins(c, y, &stays, &rate, &apart, &inside);
+    return asked & ((none & (rate > 0.0) & (stays < -error)) | (still & (inside < 0.0) & (apart < -error)));
 }
 #endif
 
