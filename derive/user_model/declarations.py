@@ -346,7 +346,7 @@ def event(
             raise ModelFileError(f"{label}.jump", target, "u, omega, xi", "is no velocity of the particles")
         after.append((target, _of_event(f"{label}.jump", value, there, own_events.JUMPS[target])))
     if ends == "stick" and after:
-        raise ModelFileError(f"{label}.jump", jump, "no jump beside ends = \"stick\"", "would not be seen")
+        raise ModelFileError(f"{label}.jump", jump, 'no jump beside ends = "stick"', "would not be seen")
     mark = sp.Symbol(f"before_{name}", nonnegative=True)
     there.events[name] = own_events.Proposed(
         name, said, mark, tested, where, tuple(after), ends, _of_event(f"{label}.releases", releases, there, ENERGY),

@@ -162,7 +162,7 @@ class OwnEvent:
 
     @property
     def harmless(self) -> bool:
-        """Shown to leave every barrier of the energy as it is: no energy, no angular momentum, no law, no separation."""
+        """Shown to leave every barrier of the energy as it is: it adds none, keeps L and the laws, and separates no one."""
         return self.takes and not self.spins and not self.used and self.proposed.ends != "separated"
 
     def reach(self, of: Structure) -> Reach:
@@ -253,9 +253,7 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
         _, jump, released = forms[each.name]
         after = {state: jump.get(state, state) for state in states} | {each.mark: sp.Integer(0)}
         doc = f"State just after the event {each.name}: {each.proposed.meaning}."
-        functions.append(
-            ModelFunction(f"jump_{each.name}", doc, tuple((state.name, after[state]) for state in states))
-        )
+        functions.append(ModelFunction(f"jump_{each.name}", doc, tuple((state.name, after[state]) for state in states)))
         doc = f"Stored energy over m v0^2 that the event {each.name} may give to the motion."
         functions.append(ModelFunction(f"release_{each.name}", doc, (("released", released),)))
     return replace(model, states=states, functions=tuple(functions))
@@ -278,5 +276,5 @@ def scale_of(dimension: Dimension) -> sp.Expr:
 
 
 def may_use(symbol: sp.Basic) -> bool:
-    """Whether a symbol of the vocabulary may occur in an event: the motion, groups, and quantities that have a group."""
+    """Whether a symbol of the vocabulary may occur in an event: the motion, groups, and quantities with a group."""
     return symbol in {*to_groups(), *GROUPS, a, mu, v0} - {partner_spin_rate}

@@ -88,7 +88,9 @@ class UserModel:
             for f in model.functions
         )
         definitions = tuple((symbol, call(value)) for symbol, value in model.definitions)
-        reached: set[sp.Basic] = {s for key, extra in self.extra.items() if key.split(".")[0] in model.slots for s in extra}
+        reached: set[sp.Basic] = {
+            s for key, extra in self.extra.items() if key.split(".")[0] in model.slots for s in extra
+        }
         reached |= own_events.groups_of(self.events, model.structure)
         known = {*model.groups, *reached}
         groups = [group for group in GROUPS if group in known]

@@ -1,7 +1,7 @@
-"""Certificates beside declared events of a user's model: what is proved holds where no such event can happen any more.
+"""Certificates beside declared events of a user's model: they hold where no such event can happen any more.
 
-The energy certificate is taken for the forces that act now: its barriers are searched anew at every decision, and the work
-of the attractions is that from the gap of initial contact at these forces, not what was spent while others acted.
+The energy certificate is taken for the forces that act now: its barriers are searched anew at every decision, and the
+work of the attractions is that from the gap of initial contact at these forces, not what was spent while others acted.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ class EnergyBesideEvents(EnergyCertificate):
         return None
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        """The verdict; nothing is shown for a lever arm with which angular momentum drifts."""
-        if not self.theorem:
-            return Certainty.OPEN
+        """The verdict; in motion nothing is shown for a lever arm with which angular momentum drifts."""
         if phase.resting:  # declared events are watched in motion only
             still = not self.model.oblique or self.model.wall or not phase.shear
-            return Certainty.of(still or self.rests(y))
+            return Certainty.of(still or self.rests(y), self.theorem)
+        if not self.theorem:
+            return Certainty.OPEN
         ahead = [barrier for barrier in self.barriers(y) if barrier.gap > y[0]]
         if not ahead:
             return Certainty.OPEN
@@ -68,10 +68,11 @@ class EnergyBesideEvents(EnergyCertificate):
         return state
 
     def excluded(self, y: np.ndarray, energy: float, motions: Sequence[int]) -> bool:
-        """True if this energy does not suffice for any declared event that has not happened, in these directions.
+        """True if this energy does not suffice for a declared event that has not happened, in these directions.
 
-        The speed at a gap is at most that of the energy above the height there. A guard is positive in a part of the gap
-        and at the speeds there if it is in the worst corner, by the signs of its slopes. Harmless events change no barrier.
+        The speed at a gap is at most that of the energy above the height there. A guard is positive in a part of the
+        gap and at the speeds there if it is in the worst corner, by the signs of its slopes. Harmless events change no
+        barrier.
         """
         model = self.model
         left = [
