@@ -110,6 +110,7 @@ def _event(event: OwnEvent) -> dict[str, object]:
         "takes": event.takes,
         "harmless": event.harmless,
         "rotates": event.rotates,
+        "turns": event.turns,
         "spins": event.spins,
         "reach": asdict(reach) if reach.known else None,
     }

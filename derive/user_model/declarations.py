@@ -344,7 +344,12 @@ def event(
             )
         if target not in own_events.JUMPS:
             raise ModelFileError(f"{label}.jump", target, "u, omega, xi", "is no velocity of the particles")
-        after.append((target, _of_event(f"{label}.jump", value, there, own_events.JUMPS[target])))
+        new = _of_event(f"{label}.jump", value, there, own_events.JUMPS[target])
+        still = sp.simplify(unfolded(new, there).subs({omega: 0, xi: 0}))
+        if target != u and still != 0:
+            accepted = "a jump that vanishes with omega and xi, as omega/2"
+            raise ModelFileError(f"{label}.jump", str(new), accepted, "turns what does not turn, as in a head-on collision")
+        after.append((target, new))
     if ends == "stick" and after:
         raise ModelFileError(f"{label}.jump", jump, 'no jump beside ends = "stick"', "would not be seen")
     mark = sp.Symbol(f"before_{name}", nonnegative=True)

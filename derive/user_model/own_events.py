@@ -148,6 +148,12 @@ class OwnEvent:
         return bool(free & {omega, xi, omega0})
 
     @property
+    def turns(self) -> bool:
+        """Its guard varies with a rotation only, so that nothing happens head-on."""
+        still = sp.simplify(self.guard.xreplace({omega: sp.Integer(0), xi: sp.Integer(0)}))
+        return not still.free_symbols & {x, u}
+
+    @property
     def spins(self) -> bool:
         """The jump changes the rotation, so that the spin cannot be eliminated by the angular momentum."""
         return any(target in (omega, xi) for target, _ in self.jump)
@@ -162,7 +168,7 @@ class OwnEvent:
 
     @property
     def harmless(self) -> bool:
-        """Shown to leave every barrier of the energy as it is: it adds none, keeps L and the laws, and separates no one."""
+        """Shown to leave every barrier of the energy as it is: it adds none, keeps L and the laws, and does not end."""
         return self.takes and not self.spins and not self.used and self.proposed.ends != "separated"
 
     def reach(self, of: Structure) -> Reach:
@@ -188,6 +194,8 @@ class OwnEvent:
 
     def there(self, structure: Structure) -> bool:
         """Whether a structure can have the event."""
+        if not structure.oblique:
+            return not self.turns
         return not (structure.partner == "wall" and self.rotates) and not (structure.reduced and self.spins)
 
     def in_structure(self, structure: Structure) -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr], sp.Expr]:

@@ -46,7 +46,7 @@ class OwnEvent:
         reach: signs of its guard's slopes along the gap and along the speed, opening and closing, as far as they are
             shown; None where the guard's least value cannot be told from them.
         takes: its jump never adds kinetic energy. harmless: nor does it change any barrier of the energy.
-        rotates: it speaks of a rotation. spins: its jump changes one.
+        rotates: it speaks of a rotation. turns: its guard of nothing else. spins: its jump changes one.
     """
 
     row: Event
@@ -56,6 +56,7 @@ class OwnEvent:
     takes: bool
     harmless: bool
     rotates: bool
+    turns: bool
     spins: bool
 
     @classmethod
@@ -64,7 +65,7 @@ class OwnEvent:
         given = {name: one[name] for name in Event._fields}
         given |= {"where": tuple((part, value) for part, value in one["where"])}
         given |= {name: tuple(one[name]) for name in ("functions", "words", "actions")}
-        others = ("mark", "meaning", "reach", "takes", "harmless", "rotates", "spins")
+        others = ("mark", "meaning", "reach", "takes", "harmless", "rotates", "turns", "spins")
         return cls(Event(**given), **{name: one[name] for name in others})
 
     @property
@@ -139,7 +140,11 @@ class Package:
         return {**given, **{name: value for name, value in self.defaults.items() if name not in given}}
 
     def demand(self, entries: Mapping[str, Any]) -> None:
-        """Raise InputError for a quantity that has no default and is not among the entries."""
+        """Raise InputError for a quantity that has no default and is not among the entries, or an event without sense."""
+        turning = next((each.word for each in self.events if each.rotates), None)
+        if turning is not None and entries.get("partner.wall"):
+            accepted = f"another partner, or a model without the event {turning}"
+            raise InputError("partner.wall", True, accepted, "has no rotation, of which this event speaks")
         for name in self.quantities:
             if f"{TABLE}.{name}" not in entries:
                 raise InputError(f"{TABLE}.{name}", None, self.fields[f"{TABLE}.{name}"].accepts)
@@ -179,12 +184,13 @@ class Package:
         return tuple(OwnEvent.read(one) for one in self.manifest.get("events", ()))
 
     def events_in(self, structure: str) -> tuple[OwnEvent, ...]:
-        """Those that a structure has: beside a wall nothing rotates, and a jump of the rotation needs the spin."""
-        parts = structure.split("_")
+        """Those that a structure has: head-on and beside a wall nothing turns, and a jump of the spin needs the spin."""
+        head_on = structure.startswith("head_on")
+        wall, reduced = (part in structure.split("_") for part in ("wall", "reduced"))
         return tuple(
             one
             for one in self.events
-            if not (one.rotates and "wall" in parts) and not (one.spins and "reduced" in parts)
+            if not ((one.turns and head_on) or (one.rotates and wall) or (one.spins and reduced))
         )
 
     @property

@@ -133,8 +133,8 @@ def effects_header(provenance: str, own: Sequence[Event] = ()) -> str:
     body = ["switch (event) {"]
     for event in automaton.EVENTS:
         body += [f"case {event_name(event)}:", *(f"    {line}" for line in _effect(event)), "    break;"]
-    for place, event in enumerate(own):
-        body += [f"case {event_name(event)}:", *(f"    {line}" for line in _own_effect(place, event)), "    break;"]
+    for event in own:
+        body += [f"case {event_name(event)}:", *(f"    {line}" for line in _own_effect(event)), "    break;"]
     body.append("}")
     head = "static void act(queue *q, lanes *l, fixed *f, int lane, int event)"
     return "\n".join([*lines, "", head, "{", *(f"    {line}" for line in body), "}"]) + "\n"
@@ -145,15 +145,15 @@ def own_kind(event: Event) -> str:
     return f"KIND_OWN_{event.name.upper()}"
 
 
-def _own_effect(place: int, event: Event) -> list[str]:
-    """C statements of the effect of a user's event (runtime/own/effects.h)."""
+def _own_effect(event: Event) -> list[str]:
+    """C statements of the effect of a user's event (runtime/transitions.h)."""
     ending = {
         "go on": "goes_on(l, f, lane);",
         "part": "finish(q, l, f, lane, DECIDED, l->reversal[lane] >= 0 ? BOUNCE : ROTATE, 0);",
         "cut off": "finish(q, l, f, lane, DECIDED, STICK, 0);",
     }[event.actions[-1]]
     noted = f"note(q, l->index[lane], {own_kind(event)}, l->time[lane]);"
-    return [noted, f"if (own_event_jumps(q, l, f, lane, {place}))", f"    {ending}"]
+    return [noted, f"if (own_event_jumps(q, l, f, lane, event))", f"    {ending}"]
 
 
 def event_name(event: Event) -> str:

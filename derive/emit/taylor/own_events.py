@@ -9,6 +9,7 @@ import sympy as sp
 
 from ...equations.automaton import EVENTS, WORDS
 from ..casadi.printer import EmissionError
+from ..text import needed
 from .c_text import Constants, Recurrences
 from .layout import comment, function
 from .program import Program
@@ -38,6 +39,9 @@ def own_event_functions(
         raise EmissionError(f"{len(own)} declared events are more than the kernel has room for")
     guards = dict(model["events"].outputs)
     program = Program(model.states)
+    kept, _ = needed([sp.sympify(guards[each.name]) for each in own], model.definitions)
+    for symbol, expression in kept:
+        program.define(symbol, expression)
     found = {each.name: program.series(sp.sympify(guards[each.name]), f"guard_of_{each.name}") for each in own}
     made = Recurrences(program, constants, lambda name: f"m->{name}")
     body = ["(void)c; (void)m;", *made.lines()]

@@ -39,6 +39,7 @@ from ...settings import CALL, STEPS
 from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance_for
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is abandoned after 16 * 8^21 of them
+_DOUBLED, _MORE = 2.0, 64  # the same where a certificate is tried after each, as no event of it is watched
 _NOW_AND_THEN = 20  # phases of chatter between two checks of the certificate
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _LOOSER = 1e3  # factor from a tolerance that an integrator cannot meet to the next one
@@ -250,7 +251,8 @@ class EventLocator:
         """Integrate to the next event and apply its effect; True if the collision is over."""
         find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
         elapsed, stretch = 0.0, self._first_stretch()
-        for _ in range(STRETCHES):
+        growth, most = (_DOUBLED, _MORE) if self.model.own_events else (GROWTH, STRETCHES)
+        for _ in range(most):
             level, left = self._level(), self.deadline - self.path.time
             stop = self._advance(find, min(stretch, left), -np.inf if level is None else level)
             elapsed += stop.time
@@ -269,7 +271,7 @@ class EventLocator:
             elif self._proved(elapsed):
                 return True
             else:
-                stretch *= GROWTH
+                stretch *= growth
         raise self._error(
             f"no event within {elapsed:.3g} x0/v0",
             "the outcome changes within the tolerance of this impact, or the gap changes too slowly: "

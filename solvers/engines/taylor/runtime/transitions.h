@@ -110,9 +110,12 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 
 #if OWN_EVENTS
 /* The jump of a declared event; false if it creates energy that it does not declare, where other engines say so. */
-static int own_event_jumps(queue *q, lanes *l, fixed *f, int lane, int which)
+static int own_event_jumps(queue *q, lanes *l, fixed *f, int lane, int event)
 {
     vec after[STATES], released;
+    int which = 0; /* a structure need not have all of a model's events */
+    while (OWN[which].event != event)
+        which++;
     memcpy(after, l->y, sizeof after);
     own_jump(&f->c, l->y, which, after, &released);
     double before = stored_energy(&f->c, l->y)[lane], left = stored_energy(&f->c, after)[lane];
