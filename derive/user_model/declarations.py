@@ -348,7 +348,9 @@ def event(
         still = sp.simplify(unfolded(new, there).subs({omega: 0, xi: 0}))
         if target != u and still != 0:
             accepted = "a jump that vanishes with omega and xi, as omega/2"
-            raise ModelFileError(f"{label}.jump", str(new), accepted, "turns what does not turn, as in a head-on collision")
+            raise ModelFileError(
+                f"{label}.jump", str(new), accepted, "turns what does not turn, as in a head-on collision"
+            )
         after.append((target, new))
     if ends == "stick" and after:
         raise ModelFileError(f"{label}.jump", jump, 'no jump beside ends = "stick"', "would not be seen")
