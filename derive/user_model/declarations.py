@@ -317,7 +317,7 @@ def event(
     _check_name("event", name, there)
     if name in own_events.TAKEN_NAMES:
         raise ModelFileError("event", name, "a name of your own", "is an event of the library")
-    _check_name(f"{label}, mark", f"before_{name}", there)
+    _check_name(f"{label}, mark", own_events.MARK + name, there)
     said = word or name.replace("_", " ") if isinstance(name, str) else word
     if not isinstance(said, str) or not own_events.WORD.fullmatch(said):
         raise ModelFileError(f"{label}.word", said, "small letters, digits and single spaces")
@@ -354,7 +354,7 @@ def event(
         after.append((target, new))
     if ends == "stick" and after:
         raise ModelFileError(f"{label}.jump", jump, 'no jump beside ends = "stick"', "would not be seen")
-    mark = sp.Symbol(f"before_{name}", nonnegative=True)
+    mark = sp.Symbol(own_events.MARK + name, nonnegative=True)
     there.events[name] = own_events.Proposed(
         name, said, mark, tested, where, tuple(after), ends, _of_event(f"{label}.releases", releases, there, ENERGY),
         meaning or f"{said}, a user's event", source or "no source given",
@@ -398,7 +398,7 @@ def _check_name(what: str, name: object, there: Declarations) -> None:
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         raise ModelFileError(what, name, "a name of small letters, digits and underscores")
     taken = name in VOCABULARY or name in _TAKEN or name in there.quantities or name in there.intermediates
-    taken |= any(name in (known, f"before_{known}") for known in there.events)
+    taken |= any(name in (known, own_events.MARK + known) for known in there.events)
     if taken or any(name == known.group for known in there.quantities.values()):
         raise ModelFileError(what, name, "a name that is not taken", "is taken already")
 

@@ -47,6 +47,7 @@ JUMPS: dict[sp.Symbol, Dimension] = {u: SPEED, omega: RATE, xi: RATE}
 WORD = re.compile(r"[a-z][a-z0-9]*( [a-z0-9]+)*")
 TAKEN_WORDS = {each.word for each in WORDS}
 TAKEN_NAMES = {name for row in EVENTS for name in (row.name, *row.functions)}
+MARK = "before_"  # and the name of an event: its mark
 MOTIONS = {"closing": CLOSING, "opening": OPENING, "any": 0}
 REGIONS = {"": None, "inside the film": 1, "beyond the film": 0}
 PLACES = tuple(f"{motion} {region}".strip() for motion in MOTIONS for region in REGIONS)

@@ -140,7 +140,7 @@ class Package:
         return {**given, **{name: value for name, value in self.defaults.items() if name not in given}}
 
     def demand(self, entries: Mapping[str, Any]) -> None:
-        """Raise InputError for a quantity that has no default and is not among the entries, or an event without sense."""
+        """Raise InputError for a quantity that is missing without a default, or an event that the scene cannot have."""
         turning = next((each.word for each in self.events if each.rotates), None)
         if turning is not None and entries.get("partner.wall"):
             accepted = f"another partner, or a model without the event {turning}"
@@ -184,7 +184,7 @@ class Package:
         return tuple(OwnEvent.read(one) for one in self.manifest.get("events", ()))
 
     def events_in(self, structure: str) -> tuple[OwnEvent, ...]:
-        """Those that a structure has: head-on and beside a wall nothing turns, and a jump of the spin needs the spin."""
+        """Those that a structure has: head-on and beside a wall nothing turns, a jump of the spin needs the spin."""
         head_on = structure.startswith("head_on")
         wall, reduced = (part in structure.split("_") for part in ("wall", "reduced"))
         return tuple(

@@ -153,7 +153,7 @@ def _own_effect(event: Event) -> list[str]:
         "cut off": "finish(q, l, f, lane, DECIDED, STICK, 0);",
     }[event.actions[-1]]
     noted = f"note(q, l->index[lane], {own_kind(event)}, l->time[lane]);"
-    return [noted, f"if (own_event_jumps(q, l, f, lane, event))", f"    {ending}"]
+    return [noted, "if (own_event_jumps(q, l, f, lane, event))", f"    {ending}"]
 
 
 def event_name(event: Event) -> str:
