@@ -33,6 +33,7 @@ from ..vocabulary.quantities import (
     orbital_momentum,
     partner_spin,
     partner_spin_rate,
+    rate_scale,
     spin,
     u,
     v0,
@@ -118,7 +119,7 @@ class OwnEvent:
     """A declared event with `let` parts substituted and its quantities as groups, dimensionless in SI symbols.
 
     Arguments:
-        guard: over m^i x0^j v0^k of its dimension. jump: (quantity, value over v0 or omega0).
+        guard: over m^i x0^j v0^k of its dimension. jump: (quantity, value over v0 or rate_scale).
         releases: over m v0^2.
             used: a law depends on its mark.
     """
@@ -162,7 +163,7 @@ class OwnEvent:
     @property
     def takes(self) -> bool:
         """True if its jump is shown to never add kinetic energy."""
-        after = {target: value * (v0 if target == u else omega0) for target, value in self.jump}
+        after = {target: value * (v0 if target == u else rate_scale) for target, value in self.jump}
         kinetic = equations_of_motion().kinetic_energy
         change = sp.factor(sp.simplify(sp.expand(kinetic.xreplace(after)) - sp.expand(kinetic)))
         return bool(change == 0 or change.is_nonpositive)

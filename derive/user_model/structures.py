@@ -14,7 +14,7 @@ from ..physics.laws.base import Definition, Law, LawFunction, is_slot_call
 from ..physics.scaling import ScalingError, dimension_matrix, group_definitions, to_groups
 from ..physics.slots import MOTION, Place, places
 from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
-from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, omega0, u, v0, x, x0
+from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
 from . import own_events
 from .declarations import Declarations, Declared, Proposed, unfolded
 from .own_events import OwnEvent
@@ -145,7 +145,7 @@ def _event(
         return sp.sympify(unfolded(expression, declared).xreplace(own) / over)
 
     scale = own_events.scale_of(dimension_of(unfolded(one.guard, declared), of) or ONE)
-    jump = tuple((target, scaled(value, v0 if target == u else omega0)) for target, value in one.jump)
+    jump = tuple((target, scaled(value, v0 if target == u else rate_scale)) for target, value in one.jump)
     return OwnEvent(one, scaled(one.guard, scale), jump, scaled(one.releases, m * v0**2), one.mark in called)
 
 
