@@ -56,8 +56,8 @@ def package(model: UserModel, source: str, library: str, origin: str = "") -> di
     digests: dict[str, str] = {}
     for structure in structures():
         plain = derive(structure)
-        if not changed & set(plain.slots) and not model.events:
-            continue
+        if not changed & set(plain.slots):
+            continue  # declared events change every structure, which is then derived where a scene needs it
         extended = model.extended(plain)
         files[f"{structure.name}.py"] = structure_module(extended, own)
         digests[structure.name] = model_digest(extended)

@@ -17,6 +17,7 @@ from ..scene.contact import contact_gap
 from ..scene.user_model import OwnEvent
 from .base import Certainty, Certificate
 from .energy_barrier import Barrier, EnergyCertificate
+from .quadrature import panels
 
 PARTS = 24  # of the film, and as many beyond it, within which heights are bounded by those at their ends
 _LEAST = 1e-6  # gap down to which heights are known
@@ -58,6 +59,13 @@ class EnergyBesideEvents(EnergyCertificate):
         """The effective potential at a gap."""
         return self._least(y, 1.0) + self._rise(gap, y)
 
+    def _heights(self, gaps: Sequence[float], y: np.ndarray) -> list[float]:
+        """The effective potential at ascending gaps, of which the one at PARTS is 1."""
+        parts = panels(lambda logs: self._slope(np.exp(logs), y) * np.exp(logs), np.log(gaps))
+        risen = np.concatenate([[0.0], np.cumsum(parts)])
+        heights: list[float] = (self._least(y, 1.0) + risen - risen[PARTS]).tolist()
+        return heights
+
     def _least(self, y: np.ndarray, gap: float) -> float:
         return self.model.values("effective_potential", np.array([gap, *y[1:]]), self.p)["energy"]
 
@@ -87,10 +95,10 @@ class EnergyBesideEvents(EnergyCertificate):
         start = min(max(contact, _LEAST), 0.5)
         if any(each.reach is None or (_film(each) != 0 and contact < start) for each in left):
             return False
-        gaps = [*np.geomspace(start, 1.0, PARTS + 1), *np.linspace(1.0, end, PARTS + 1)[1:]]
+        gaps = [*np.geomspace(start, 1.0, PARTS + 1).tolist(), *np.linspace(1.0, end, PARTS + 1)[1:].tolist()]
         there = y[: len(model.state)]
-        heights = [self.height(there, float(gap)) for gap in gaps]
-        for k in range(2 * PARTS):
+        heights = self._heights(gaps if end > 1 else gaps[: PARTS + 1], there)
+        for k in range(len(heights) - 1):
             low, high = heights[k], heights[k + 1]
             above = energy - (min(low, high) - abs(high - low))
             if above <= 0:

@@ -33,6 +33,16 @@ static inline vec gap_of_part(vec start, vec end, int k)
     return k < OWN_PARTS ? start*vec_exp(vec_log(start)*-part) : 1.0 + (end - 1.0)*part;
 }
 
+/* The rise of the effective potential from one gap to the next. */
+static inline vec risen(const constants *c, const vec *y, vec low, vec high)
+{
+#if CAPILLARY_STATE
+    return integral(c, y, vec_log(low), vec_log(high), slope_in_logarithm);
+#else
+    return height_at(c, y, high) - height_at(c, y, low);
+#endif
+}
+
 /* Kinetic energy and potential of the attractions, as heights are counted. */
 static inline vec whole_energy(const constants *c, const vec *y)
 {
@@ -66,7 +76,7 @@ static mask own_events_excluded(const constants *c, const vec *y, vec energy, ma
     }
     memcpy(there, y, sizeof there);
     for (int k = 1; k <= 2*OWN_PARTS && bits(excluded); k++) {
-        vec next = gap_of_part(start, end, k), above = height_at(c, y, next);
+        vec next = gap_of_part(start, end, k), above = height + risen(c, y, last, next);
         vec least = vec_min(height, above) - vec_abs(above - height);
         mask reached = energy > least;
         vec speed = vec_sqrt(2.0*vec_max(energy - least, splat(0.0)));
