@@ -43,6 +43,7 @@ _DOUBLED, _MORE = 2.0, 64  # the same where a certificate is tried after each, a
 _NOW_AND_THEN = 20  # phases of chatter between two checks of the certificate
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _LOOSER = 1e3  # factor from a tolerance that an integrator cannot meet to the next one
+_EVENT_OF = {event.name: event for event in EVENTS}
 _GAP, _VELOCITY = 0, 1  # indices in the state
 
 
@@ -352,7 +353,7 @@ class EventLocator:
         own = next((each for each in self.model.own_events if each.name == name), None)
         if own is not None:
             return self._own_event(own, elapsed, name)
-        return self._act(next(row for row in EVENTS if row.name == name), elapsed)
+        return self._act(_EVENT_OF[name], elapsed)
 
     def _own_event(self, event: OwnEvent, elapsed: float, landed: str | None) -> bool:
         """The jump of a declared event and what follows it; True if it ends the collision."""

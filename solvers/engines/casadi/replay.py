@@ -104,9 +104,9 @@ def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, s
             replayed.dry_loss += float(replayed.y[1]) ** 2 / 2
             replayed.y[1] = 0.0
         if step.own:
-            after = np.array([*model.values(f"jump_{step.own}", replayed.y, p).values(), *replayed.y[size:]])
-            replayed.own_loss += own_loss(model, replayed.y, after, p)
-            replayed.y = after
+            jumped = np.array([*model.values(f"jump_{step.own}", replayed.y, p).values(), *replayed.y[size:]])
+            replayed.own_loss += own_loss(model, replayed.y, jumped, p)
+            replayed.y = jumped
     return replayed
 
 
