@@ -7,7 +7,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, InputError, Scene, boundary, collide, collide_many, sensitivities
+from wetdoublet.solvers import (
+    ComputationError,
+    InputError,
+    Scene,
+    atlas,
+    boundary,
+    collide,
+    collide_many,
+    sensitivities,
+)
 from wetdoublet.solvers.engines.taylor import build
 from wetdoublet.solvers.engines.taylor.call import variant
 from wetdoublet.solvers.host.compiler import compiler
@@ -161,6 +170,12 @@ def test_a_boundary_is_named_after_its_event(snaps: Path):
     free = collide(own.with_entries({"custom.critical_rate": 1e3}), stokes=at, angle=0.0, rtol=1e-10, ledger=False)
     assert [event.kind for event in free.events] == ["glass", "film edge", "snap"]
     assert free.restitution * free.speed == pytest.approx(rate * own.liquid.film_thickness, rel=1e-7)
+
+
+def test_an_atlas_is_refused(snaps: Path):
+    """Kinds of curves are told by functions that know of no declared event, so there is no atlas."""
+    with pytest.raises(InputError, match="spans no atlas of a model that declares events; accepted: boundaries along"):
+        atlas(scene(snaps), over="impact.angle", span=(0.0, 0.3), stokes=(0.1, 0.2))
 
 
 def test_energy_is_not_created_unsaid(snaps: Path):
