@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import sympy as sp
@@ -11,6 +12,7 @@ from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.laws.base import Law
 from ..physics.structure import Structure
+from ..user_model.own_events import OwnEvent
 from ..user_model.structures import UserModel
 from .closed import filled
 from .conservation import momentum_rate
@@ -27,11 +29,29 @@ def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
     return sp.simplify(filled(rate, {}))
 
 
+def _of_event(event: OwnEvent) -> str:
+    """What is shown of a declared event."""
+    ends = {"": "", "separated": ", ends the collision as separated", "stick": ", cuts the collision off as a stick"}
+    said = f"Event {event.proposed.word}, {event.proposed.where}{ends[event.proposed.ends]}: "
+    if event.jump:
+        said += "its jump is shown to add no kinetic energy" if event.takes else (
+            "that its jump adds no kinetic energy is not shown, and tested at each"
+        )  # fmt: skip
+        said += "; angular momentum jumps. " if event.spins else "; angular momentum is kept. "
+    else:
+        said += "the motion is continuous. "
+    if event.harmless:
+        return said + "The energy certificate holds beside it."
+    if event.reach(_FULL).known:
+        return said + "Sticks are proved where the energy does not suffice for it, or after it."
+    return said + "Sticks are proved after it only."
+
+
 @cache
 def conserved(model: UserModel) -> tuple[str, ...]:
     """The conserved quantities without strings and rebounds, for any other laws."""
     arm = model.default("arm") if "arm" in model.slots else LAWS["arm"]["midgap"]
-    found = invariants(model.extended(derive(_FULL)), {"arm": arm})
+    found = invariants(replace(model, events=()).extended(derive(_FULL)), {"arm": arm})
     return tuple(_ANGULAR_MOMENTUM if each.is_angular_momentum else each.describe() for each in found)
 
 
@@ -56,4 +76,5 @@ def in_words(model: UserModel) -> tuple[str, ...]:
             )
     if not model.groups:
         lines.append("No new group.")
+    lines += [_of_event(event) for event in model.events]
     return tuple(lines)

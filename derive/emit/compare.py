@@ -10,6 +10,7 @@ from random import Random
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ..user_model.own_events import MARK
 from .document.latex import NAMES
 from .read import Read, functions
 
@@ -47,10 +48,18 @@ def equations(modules: Mapping[str, str]) -> Equations:
     return found
 
 
+def _untold(function: str, name: str, value: sp.Expr) -> bool:
+    """What a declared event leaves as it is, and the bookkeeping of whether it has happened."""
+    same = function.startswith("jump_") and str(value) == name
+    return same or name.startswith(MARK) or (function.startswith("release_") and value == 0)
+
+
 def _named(room: str, function: Read) -> Equations:
     prefix = f"{room}: " if room else ""
     named = {f"{prefix}{name}": value for name, value in function.definitions}
     for name, value in function.outputs:
+        if _untold(function.name, name, value):
+            continue
         if function.name == "right_hand_side":
             named[f"{prefix}d {name}/dt"] = value
         else:

@@ -14,6 +14,7 @@ from ..physics.structure import Structure, known
 from ..user_model.modelfile import read
 from ..user_model.structures import UserModel
 from ..vocabulary.quantities import normal_velocity
+from .casadi.automaton import provenance
 from .casadi.modules import (
     law_kernel,
     law_slopes,
@@ -22,6 +23,7 @@ from .casadi.modules import (
     structure_tangent,
 )
 from .casadi.printer import EmissionError
+from .taylor.automaton import automaton_header, effects_header
 from .taylor.header import Beside
 from .taylor.law_slopes import UNUSED
 from .user import own_names
@@ -64,7 +66,9 @@ def user_structure_header_text(source: str, model: str, name: str, tangent: bool
     found = read(Path(f"{model}.py"), source, model)
     own = own_names(found)
     meanings = {name: meaning for name, (_, meaning) in own.items()}
-    beside = Beside({group.symbol: group.definition for group in found.groups}, meanings, found.extra)
+    beside = Beside({group.symbol: group.definition for group in found.groups}, meanings, found.extra, found.events)
+    if tangent and found.events:
+        return _none(EmissionError("declared events have no derivatives in C"))
     try:
         made = structure_tangent if tangent else structure_kernel
         return made(found.extended(derive(named(name))), own, beside)
@@ -90,14 +94,22 @@ def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: 
         return _none(error, f"law {slot} {name}: ")
 
 
+def user_automaton_texts(source: str, model: str) -> tuple[str, str]:
+    """Texts of the C headers of the automaton with a user's events: enumerations, and the switch over effects."""
+    own = [event.proposed.row for event in read(Path(f"{model}.py"), source, model).events]
+    meanings = [event.proposed.meaning for event in read(Path(f"{model}.py"), source, model).events]
+    return automaton_header(provenance(), own, meanings), effects_header(provenance(), own)
+
+
 def _wide(law: Law, model: UserModel) -> tuple[Law, set[sp.Symbol]]:
     """A law of the library that ignores a model's additional arguments, and the constant ones among these."""
     still: set[sp.Symbol] = set()
     functions = []
     for each in law.functions:
         passed = model.extra.get(f"{law.slot}.{each.name}", ())
+        marks = {event.mark for event in model.events}
         unused = tuple(sp.Symbol(f"{UNUSED}{symbol.name}", real=True) for symbol in passed)
-        still |= {own for own, symbol in zip(unused, passed, strict=True) if symbol != normal_velocity}
+        still |= {own for own, symbol in zip(unused, passed, strict=True) if symbol not in {normal_velocity, *marks}}
         functions.append(replace(each, arguments=(*each.arguments, *unused)))
     return replace(law, functions=tuple(functions)), still
 

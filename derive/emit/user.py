@@ -8,11 +8,13 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 
 from ..checks.words import conserved, in_words
 from ..equations.model import derive
-from ..physics.structure import structures
+from ..physics.structure import Structure, structures
+from ..user_model.own_events import OwnEvent
 from ..user_model.structures import UserModel
 from ..vocabulary.quantities import VOCABULARY
 from .casadi.modules import (
@@ -55,7 +57,7 @@ def package(model: UserModel, source: str, library: str, origin: str = "") -> di
     for structure in structures():
         plain = derive(structure)
         if not changed & set(plain.slots):
-            continue
+            continue  # declared events change every structure, which is then derived where a scene needs it
         extended = model.extended(plain)
         files[f"{structure.name}.py"] = structure_module(extended, own)
         digests[structure.name] = model_digest(extended)
@@ -72,6 +74,7 @@ def package(model: UserModel, source: str, library: str, origin: str = "") -> di
         "origin": origin,
         "library": library,
         "laws": laws,
+        **({"events": [_event(event) for event in model.events]} if model.events else {}),
         "structures": digests,
         "scaling": scaling,
         "extra": {key: [symbol.name for symbol in extra] for key, extra in model.extra.items()},
@@ -91,7 +94,26 @@ def own_names(model: UserModel) -> Own:
     for group in model.groups:
         if group.symbol != group.quantity.symbol:
             known[group.symbol.name] = ("1", f"{group.quantity.meaning}, over {group.over}")
+    for event in model.events:
+        known[event.mark.name] = ("1", f"1 before the event {event.proposed.word}, 0 after it")
     return known
+
+
+def _event(event: OwnEvent) -> dict[str, object]:
+    """A row of the automaton, and what the certificates may know of the event."""
+    reach = event.reach(Structure(True, True, False))
+    return {
+        **asdict(event.proposed.row),
+        "mark": event.mark.name,
+        "meaning": event.proposed.meaning,
+        "source": event.proposed.source,
+        "takes": event.takes,
+        "harmless": event.harmless,
+        "rotates": event.rotates,
+        "turns": event.turns,
+        "spins": event.spins,
+        "reach": asdict(reach) if reach.known else None,
+    }
 
 
 def _quantity(model: UserModel, name: str) -> dict[str, object]:

@@ -46,8 +46,9 @@ from ..physics.laws.bridge import h
 from ..physics.laws.glass import approach
 from ..physics.laws.strings import offset_squared
 from ..vocabulary.allowed_values import Bounds, BoundsError
-from ..vocabulary.dimensions import Dimension
+from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, dimension_of
 from ..vocabulary.quantities import (  # fmt: skip
+    DIMENSIONS,
     VOCABULARY,
     E,
     R,
@@ -80,10 +81,12 @@ from ..vocabulary.quantities import contact_angle as phi
 from ..vocabulary.quantities import normal_velocity as opening  # its name in older model files
 from ..vocabulary.quantities import volume as V
 from ..vocabulary.unitnames import UnitError, dimension_of_unit
+from . import own_events
 
 __all__ = [
     "Abs", "E", "Max", "Min", "Piecewise", "R", "Rational", "V", "a", "acos", "approach", "asin", "aspect", "atan",
-    "cos", "cosh", "distance", "e_dry", "exp", "g", "gap", "glass_number", "h", "l_s", "law", "let", "log", "m", "mu",
+    "cos", "cosh", "distance", "e_dry", "event", "exp", "g", "gap", "glass_number", "h", "l_s", "law", "let", "log",
+    "m", "mu",
     "normal_velocity", "nu", "offset_squared", "omega", "omega0", "opening", "p_gt", "phi", "pi", "quantity", "r",
     "rho", "sigma", "sin", "sinh", "sp", "sqrt", "string_ratio", "tan", "tanh", "u", "v0", "x", "x0", "x_b", "xi",
 ]  # fmt: skip
@@ -150,6 +153,7 @@ class Declarations:
     quantities: dict[str, Declared] = field(default_factory=dict)
     intermediates: dict[str, Intermediate] = field(default_factory=dict)
     laws: dict[tuple[str, str], Proposed] = field(default_factory=dict)
+    events: dict[str, own_events.Proposed] = field(default_factory=dict)
 
 
 _here: ContextVar[Declarations | None] = ContextVar("declarations", default=None)
@@ -279,6 +283,110 @@ def law(
     )
 
 
+def event(
+    name: str,
+    *,
+    guard: object,
+    where: str = "any",
+    jump: Mapping[sp.Symbol, object] | None = None,
+    ends: str = "",
+    releases: object = 0,
+    word: str = "",
+    meaning: str = "",
+    source: str = "",
+) -> sp.Symbol:
+    """Declare an event; it happens once in a collision, where its guard is not positive while it is watched.
+
+    Arguments:
+        name: its name in emitted code.
+        guard: positive before the event: an SI expression of x, u, omega, xi and quantities.
+        where: "closing", "opening" or "any", and "inside the film" or "beyond the film" if it matters.
+        jump: u, omega or xi just after the event, in SI; what is left out is continuous.
+        ends: "separated" or "stick" if the event ends the collision.
+        releases: stored energy that the jump may give to the motion, J.
+        word: its name in reports; by default the name.
+
+    Returns:
+        Its mark, 1 before the event and 0 after it, which laws of the same file may use as a factor.
+
+    Raises:
+        ModelFileError: names the wrong argument and what is accepted.
+    """
+    there = _declarations()
+    label = f"event {name}"
+    _check_name("event", name, there)
+    if name in own_events.TAKEN_NAMES:
+        raise ModelFileError("event", name, "a name of your own", "is an event of the library")
+    _check_name(f"{label}, mark", own_events.MARK + name, there)
+    said = word or name.replace("_", " ") if isinstance(name, str) else word
+    if not isinstance(said, str) or not own_events.WORD.fullmatch(said):
+        raise ModelFileError(f"{label}.word", said, "small letters, digits and single spaces")
+    if said in own_events.TAKEN_WORDS or said in [known.word for known in there.events.values()]:
+        taken = ", ".join(sorted({*own_events.TAKEN_WORDS, *(known.word for known in there.events.values())}))
+        raise ModelFileError(f"{label}.word", said, f"any word but {taken}", "exists already")
+    if where not in own_events.PLACES:
+        raise ModelFileError(f"{label}.where", where, ", ".join(own_events.PLACES))
+    if ends not in own_events.ENDINGS:
+        raise ModelFileError(f"{label}.ends", ends, '"separated", "stick", or "" for an event that ends nothing')
+    for what, text in (("meaning", meaning), ("source", source)):
+        if not isinstance(text, str):
+            raise ModelFileError(f"{label}.{what}", text, "text")
+    tested = _of_event(f"{label}.guard", guard, there)
+    if not unfolded(tested, there).free_symbols & set(own_events.MOVING):
+        raise ModelFileError(f"{label}.guard", guard, "an expression of x, u, omega or xi", "never changes")
+    if jump is not None and not isinstance(jump, Mapping):
+        raise ModelFileError(f"{label}.jump", jump, "a table of u, omega or xi, as {u: u/2}")
+    after = []
+    for target, value in (jump or {}).items():
+        if target == x:
+            raise ModelFileError(
+                f"{label}.jump", "x", "u, omega, xi", "jumps, but surfaces move apart and together continuously: a gap"
+            )
+        if target not in own_events.JUMPS:
+            raise ModelFileError(f"{label}.jump", target, "u, omega, xi", "is no velocity of the particles")
+        new = _of_event(f"{label}.jump", value, there, own_events.JUMPS[target])
+        still = sp.simplify(unfolded(new, there).subs({omega: 0, xi: 0}))
+        if target != u and still != 0:
+            accepted = "a jump that vanishes with omega and xi, as omega/2"
+            raise ModelFileError(
+                f"{label}.jump", str(new), accepted, "turns what does not turn, as in a head-on collision"
+            )
+        after.append((target, new))
+    if ends == "stick" and after:
+        raise ModelFileError(f"{label}.jump", jump, 'no jump beside ends = "stick"', "would not be seen")
+    mark = sp.Symbol(own_events.MARK + name, nonnegative=True)
+    there.events[name] = own_events.Proposed(
+        name, said, mark, tested, where, tuple(after), ends, _of_event(f"{label}.releases", releases, there, ENERGY),
+        meaning or f"{said}, a user's event", source or "no source given",
+    )  # fmt: skip
+    return mark
+
+
+def _of_event(label: str, value: object, there: Declarations, wanted: Dimension | None = None) -> sp.Expr:
+    """An expression of an event, its symbols and its dimension judged."""
+    found = _expression(label, value)
+    whole = unfolded(found, there)
+    own = {one.symbol: one.dimension for one in there.quantities.values()}
+    own |= {known.mark: ONE for known in there.events.values()}
+    for symbol in sorted(whole.free_symbols, key=str):
+        if symbol not in own and not own_events.may_use(symbol):
+            raise ModelFileError(label, str(symbol), own_events.ACCEPTED, "is not known to an event")
+    try:
+        dimension = dimension_of(whole, {**DIMENSIONS, **own})
+    except DimensionError as error:
+        raise ModelFileError(label, str(whole), "terms of one dimension", str(error)) from None
+    if wanted is not None and dimension not in (None, wanted):
+        raise ModelFileError(label, str(whole), f"dimension {wanted}", f"has dimension {dimension}")
+    return found
+
+
+def unfolded(expression: sp.Expr, there: Declarations) -> sp.Expr:
+    """The expression with every `let` substituted."""
+    for part in reversed(there.intermediates.values()):
+        expression = expression.xreplace({part.symbol: part.expression})
+    return expression
+
+
 def functions_of(slot: str) -> dict[str, bool]:
     """The functions of a slot's laws, and whether each is required: it is if all laws of the library have it."""
     laws = LAWS[slot].values()
@@ -290,6 +398,7 @@ def _check_name(what: str, name: object, there: Declarations) -> None:
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         raise ModelFileError(what, name, "a name of small letters, digits and underscores")
     taken = name in VOCABULARY or name in _TAKEN or name in there.quantities or name in there.intermediates
+    taken |= any(name in (known, own_events.MARK + known) for known in there.events)
     if taken or any(name == known.group for known in there.quantities.values()):
         raise ModelFileError(what, name, "a name that is not taken", "is taken already")
 
@@ -309,4 +418,5 @@ def latex_names(there: Declarations, groups: Mapping[str, str]) -> dict[str, str
     """LaTeX of every name that a model adds to the vocabulary."""
     names = {one.name: one.latex for one in there.quantities.values()}
     names |= {one.symbol.name: one.latex for one in there.intermediates.values()}
+    names |= {one.mark.name: rf"1_{{\mathrm{{{one.word}}}}}".replace(" ", r"\ ") for one in there.events.values()}
     return names | dict(groups)

@@ -34,8 +34,9 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
             where = f"{path}, line {_line(error, path)}"
             said = " ".join(f"{type(error).__name__}: {error}".split())
             raise ModelFileError(where, None, "a model file (see `wetdoublet generate --template`)", said) from None
-    if not found.laws:
-        raise ModelFileError(str(path), None, "law(SLOT, NAME, ...), at least once", "declares no law")
+    if not found.laws and not found.events:
+        accepted = "law(SLOT, NAME, ...) or event(NAME, ...), at least once"
+        raise ModelFileError(str(path), None, accepted, "declares no law and no event")
     doc = namespace.get("__doc__") or ""
     return doc.strip().partition("\n")[0].rstrip("."), found
 

@@ -14,8 +14,10 @@ from ..physics.laws.base import Definition, Law, LawFunction, is_slot_call
 from ..physics.scaling import ScalingError, dimension_matrix, group_definitions, to_groups
 from ..physics.slots import MOTION, Place, places
 from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
-from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, u, v0, x, x0
-from .declarations import Declarations, Declared, Proposed
+from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
+from . import own_events
+from .declarations import Declarations, Declared, Proposed, unfolded
+from .own_events import OwnEvent
 
 _ALWAYS = (a, x0, mu, v0, m)  # quantities of every scene, in the order in which a scale is sought
 _MOVED = ("separation", "separation_rate", "rotation_rate", "spin_rate")
@@ -56,6 +58,7 @@ class UserModel:
     si: tuple[Law, ...]
     groups: tuple[Group, ...]
     extra: Mapping[str, tuple[sp.Symbol, ...]]
+    events: tuple[OwnEvent, ...] = ()
 
     @property
     def slots(self) -> tuple[str, ...]:
@@ -85,11 +88,15 @@ class UserModel:
             for f in model.functions
         )
         definitions = tuple((symbol, call(value)) for symbol, value in model.definitions)
-        reached = {s for key, extra in self.extra.items() if key.split(".")[0] in model.slots for s in extra}
+        reached: set[sp.Basic] = {
+            s for key, extra in self.extra.items() if key.split(".")[0] in model.slots for s in extra
+        }
+        reached |= own_events.groups_of(self.events, model.structure)
         known = {*model.groups, *reached}
         groups = [group for group in GROUPS if group in known]
         groups += [group.symbol for group in self.groups if group.symbol in reached]
-        return replace(model, groups=tuple(groups), functions=functions, definitions=definitions)
+        made = replace(model, groups=tuple(groups), functions=functions, definitions=definitions)
+        return own_events.extended(made, self.events)
 
 
 def _stopped(function: str, key: str, expression: sp.Expr) -> sp.Expr:
@@ -105,7 +112,8 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     """
     all_places = places()
     groups = _groups(declared, all_places)
-    laws, printed, extra = [], [], _Extra(groups)
+    laws, printed = [], []
+    extra = _Extra(groups, tuple(one.mark for one in declared.events.values()))
     for proposed in declared.laws.values():
         functions = [
             _function(all_places[f"{proposed.slot}.{name}"], expression, proposed, declared, groups)
@@ -115,19 +123,37 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
         extra.add(laws[-1], all_places)
     laws = [extra.widened(law) for law in laws]
     printed = [_in_si(law, groups, all_places) for law in laws]
-    used = {symbol for symbols in extra.found.values() for symbol in symbols}
+    called = {symbol for symbols in extra.found.values() for symbol in symbols}
+    events = tuple(_event(one, declared, groups, called) for one in declared.events.values())
+    used = called | {s for one in events for part in one.expressions for s in part.free_symbols}
     kept = tuple(group for group in groups.values() if group.symbol in used)
     unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
     if unused:
-        raise ScalingError(f"{', '.join(unused)}: declared, but no law depends on it")
-    return UserModel(name, meaning, declared, tuple(laws), tuple(printed), kept, extra.found)
+        raise ScalingError(f"{', '.join(unused)}: declared, but no law or event depends on it")
+    return UserModel(name, meaning, declared, tuple(laws), tuple(printed), kept, extra.found, events)
+
+
+def _event(
+    one: own_events.Proposed, declared: Declarations, groups: Mapping[str, Group], called: set[sp.Symbol]
+) -> OwnEvent:
+    """A declared event with its quantities as groups."""
+    own = {g.quantity.symbol: g.symbol * g.over for g in groups.values() if g.quantity.dimension != ONE}
+    of: dict[sp.Basic, Dimension] = {**DIMENSIONS, **{q.symbol: q.dimension for q in declared.quantities.values()}}
+    of |= {known.mark: ONE for known in declared.events.values()}
+
+    def scaled(expression: sp.Expr, over: sp.Expr) -> sp.Expr:
+        return sp.sympify(unfolded(expression, declared).xreplace(own) / over)
+
+    scale = own_events.scale_of(dimension_of(unfolded(one.guard, declared), of) or ONE)
+    jump = tuple((target, scaled(value, v0 if target == u else rate_scale)) for target, value in one.jump)
+    return OwnEvent(one, scaled(one.guard, scale), jump, scaled(one.releases, m * v0**2), one.mark in called)
 
 
 class _Extra:
     """The additional arguments of a slot's functions, over all its laws."""
 
-    def __init__(self, groups: Mapping[str, Group]) -> None:
-        self.order = (normal_velocity, *GROUPS, *(group.symbol for group in groups.values()))
+    def __init__(self, groups: Mapping[str, Group], marks: tuple[sp.Symbol, ...]) -> None:
+        self.order = (normal_velocity, *marks, *GROUPS, *(group.symbol for group in groups.values()))
         self.found: dict[str, tuple[sp.Symbol, ...]] = {}
 
     def add(self, law: Law, all_places: Mapping[str, Place]) -> None:
@@ -172,9 +198,14 @@ def _scale(one: Declared, declared: Declarations, all_places: Mapping[str, Place
     near: list[sp.Symbol] = []
     for proposed in declared.laws.values():
         for name, expression in proposed.functions:
-            full = _unfolded(expression, declared)
+            full = unfolded(expression, declared)
             if one.symbol in full.free_symbols:
                 near += _by_vocabulary(all_places[f"{proposed.slot}.{name}"].scale.free_symbols)
+                near += _by_vocabulary(full.free_symbols)
+    for happening in declared.events.values():
+        for expression in happening.expressions:
+            full = unfolded(expression, declared)
+            if one.symbol in full.free_symbols:
                 near += _by_vocabulary(full.free_symbols)
     candidates = [s for s in dict.fromkeys([*near, *_ALWAYS]) if s.name not in _MOVING and any(DIMENSIONS[s].exponents)]
     target = sp.Matrix([sp.Rational(power) for power in one.dimension.exponents])
@@ -193,13 +224,6 @@ def _by_vocabulary(symbols: Iterable[sp.Symbol]) -> list[sp.Symbol]:
     return [VOCABULARY[name].symbol for name in VOCABULARY if name in here]
 
 
-def _unfolded(expression: sp.Expr, declared: Declarations) -> sp.Expr:
-    """The expression with every `let` substituted."""
-    for part in reversed(declared.intermediates.values()):
-        expression = expression.xreplace({part.symbol: part.expression})
-    return expression
-
-
 def _function(
     place: Place, expression: sp.Expr, proposed: Proposed, declared: Declarations, groups: Mapping[str, Group]
 ) -> LawFunction:
@@ -207,6 +231,8 @@ def _function(
     label = f"law {proposed.slot} {proposed.name}, {place.function}"
     of: dict[sp.Basic, Dimension] = {**DIMENSIONS, **dict.fromkeys(place.arguments, ONE)}
     of |= {one.symbol: one.dimension for one in declared.quantities.values()}
+    marks = tuple(one.mark for one in declared.events.values())
+    of |= dict.fromkeys(marks, ONE)
     parts: list[Definition] = []
     inline: dict[sp.Basic, sp.Basic] = {}
     try:
@@ -232,11 +258,11 @@ def _function(
     result = _settled(label, place, value, groups)
     named = {symbol for symbol, _ in parts}
     used = set().union(*(e.free_symbols for e in (result, *(value for _, value in parts)))) - named
-    allowed = {*place.arguments, *MOTION.get(place.slot, ()), *GROUPS, *(g.symbol for g in groups.values())}
+    allowed = {*place.arguments, *MOTION.get(place.slot, ()), *marks, *GROUPS, *(g.symbol for g in groups.values())}
     if wrong := sorted(s.name for s in used - allowed):
         own = ", ".join(s.name for s in (*place.arguments, *MOTION.get(place.slot, ())))
         raise ScalingError(f"{label}: depends on {', '.join(wrong)}; a {place.slot} law may depend on {own} and groups")
-    extra = [s for s in (normal_velocity, *GROUPS, *(g.symbol for g in groups.values())) if s in used]
+    extra = [s for s in (normal_velocity, *marks, *GROUPS, *(g.symbol for g in groups.values())) if s in used]
     arguments = (*place.arguments, *(s for s in extra if s not in place.arguments))
     return LawFunction(place.function, arguments, result, place.doc, tuple(parts))
 

@@ -19,6 +19,7 @@ from .samples import known
 
 # Kinds of change: a criterion is just met; a doublet begins to escape without or with a rebound; other.
 GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"
+DECLARED = "event"  # and its word: an event that a user's model declares begins to happen
 MERGED = 1e-8  # relative distance below which changes are merged
 _BESIDE = 1e-9  # relative distance at which both sides of a graze are computed
 _ACCEPTED = 1e-6  # relative distance at which collisions must confirm a change
@@ -35,7 +36,8 @@ class Change:
 
     Attributes:
         kind: "graze" (a rebound criterion is just met), "escape" or "escape reversed" (a doublet begins to separate,
-            without and with a rebound), "plain" (located by outcomes alone).
+            without and with a rebound), "plain" (located by outcomes alone), or "event WORD" (a declared event of a
+            user's model happens on one side only).
         merged: True if it stands for several changes closer than 1e-8.
     """
 
@@ -154,6 +156,8 @@ Found = tuple[float, str, str, str]  # Stokes number, outcomes below and above, 
 
 
 def _smooth(line: Line, low: float, high: float, before: str, after: str) -> list[Found] | None:
+    if line.model.own_events:
+        return None  # a declared event may come first, at which none of these functions is smooth
     if BOUNCE not in (before, after):
         free = _signed_root(_escaping(line, False), low, high, after == ROTATE)
         if free is not None:
@@ -331,6 +335,8 @@ def _enclosed_change(one: _Bracket) -> Change:
 
 def _kind(one: _Bracket) -> str:
     """Kind of a change from its narrow bracket."""
+    if one.line.model.own_events:
+        return _kind_beside_events(one)
     if STICK not in (one.before, one.after):
         return GRAZE
     stuck, at = (one.met[0], one.low) if one.before == STICK else (one.met[1], one.high)
@@ -338,6 +344,18 @@ def _kind(one: _Bracket) -> str:
     if BOUNCE in (one.before, one.after):
         return REVERSED if rebounds else GRAZE
     return GRAZE if rebounds else FREE
+
+
+def _kind_beside_events(one: _Bracket) -> str:
+    """Kind of a change where a model declares events: named by the first that happens on one side only."""
+    sides = [one.line.words(stokes) for stokes in (one.low, one.high)]
+    declared = [each.word for each in one.line.model.own_events]
+    for word in (word for side in sides for word in side if word in declared):
+        if (word in sides[0]) != (word in sides[1]):
+            return f"{DECLARED} {word}"
+    if (one.met[0] < 0) != (one.met[1] < 0):
+        return GRAZE
+    return FREE if one.met[0] < 0 else REVERSED
 
 
 def _demand_agreement(changes: list[Change], samples: np.ndarray) -> None:

@@ -89,6 +89,13 @@ class Line:
     def model(self) -> Model:
         return load(select_model(self.scene, self.scene.turns(self.angle)))
 
+    def words(self, stokes: float) -> list[str]:
+        """What happens at a Stokes number, in order."""
+        self.collisions += 1
+        return (
+            EventLocator(self.model, self.numbers(stokes).groups, self.rtol, machine_code=self.machine_code).run().kinds
+        )
+
     def criterion(self, stokes: float) -> float:
         """Logarithm of the larger of maximum pressure over p_gt and contact gap over smallest gap, of the approach.
 

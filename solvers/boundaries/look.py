@@ -123,6 +123,9 @@ class Look:
         found = self._whole(angle, stokes)
         if found is None:
             return None
+        if self.scene.package is not None and self.scene.package.events:
+            found["criterion"] = found["reach"] = np.nan  # neither is smooth where a declared event may come first
+            return found
         speed = stokes / self.scene.stokes_per_speed
         sticks = np.flatnonzero((found["outcome"] == 0) & ~np.isnan(found["reach"]))
         found["reach"] = np.nan

@@ -7,6 +7,7 @@ import numpy as np
 from ..model.model import Model
 from .attraction import AttractionCertificate
 from .base import Certificate, NoCertificate
+from .beside_events import beside_events
 from .chatter import ChatterCertificate
 from .energy_barrier import EnergyCertificate
 from .film import FilmCertificate
@@ -19,6 +20,10 @@ from .spin_down import covers as spins_down
 
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:
     """The certificate that applies to a model."""
+    if model.own_events:
+        alone = not (model.works or model.strings or (model.oblique and not model.wall))
+        film = FilmCertificate(model, p, rtol) if alone and _momentum(model) else None
+        return beside_events(model, p, rtol, film) or NoCertificate()
     found = _first(model, p, rtol)
     if covers(model):
         return OrbitalMomentumCertificate(model, p, rtol, found)

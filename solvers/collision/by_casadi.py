@@ -171,6 +171,7 @@ def _ledger(model: Model, replayed: Replay, p: np.ndarray, n: DimensionlessGroup
         attraction=taken("attraction") * n.energy if "attraction" in model.works else None,
         dry_contact=replayed.dry_loss * n.energy,
         dry_friction=(replayed.friction_loss + taken("dry_friction")) * n.energy if model.friction else None,
+        own_events=replayed.own_loss * n.energy if model.own_events else None,
         strings=(last["strings"] - first["strings"]) * n.energy if model.strings else 0.0,
     )
 

@@ -33,6 +33,11 @@ def kind_of(answer: np.void) -> tuple[str, str | None]:
     return OUTCOMES[answer["outcome"]], KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None
 
 
+def words_of(scene: Scene) -> tuple[str, ...]:
+    """Words of events by the kernel's numbers: the library's, then those of declared events."""
+    return KINDS if scene.package is None else (*KINDS, *scene.package.words)
+
+
 def collision(
     scene: Scene,
     n: DimensionlessGroups,
@@ -59,6 +64,7 @@ def collision(
         return None  # the energy budget does not close, so the trajectory is wrong
     happened = recorded.events[0, : found["events"]]
     model = load(select_model(scene, n.oblique, fold=True))
+    words = words_of(scene)
     finding = Finding(
         outcome=outcome,
         reversal=reversal,
@@ -68,7 +74,7 @@ def collision(
         time=float(found["time"]),
         smallest_gap=float(found["smallest_gap"]),
         slip=float(found["slip"]),
-        events=[(KINDS[int(each["kind"])], float(each["time"])) for each in happened],
+        events=[(words[int(each["kind"])], float(each["time"])) for each in happened],
         engine="taylor",
         steps=int(found["steps"]),
         rtol=rtol,
@@ -90,6 +96,7 @@ def _energy(scene: Scene, n: DimensionlessGroups, book: np.void) -> Energy:
         attraction=own["attraction"] if scene.attraction is not None else None,
         dry_contact=own["dry"],
         dry_friction=own["friction"] if scene.particles.friction is not None and n.oblique else None,
+        own_events=own.get("own_events"),
         strings=own["lifted"] if scene.pendulum is not None else 0.0,
     )
 

@@ -35,8 +35,9 @@ class Energy:
     """The energy ledger (budget) of a collision, J.
 
     `initial` and `final` are kinetic energies, `strings` is the gain of potential energy, `attraction` the work against
-    van der Waals forces (None without them), `dry_friction` the loss by friction of the dry contact (None without);
-    `residual` is initial - final - (all losses and works).
+    van der Waals forces (None without them), `dry_friction` the loss by friction of the dry contact (None without),
+    `own_events` the kinetic energy that jumps of a model's declared events take (None if it declares none); `residual`
+    is initial - final - (all losses and works).
     """
 
     initial: float
@@ -48,11 +49,13 @@ class Energy:
     strings: float
     attraction: float | None = None
     dry_friction: float | None = None
+    own_events: float | None = None
 
     @property
     def residual(self) -> float:
         spent = self.normal_lubrication + self.tangential_lubrication + self.capillary + self.dry_contact + self.strings
-        return self.initial - self.final - spent - (self.attraction or 0.0) - (self.dry_friction or 0.0)
+        more = (self.attraction, self.dry_friction, self.own_events)
+        return self.initial - self.final - spent - sum(each or 0.0 for each in more)
 
     def is_open(self, rtol: float) -> bool:
         """True if the residual exceeds what the tolerance explains, so that the trajectory must be wrong."""
@@ -74,6 +77,7 @@ class Energy:
             "strings",
             *(["attraction"] if self.attraction is not None else []),
             *(["dry_friction"] if self.dry_friction is not None else []),
+            *(["own_events"] if self.own_events is not None else []),
         )
         return {name: getattr(self, name) for name in (*names, "residual")}
 

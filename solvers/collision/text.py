@@ -12,6 +12,7 @@ from .outcome import Event, Outcome
 
 if TYPE_CHECKING:
     from ..scene.scene import Scene
+from ..scene.user_model import OwnEvent
 
 WIDTH = 88
 CUT_OFFS = {
@@ -80,8 +81,17 @@ def reason(collision: Outcome) -> str:
     if collision.outcome == BOUNCE and collision.reversal is not None:
         return CRITERIA[collision.reversal].sentence
     if collision.outcome != STICK:
+        declared = _declared(collision)
+        if declared is not None and declared.row.actions[-1] == "part":
+            return f"separated by the event {declared.word}: {declared.meaning}"
         return "escaped by centrifugal force, no rebound criterion met"
     return _stuck(collision)
+
+
+def _declared(collision: Outcome) -> OwnEvent | None:
+    """The event of a user's model that happened last of all events, if it did."""
+    package = collision.scene.package
+    return next((each for each in package.events if each.word == _last(collision)), None) if package else None
 
 
 def stopped(collision: Outcome) -> str:
@@ -101,7 +111,9 @@ def is_followed_on(collision: Outcome) -> bool:
 
 def _is_cut_off(collision: Outcome) -> bool:
     """Whether the experiment's own end is what ended a stick, not a proof before it."""
-    return _last(collision) in CUT_OFFS and not is_followed_on(collision)
+    declared = _declared(collision)
+    cut = _last(collision) in CUT_OFFS or (declared is not None and declared.row.actions[-1] == "cut off")
+    return cut and not is_followed_on(collision)
 
 
 def _end_of(collision: Outcome) -> str:
@@ -122,7 +134,9 @@ def _last(collision: Outcome) -> str:
 def _stuck(collision: Outcome) -> str:
     last, scene = _last(collision), collision.scene
     if _is_cut_off(collision):
-        return f"cut off after {quantity(collision.until, 's')}: {CUT_OFFS[last]}"
+        declared = _declared(collision)
+        why = f"{declared.word}, {declared.meaning}" if declared is not None else CUT_OFFS[last]
+        return f"cut off after {quantity(collision.until, 's')}: {why}"
     when = "" if collision.decided else " at contact"
     before = [event.kind for event in collision.events if event.time <= (collision.decided or 0.0)]
     if not collision.certified and len(before) > _MANY and before[-1] == KINDS[EventKind.FELL_BACK]:
@@ -255,6 +269,8 @@ def _energy(collision: Outcome) -> list[str]:
         terms.append(("van der Waals work", energy.attraction))
     if scene.pendulum is not None:
         terms.append(("strings", energy.strings))
+    if energy.own_events is not None:
+        terms.append(("declared events", energy.own_events))
     rows = [(name, _exponent(value, 3), value) for name, value in terms]
     rows.append(("residual", _exponent(energy.residual, 1), energy.residual))
     if max(abs(value) for _, value in terms) > _SCALE * energy.initial:

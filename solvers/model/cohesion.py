@@ -20,7 +20,8 @@ def generalised_centrifugal(scene: Scene, n: DimensionlessGroups) -> float | Non
     free = chosen.structure.replace("_strings", "")  # strings pull inward but are not a cohesive force
     model = load(ModelKey(free, tuple(law for law in chosen.laws if law[0] != "strings"), chosen.package))
     p = model.group_values(n.groups)
-    inward = model.values("inward_force", np.array([1.0, 0.0]), p)["inward_force"]
+    still = np.array([1.0, 0.0, *model.start(p)[2:]])
+    inward = model.values("inward_force", still, p)["inward_force"]
     force = inward * n.energy / n.length
     if not force > 0:
         return None

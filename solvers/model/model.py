@@ -12,12 +12,12 @@ import numpy as np
 from casadi import SX, Function, densify, fmax, fmin, vertcat
 
 from ...generated.assemble import Laws, symbols, vector
-from ...generated.automaton import LEAST_SLIP
+from ...generated.automaton import EVENTS, LEAST_SLIP, Event
 from ..host import emitted
 from ..host.buffered import Buffered
 from ..host.thread_caches import own_cache
 from ..scene.contact import GAPS
-from ..scene.user_model import Package
+from ..scene.user_model import OwnEvent, Package
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -54,7 +54,8 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
     partner = "" if equal or not oblique else "wall" if scene.wall else "pair"  # head-on, only a and m matter
     friction = oblique and scene.particles.friction is not None
     free = oblique and not partner and scene.pendulum is None and scene.model.arm == "midgap"
-    reduced = free and not full and not friction
+    turned = scene.package is not None and any(each.spins for each in scene.package.events)  # by a declared event
+    reduced = free and not full and not friction and not turned
     spread = scene.model.film == "constant-volume"
     words = {
         "bridge": scene.bridge is not None,
@@ -156,6 +157,22 @@ class Model:
     def edged(self) -> bool:
         """True if the film ends at x = x0, and not at the bridge's rupture."""
         return not self.bridge or "film_edge" in self.names("events")
+
+    @cached_property
+    def own_events(self) -> tuple[OwnEvent, ...]:
+        """The events that a user's model declares, behind the library's."""
+        package = self.choice.package
+        return () if package is None else package.events_in(self.choice.structure)
+
+    @cached_property
+    def events(self) -> tuple[Event, ...]:
+        """Rows of all events, in order of precedence."""
+        return (*EVENTS, *(each.row for each in self.own_events))
+
+    @cached_property
+    def marks(self) -> tuple[int, ...]:
+        """Places of the marks of declared events in the state."""
+        return tuple(list(self.state).index(each.mark) for each in self.own_events)
 
     @property
     def escape(self) -> str:

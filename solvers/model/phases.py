@@ -12,6 +12,7 @@ from casadi import SX, densify, fmax, fmin, if_else, logic_and, vertcat
 from ...generated.automaton import CLOSING, EVENTS, VOID_WITHOUT
 from ...generated.automaton import Event as Row
 from ..host.thread_caches import own_cache
+from ..scene.user_model import OwnEvent
 from .model import Model, ModelKey, load
 
 
@@ -164,6 +165,7 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tupl
             if part != "motion" and VOID_WITHOUT.get(part, "turning") in found
         )
     ]
+    table += [_own(each, found[each.name], model, region, motion) for each in model.own_events if _may(each, region)]
     if watch.certificate == "energy":
         table.append(Event("certified", mechanical_energy(flow) - level))
     elif watch.certificate == "pendulum":
@@ -182,6 +184,17 @@ def _guard(row: Row, found: dict[str, SX], region: Region, motion: SX) -> SX:
         value = value * (getattr(region, row.follows) or -1)
     directions = [wanted for part, wanted in row.where if part == "motion"]
     return if_else(motion == directions[0], value, 1) if directions else value
+
+
+def _may(each: OwnEvent, region: Region) -> bool:
+    """Whether a declared event is watched in a region, in some direction of motion."""
+    return all(getattr(region, part) == value for part, value in each.row.where if part != "motion")
+
+
+def _own(each: OwnEvent, guard: SX, model: Model, region: Region, motion: SX) -> Event:
+    """A declared event, which happens once."""
+    value = _guard(each.row, {each.name: guard}, region, motion)
+    return Event(each.name, if_else(model.state[each.mark] > 0.5, value, 1), each.row.dips)
 
 
 def pendulum_impulse(found: Mapping[str, Any], margin: SX | float) -> SX:

@@ -17,6 +17,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from ...generated.automaton import Event
 from ..errors import InputError, did_you_mean
 from ..host import bounded
 from ..host.emitted import derived_once, executed
@@ -34,6 +35,46 @@ ENTRIES = {
     "attraction": "attraction.law",
 }
 """Slot -> the scene's entry that says which law fills it, where scenes have one."""
+
+
+@dataclass(frozen=True)
+class OwnEvent:
+    """An event that a model declares, as its manifest has it.
+
+    Arguments:
+        row: of the automaton. mark: its state, 1 before it and 0 after it.
+        reach: signs of its guard's slopes along the gap and along the speed, opening and closing, as far as they are
+            shown; None where the guard's least value cannot be told from them.
+        takes: its jump never adds kinetic energy. harmless: nor does it change any barrier of the energy.
+        rotates: it speaks of a rotation. turns: its guard of nothing else. spins: its jump changes one.
+    """
+
+    row: Event
+    mark: str
+    meaning: str
+    reach: Mapping[str, int | None] | None
+    takes: bool
+    harmless: bool
+    rotates: bool
+    turns: bool
+    spins: bool
+
+    @classmethod
+    def read(cls, one: Mapping[str, Any]) -> OwnEvent:
+        """An entry of the manifest."""
+        given = {name: one[name] for name in Event._fields}
+        given |= {"where": tuple((part, value) for part, value in one["where"])}
+        given |= {name: tuple(one[name]) for name in ("functions", "words", "actions")}
+        others = ("mark", "meaning", "reach", "takes", "harmless", "rotates", "turns", "spins")
+        return cls(Event(**given), **{name: one[name] for name in others})
+
+    @property
+    def name(self) -> str:
+        return self.row.name
+
+    @property
+    def word(self) -> str:
+        return self.row.words[0]
 
 
 @dataclass(frozen=True)
@@ -99,7 +140,11 @@ class Package:
         return {**given, **{name: value for name, value in self.defaults.items() if name not in given}}
 
     def demand(self, entries: Mapping[str, Any]) -> None:
-        """Raise InputError for a quantity that has no default and is not among the entries."""
+        """Raise InputError for a quantity that is missing without a default, or an event that the scene cannot have."""
+        turning = next((each.word for each in self.events if each.rotates), None)
+        if turning is not None and entries.get("partner.wall"):
+            accepted = f"another partner, or a model without the event {turning}"
+            raise InputError("partner.wall", True, accepted, "has no rotation, of which this event speaks")
         for name in self.quantities:
             if f"{TABLE}.{name}" not in entries:
                 raise InputError(f"{TABLE}.{name}", None, self.fields[f"{TABLE}.{name}"].accepts)
@@ -133,8 +178,47 @@ class Package:
         """States and groups that a slot's function takes in addition to the slot's arguments."""
         return tuple(self.manifest["extra"].get(f"{slot}.{function}", ()))
 
+    @cached_property
+    def events(self) -> tuple[OwnEvent, ...]:
+        """The declared events, in order of precedence behind the library's."""
+        return tuple(OwnEvent.read(one) for one in self.manifest.get("events", ()))
+
+    def events_in(self, structure: str) -> tuple[OwnEvent, ...]:
+        """Those that a structure has: head-on and beside a wall nothing turns, a jump of the spin needs the spin."""
+        head_on = structure.startswith("head_on")
+        wall, reduced = (part in structure.split("_") for part in ("wall", "reduced"))
+        return tuple(
+            one
+            for one in self.events
+            if not ((one.turns and head_on) or (one.rotates and wall) or (one.spins and reduced))
+        )
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Words of the declared events; in the kernel they follow the library's."""
+        return tuple(one.row.words[0] for one in self.events)
+
+    def automaton_headers(self) -> tuple[str, str]:
+        """C headers of the automaton with the declared events, for the kernel; derived on first use."""
+        source = self.source
+
+        def derived(which: int) -> Callable[[], str]:
+            def text() -> str:
+                from ...derive.emit.one import user_automaton_texts  # imports sympy
+
+                return user_automaton_texts(source, self.name)[which]
+
+            return text
+
+        stem = self.digest[:16]
+        return derived_once(f"{stem}-automaton.h", derived(0)), derived_once(f"{stem}-effects.h", derived(1))
+
     def changes(self, slots: tuple[str, ...]) -> bool:
         """True if this model changes the structure with these slots."""
+        return bool(self.events) or self.widens(slots)
+
+    def widens(self, slots: tuple[str, ...]) -> bool:
+        """True if this model passes more arguments to the laws in these slots."""
         return bool({key.partition(".")[0] for key in self.manifest["extra"]} & set(slots))
 
     def law(self, slot: str, name: str) -> ModuleType:

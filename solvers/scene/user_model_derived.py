@@ -48,6 +48,7 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
         except InputError as error:
             raise InputError(f"{path}: {name}, default", value, error.accepted, error.problem) from None
     said = [f"{model.name}: {model.meaning}.", *(f"  {law.slot} law {law.name}: {law.meaning}" for law in model.laws)]
+    said += [f"  event {event.proposed.word}: {event.proposed.meaning}" for event in model.events]
     return Derived("\n".join([*said, "", *lines, "", *made.manifest["words"]]), files, "")
 
 

@@ -25,6 +25,7 @@ from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..scene.contact import ENTRIES, GAPS, TIE, contact_gap
 from ..scene.scene import Scene
+from ..scene.user_model import OwnEvent
 from .result import Near
 
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
@@ -40,6 +41,7 @@ CONTACT = "graze of the contact gap"
 SADDLE = "separatrix (saddle of the effective potential)"
 RIM = "separatrix (rim: it just reaches the rupture gap)"
 GRIP = "switch between sliding and sticking contact"
+DECLARED = "edge of the declared event"
 
 
 def limit(rtol: float) -> float:
@@ -143,6 +145,36 @@ def _suspects(finder: EventLocator, path: EventSequence) -> Iterator[Near]:
         yield from _passing(finder, step, y)
         if step.grip < math.inf:
             yield Near(GRIP, abs(step.grip), "particles.friction")
+        for event, mark in zip(model.own_events, model.marks, strict=True):
+            watched = all(getattr(step.phase, part) == value for part, value in event.row.where)
+            if watched and y[mark, 0] > 0.5:
+                yield from _declared(model, path, event, step, y)
+
+
+def _declared(model: Model, path: EventSequence, event: OwnEvent, step: PhaseRun, y: np.ndarray) -> Iterator[Near]:
+    """Boundaries of a declared event: its guard just falls to zero, or is so where it begins to be watched."""
+    guard, first, second = _guards(model, event.name, *_region(step))(y, path.p).full()
+    name, scale = f"{DECLARED} {event.word}", float(np.abs(guard).max())
+    if step.duration == 0 or scale == 0:  # it happens where it begins to be watched, or may not
+        if step.own == event.name:
+            yield Near(f"{name} at the start of a phase", abs(float(guard[0])), "its guard")
+        return
+    if step.own == event.name:
+        if second[-1] > 0:
+            yield Near(name, first[-1] ** 2 / (2 * second[-1] * scale), "its guard")
+    else:
+        yield Near(name, float(guard.min()) / scale, "its guard")
+
+
+@own_cache(128)
+def _guards(model: Model, name: str, film: int, shear: int) -> Function:
+    """Function (states, groups) -> guard of a declared event, its first and second time derivative."""
+    rates = model.function("right_hand_side", film, shear)(model.column, model.parameters)
+    guard = model("events")[name]
+    first = jtimes(guard, model.column, rates)
+    return Function(
+        "guards", [model.column, model.parameters], [densify(vertcat(guard, first, jtimes(first, model.column, rates)))]
+    )
 
 
 def _criteria(
@@ -243,9 +275,10 @@ def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseR
         y = before[:, None]
         if step.duration > 0:
             y = np.column_stack([before, end if inside is None else inside])
-            still = np.arange(end.size) == 0 if step.grip < math.inf else np.arange(end.size) != 1
-            y[:, -1] = np.where(still, end, y[:, -1])  # the others before the jump
-            if not step.rebounds:
+            if not step.own:  # which may change every state
+                still = np.arange(end.size) == 0 if step.grip < math.inf else np.arange(end.size) != 1
+                y[:, -1] = np.where(still, end, y[:, -1])  # the others before the jump
+            if not step.rebounds and not step.own:
                 y[1, -1] = end[1]
         yield step, y
 

@@ -50,6 +50,8 @@ def slope(scene: Scene, angle: float, change: Change, rtol: float) -> Slope | No
     Raises:
         ComputationError: the trajectory there could not be followed.
     """
+    if load(select_model(scene, angle > 0)).own_events:
+        return None
     try:
         if change.kind == GRAZE:
             return _graze(scene, angle, change.stokes, rtol)

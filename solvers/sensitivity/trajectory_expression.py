@@ -36,6 +36,7 @@ class Leg:
     rebounds: bool
     holds: bool
     rubs: bool = False  # with friction of the dry contact
+    own: str = ""  # the declared event that happens at its end
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ def course_of(path: EventSequence, choice: ModelKey) -> Course:
     legs = tuple(
         Leg(
             step.phase, step.duration > 0, step.event, step.rebounds, step.holds,
-            rubs=step.rebounds and rubs(path.model, step.kinds[0]),
+            rubs=step.rebounds and rubs(path.model, step.kinds[0]), own=step.own,
         )
         for step in path.steps
     )  # fmt: skip
@@ -123,6 +124,8 @@ def follow_course(
             at.y = vertcat(after, at.y[size:])
         if leg.holds:
             at.y = vertcat(at.y[0], 0, at.y[2:])
+        if leg.own:
+            at.y = vertcat(model.function(f"jump_{leg.own}")(at.y[:size], p), at.y[size:])
     return at
 
 

@@ -89,8 +89,8 @@ def budgeted(
 
 
 def terms(one: Collision) -> dict[str, float]:
-    """The terms of one collision; for a stick only the restitution."""
-    if one.outcome == "stick" or one.energy is None:
+    """The terms of one collision; for a stick, or where a declared event parts it, only the restitution."""
+    if one.outcome == "stick" or one.energy is None or _parted(one):
         return {"restitution": one.restitution}
     unit = one.scene.particles.reduced_mass * one.speed**2 / 2
     found = {
@@ -101,8 +101,15 @@ def terms(one: Collision) -> dict[str, float]:
         "ceiling": ceiling(one),
     } | {name: getattr(one.energy, name) / unit for name in LOSSES}
     found["dry_contact"] += (one.energy.dry_friction or 0.0) / unit  # all that the solids take
-    lost = sum(found[name] for name in LOSSES) + found["residual"]
+    lost = sum(found[name] for name in LOSSES) + found["residual"] + (one.energy.own_events or 0.0) / unit
     return found | {"gap": found["excess"] - found["rotation_released"] + lost}
+
+
+def _parted(one: Collision) -> bool:
+    """True if an event of a user's model ended the collision, at a gap that is no result."""
+    package = one.scene.package
+    parting = [each.word for each in package.events if each.row.actions[-1] == "part"] if package else []
+    return bool(one.events) and one.events[-1].kind in parting
 
 
 def _released(one: Collision) -> float:

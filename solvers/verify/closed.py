@@ -88,10 +88,9 @@ def film_loss(s: float) -> float:
 
 
 def _bare(scene: Scene) -> Scene:
-    """The scene without bridge, attraction and strings."""
-    tables = {
-        name: value for name, value in scene.to_dict().items() if name not in ("bridge", "attraction", "pendulum")
-    }
+    """The scene without bridge, attraction and strings, and without the quantities of a user's model."""
+    without = ("bridge", "attraction", "pendulum", "custom")
+    tables = {name: value for name, value in scene.to_dict().items() if name not in without}
     return Scene.from_dict(tables)
 
 
@@ -218,7 +217,7 @@ def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple
 def swinging(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[float, str]:
     """Error of r and beta of dry spheres on strings at small angles, over r0 and 1 rad, up to a third of a swing."""
     assert scene.pendulum is not None
-    tables = {name: value for name, value in scene.to_dict().items() if name != "bridge"}
+    tables = {name: value for name, value in scene.to_dict().items() if name not in ("bridge", "custom")}
     dry = Scene.from_dict(tables).with_entries({"pendulum.law": "small-angle"})
     n = _oblique(dry)
     flow = Flow(select_model(dry, oblique=True, full=True), Region(0, 0, False))

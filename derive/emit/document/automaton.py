@@ -31,7 +31,7 @@ def automaton_page(provenance: str) -> str:
     lines += _table(
         ("event", "guard falls through zero", "watched while", "reported as", "effect"),
         [
-            (f"`{each.name}`", _guard(each), _where(each), _either(each.words), "; ".join(each.actions))
+            (f"`{each.name}`", _guard(each), watched(each), _either(each.words), "; ".join(each.actions))
             for each in automaton.EVENTS
         ],
     )
@@ -83,7 +83,8 @@ def _guard(event: Event) -> str:
     return f"{said}, if its gap lies within reach" if event.within_reach else said
 
 
-def _where(event: Event) -> str:
+def watched(event: Event) -> str:
+    """Where an event is watched, in words."""
     names = {(each.name, value): name for each in automaton.COMPONENTS for value, name in each.values}
     return ", ".join(names[condition] for condition in event.where) or "always"
 

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
 from ...physics.laws import LAWS, Law
 from ...physics.mechanics import F_c, S_n, S_t
-from ...user_model.declarations import latex_names
+from ...user_model.declarations import latex_names, unfolded
+from ...user_model.own_events import OwnEvent
 from ...user_model.structures import UserModel
 from ...vocabulary.quantities import p_gt
+from .automaton import watched
 from .latex import latex, naming
 from .theory import Equation, theory
 
 _ABSENT = {"bridge": ("Capillary bridge", (F_c,)), "strings": ("Pendulum strings", (S_n, S_t))}
+_EVENT_HEADS = ("event", "watched while", "effect", "meaning", "source")
+_EFFECTS = {"": "goes on", "separated": "ends: separated", "stick": "cut off: a stick"}
 _DOLLAR = "$"
 _RELATIONS = {"<": "<", ">": ">", "<=": r"\leq", ">=": r"\geq"}
 
@@ -28,6 +32,7 @@ class Document:
     lines: tuple[tuple[str, str, str, str, str], ...]  # group, left, relation, right, note
     laws: tuple[tuple[str, ...], ...]
     quantities: tuple[tuple[str, ...], ...]
+    events: tuple[tuple[str, ...], ...] = ()
 
     def tex(self) -> str:
         """A LaTeX document that compiles on its own."""
@@ -42,6 +47,8 @@ class Document:
         if self.quantities:
             heads = ("quantity", "symbol", "unit", "default", "accepted", "meaning")
             body += [r"\section*{Quantities of the model}", *_tabular("llllll", heads, self.quantities)]
+        if self.events:
+            body += [r"\section*{Events of the model}", *_tabular("lllll", _EVENT_HEADS, self.events)]
         head = [
             "% Emitted by wetdoublet from its derivation.",
             r"\documentclass[a4paper,10pt]{article}",
@@ -69,6 +76,8 @@ class Document:
         if self.quantities:
             heads = ("quantity", "symbol", "unit", "default", "accepted", "meaning")
             body += ["## Quantities of the model", "", *_table(heads, self.quantities), ""]
+        if self.events:
+            body += ["## Events of the model", "", *_table(_EVENT_HEADS, self.events), ""]
         return "\n".join(body)
 
 
@@ -91,9 +100,35 @@ def document(
             for group in (own.groups if own else ())
             if group.symbol != group.quantity.symbol
         ]
+        lines += [line for event in (own.events if own else ()) for line in _of_event(event, own)]
         rendered = tuple((e.group, e.left, e.relation, latex(e.expression), e.note) for e in lines)
     rows = tuple((slot, f"{law.name}: {law.meaning}", law.source) for slot, law in found.items() if slot not in absent)
-    return Document(title, rendered, rows, _quantities(own))
+    return Document(title, rendered, rows, _quantities(own), _events(own))
+
+
+def _of_event(event: OwnEvent, own: UserModel | None) -> Iterator[Equation]:
+    """Guard, jump and release of a declared event, in SI."""
+    assert own is not None
+    one, group = event.proposed, "Declared events"
+    yield Equation(group, "0", unfolded(one.guard, own.declarations), f"before the event {one.word}", "<")
+    for target, value in one.jump:
+        yield Equation(group, f"{latex(target)}^+", unfolded(value, own.declarations), f"just after {one.word}")
+    if one.releases != 0:
+        yield Equation(group, "W", unfolded(one.releases, own.declarations), f"that {one.word} may give to the motion")
+
+
+def _events(own: UserModel | None) -> tuple[tuple[str, ...], ...]:
+    """Rows on the declared events, which come after the library's where they coincide."""
+    return tuple(
+        (
+            event.proposed.word,
+            watched(event.proposed.row),
+            _EFFECTS[event.proposed.ends] + ("; the motion jumps" if event.jump else ""),
+            event.proposed.meaning,
+            event.proposed.source,
+        )
+        for event in (own.events if own else ())
+    )
 
 
 def law_of(slot: str, name: str, own: UserModel | None) -> Law:

@@ -32,14 +32,20 @@ _STATEMENTS = {
 }
 
 
-def automaton_header(provenance: str) -> str:
-    """Text of `generated/taylor/automaton.h`: enumerations and constants of the rules."""
+def automaton_header(provenance: str, own: Sequence[Event] = (), meanings: Sequence[str] = ()) -> str:
+    """Text of `generated/taylor/automaton.h`: enumerations and constants of the rules.
+
+    Arguments:
+        own: events that a user's model declares, behind the library's; `meanings` are those of their words.
+    """
     lines = comment(provenance)
     lines += ["", "#ifndef AUTOMATON_H", "#define AUTOMATON_H", ""]
     lines += comment("What is watched for, in order of precedence among coincident events.")
-    lines += _enumeration(event_name(event) for event in automaton.EVENTS)
+    lines += _enumeration(event_name(event) for event in (*automaton.EVENTS, *own))
     lines += ["", *comment("What is reported.")]
-    lines += _described((_KIND[word.word], word.meaning) for word in automaton.WORDS)
+    words = [(_KIND[word.word], word.meaning) for word in automaton.WORDS]
+    words += [(own_kind(event), meaning) for event, meaning in zip(own, meanings, strict=True)]
+    lines += _described(words)
     lines += ["", *comment("How a collision ends.")]
     lines += _described((each.name, each.condition) for each in automaton.OUTCOMES)
     last = [each.name for each in automaton.STATUSES if each.answers][-1]
@@ -118,8 +124,8 @@ def _nested(operation: str, values: Sequence[str]) -> str:
     return f"{operation}({_nested(operation, first)}, {last})" if first else last
 
 
-def effects_header(provenance: str) -> str:
-    """Text of `generated/taylor/effects.h`: the switch over an event's effect."""
+def effects_header(provenance: str, own: Sequence[Event] = ()) -> str:
+    """Text of `generated/taylor/effects.h`: the switch over an event's effect; `own` are a user's events."""
     lines = comment(
         f"{provenance}\n\nWhat an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions"
         " that it calls, are known."
@@ -127,9 +133,27 @@ def effects_header(provenance: str) -> str:
     body = ["switch (event) {"]
     for event in automaton.EVENTS:
         body += [f"case {event_name(event)}:", *(f"    {line}" for line in _effect(event)), "    break;"]
+    for event in own:
+        body += [f"case {event_name(event)}:", *(f"    {line}" for line in _own_effect(event)), "    break;"]
     body.append("}")
     head = "static void act(queue *q, lanes *l, fixed *f, int lane, int event)"
     return "\n".join([*lines, "", head, "{", *(f"    {line}" for line in body), "}"]) + "\n"
+
+
+def own_kind(event: Event) -> str:
+    """The name of the word of a user's event in the C enumeration."""
+    return f"KIND_OWN_{event.name.upper()}"
+
+
+def _own_effect(event: Event) -> list[str]:
+    """C statements of the effect of a user's event (runtime/transitions.h)."""
+    ending = {
+        "go on": "goes_on(l, f, lane);",
+        "part": "finish(q, l, f, lane, DECIDED, l->reversal[lane] >= 0 ? BOUNCE : ROTATE, 0);",
+        "cut off": "finish(q, l, f, lane, DECIDED, STICK, 0);",
+    }[event.actions[-1]]
+    noted = f"note(q, l->index[lane], {own_kind(event)}, l->time[lane]);"
+    return [noted, "if (own_event_jumps(q, l, f, lane, event))", f"    {ending}"]
 
 
 def event_name(event: Event) -> str:

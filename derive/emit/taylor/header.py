@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -19,8 +20,12 @@ from .closed_forms import WORKS, attracting, edge_function, momentum_functions, 
 from .groups_from_si import scale_function
 from .layout import comment, function
 from .ledger import Ledger
+from .own_events import own_event_functions
 from .program import Program
 from .slow_manifold import slow_manifold_functions
+
+if TYPE_CHECKING:
+    from ...user_model.own_events import OwnEvent
 
 _FLAGS = (FILM, SHEAR)
 
@@ -33,11 +38,13 @@ class Beside:
         definitions: its groups in SI quantities.
         meanings: of groups and quantities, by name.
         extra: additional arguments of its calls, by slot function.
+        events: its declared events.
     """
 
     definitions: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     meanings: Mapping[str, str] = field(default_factory=dict)
     extra: Mapping[str, tuple[sp.Symbol, ...]] = field(default_factory=dict)
+    events: tuple[OwnEvent, ...] = ()
 
 
 class Header:
@@ -88,10 +95,11 @@ class Header:
     def text(self, digest: str, provenance: str, doc: str) -> str:
         """The header."""
         functions = [*self._coefficients(), *self._values()]
+        table, own = own_event_functions(self.model, self.beside.events, self.constants, self._valued)
         lines = comment(f"{provenance}\nEquations sha256 {digest}")
         lines += ["", *comment(f"{doc}\n\nProducts of series: {self.flow.cost:g} and those of the laws."), ""]
-        lines += self._enumerations()
-        lines += [*self._constants(), *self._series(), *functions]
+        lines += [*self._enumerations(), *table]
+        lines += [*self._constants(), *self._series(), *functions, *own]
         return "\n".join(lines).rstrip() + "\n"
 
     def _enumerations(self) -> list[str]:
@@ -171,7 +179,7 @@ class Header:
 
     def _series(self) -> list[str]:
         lines = ["typedef struct {"]
-        lines += [f"    vec {state.name}[TERMS]; /* {VOCABULARY[state.name].meaning} */" for state in self.model.states]
+        lines += [f"    vec {state.name}[TERMS]; /* {self._meaning(state)} */" for state in self.model.states]
         lines += ["#if CAPILLARY_STATE", "    vec capillary_work[TERMS];", "#endif"]
         lines += ["#if TURNING_STATE", "    vec turned[TERMS];", "#endif", *self.ledger.states()]
         lines += [f"    {field}" for field in self.made.fields()]
@@ -353,7 +361,10 @@ class Header:
             lines += attraction_functions(model, self.constants, prepared)
         if any(each.name == "spin_down_margins" for each in model.functions):
             lines += spin_down_functions(model, self.constants, prepared)
-        lines += slow_manifold_functions(model, self.constants, prepared)
+        if self.beside.events:
+            lines += ["#define SLOW_MANIFOLD 0", ""]  # whose tubes know of no declared event
+        else:
+            lines += slow_manifold_functions(model, self.constants, prepared)
         if any(each.name == "approach_step" for each in model.functions):
             lines += approach_functions(model, self.constants, prepared)
         if attracting(self.model):

@@ -23,6 +23,7 @@ from ....generated.automaton import (
     OPENING,
     REST_SPEED,
     ROTATE,
+    SAFETY,
     STICK,
     Event,
     EventKind,
@@ -33,14 +34,16 @@ from ...model.model import Model
 from ...model.phases import Flow, Phase, WatchedEvents
 from ...model.rebound import rebounded
 from ...scene.contact import contact_gap, contact_word
+from ...scene.user_model import OwnEvent
 from ...settings import CALL, STEPS
 from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance_for
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is abandoned after 16 * 8^21 of them
+_DOUBLED, _MORE = 2.0, 64  # the same where a certificate is tried after each, as no event of it is watched
 _NOW_AND_THEN = 20  # phases of chatter between two checks of the certificate
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _LOOSER = 1e3  # factor from a tolerance that an integrator cannot meet to the next one
-EVENT_OF = {event.name: event for event in EVENTS}
+_EVENT_OF = {event.name: event for event in EVENTS}
 _GAP, _VELOCITY = 0, 1  # indices in the state
 
 
@@ -54,6 +57,7 @@ class PhaseRun:
         rebounds: the doublet rebounds at its end.
         holds: the normal velocity is zero from here on, or until release.
         grip: of a rebound with friction (`model.rebound`).
+        own: name of the declared event that happens at its end, whether or not the phase landed on it.
     """
 
     phase: Phase
@@ -63,6 +67,7 @@ class PhaseRun:
     rebounds: bool = False
     holds: bool = False
     grip: float = np.inf
+    own: str = ""
 
 
 @dataclass
@@ -82,6 +87,7 @@ class EventSequence:
     extras: tuple[str, ...] = ()
     dry_loss: float = 0.0  # dissipated by rebounds and rests, over m v0^2
     friction_loss: float = 0.0  # dissipated by the friction of rebounds
+    own_loss: float = 0.0  # taken by jumps of declared events, over m v0^2
     decided: float | None = None  # time at which the stick was certain, if the trajectory continues beyond it
 
     @property
@@ -164,8 +170,12 @@ class EventLocator:
             if self._held_in_chatter():
                 return self.path
             criterion = self._criterion_met() if self.phase.motion == CLOSING and not self.phase.resting else None
+            due = None if criterion else self._own_event_due()
             if criterion:
                 self._rebound(criterion, 0.0)
+            elif due:
+                if self._own_event(due, 0.0, None):
+                    return self.path
             elif self._run_phase():
                 return self.path
             if self.path.separated:
@@ -207,6 +217,17 @@ class EventLocator:
         values = self.model.values("events", self.y, self.p)
         return next((kind for kind in CRITERIA if values[kind] <= 0), None)
 
+    def _own_event_due(self) -> OwnEvent | None:
+        """The first declared event whose guard is not positive at the start of a phase in which it is watched."""
+        if not self.model.own_events or self.phase.resting:
+            return None
+        values = self.model.values("events", self.y, self.p)
+        for each, mark in zip(self.model.own_events, self.model.marks, strict=True):
+            watched = all(getattr(self.phase, part) == value for part, value in each.row.where)
+            if watched and self.y[mark] > 0.5 and values[each.name] <= 0:
+                return each
+        return None
+
     def _proved(self, elapsed: float) -> bool:
         """True if the collision ends here as a stick, by a certificate or by energy."""
         if at_maximum(self.y, self.phase):
@@ -231,7 +252,8 @@ class EventLocator:
         """Integrate to the next event and apply its effect; True if the collision is over."""
         find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
         elapsed, stretch = 0.0, self._first_stretch()
-        for _ in range(STRETCHES):
+        growth, most = (_DOUBLED, _MORE) if self.model.own_events else (GROWTH, STRETCHES)
+        for _ in range(most):
             level, left = self._level(), self.deadline - self.path.time
             stop = self._advance(find, min(stretch, left), -np.inf if level is None else level)
             elapsed += stop.time
@@ -242,7 +264,7 @@ class EventLocator:
                 if self._proved(elapsed):
                     return True
             elif stop.event is not None:
-                return self._act(EVENT_OF[stop.event], elapsed)
+                return self._happens(stop.event, elapsed)
             elif stop.time >= left:
                 self.path.time = self.deadline
                 self._stop(PhaseRun(self.phase, elapsed, None, ()))
@@ -250,7 +272,7 @@ class EventLocator:
             elif self._proved(elapsed):
                 return True
             else:
-                stretch *= GROWTH
+                stretch *= growth
         raise self._error(
             f"no event within {elapsed:.3g} x0/v0",
             "the outcome changes within the tolerance of this impact, or the gap changes too slowly: "
@@ -296,8 +318,8 @@ class EventLocator:
         """
         crossed = [
             self._refined(find, stop, row.name, level)
-            for row in EVENTS
-            if not row.dips
+            for row in self.model.events
+            if (not row.dips or row not in EVENTS)
             and row.name in find.events
             and find.value(row.name, stop.y, self.p, self.phase.motion, level) < 0
         ]
@@ -326,6 +348,33 @@ class EventLocator:
             if after - before < 1e-12 * stop.time:
                 break
         return EventHit(event, after, y_after, False)
+
+    def _happens(self, name: str, elapsed: float) -> bool:
+        own = next((each for each in self.model.own_events if each.name == name), None)
+        if own is not None:
+            return self._own_event(own, elapsed, name)
+        return self._act(_EVENT_OF[name], elapsed)
+
+    def _own_event(self, event: OwnEvent, elapsed: float, landed: str | None) -> bool:
+        """The jump of a declared event and what follows it; True if it ends the collision."""
+        model, before = self.model, self.y
+        after = model.values(f"jump_{event.name}", before, self.p)
+        self.y = self.path.y = np.concatenate([list(after.values()), before[len(after) :]])
+        loss = own_loss(model, before, self.y, self.p)
+        released = model.values(f"release_{event.name}", before, self.p)["released"]
+        kinetic = model.values("energies", before, self.p)["kinetic"]
+        if -loss > released + SAFETY * self.rtol * kinetic:
+            raise self._error(
+                f"the event {event.word} creates {-loss:.3g} m v0^2 of kinetic energy, and declares {released:.3g}",
+                "declare what it releases, event(..., releases=), or another jump",
+            )
+        self.path.own_loss += loss
+        velocity = float(self.y[_VELOCITY])
+        pull = -velocity if velocity else model.values("inward_force", self.y, self.p)["inward_force"]
+        step = PhaseRun(self.phase, elapsed, landed, (event.word,), own=event.name)
+        self._next(step, self._towards(CLOSING if pull > 0 else OPENING))
+        self.path.separated = event.row.actions[-1] == "part"
+        return event.row.actions[-1] != "go on"
 
     def _act(self, event: Event, elapsed: float) -> bool:
         """Apply the effect of an event; True if it ends the collision."""
@@ -465,6 +514,12 @@ class EventLocator:
     def _error(self, message: str, advice: str) -> ComputationError:
         state = dict(zip(self.model.state, map(float, self.y), strict=False))
         return ComputationError(message, phase=str(self.phase), time=self.path.time, state=state, advice=advice)
+
+
+def own_loss(model: Model, before: np.ndarray, after: np.ndarray, p: np.ndarray) -> float:
+    """Kinetic energy that a declared event takes, over m v0^2; negative if it gives some."""
+    kinetic = [model.values("energies", y, p)["kinetic"] for y in (before, after)]
+    return kinetic[0] - kinetic[1]
 
 
 def locate(

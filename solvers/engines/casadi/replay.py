@@ -11,14 +11,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from casadi import SX, Function, jtimes, vertcat
 
-from ....generated.automaton import EVENTS
 from ...host.thread_caches import own_cache
 from ...model.model import ModelKey
 from ...model.phases import Flow, WatchedEvents, event_table, expressions
 from ...model.rebound import rebounded
 from ...settings import STEPS
 from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
-from .locate import EventSequence, PhaseRun
+from .locate import EventSequence, PhaseRun, own_loss
 
 _LANDED = 1e-4  # largest Taylor step, relative to the phase, for landing without another integration
 _MISSES = 1e-13  # largest value of an event's function after the step, relative to its scale
@@ -61,6 +60,7 @@ class Replay:
     smallest_gap: float = 1.0
     dry_loss: float = 0.0
     friction_loss: float = 0.0
+    own_loss: float = 0.0
     events: list[tuple[str, float]] = field(default_factory=list)
     pieces: list[Piece] = field(default_factory=list)
 
@@ -103,6 +103,10 @@ def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, s
         if step.holds:  # chatter dissipates what remains of the rebound's energy
             replayed.dry_loss += float(replayed.y[1]) ** 2 / 2
             replayed.y[1] = 0.0
+        if step.own:
+            jumped = np.array([*model.values(f"jump_{step.own}", replayed.y, p).values(), *replayed.y[size:]])
+            replayed.own_loss += own_loss(model, replayed.y, jumped, p)
+            replayed.y = jumped
     return replayed
 
 
@@ -112,6 +116,7 @@ def as_located(path: EventSequence, choice: ModelKey) -> Replay:
     begun = np.concatenate([start, np.zeros(len(path.extras))])
     replayed = Replay(path.y, path.extras, smallest_gap=path.smallest_gap, dry_loss=path.dry_loss)
     replayed.friction_loss = path.friction_loss
+    replayed.own_loss = path.own_loss
     for step, end in zip(path.steps, path.ends, strict=True):
         if step.duration > 0:
             flow = Flow(choice, step.phase.region, path.extras)
@@ -145,7 +150,7 @@ def _integrate_onto_event(
     motion = float(step.phase.motion)
     parameters = np.append(p, [motion, 0.0])
     duration = step.duration
-    size = next(event.scale for event in EVENTS if event.name == step.event)
+    size = next(event.scale for event in flow.model.events if event.name == step.event)
     scale = float(p[list(flow.model.groups).index(size)]) if size else 1.0
     nearer = np.inf
     for _ in range(_TRIES):

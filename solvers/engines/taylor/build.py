@@ -6,6 +6,7 @@ import ctypes
 import hashlib
 import os
 import platform
+import re
 import threading
 import time
 from collections.abc import Callable, Collection
@@ -25,7 +26,7 @@ from ...host.remarks import say_once
 from ...host.thread_caches import once
 from ...host.user_cache import folder, found, has, kept, loaded
 from ...model.model import ModelKey, select_model
-from .headers import automaton, headers, tangents
+from .headers import automaton, has_events, headers, tangents
 from .includes import resolved
 from .layout import MOST_STEPS, RESULTS, declarations
 from .machine import described, lanes, native
@@ -49,6 +50,8 @@ FLAGS = (
 # For a few collisions: half the compile time, the same arithmetic, about 5 % slower (docs/engineering/kernel.md).
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
 _ONCE = "#pragma once"
+# What only kernels of models with declared events contain is taken out of the others' text, and so out of their digest.
+_OWN_EVENTS = re.compile(r"^#if OWN_EVENTS\n.*?^#endif /\* OWN_EVENTS \*/\n", re.MULTILINE | re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -92,7 +95,8 @@ def supported(scene: Scene) -> bool:
 
 def source(variant: Variant, emitted: tuple[str, ...]) -> str:
     """C source of a kernel, from its emitted headers."""
-    return resolved('#include "entry.h"\n', files(variant, emitted))
+    whole = resolved('#include "entry.h"\n', files(variant, emitted))
+    return whole if has_events(variant.choice) else _OWN_EVENTS.sub("", whole)
 
 
 def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
@@ -118,10 +122,12 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
-    rules, criteria, effects = automaton()
+    rules, criteria, effects = automaton(variant.choice)
+    own = has_events(variant.choice)
     return {
+        **({} if own else {"own_events.h": ""}),
         "settings.h": "\n".join([_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), ""]),
-        "layout.h": f"{_ONCE}\n{declarations(variant.ledger)}\n",
+        "layout.h": f"{_ONCE}\n{declarations(variant.ledger, own)}\n",
         "automaton.h": f"{_ONCE}\n{rules}",
         "criteria.h": f'{_ONCE}\n#include "automaton.h"\n#include "model.h"\n{criteria}',
         "effects.h": f'{_ONCE}\n#include "transitions.h"\n{effects}',

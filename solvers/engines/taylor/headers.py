@@ -10,10 +10,18 @@ from ...model.model import ModelKey
 _NONE = "#error "  # start of a header that could not be emitted
 
 
+def has_events(choice: ModelKey) -> bool:
+    """True if a user's model declares events that this structure can have."""
+    return choice.package is not None and bool(choice.package.events_in(choice.structure))
+
+
 @once
-def automaton() -> tuple[str, str, str]:
+def automaton(choice: ModelKey) -> tuple[str, str, str]:
     """Texts of the automaton's headers: enumerations and constants, contact gaps, switch over effects."""
     rules, criteria, effects = (emitted.header(f"taylor/{name}.h") for name in ("automaton", "criteria", "effects"))
+    if has_events(choice):
+        assert choice.package is not None
+        rules, effects = choice.package.automaton_headers()
     return rules, criteria, effects
 
 
@@ -43,7 +51,7 @@ def _sound(without: str, texts: list[str]) -> tuple[str, ...] | None:
 
 def _law(choice: ModelKey, slot: str, name: str, tangent: bool) -> str:
     package = choice.package
-    if package is not None and (name in package.laws(slot) or package.changes((slot,))):
+    if package is not None and (name in package.laws(slot) or package.widens((slot,))):
         return package.law_header(slot, name, tangent)
     return emitted.header(f"{_folder(tangent)}/laws/{slot}_{name.replace('-', '_')}.h")
 

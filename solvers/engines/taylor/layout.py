@@ -77,14 +77,20 @@ TASK = np.dtype(
 )
 RESULTS = 8  # that have derivatives: the outputs, then time, smallest gap, angle turned
 MOST_STEPS = 300  # most steps of a trajectory with an adjoint sweep
+OWN_LEDGER = np.dtype([*LEDGER.descr, ("own_events", "f8")], align=True)  # of a model that declares events
 _STRUCTURES = {"buffer": BUFFER, "answer": ANSWER, "happening": HAPPENING, "ledger": LEDGER, "nearness": NEARNESS}
 _C_TYPES = {"f8": "double", "i8": "int64_t", "i4": "int32_t"}
 
 
-def declarations(ledger: bool) -> str:
-    """C structures of these types, with static assertions that the compiler lays them out as numpy does."""
+def declarations(ledger: bool, events: bool = False) -> str:
+    """C structures of these types, with static assertions that the compiler lays them out as numpy does.
+
+    Arguments:
+        events: the ledger has a term for declared events.
+    """
     lines = ["#include <stddef.h>", "#include <stdint.h>"]
-    for name, layout in (*_STRUCTURES.items(), ("task", TASK)):
+    structures = {**_STRUCTURES, "ledger": OWN_LEDGER} if events else _STRUCTURES
+    for name, layout in (*structures.items(), ("task", TASK)):
         if name == "ledger" and not ledger:
             continue
         lines.append("typedef struct {")

@@ -13,7 +13,8 @@ from ...settings import STEPS
 from .build import Variant, kernel
 from .call import Impacts, task, variant
 from .endless import decide
-from .layout import ANSWER, HAPPENING, LEDGER, number, step_row
+from .headers import has_events
+from .layout import ANSWER, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
 
 _ROOM = 64, 256  # events and steps of a collision
 
@@ -110,7 +111,7 @@ def run_recorded(
     log_room, step_room = room[0] * events, room[1] * size
     while True:
         answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
-        books = np.zeros(size if ledger else 0, LEDGER)
+        books = np.zeros(size if ledger else 0, OWN_LEDGER if has_events(wanted.choice) else LEDGER)
         rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel counts the rows that it fills
         asked = task(library, impacts, rtol, budget, answers)
         asked.number("purpose", purpose)

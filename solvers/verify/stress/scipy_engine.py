@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...engines.casadi.integrators import EventHit, tolerance_for
-from ...engines.casadi.locate import EVENT_OF, EventLocator, EventSequence
+from ...engines.casadi.locate import EventLocator, EventSequence
 from ...model.model import Model
 from .numpy_equations import Bound, Equations, equations
 
@@ -74,7 +74,7 @@ class ScipyLocator(EventLocator):
             self.y = self.path.y = stop.y
             self.path.smallest_gap = min(self.path.smallest_gap, float(self.y[0]))
             if stop.event is not None and stop.event != "certified":
-                return self._act(EVENT_OF[stop.event], elapsed)
+                return self._happens(stop.event, elapsed)
             if self._proved(elapsed):
                 return True
         raise self._error(f"no event within {elapsed:.3g} x0/v0", "try a smaller rtol")

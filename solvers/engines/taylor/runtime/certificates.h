@@ -5,6 +5,7 @@
 #include "automaton.h"
 #include "criteria.h"
 #include "energy_barrier.h"
+#include "own_events.h"
 
 #define TURNS (OBLIQUE && !WALL)
 #define PROOF_BY_ENERGY (TURNS ? ATTRACTS && !STRINGS : ATTRACTS || STRINGS)
@@ -14,6 +15,14 @@
 #define PROOF_BY_FILM 0
 #endif
 
+#if OWN_EVENTS
+#undef PROOF_BY_ENERGY
+#define PROOF_BY_ENERGY 0 /* its barriers are those of the start; held_beside_events instead */
+#if !OWN_PROOFS || ATTRACTION
+#undef PROOF_BY_FILM
+#define PROOF_BY_FILM 0
+#endif
+#endif /* OWN_EVENTS */
 #if PROOF_BY_FILM
 enum { DEPTHS = ATTRACTION ? ATTRACTED_FILM_DEPTHS : FILM_DEPTHS };
 
@@ -190,6 +199,10 @@ static mask rests_for_good(const constants *c, const vec *y, double tolerance)
     vec margin = splat(SAFETY*tolerance), momentum = vec_abs(rigid_momentum(c, y)), there[STATES];
     memset(there, 0, sizeof there);
     there[GAP] = y[GAP];
+#if OWN_EVENTS
+    for (int which = 0; which < OWN_EVENTS; which++)
+        there[OWN[which].mark] = y[OWN[which].mark];
+#endif /* OWN_EVENTS */
 #if REDUCED
     momentum = vec_larger(vec_abs(y[ORBITAL_MOMENTUM]), momentum);
 #else
@@ -227,6 +240,14 @@ static inline mask proved_sticks(
 #if PENDULUM
     proved |= held_by_strings(c, y, tolerance);
 #endif
+#if OWN_EVENTS
+#if OWN_PROOFS
+    if (bits(proved & ~resting)) /* the film stops a closing doublet before it opens */
+        proved &= resting | own_events_excluded(c, y, whole_energy(c, y)*(1.0 + SAFETY*tolerance), ~closing);
+#else
+    proved &= resting;
+#endif
+#endif /* OWN_EVENTS */
     return proved;
 }
 
@@ -244,6 +265,13 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
 static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
 {
     (void)c; (void)y; (void)asked; (void)tolerance;
+#if OWN_EVENTS
+#if OWN_PROOFS
+    return bits(asked) ? held_beside_events(c, y, asked, tolerance) : asked;
+#else
+    return splat_mask(0);
+#endif
+#endif /* OWN_EVENTS */
 #if SPIN_DOWN
     return spun_down(c, y, asked, tolerance);
 #endif

@@ -76,6 +76,19 @@ static void run(queue *q)
 #endif
         if (!bits(l.alive))
             continue;
+#if OWN_EVENTS
+        mask happens = splat_mask(0), due = own_events_due(&l, &f, &happens);
+        for (unsigned left = bits(due); left; left &= left - 1) {
+            int lane = __builtin_ctz(left);
+#if WITH_TRAJECTORY
+            act_for_purpose(q, &l, &f, lane, (int)happens[lane]);
+#else
+            act(q, &l, &f, lane, (int)happens[lane]);
+#endif
+        }
+        if (bits(due))
+            continue;
+#endif /* OWN_EVENTS */
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
         expand(&s, &f.c, acting(&l), l.shear, ~l.resting);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "model.h"
+#include "own_events.h"
 #include "roots.h"
 #include "state.h"
 
@@ -127,6 +128,27 @@ static __attribute__((noinline)) void look(
     found->event = (first & event) | (~first & found->event);
 }
 
+#if OWN_EVENTS
+/* The first declared event of a step that comes before those found already. */
+static __attribute__((noinline)) void find_own_events(
+    const series *s, const lanes *l, const fixed *f, vec h, mask moves, first_event *found)
+{
+    own_series own;
+    int made = 0;
+    for (int which = 0; which < OWN_EVENTS; which++) {
+        mask close = moves & own_watched(l->y, which, l->closing, l->film);
+        if (!bits(close))
+            continue;
+        if (!made)
+            for (int k = 0; k <= ORDER; k++)
+                own_coefficients(&own, s, &f->c, k);
+        made = 1;
+        close &= ~((own.guard[which][0] > 0.0) & (least_of(own.guard[which], h) > 0.0));
+        if (bits(close))
+            look(found, close, own.guard[which], splat(0.0), splat(1.0), h, splat_mask(OWN[which].event));
+    }
+}
+#endif /* OWN_EVENTS */
 static void find_events(const series *s, const lanes *l, const fixed *f, vec h, first_event *found)
 {
     const vec zero = splat(0.0), one = splat(1.0);
@@ -187,5 +209,8 @@ static void find_events(const series *s, const lanes *l, const fixed *f, vec h, 
     if (bits(close))
         look(found, close, s->orbital_momentum, zero, one, h, splat_mask(AT_UNWINDING));
 #endif
+#if OWN_EVENTS
+    find_own_events(s, l, f, h, moves, found);
+#endif /* OWN_EVENTS */
     found->time *= part;
 }

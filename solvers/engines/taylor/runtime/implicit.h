@@ -15,6 +15,7 @@
 
 #include "certificates.h"
 #include "model.h"
+#include "own_events.h"
 #include "queue.h"
 #include "state.h"
 
@@ -122,6 +123,13 @@ static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const
     clear &= 2.0*(M_PI - to[ROTATION]) > M_PI - from[ROTATION];
     clear &= 2.0*to[ORBITAL_MOMENTUM] > from[ORBITAL_MOMENTUM];
 #endif
+#if OWN_EVENTS
+    vec before[OWN_EVENTS], after[OWN_EVENTS];
+    own_guards(w->c, from, before);
+    own_guards(w->c, to, after);
+    for (int which = 0; which < OWN_EVENTS; which++)
+        clear &= ~own_watched(from, which, l->closing, l->film) | (2.0*after[which] > before[which]);
+#endif /* OWN_EVENTS */
     return clear;
 }
 

@@ -108,6 +108,52 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         opens(l, f, lane);
 }
 
+#if OWN_EVENTS
+/* The jump of a declared event; false if it creates energy that it does not declare, where other engines say so. */
+static int own_event_jumps(queue *q, lanes *l, fixed *f, int lane, int event)
+{
+    vec after[STATES], released;
+    int which = 0; /* a structure need not have all of a model's events */
+    while (OWN[which].event != event)
+        which++;
+    memcpy(after, l->y, sizeof after);
+    own_jump(&f->c, l->y, which, after, &released);
+    double before = stored_energy(&f->c, l->y)[lane], left = stored_energy(&f->c, after)[lane];
+    if (!(left - before <= released[lane] + SAFETY*q->rtol*before)) {
+        finish(q, l, f, lane, NOT_FINITE, STICK, 0);
+        return 0;
+    }
+#if WITH_LEDGER
+    q->books[l->index[lane]].own_events += before - left;
+#endif
+    for (int state = 0; state < STATES; state++)
+        l->y[state][lane] = after[state][lane];
+    return 1;
+}
+
+/* The phase that follows a declared event: in the direction of the velocity, from rest in that of the forces. */
+static void goes_on(lanes *l, const fixed *f, int lane)
+{
+    double velocity = l->y[NORMAL_VELOCITY][lane];
+    double pull = velocity == 0.0 ? inward_force(&f->c, l->y)[lane] : -velocity;
+    l->closing[lane] = pull > 0.0 ? -1 : 0;
+    new_phase(l, lane);
+}
+
+/* Lanes with a declared event whose guard is not positive where it is watched, and the first of these events. */
+static mask own_events_due(const lanes *l, const fixed *f, mask *event)
+{
+    vec guard[OWN_EVENTS];
+    mask due = splat_mask(0);
+    own_guards(&f->c, l->y, guard);
+    for (int which = OWN_EVENTS - 1; which >= 0; which--) {
+        mask now = l->alive & ~l->resting & own_watched(l->y, which, l->closing, l->film) & (guard[which] <= 0.0);
+        *event = (now & splat_mask(OWN[which].event)) | (~now & *event);
+        due |= now;
+    }
+    return due;
+}
+#endif /* OWN_EVENTS */
 /* Rebound in the lanes of `asked`, which start a closing phase, if a criterion is met already: the first in the table.
  * */
 static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)

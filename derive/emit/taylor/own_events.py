@@ -1,0 +1,95 @@
+"""Declared events of a user's model in C: series of their guards, their values and jumps, and a table of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ...equations.automaton import EVENTS, WORDS
+from ..casadi.printer import EmissionError
+from ..text import needed
+from .c_text import Constants, Recurrences
+from .layout import comment, function
+from .program import Program
+
+if TYPE_CHECKING:
+    from ...equations.model import Model
+    from ...user_model.own_events import OwnEvent
+
+_FIELDS = "event, kind, motion, film, mark, by_gap, opening, closing, known, harmless"
+_SHOWN = 5  # states beside the gap that an answer of the kernel has room for
+
+Valued = Callable[[list[tuple[str, sp.Expr]], str, dict[str, str], str], list[str]]
+
+
+def own_event_functions(
+    model: Model, events: Sequence[OwnEvent], constants: Constants, valued: Valued
+) -> tuple[list[str], list[str]]:
+    """Lines for a structure's header: what stands before its functions, and these; nothing without events.
+
+    Raises:
+        EmissionError: a guard has an operation without a recurrence, or there are more marks than room for states.
+    """
+    own = [each for each in events if each.there(model.structure)]
+    if not own:
+        return [], []
+    if len(model.states) - 1 > _SHOWN:
+        raise EmissionError(f"{len(own)} declared events are more than the kernel has room for")
+    guards = dict(model["events"].outputs)
+    program = Program(model.states)
+    kept, _ = needed([sp.sympify(guards[each.name]) for each in own], model.definitions)
+    for symbol, expression in kept:
+        program.define(symbol, expression)
+    found = {each.name: program.series(sp.sympify(guards[each.name]), f"guard_of_{each.name}") for each in own}
+    made = Recurrences(program, constants, lambda name: f"m->{name}")
+    body = ["(void)c; (void)m;", *made.lines()]
+    body += [f"s->guard[{k}][k] = {made.array(found[each.name])}[k];" for k, each in enumerate(own)]
+    lines = comment("Series of the guards of declared events.")
+    lines += ["typedef struct {", *(f"    {field}" for field in made.fields())]
+    lines += ["    vec guard[OWN_EVENTS][TERMS];", "} own_series;", ""]
+    lines += function("static inline void own_coefficients(own_series *s, const series *m, const constants *c, int k)",
+                      body)  # fmt: skip
+    places = {each.name: f"guard[{k}]" for k, each in enumerate(own)}
+    lines += [
+        "",
+        *valued(
+            [(each.name, guards[each.name]) for each in own],
+            "static inline void own_guards(const constants *c, const vec *y, vec *guard)",
+            places,
+            "Guards of declared events, positive before them.",
+        ),
+    ]
+    for each in own:
+        jump, release = model[f"jump_{each.name}"], model[f"release_{each.name}"]
+        after = {state.name: f"after[{state.name.upper()}]" for state in model.states}
+        head = f"static inline void {jump.name}(const constants *c, const vec *y, vec *after)"
+        lines += valued(list(jump.outputs), head, after, jump.doc)
+        head = f"static inline vec {release.name}(const constants *c, const vec *y)"
+        lines += valued(list(release.outputs), head, {"released": "return"}, release.doc)
+    cases = [
+        line
+        for k, each in enumerate(own)
+        for line in (
+            f"case {k}:",
+            f"    jump_{each.name}(c, y, after);",
+            f"    *released = release_{each.name}(c, y);",
+            "    break;",
+        )
+    ]
+    head = "static inline void own_jump(const constants *c, const vec *y, int which, vec *after, vec *released)"
+    lines += [*comment("State after a declared event, and the energy that it may give."), *function(
+        head, ["switch (which) {", *cases, "}"])]  # fmt: skip
+    table = [f"#define OWN_EVENTS {len(own)}"]
+    table += comment("Where each is watched (motion -1 closing, 1 opening; film -1 anywhere), and the signs of its "
+                     "guard's slopes.")  # fmt: skip
+    table += [f"static const struct {{ int {_FIELDS}; }} OWN[OWN_EVENTS] = {{"]
+    everywhere = list(events)
+    for each in own:
+        where, reach, place = dict(each.proposed.row.where), each.reach(model.structure), everywhere.index(each)
+        numbers = [len(EVENTS) + place, len(WORDS) + place, where.get("motion", 0), where.get("film", -1)]
+        signs = [sign or 0 for sign in (reach.by_gap, reach.opening, reach.closing)]
+        texts = [*map(str, numbers), each.mark.name.upper(), *map(str, signs)]
+        table.append(f"    {{{', '.join([*texts, str(int(reach.known)), str(int(each.harmless))])}}},")
+    return [*table, "};", ""], [*lines, ""]

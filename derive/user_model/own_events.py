@@ -1,0 +1,290 @@
+"""Events of a user's model: what a file declares, judged on the spot, and its form in the equations of a structure.
+
+    snapped = event("snap", guard=critical - u / x, where="opening beyond the film", ends="separated")
+
+Each event has a state of its own, its mark: 1 before the event, 0 after it. `event` returns the mark, which laws of the
+same file may use as a factor. As a state it needs no further machinery in derivatives, recurrences and records.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from ..equations.automaton import CLOSING, EVENTS, OPENING, WORDS, Event
+from ..equations.model import GROUPS, Model, ModelFunction
+from ..physics.mechanics import equations_of_motion
+from ..physics.partners.bodies import CENTRES
+from ..physics.scaling import DISTANCE, EQUAL, ScalingError, to_groups
+from ..physics.structure import Structure
+from ..vocabulary.dimensions import RATE, SPEED, Dimension
+from ..vocabulary.quantities import (
+    DIMENSIONS,
+    a,
+    gap,
+    m,
+    mu,
+    normal_velocity,
+    omega,
+    omega0,
+    orbital_momentum,
+    partner_spin,
+    partner_spin_rate,
+    rate_scale,
+    spin,
+    u,
+    v0,
+    x,
+    x0,
+    xi,
+)
+
+ACCEPTED = "x, u, omega, xi, r, quantities of a scene and of the model file, marks of other events"
+MOVING = (x, u, omega, xi)  # a guard depends on one of them at least
+JUMPS: dict[sp.Symbol, Dimension] = {u: SPEED, omega: RATE, xi: RATE}
+WORD = re.compile(r"[a-z][a-z0-9]*( [a-z0-9]+)*")
+TAKEN_WORDS = {each.word for each in WORDS}
+TAKEN_NAMES = {name for row in EVENTS for name in (row.name, *row.functions)}
+MARK = "before_"  # and the name of an event: its mark
+MOTIONS = {"closing": CLOSING, "opening": OPENING, "any": 0}
+REGIONS = {"": None, "inside the film": 1, "beyond the film": 0}
+PLACES = tuple(f"{motion} {region}".strip() for motion in MOTIONS for region in REGIONS)
+ENDINGS = {"": "go on", "separated": "part", "stick": "cut off"}
+_PROOFS = ("pendulum_margins", "attraction_margins", "approach_step", "approach_force", "orbital_margins")
+
+
+@dataclass(frozen=True)
+class Proposed:
+    """An event as declared, in SI.
+
+    Arguments:
+        mark: its state, 1 before the event and 0 after it.
+        word: its name in reports.
+        where: a direction of motion, and a part of the film, of PLACES.
+        jump: normal velocity u, rotation rate omega or spins xi just after the event.
+        ends: "", "separated" or "stick".
+        releases: stored energy that may go into the motion, J.
+    """
+
+    name: str
+    word: str
+    mark: sp.Symbol
+    guard: sp.Expr
+    where: str
+    jump: tuple[tuple[sp.Symbol, sp.Expr], ...]
+    ends: str
+    releases: sp.Expr
+    meaning: str
+    source: str
+
+    @property
+    def expressions(self) -> tuple[sp.Expr, ...]:
+        return (self.guard, self.releases, *(value for _, value in self.jump))
+
+    @property
+    def row(self) -> Event:
+        """Its row in the table of events, behind the library's."""
+        motion, region = self.where.partition(" ")[::2]
+        where = [("resting", 0)]
+        where += [("motion", MOTIONS[motion])] if MOTIONS[motion] else []
+        inside = REGIONS[region]
+        where += [] if inside is None else [("film", inside)]
+        actions = (f"jump {self.name}", ENDINGS[self.ends])
+        return Event(self.name, (self.name,), tuple(where), (self.word,), actions, dips=True)
+
+
+@dataclass(frozen=True)
+class Reach:
+    """How a guard varies: signs of its slopes along the gap and along the speed |u|; None where no sign is shown.
+
+    `alone`: it depends on gap and normal velocity only. A guard with both signs is positive in a region if it is so in
+    the worst corner.
+    """
+
+    alone: bool
+    by_gap: int | None
+    opening: int | None
+    closing: int | None
+
+    @property
+    def known(self) -> bool:
+        return self.alone and self.by_gap is not None
+
+
+@dataclass(frozen=True)
+class OwnEvent:
+    """A declared event with `let` parts substituted and its quantities as groups, dimensionless in SI symbols.
+
+    Arguments:
+        guard: over m^i x0^j v0^k of its dimension. jump: (quantity, value over v0 or rate_scale).
+        releases: over m v0^2.
+            used: a law depends on its mark.
+    """
+
+    proposed: Proposed
+    guard: sp.Expr
+    jump: tuple[tuple[sp.Symbol, sp.Expr], ...]
+    releases: sp.Expr
+    used: bool = False
+
+    @property
+    def name(self) -> str:
+        return self.proposed.name
+
+    @property
+    def expressions(self) -> tuple[sp.Expr, ...]:
+        return (self.guard, self.releases, *(value for _, value in self.jump))
+
+    @property
+    def mark(self) -> sp.Symbol:
+        return self.proposed.mark
+
+    @property
+    def rotates(self) -> bool:
+        """The guard or the jump speaks of a rotation, which there is none of beside a wall."""
+        free = {symbol for part in self.expressions for symbol in part.free_symbols}
+        free |= {target for target, _ in self.jump}
+        return bool(free & {omega, xi, omega0})
+
+    @property
+    def turns(self) -> bool:
+        """Its guard varies with a rotation only, so that nothing happens head-on."""
+        still = sp.simplify(self.guard.xreplace({omega: sp.Integer(0), xi: sp.Integer(0)}))
+        return not still.free_symbols & {x, u}
+
+    @property
+    def spins(self) -> bool:
+        """The jump changes the rotation, so that the spin cannot be eliminated by the angular momentum."""
+        return any(target in (omega, xi) for target, _ in self.jump)
+
+    @property
+    def takes(self) -> bool:
+        """True if its jump is shown to never add kinetic energy."""
+        after = {target: value * (v0 if target == u else rate_scale) for target, value in self.jump}
+        kinetic = equations_of_motion().kinetic_energy
+        change = sp.factor(sp.simplify(sp.expand(kinetic.xreplace(after)) - sp.expand(kinetic)))
+        return bool(change == 0 or change.is_nonpositive)
+
+    @property
+    def harmless(self) -> bool:
+        """Shown to leave every barrier of the energy as it is: it adds none, keeps L and the laws, and does not end."""
+        return self.takes and not self.spins and not self.used and self.proposed.ends != "separated"
+
+    def reach(self, of: Structure) -> Reach:
+        """How its guard varies in a structure, by the signs of its derivatives for every positive group."""
+        guard = self.in_structure(of)[0]
+        speed, closer = sp.Symbol("speed", positive=True), sp.Symbol("gap", positive=True)
+        moving = {orbital_momentum, spin, partner_spin} & guard.free_symbols
+
+        def sign(value: sp.Expr) -> int | None:
+            value = sp.factor(sp.simplify(value))
+            return 1 if value.is_nonnegative else -1 if value.is_nonpositive else None
+
+        def along(direction: int) -> tuple[int | None, int | None]:
+            one = guard.xreplace({normal_velocity: direction * speed, gap: closer})
+            return sign(one.diff(closer)), sign(one.diff(speed))
+
+        (first, opening), (second, closing) = along(OPENING), along(CLOSING)
+        watched = MOTIONS[self.proposed.where.partition(" ")[0]]
+        by_gap = first if watched == OPENING else second if watched == CLOSING else first if first == second else None
+        if by_gap is None or (watched != CLOSING and opening is None) or (watched != OPENING and closing is None):
+            return Reach(False, None, None, None)
+        return Reach(not moving, by_gap, opening, closing)
+
+    def there(self, structure: Structure) -> bool:
+        """Whether a structure can have the event."""
+        if not structure.oblique:
+            return not self.turns
+        return not (structure.partner == "wall" and self.rotates) and not (structure.reduced and self.spins)
+
+    def in_structure(self, structure: Structure) -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr], sp.Expr]:
+        """Guard, jump of the states, and release over m v0^2, in states and groups of a structure."""
+
+        def put(value: sp.Expr) -> sp.Expr:
+            return _settled(f"event {self.name}", value, structure)
+
+        jump: dict[sp.Symbol, sp.Expr] = {}
+        for target, value in self.jump:
+            if target == u:
+                jump[normal_velocity] = put(value)
+            elif structure.oblique and target == omega:
+                jump[orbital_momentum] = put(value) * DISTANCE**2
+            elif structure.oblique:
+                jump[spin] = put(value)
+                if structure.partner == "pair":
+                    jump[partner_spin] = put(value.xreplace({xi: partner_spin_rate}))
+        return put(self.guard), jump, put(self.releases)
+
+
+def _settled(label: str, value: sp.Expr, structure: Structure) -> sp.Expr:
+    if not structure.oblique:
+        value = value.xreplace({omega: sp.Integer(0), xi: sp.Integer(0)})
+    rules = to_groups(CENTRES if structure.partner == "pair" else EQUAL)
+    for _ in range(3):
+        value = value.xreplace(rules)
+    result = sp.Add(*(sp.simplify(term) for term in sp.Add.make_args(sp.expand(value))))
+    if _dimensional(result):
+        result = sp.simplify(value)
+    if left := _dimensional(result):
+        raise ScalingError(f"{label}: {', '.join(left)} did not cancel from {result}")
+    return result
+
+
+def _dimensional(expression: sp.Expr) -> list[str]:
+    return sorted(s.name for s in expression.free_symbols if s in DIMENSIONS and any(DIMENSIONS[s].exponents))
+
+
+def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
+    """A structure's model with the states, guards and jumps of declared events, without the proofs they void."""
+    own = [each for each in events if each.there(model.structure)]
+    if not own:
+        return model
+    marks = tuple(each.mark for each in own)
+    forms = {each.name: each.in_structure(model.structure) for each in own}
+    still = {mark: sp.Integer(0) for mark in marks}
+    same = {mark: mark for mark in marks}
+    more: dict[str, Mapping[sp.Symbol, sp.Expr]] = {
+        "right_hand_side": still, "resting_rates": still, "rebound": same, "rigid_rotation": same,
+        "start": dict.fromkeys(marks, sp.Integer(1)),
+    }  # fmt: skip
+    functions = []
+    for function in model.functions:
+        if function.name in _PROOFS:
+            continue
+        outputs = function.outputs + tuple((mark.name, value) for mark, value in more.get(function.name, {}).items())
+        if function.name == "events":
+            outputs += tuple((name, guard) for name, (guard, _, _) in forms.items())
+        functions.append(replace(function, outputs=outputs))
+    states = (*model.states, *marks)
+    for each in own:
+        _, jump, released = forms[each.name]
+        after = {state: jump.get(state, state) for state in states} | {each.mark: sp.Integer(0)}
+        doc = f"State just after the event {each.name}: {each.proposed.meaning}."
+        functions.append(ModelFunction(f"jump_{each.name}", doc, tuple((state.name, after[state]) for state in states)))
+        doc = f"Stored energy over m v0^2 that the event {each.name} may give to the motion."
+        functions.append(ModelFunction(f"release_{each.name}", doc, (("released", released),)))
+    return replace(model, states=states, functions=tuple(functions))
+
+
+def groups_of(events: tuple[OwnEvent, ...], structure: Structure) -> set[sp.Basic]:
+    """Symbols that the events bring into a structure."""
+    used: set[sp.Basic] = set()
+    for each in events:
+        if each.there(structure):
+            guard, jump, released = each.in_structure(structure)
+            used |= set().union(*(part.free_symbols for part in (guard, released, *jump.values())))
+    return used
+
+
+def scale_of(dimension: Dimension) -> sp.Expr:
+    """m^i x0^j v0^k of a dimension."""
+    mass, length, time = (sp.Rational(power) for power in dimension.exponents)
+    return m**mass * x0 ** (length + time) * v0**-time
+
+
+def may_use(symbol: sp.Basic) -> bool:
+    """Whether a symbol of the vocabulary may occur in an event: the motion, groups, and quantities with a group."""
+    return symbol in {*to_groups(), *GROUPS, a, mu, v0} - {partner_spin_rate}

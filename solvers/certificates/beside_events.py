@@ -1,0 +1,165 @@
+"""Certificates beside declared events of a user's model: they hold where no such event can happen any more.
+
+The energy certificate is taken for the forces that act now: its barriers are searched anew at every decision, and the
+work of the attractions is that from the gap of initial contact at these forces, not what was spent while others acted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...generated.automaton import CLOSING, OPENING, SAFETY
+from ..model.model import Model
+from ..model.phases import Phase
+from ..scene.contact import contact_gap
+from ..scene.user_model import OwnEvent
+from .base import Certainty, Certificate
+from .energy_barrier import Barrier, EnergyCertificate
+from .quadrature import panels
+
+PARTS = 24  # of the film, and as many beyond it, within which heights are bounded by those at their ends
+_LEAST = 1e-6  # gap down to which heights are known
+_BOTH = (CLOSING, OPENING)
+
+
+class EnergyBesideEvents(EnergyCertificate):
+    """The energy certificate of a model with declared events, where energy excludes those that have not happened."""
+
+    watches: str | None = None
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return None
+
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        """The verdict; in motion nothing is shown for a lever arm with which angular momentum drifts."""
+        if phase.resting:  # declared events are watched in motion only
+            still = not self.model.oblique or self.model.wall or not phase.shear
+            return Certainty.of(still or self.rests(y), self.theorem)
+        if not self.theorem:
+            return Certainty.OPEN
+        ahead = [barrier for barrier in self.barriers(y) if barrier.gap > y[0]]
+        if not ahead:
+            return Certainty.OPEN
+        energy, height = self.energy(y), ahead[0].height
+        margin = SAFETY * self.rtol * (max(self._largest, abs(energy)) + abs(height))
+        return Certainty.of(energy < height - margin and self.excluded(y, energy + margin, _BOTH))
+
+    def barriers(self, y: np.ndarray) -> tuple[Barrier, ...]:
+        return self._searched(tuple(y[2 : len(self.model.state)].tolist()))
+
+    def energy(self, y: np.ndarray) -> float:
+        """Kinetic energy over m v0^2 and the potential of the attractions at this gap, as heights are counted."""
+        there = y[: len(self.model.state)]
+        own = sum(self.model.values(self.model.escape, there, self.p).values())
+        return float(own + self.height(there, float(y[0])) - self._least(there, float(y[0])))
+
+    def height(self, y: np.ndarray, gap: float) -> float:
+        """The effective potential at a gap."""
+        return self._least(y, 1.0) + self._rise(gap, y)
+
+    def _heights(self, gaps: Sequence[float], y: np.ndarray) -> list[float]:
+        """The effective potential at ascending gaps, of which the one at PARTS is 1."""
+        parts = panels(lambda logs: self._slope(np.exp(logs), y) * np.exp(logs), np.log(gaps))
+        risen = np.concatenate([[0.0], np.cumsum(parts)])
+        heights: list[float] = (self._least(y, 1.0) + risen - risen[PARTS]).tolist()
+        return heights
+
+    def _least(self, y: np.ndarray, gap: float) -> float:
+        return self.model.values("effective_potential", np.array([gap, *y[1:]]), self.p)["energy"]
+
+    def _turning(self, y: np.ndarray, orbital_momentum: float) -> np.ndarray:
+        state = super()._turning(y, orbital_momentum)
+        marks = list(self.model.marks)
+        state[marks] = y[marks]
+        return state
+
+    def excluded(self, y: np.ndarray, energy: float, motions: Sequence[int]) -> bool:
+        """True if this energy does not suffice for a declared event that has not happened, in these directions.
+
+        The speed at a gap is at most that of the energy above the height there. A guard is positive in a part of the
+        gap and at the speeds there if it is in the worst corner, by the signs of its slopes. Harmless events change no
+        barrier.
+        """
+        model = self.model
+        left = [
+            each
+            for each, mark in zip(model.own_events, model.marks, strict=True)
+            if y[mark] > 0.5 and not each.harmless and dict(each.row.where).get("motion", motions[0]) in motions
+        ]
+        if not left:
+            return True
+        groups = self.groups
+        contact, end = contact_gap(groups), groups["rupture_gap"] if model.bridge else 1.0
+        start = min(max(contact, _LEAST), 0.5)
+        if any(each.reach is None or (_film(each) != 0 and contact < start) for each in left):
+            return False
+        gaps = [*np.geomspace(start, 1.0, PARTS + 1).tolist(), *np.linspace(1.0, end, PARTS + 1)[1:].tolist()]
+        there = y[: len(model.state)]
+        heights = self._heights(gaps if end > 1 else gaps[: PARTS + 1], there)
+        for k in range(len(heights) - 1):
+            low, high = heights[k], heights[k + 1]
+            above = energy - (min(low, high) - abs(high - low))
+            if above <= 0:
+                continue
+            inside = int(k < PARTS)
+            for each in left:
+                if _film(each) in (None, inside) and not self._clear(each, there, gaps[k : k + 2], above, motions):
+                    return False
+        return True
+
+    def _clear(
+        self, each: OwnEvent, y: np.ndarray, gaps: Sequence[float], above: float, motions: Sequence[int]
+    ) -> bool:
+        """True if a guard is positive between two gaps at every speed of this energy."""
+        assert each.reach is not None
+        watched = dict(each.row.where).get("motion")
+        at = np.array(y)
+        at[0] = gaps[0] if (each.reach["by_gap"] or 0) > 0 else gaps[1]
+        for motion in motions:
+            if watched not in (None, motion):
+                continue
+            slope = each.reach["opening" if motion == OPENING else "closing"] or 0
+            at[1] = 0.0 if slope > 0 else motion * np.sqrt(2 * above)
+            if not self.model.values("events", at, self.p)[each.name] > 0:
+                return False
+        return True
+
+
+class FilmBesideEvents:
+    """The film certificate of a model with declared events, where energy excludes those of the present direction."""
+
+    watches: str | None = None
+
+    def __init__(self, inner: Certificate, beside: EnergyBesideEvents) -> None:
+        self.inner, self.beside = inner, beside
+
+    def level(self, y: np.ndarray, phase: Phase) -> float | None:
+        return None
+
+    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        """The verdict; a doublet that the film stops while closing never opens."""
+        found = self.inner.decided(y, phase, maxima)
+        if not found or phase.resting:
+            return found
+        energy = self.beside.energy(y) * (1 + SAFETY * self.beside.rtol)
+        return found if self.beside.excluded(y, energy, (phase.motion,)) else Certainty.OPEN
+
+
+def _film(each: OwnEvent) -> int | None:
+    return dict(each.row.where).get("film")
+
+
+def beside_events(model: Model, p: np.ndarray, rtol: float, film: Certificate | None) -> Certificate | None:
+    """The certificate of a model with declared events; None where nothing is shown.
+
+    Arguments:
+        film: the certificate of the film alone, where the model has one.
+    """
+    if not model.has("effective_potential"):
+        return None
+    beside = EnergyBesideEvents(model, p, rtol)
+    if film is not None:
+        return FilmBesideEvents(film, beside)
+    return beside if model.works or model.strings else None

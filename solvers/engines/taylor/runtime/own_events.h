@@ -1,0 +1,137 @@
+/* Declared events of a user's model: which can still happen, and the energy certificate beside them.
+ *
+ * Only kernels of models that declare events contain this file and the blocks `#if OWN_EVENTS` (build.py). An event happens
+ * once; its mark, a state, is 1 before and 0 after it. As solvers/certificates/beside_events.py.
+ */
+#pragma once
+
+#include "automaton.h"
+#include "criteria.h"
+#include "energy_barrier.h"
+#include "model.h"
+
+#if OWN_EVENTS
+/* Lanes in which a declared event may still happen, in this direction and part of the film. */
+static inline mask own_watched(const vec *y, int which, mask closing, vec film)
+{
+    int motion = OWN[which].motion, part = OWN[which].film;
+    mask wanted = y[OWN[which].mark] > 0.5;
+    if (motion)
+        wanted &= motion < 0 ? closing : ~closing;
+    if (part >= 0)
+        wanted &= film == (double)part;
+    return wanted;
+}
+
+#if defined(POTENTIAL) && (!SURFACE_ARM || WALL || !OBLIQUE)
+#define OWN_PROOFS 1
+enum { OWN_PARTS = 24 }; /* of the film, and as many beyond it, within which heights are bounded by those at their ends */
+
+static inline vec gap_of_part(vec start, vec end, int k)
+{
+    double part = (double)(k < OWN_PARTS ? k : k - OWN_PARTS)/OWN_PARTS;
+    return k < OWN_PARTS ? start*vec_exp(vec_log(start)*-part) : 1.0 + (end - 1.0)*part;
+}
+
+/* The rise of the effective potential from one gap to the next. */
+static inline vec risen(const constants *c, const vec *y, vec low, vec high)
+{
+#if CAPILLARY_STATE
+    return integral(c, y, vec_log(low), vec_log(high), slope_in_logarithm);
+#else
+    return height_at(c, y, high) - height_at(c, y, low);
+#endif
+}
+
+/* Kinetic energy and potential of the attractions, as heights are counted. */
+static inline vec whole_energy(const constants *c, const vec *y)
+{
+    return stored_energy(c, y) + height_at(c, y, y[GAP]) - energy_at(c, y, y[GAP]);
+}
+
+/* Lanes in which this energy does not suffice for any declared event that has not happened.
+ *
+ * At a gap the speed is at most that of the energy above the height there; the guard is positive in the worst corner of every
+ * part of the gap and of the speeds there, by the signs of its slopes. Harmless events change no barrier.
+ */
+static mask own_events_excluded(const constants *c, const vec *y, vec energy, mask opens)
+{
+    vec end = splat(1.0);
+#if BRIDGE
+    end = c->rupture_gap;
+#endif
+    vec contact = contact_gap(c), start = vec_min(vec_max(contact, splat(1e-6)), splat(0.5));
+    vec there[STATES], guard[OWN_EVENTS], last = start, height = height_at(c, y, start);
+    mask excluded = splat_mask(-1);
+    for (int which = 0; which < OWN_EVENTS; which++) {
+        if (OWN[which].harmless)
+            continue;
+        mask over = y[OWN[which].mark] < 0.5;
+        if (OWN[which].motion > 0)
+            over |= ~opens;
+        if (!OWN[which].known)
+            excluded &= over;
+        else if (OWN[which].film != 0) /* below the least gap of the parts nothing is shown */
+            excluded &= over | (contact >= start);
+    }
+    memcpy(there, y, sizeof there);
+    for (int k = 1; k <= 2*OWN_PARTS && bits(excluded); k++) {
+        vec next = gap_of_part(start, end, k), above = height + risen(c, y, last, next);
+        vec least = vec_min(height, above) - vec_abs(above - height);
+        mask reached = energy > least;
+        vec speed = vec_sqrt(2.0*vec_max(energy - least, splat(0.0)));
+        for (int which = 0; which < OWN_EVENTS; which++) {
+            int known = OWN[which].known && !OWN[which].harmless;
+            if (!known || OWN[which].film == (k <= OWN_PARTS ? 0 : 1))
+                continue;
+            there[GAP] = OWN[which].by_gap > 0 ? last : next;
+            for (int way = -1; way <= 1; way += 2) {
+                if (OWN[which].motion && OWN[which].motion != way)
+                    continue;
+                int by_speed = way > 0 ? OWN[which].opening : OWN[which].closing;
+                there[NORMAL_VELOCITY] = by_speed > 0 ? splat(0.0) : way*speed;
+                own_guards(c, there, guard);
+                mask over = y[OWN[which].mark] < 0.5;
+                if (way > 0)
+                    over |= ~opens;
+                excluded &= over | ~reached | (guard[which] > 0.0);
+            }
+        }
+        last = next;
+        height = above;
+    }
+    return excluded;
+}
+
+/* Energy certificate for the forces that act since the last declared event, where no other can happen. */
+static mask held_beside_events(const constants *c, const vec *y, mask asked, double tolerance)
+{
+#if ATTRACTS || STRINGS
+    barrier b;
+    vec first[STATES], end = splat(1.0);
+#if BRIDGE
+    end = c->rupture_gap;
+#endif
+    memset(&b, 0, sizeof b);
+    memset(first, 0, sizeof first);
+    start(c, first);
+    find_barriers(c, y, contact_gap(c), end, &b);
+#if SURFACE_ARM
+    return splat_mask(0);
+#else
+    vec height = height_ahead(y, &b), energy = whole_energy(c, y);
+    vec margin = SAFETY*tolerance*(vec_max(stored_energy(c, first), vec_abs(energy)) + vec_abs(height));
+    asked &= energy < height - margin;
+    if (bits(asked))
+        asked &= own_events_excluded(c, y, energy + margin, splat_mask(-1));
+    return asked;
+#endif
+#else
+    (void)c; (void)y; (void)asked; (void)tolerance;
+    return splat_mask(0);
+#endif
+}
+#else
+#define OWN_PROOFS 0
+#endif
+#endif /* OWN_EVENTS */

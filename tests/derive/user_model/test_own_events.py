@@ -1,0 +1,102 @@
+"""Declared events in the derivation: what is refused, their form in the structures, and what is shown of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import sympy as sp
+from wetdoublet.derive.equations.model import derive
+from wetdoublet.derive.physics.structure import Structure
+from wetdoublet.derive.user_model.declarations import ModelFileError
+from wetdoublet.derive.user_model.modelfile import read
+from wetdoublet.derive.user_model.structures import UserModel
+
+OBLIQUE = Structure(True, True, False)
+HEAD = 'from wetdoublet.derive.user import *\nk = quantity("k", unit="1/s")\nd = quantity("d", unit="m")\n'
+USES = '\nevent("other", guard=k - u / x + k * (x - d) / d)'
+
+
+def model(body: str) -> UserModel:
+    """The model of a file with these lines."""
+    return read(Path("mine.py"), HEAD + body + USES)
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ('event("snap", guard=k - u)', "line 4: event snap.guard: 'k - separation_rate' term"),
+        ('event("snap", guard=k)', "event snap.guard: k never changes; accepted: an expression of x, u, omega or xi"),
+        ('event("snap", guard=sp.Symbol("speed_of_light") - u)', "is not known to an event; accepted: x, u, omega"),
+        ('event("snap", guard=d - x, where="outside")', "event snap.where: 'outside' is not accepted; accepted: "),
+        ('event("snap", guard=d - x, jump={x: d})', "surfaces move apart and together continuously: a gap"),
+        ('event("snap", guard=d - x, jump={u: x})', "event snap.jump: 'separation' has dimension L; accepted: "),
+        ('event("snap", guard=d - x, jump={omega: omega + k})', "turns what does not turn"),
+        ('event("snap", guard=d - x, releases=m)', "event snap.releases: 'reduced_mass' has dimension M; accepted"),
+        ('event("snap", guard=d - x, word="rupture")', "event snap.word: 'rupture' exists already; accepted: any word"),
+        ('event("snap", guard=d - x, ends="bounce")', "event snap.ends: 'bounce' is not accepted; accepted"),
+        ('event("snap", guard=d - x, ends="stick", jump={u: u/2})', "event snap.jump"),
+        ('event("glass", guard=d - x)', "'glass' is an event of the library; accepted: a name of your own"),
+        ('event("gap", guard=d - x)', "event: 'gap' is taken already"),
+        ('event("k", guard=d - x)', "event: 'k' is taken already"),
+        ('event("snap", guard=d - x)\nevent("snap", guard=d - x)', "line 5: event: 'snap' is taken already"),
+        ('event("snap", guard=d - x)\nquantity("before_snap")', "quantity: 'before_snap' is taken already"),
+    ],
+)  # fmt: skip
+def test_bad_events_are_named(body: str, said: str):
+    """An event that cannot be is one line with file, line, what is wrong and what is accepted."""
+    with pytest.raises(ModelFileError) as caught:
+        model(body)
+    assert str(caught.value).startswith("mine.py, line ")
+    assert said in str(caught.value)
+    assert "accepted: " in str(caught.value)
+
+
+def test_guard_and_jump_in_a_structure():
+    """The guard is dimensionless, the mark a state that is 1 before the event and 0 after it, all else continuous."""
+    made = model('event("snap", guard=k - u / x, jump={u: u / 2})').extended(derive(OBLIQUE))
+    names = [state.name for state in made.states]
+    assert names[-2:] == ["before_snap", "before_other"]
+    guard = dict(made["events"].outputs)["snap"]
+    assert {symbol.name for symbol in guard.free_symbols} <= {"gap", "normal_velocity", "aspect", "k_number"}
+    after = dict(made["jump_snap"].outputs)
+    speed = sp.Symbol("normal_velocity", real=True)
+    assert after["normal_velocity"] == speed / 2
+    assert after["before_snap"] == 0
+    assert [str(after[name]) for name in ("gap", "orbital_momentum", "spin", "before_other")] == [
+        "gap", "orbital_momentum", "spin", "before_other",
+    ]  # fmt: skip
+    assert dict(made["start"].outputs)["before_snap"] == 1
+    assert dict(made["right_hand_side"].outputs)["before_snap"] == 0
+
+
+@pytest.mark.parametrize(
+    ("body", "takes", "harmless", "known"),
+    [
+        ('event("snap", guard=k - u / x, where="opening", jump={u: u / 2})', True, True, True),
+        ('event("snap", guard=k - u / x, where="opening", jump={u: 2 * u})', False, False, True),
+        ('event("snap", guard=k - u / x, where="opening", ends="separated")', True, False, True),
+        ('event("snap", guard=omega - xi - k, jump={omega: omega / 2})', True, False, False),
+        ('event("snap", guard=k * d - u * cos(x / d), where="opening", ends="separated")', True, False, False),
+        ('on = event("snap", guard=d - x)\nlaw("bridge", "mine", force=on * sigma * a)', True, False, True),
+    ],
+)
+def test_what_is_shown_decides_the_certificates(body: str, takes: bool, harmless: bool, known: bool):
+    """That a jump adds no energy, that nothing a proof needs is changed, and the signs of the guard's slopes."""
+    event = model(body).events[0]
+    assert event.takes is takes
+    assert event.harmless is harmless
+    assert event.reach(OBLIQUE).known is known
+
+
+def test_structures_that_cannot_have_an_event():
+    """Head-on and beside a wall nothing turns, and a jump of the rotation needs the spin as a state."""
+    event = model('event("lock", guard=omega - xi - k, jump={xi: omega})').events[0]
+    wanted = {
+        OBLIQUE: True,
+        Structure(False, True, False): False,
+        Structure(True, True, False, partner="wall"): False,
+        Structure(True, True, False, partner="pair"): True,
+        Structure(True, True, False, reduced=True): False,
+    }
+    assert {structure: event.there(structure) for structure in wanted} == wanted

@@ -1,0 +1,223 @@
+"""Events that a model file declares: by every engine, with ledger, derivatives, boundaries and proofs."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import (
+    ComputationError,
+    InputError,
+    Scene,
+    atlas,
+    boundary,
+    collide,
+    collide_many,
+    sensitivities,
+)
+from wetdoublet.solvers.engines.taylor import build
+from wetdoublet.solvers.engines.taylor.call import variant
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.model.model import select_model
+
+from ...helpers.command import run
+from ...helpers.newton import Bodies
+from ...helpers.snapping import EVENTS, Ended, integrated
+
+pytestmark = pytest.mark.slow
+ANGLE = math.radians(60)
+SOFT = {"particles.dry_restitution": 0.5}  # head-on, some doublets rebound, leave the film, and are pulled back
+PLAIN = {"bridge.law": "constant"}  # the library's, of the same force
+
+
+@pytest.fixture(scope="module")
+def snaps(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The model file; what is derived from it is kept in the cache."""
+    path = tmp_path_factory.mktemp("events") / "snaps.py"
+    path.write_text(EVENTS)
+    return path
+
+
+def scene(model: Path, **custom: object) -> Scene:
+    """Granulation with the model's bridge."""
+    own = {f"custom.{name}": value for name, value in custom.items()}
+    return Scene.load("granulation", model=model).with_entries(own)
+
+
+def bodies(one: Scene) -> Bodies:
+    """Its numbers for the independent integration."""
+    particles, liquid = one.particles, one.liquid
+    assert one.bridge is not None
+    radius, mass = 2 * particles.reduced_radius, 2 * particles.reduced_mass
+    return Bodies((radius, radius), (mass, mass), liquid.viscosity, liquid.film_thickness,
+                  one.bridge.surface_tension, one.bridge.volume)  # fmt: skip
+
+
+def same(found, expected: Ended, speed: float, rel: float = 1e-7) -> None:
+    """Restitution, time and rates of a result are those of the independent integration."""
+    assert found.restitution == pytest.approx(expected.velocity / speed, rel=rel)
+    assert found.contact_time == pytest.approx(expected.time, rel=rel)
+    assert found.final_rotation_rate == pytest.approx(expected.rate, rel=rel)
+    assert found.final_spin == pytest.approx(expected.spin, rel=rel)
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "cvodes"])
+def test_a_bridge_that_snaps_ends_the_collision(snaps: Path, engine: str):
+    """Opening faster than its rate beyond the film, the pair is separate there, as integrated independently."""
+    own = scene(snaps, critical_rate="1e4 1/s")
+    found = collide(own, stokes=0.08, angle=ANGLE, engine=engine, rtol=1e-10)
+    assert [event.kind for event in found.events] == ["turned", "film edge", "snap"]
+    assert found.outcome == "stick-rotate-separate"
+    film = own.liquid.film_thickness
+    expected = integrated(bodies(own), found.speed, ANGLE, lambda x, u: 1 - x / film, beyond=False)
+    assert expected.velocity / film > 1e4
+    same(found, expected, found.speed)
+
+
+def test_a_bridge_that_lets_go_pulls_no_longer(snaps: Path):
+    """The mark of an event is a factor of the law: beyond it the doublet goes on without the bridge's force."""
+    own = scene(snaps, leaving_speed="0.05 m/s")
+    found = collide(own, stokes=0.08, angle=ANGLE, rtol=1e-10, engine="rosenbrock")
+    assert [event.kind for event in found.events] == ["turned", "let go", "film edge", "rupture"]
+    same(found, integrated(bodies(own), found.speed, ANGLE, lambda x, u: 0.05 - u, beyond=True), found.speed)
+    assert found.energy is not None
+    assert abs(found.energy.residual) < 1e-8 * found.energy.initial
+
+
+def test_what_a_jump_takes_is_booked(snaps: Path):
+    """A brake that leaves half of the speed takes three quarters of that motion's energy, and the ledger closes."""
+    own = scene(snaps, braking_gap="20 um")
+    found = collide(own, stokes=0.5, angle=0.0, rtol=1e-10)
+    free = collide(scene(snaps), stokes=0.5, angle=0.0, rtol=1e-10)
+    assert found.energy is not None
+    assert "braked" in [event.kind for event in found.events]
+    unit = own.particles.reduced_mass / 2
+    before = (free.speed * free.restitution) ** 2 + 2 / unit / 2 * 4 * math.pi * own.particles.reduced_radius * (
+        own.bridge.surface_tension * (own.rupture_gap - 20e-6)
+    )  # where it brakes, from what it has without the brake at rupture
+    assert found.energy.own_events == pytest.approx(0.75 * unit * before, rel=1e-8)
+    assert abs(found.energy.residual) < 1e-8 * found.energy.initial
+
+
+@pytest.mark.skipif(compiler() is None, reason="no C compiler")
+def test_the_kernel_does_as_casadi(snaps: Path):
+    """Outcome, restitution and every proved stick by both engines, where all events happen at some collision."""
+    stokes = np.array([0.02, 0.05, 0.08, 0.12, 0.2, 0.6, 0.08, 0.08])
+    custom = {
+        "custom.critical_rate": [1e12, 1e12, 1e4, 1e4, 1e12, 1e12, 1e12, 6e3],
+        "custom.leaving_speed": [1e6, 0.01, 0.05, 1e6, 0.3, 0.2, 1e6, 0.1],
+        "custom.braking_gap": [1.0, 1.0, 1.0, 9e-6, 1e-5, 2e-5, 5e-6, 7e-6],
+    }
+    vary = {name: np.array(values) for name, values in custom.items()}
+    both = [
+        collide_many(scene(snaps), stokes=stokes, angle=ANGLE, vary=vary, engine=engine, rtol=1e-10)
+        for engine in ("taylor", "rosenbrock")
+    ]
+    assert all(set(one.reason.values) == {""} for one in both)
+    np.testing.assert_array_equal(both[0].outcome, both[1].outcome)
+    np.testing.assert_array_equal(both[0].certified, both[1].certified)
+    np.testing.assert_allclose(both[0].restitution, both[1].restitution, rtol=1e-8)
+    assert {0, 1, 2} == set(both[0].outcome.values.tolist())
+
+
+def test_an_event_that_never_happens_changes_nothing(snaps: Path):
+    """With limits that nothing reaches, results and sticks are those of the same law without events."""
+    for stokes in (0.02, 0.08, 0.3):
+        own = collide(scene(snaps), stokes=stokes, angle=ANGLE, rtol=1e-10, engine="rosenbrock")
+        library = Scene.load("granulation").with_entries(PLAIN)
+        other = collide(library, stokes=stokes, angle=ANGLE, rtol=1e-10, engine="rosenbrock")
+        assert (own.outcome, own.certified) == (other.outcome, other.certified)
+        assert own.restitution == pytest.approx(other.restitution, rel=1e-8)
+        assert [event.kind for event in own.events] == [event.kind for event in other.events]
+
+
+def test_a_proved_stick_sticks_beside_events(snaps: Path):
+    """Sticks that are proved although an event might have come: it does not, however long they are followed on."""
+    for stokes, angle in ((0.02, ANGLE), (0.117, 0.0), (0.117, 0.1)):
+        own = scene(snaps, critical_rate="6e4 1/s").with_entries(SOFT)
+        stick = collide(own, stokes=stokes, angle=angle, engine="rosenbrock", ledger=False)
+        assert (stick.outcome, stick.certified) == ("stick", True)
+        assert stick.until is not None
+        followed = collide(own, stokes=stokes, angle=angle, until=20 * stick.until, ledger=False)
+        assert followed.outcome == "stick"
+
+
+def test_derivatives_pass_the_jump(snaps: Path):
+    """The saltation of guard and jump: derivatives are those of differences, by all that the events depend on."""
+    own = scene(snaps, leaving_speed="0.05 m/s", braking_gap="12 um")
+    wrt = ["custom.leaving_speed", "custom.braking_gap", "custom.kept", "liquid.viscosity"]
+    found = sensitivities(own, stokes=0.08, angle=ANGLE, wrt=wrt, of=["restitution", "contact_time"], rtol=1e-10)
+    speed = collide(own, stokes=0.08, angle=ANGLE, ledger=False).speed
+    for name in wrt:
+        value, sides = float(own.fields[name].read(own.entries[name])), []
+        for step in (1e-4, -1e-4):
+            beside = own.with_entries({name: value * (1 + step)})
+            sides.append(collide(beside, speed=speed, angle=ANGLE, rtol=1e-12, engine="rosenbrock", ledger=False))
+        for of in ("restitution", "contact_time"):
+            slope = (getattr(sides[0], of) - getattr(sides[1], of)) / (2e-4 * value)
+            assert found.gradient[of][name] == pytest.approx(slope, rel=2e-5)
+
+
+def test_a_boundary_is_named_after_its_event(snaps: Path):
+    """A change of outcome that an event makes: there the film is left at the critical rate, which alone it passes."""
+    rate = 2e4
+    own = scene(snaps, critical_rate=rate).with_entries(SOFT)
+    (line,) = boundary(own, angle=[0.0], stokes=(0.11, 0.13)).changes
+    assert [(one.before, one.after, one.kind) for one in line] == [("stick", "bounce", "event snap")]
+    at = line[0].stokes
+    free = collide(own.with_entries({"custom.critical_rate": 1e3}), stokes=at, angle=0.0, rtol=1e-10, ledger=False)
+    assert [event.kind for event in free.events] == ["glass", "film edge", "snap"]
+    assert free.restitution * free.speed == pytest.approx(rate * own.liquid.film_thickness, rel=1e-7)
+
+
+def test_an_atlas_is_refused(snaps: Path):
+    """Kinds of curves are told by functions that know of no declared event, so there is no atlas."""
+    with pytest.raises(InputError, match="spans no atlas of a model that declares events; accepted: boundaries along"):
+        atlas(scene(snaps), over="impact.angle", span=(0.0, 0.3), stokes=(0.1, 0.2))
+
+
+def test_energy_is_not_created_unsaid(snaps: Path):
+    """A jump that adds energy which the event does not declare is an error with the amount, phase and advice."""
+    for engine in ("rosenbrock", None):
+        with pytest.raises(ComputationError, match="the event braked creates .* declares 0"):
+            collide(scene(snaps, kept=2.0, braking_gap="12 um"), stokes=0.3, angle=0.0, engine=engine)
+
+
+def test_no_rotation_beside_a_wall(tmp_path: Path):
+    """A model whose event speaks of a rotation is refused for a wall, in one line."""
+    path = tmp_path / "turning.py"
+    path.write_text(
+        "from wetdoublet.derive.user import *\n"
+        'rate = quantity("rate", unit="rad/s", default="1 rad/s")\n'
+        'event("slow", guard=omega - rate, ends="stick")\n'
+    )
+    with pytest.raises(InputError, match="partner.wall: .* has no rotation, of which this event speaks; accepted"):
+        collide(Scene.load("granulation", model=path).with_entries({"partner.wall": True}))
+
+
+def test_kernels_without_events_are_untouched(snaps: Path):
+    """What only declared events need is no part of another kernel's source, and so not of its name in the cache."""
+    plain, own = Scene.load("granulation"), scene(snaps)
+    texts = []
+    for one in (plain, own):
+        choice = select_model(one, True)
+        wanted = variant(one, choice, 1e-9, False)
+        texts.append(build.source(wanted, ("#define MODEL\n",)))
+    assert "own_event" not in texts[0].lower()
+    assert "OWN_EVENTS" not in texts[0]
+    assert "own_event_jumps" in texts[1]
+
+
+def test_commands_tell_of_declared_events(snaps: Path, tmp_path: Path):
+    """`collide` and `export` speak of the event: its word, its sentence, its guard."""
+    own = ("--model", str(snaps), "--set", "custom.critical_rate=1e4 1/s", "--stokes", "0.08")
+    told = run("collide", "granulation", *own).output
+    assert "separated by the event snap: the bridge is stretched too fast" in told
+    assert "declared events" in told
+    done = run("export", "granulation", "--model", str(snaps), "--to", "latex", "--out", str(tmp_path))
+    assert done.exception is None, done.exception
+    page = (tmp_path / "granulation.md").read_text()
+    assert "| snap | moving, opening, beyond the film | ends: separated | the bridge is stretched too fast |" in page
+    assert "before the event snap" in page
