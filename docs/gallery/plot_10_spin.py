@@ -2,8 +2,8 @@
 Granules that arrive spinning
 =============================
 
-A spin in the sense of the impact adds to the angular momentum and tears doublets apart; one against it takes it away, and
-beside the band where the angular momentum vanishes everything sticks. Beyond that the doublet turns the other way.
+A spin in the sense of the impact adds to the angular momentum and tears doublets apart. One against it takes it away:
+doublets stick in the band where little is left. Below that band they turn the other way.
 """
 
 import numpy as np
