@@ -89,6 +89,7 @@ def gradients_by_kernel(
     steep = _steep(impacts.angle) if kind.held == RELATIVE and angle > 0 and "impact.angle" in wrt else None
     value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
     separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0
+    unspun = scene.particles.friction is None and not scene.turns(0.0)
     bent = np.ones((1 if steep is None else size, len(wrt)))  # of rows of the speed, over those of the reference
     if steep is not None:
         bent[:, wrt.index("impact.angle")] = steep / _steep(np.array(angle))
@@ -112,9 +113,7 @@ def gradients_by_kernel(
             if steep is not None and quantity == "speed":
                 sums += (row * (bent - 1)).T * paced
         first[place] = sums.T
-        if (
-            name == "final_spin" and scene.particles.friction is None
-        ):  # separation at initial contact: the spin is zero up to rounding
+        if name == "final_spin" and unspun:  # parted at initial contact: the spin is zero up to rounding
             plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
         if DIFFERENTIATED[name].scale is not None:
             scale, relative = scales().of(name)
