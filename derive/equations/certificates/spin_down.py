@@ -22,6 +22,9 @@ L counts as zero below its own rounding error: it is the sum of an orbital part 
 Beyond the edge of the shear nothing changes J. So with J = 0 there, for any spins, a doublet stays head-on until it has
 closed to the edge. The film stops it before if St |u| < S(edge) - S(x), and what opens, at once or after a rebound, if
 St max(u, -e_dry u) < S(x), by 4 (`apart` < 0 at gaps where `inside` < 0).
+
+Friction of the dry contact keeps L and never adds to E_rot (`checks.friction`), so that 1 to 4 hold with it. It may set
+off J, so that what is said of J = 0 does not: `inside` is then positive.
 """
 
 from __future__ import annotations
@@ -134,7 +137,7 @@ def margins(structure: Structure) -> dict[str, sp.Expr]:
         "stays": outward + stokes * impulse(structure) - film + slot_call("film", "stopping", BEYOND),
         "rate": RATE,
         "apart": sp.Max(outward - film, film - slot_call("film", "stopping", EDGE) - stokes * normal_velocity),
-        "inside": EDGE - gap,
+        "inside": gap if structure.friction else EDGE - gap,
         "momentum": first_momentum(structure),
     }
 
