@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 10d0e15ec3cfe3df5157011f39422b145bc1c1ee87e772db3bf54f0caaa00d4f
+# Automaton sha256 550c057a0ccb20c9aca15b504895644dbf911a1798670da9362c57f0df3be984
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -124,6 +124,7 @@ FILM_DEPTHS = 16  # gaps in geometric sequence down to contact at which the film
 ATTRACTED_FILM_DEPTHS = 48  # the same with an attraction, which grows at small gaps
 APPROACH_PARTS = 24  # parts of the film, in geometric sequence, of the approach certificate
 DEEPEST_PART = 0.01  # where they end, over x0, unless solid contact is above
+TUMBLES = 0.001  # in space: a doublet tumbles as one body where all other motion has less than this part of the energy of rigid rotation
 LEAST_SLIP = 1e-12  # in the scale of tangential speeds: below it at initial contact no ratio of slips is formed
 LEAST_DEPTH = 1e-40  # least gap, relative to the present one, of the film certificate without contact
 

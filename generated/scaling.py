@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 b265fcdbbfce5b239a3565f60a33719a8f1c5e519cd6b79ec992943b1818dc1e
+# Equations sha256 ea907fe1a7ce886d3c7f8f028fc6d1a45b4cc553fa85c3cb5cf554447c03fcc9
 """Dimensionless groups, as ratios of the model's terms, and scales from SI quantities.
 
 Each is a function of floats or CasADi expressions; ARGUMENTS has the names of its arguments, in order.
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from casadi import fabs, fmax, pi, tan
+from casadi import fabs, fmax, pi, sqrt, tan
 
 
 ARGUMENTS: dict[str, tuple[str, ...]] = {
@@ -35,6 +35,7 @@ ARGUMENTS: dict[str, tuple[str, ...]] = {
     "generalised_centrifugal": ("reduced_radius", "reduced_mass", "initial_rate", "attraction_force"),
     "obliquity_pair": ("reduced_radius", "speed", "angle", "impact_spin", "impact_partner_spin", "radius_ratio"),
     "obliquity_wall": ("reduced_radius", "speed", "angle", "impact_spin"),
+    "obliquity_space": ("reduced_radius", "speed", "impact_turning_x", "impact_turning_y", "impact_turning_z", "impact_spin_x", "impact_spin_y", "impact_spin_z", "impact_partner_spin_x", "impact_partner_spin_y", "impact_partner_spin_z", "radius_ratio"),
     "initial_turning": ("angle", "obliquity"),
     "initial_spin": ("rate_scale", "impact_spin"),
     "initial_partner_spin": ("rate_scale", "impact_partner_spin"),
@@ -281,6 +282,25 @@ def obliquity_wall(reduced_radius: Any, speed: Any, angle: Any, impact_spin: Any
     - impact_spin [rad/s]: spin at initial contact
     """
     return fmax(reduced_radius*fabs(impact_spin)/speed, tan(angle))
+
+
+def obliquity_space(reduced_radius: Any, speed: Any, impact_turning_x: Any, impact_turning_y: Any, impact_turning_z: Any, impact_spin_x: Any, impact_spin_y: Any, impact_spin_z: Any, impact_partner_spin_x: Any, impact_partner_spin_y: Any, impact_partner_spin_z: Any, radius_ratio: Any) -> Any:
+    """T in space: a length of its three vectors together [1].
+
+    - reduced_radius [m]: reduced radius, R/2 for equal spheres
+    - speed [m/s]: normal approach speed at initial contact
+    - impact_turning_x [rad/s]: angular velocity of the line of centres at initial contact, x component
+    - impact_turning_y [rad/s]: angular velocity of the line of centres at initial contact, y component
+    - impact_turning_z [rad/s]: angular velocity of the line of centres at initial contact, z component
+    - impact_spin_x [rad/s]: spin of the first sphere at initial contact, x component
+    - impact_spin_y [rad/s]: spin of the first sphere at initial contact, y component
+    - impact_spin_z [rad/s]: spin of the first sphere at initial contact, z component
+    - impact_partner_spin_x [rad/s]: spin of the partner at initial contact, x component
+    - impact_partner_spin_y [rad/s]: spin of the partner at initial contact, y component
+    - impact_partner_spin_z [rad/s]: spin of the partner at initial contact, z component
+    - radius_ratio [1]: radius of the partner over that of the sphere
+    """
+    return sqrt(impact_partner_spin_x**2*reduced_radius**2*(radius_ratio + 1)**2 + impact_partner_spin_y**2*reduced_radius**2*(radius_ratio + 1)**2 + impact_partner_spin_z**2*reduced_radius**2*(radius_ratio + 1)**2 + impact_spin_x**2*reduced_radius**2*(radius_ratio + 1)**2/radius_ratio**2 + impact_spin_y**2*reduced_radius**2*(radius_ratio + 1)**2/radius_ratio**2 + impact_spin_z**2*reduced_radius**2*(radius_ratio + 1)**2/radius_ratio**2 + impact_turning_x**2*reduced_radius**2*(radius_ratio + 1)**4/radius_ratio**2 + impact_turning_y**2*reduced_radius**2*(radius_ratio + 1)**4/radius_ratio**2 + impact_turning_z**2*reduced_radius**2*(radius_ratio + 1)**4/radius_ratio**2)/speed
 
 
 def initial_turning(angle: Any, obliquity: Any) -> Any:

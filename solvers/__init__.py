@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .sensitivity.trajectory import trajectory_sensitivities
     from .sensitivity.uncertainty import band
     from .sensitivity.variance import sobol_indices
+    from .space.collide_pair import collide_pair
 
 _HOMES = {
     "Atlas": "boundaries.boundary",
@@ -45,6 +46,7 @@ _HOMES = {
     "collide": "collision.collide",
     "compile_kernels": "engines.kernels",
     "collide_many": "many.collide_many",
+    "collide_pair": "space.collide_pair",
     "gradients_many": "sensitivity.gradients_many",
     "plot": "host.pictures",
     "regime_map": "many.regime_map",
@@ -71,6 +73,7 @@ __all__ = [
     "boundary_sensitivities",
     "collide",
     "collide_many",
+    "collide_pair",
     "compile_kernels",
     "gradients_many",
     "plot",

@@ -44,6 +44,7 @@ from .partners import partner_checks
 from .pendulum_certificate import pendulum_certificate
 from .restitution import ceiling_is_the_published, decomposition, rotation_can_be_released
 from .slow_manifold import films_fall, slow_manifold
+from .space import space_checks
 from .spin_down_certificate import spin_down_certificate
 
 __all__ = ["Admission", "Check", "certificate", "symbolic_checks"]
@@ -108,3 +109,4 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     yield from _once(number_of_groups)
     yield from _once(law_checks)
     yield from _once(partner_checks)
+    yield from _once(space_checks)

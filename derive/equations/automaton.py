@@ -317,6 +317,8 @@ CONSTANTS = (
     Constant("ATTRACTED_FILM_DEPTHS", 48, "the same with an attraction, which grows at small gaps"),
     Constant("APPROACH_PARTS", APPROACH_PARTS, "parts of the film, in geometric sequence, of the approach certificate"),
     Constant("DEEPEST_PART", DEEPEST_PART, "where they end, over x0, unless solid contact is above"),
+    Constant("TUMBLES", 1e-3, "in space: a doublet tumbles as one body where all other motion has less than this part "
+             "of the energy of rigid rotation"),
     Constant("LEAST_SLIP", 1e-12, "in the scale of tangential speeds: below it at initial contact no ratio of slips is "
              "formed"),
     Constant("LEAST_DEPTH", 1e-40, "least gap, relative to the present one, of the film certificate without contact"),

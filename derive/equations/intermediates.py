@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import sympy as sp
 
 from ..physics.forces import TANGENTIAL, force_laws, scaled_strings
@@ -9,10 +11,11 @@ from ..physics.laws import slot_call
 from ..physics.laws.base import Definition
 from ..physics.laws.strings import offset_squared
 from ..physics.mechanics import F_c, F_n, F_t, F_w, doublet_inertia, equations_of_motion
-from ..physics.partners import rotation
+from ..physics.partners import rotation, space
+from ..physics.partners.pair import PARTNER_INERTIA, SPIN_INERTIA
 from ..physics.scaling import DISTANCE, INERTIA, nondimensional
 from ..physics.structure import Structure
-from ..vocabulary.quantities import a, aspect, gap, m, omega, orbital_momentum, r, rate_scale, spin
+from ..vocabulary.quantities import a, aspect, gap, m, omega, orbital_momentum, partner_spins, r, rate_scale, spin
 from .invariants import Invariant
 
 ORBITAL_RATE, SLIP = sp.symbols("orbital_rate slip", real=True)
@@ -26,18 +29,21 @@ MOMENTUM = sp.Symbol("momentum", real=True)
 Conserved = tuple[Invariant, sp.Expr]  # an invariant and its initial value
 
 
-def intermediates(structure: Structure, conserved: Conserved | None = None) -> tuple[Definition, ...]:
+def intermediates(structure: Structure, conserved: Sequence[Conserved] = ()) -> tuple[Definition, ...]:
     """Every named intermediate of `structure`, in the order of the derivation.
 
     Arguments:
-        conserved: the invariant that eliminates the spin of a reduced structure, and its initial value.
+        conserved: the invariant that eliminates the spin of a reduced structure, and its initial value; in space one
+            for each component.
     """
     laws = force_laws(structure.spread)
     definitions: list[Definition] = [(DISTANCE, 4 + aspect * gap)]
-    if structure.partner:
-        definitions = list(rotation(structure.partner, structure.friction).definitions)
+    if structure.partner == "space" and conserved:
+        definitions = list(space.definitions(_eliminated(conserved)))
+    elif structure.partner:
+        definitions = list(rotation(structure.partner, structure.friction, structure.reduced).definitions)
     elif structure.oblique:
-        definitions += _rotation(conserved)
+        definitions += _rotation(conserved[0] if conserved else None)
         slip_form = _scaled(laws[F_t], TANGENTIAL)
         definitions.append((SHEAR_FORCE, sp.factor(by_orbital_rate(slip_form)).subs(ORBITAL_RATE - spin, SLIP)))
         definitions.append((CENTRIFUGAL_FORCE, by_orbital_rate(nondimensional(m * r * omega**2 / INERTIA))))
@@ -55,6 +61,20 @@ def intermediates(structure: Structure, conserved: Conserved | None = None) -> t
     if structure.oblique and not structure.reduced and not structure.partner:
         definitions.append((LEVER, slot_call("arm", "lever", DISTANCE)))
     return tuple(definitions)
+
+
+def _eliminated(conserved: Sequence[Conserved]) -> space.Eliminated:
+    """The components of L, and those of the partner's spin that they give."""
+    each = list(zip(conserved, space.MOMENTA, partner_spins, strict=True))
+    momenta = [(momentum, value) for (_, value), momentum, _ in each]
+    return (*momenta, *((spun, sp.expand(_by_size(invariant).solved(spun, L))) for (invariant, _), L, spun in each))
+
+
+def _by_size(invariant: Invariant) -> Invariant:
+    """The invariant with the moments of inertia by their names."""
+    sizes = dict(space.sizes())
+    names = {sp.factor(sizes[name]): name for name in (SPIN_INERTIA, PARTNER_INERTIA)}
+    return Invariant(tuple((of, names.get(sp.factor(factor), factor)) for of, factor in invariant.coefficients))
 
 
 def _rotation(conserved: Conserved | None) -> list[Definition]:

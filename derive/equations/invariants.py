@@ -8,18 +8,19 @@ is therefore conserved for any law left open; one that relies on an identity bet
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Protocol
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 from sympy.polys.matrices import DomainMatrix
 
-from ..physics.laws.base import Law, filled
+from ..physics.laws.base import Definition, Law, filled
 from ..physics.mechanics import equations_of_motion
 from ..physics.scaling import nondimensional
-from ..vocabulary.quantities import VOCABULARY, a, beta, gap, m, rate_scale
+from ..vocabulary.quantities import VOCABULARY, a, beta, gap, m, normal, orbital_momenta, rate_scale
 
 DEGREE = 2  # highest power of the gap in a coefficient: velocities occur with at most r^2
 _COORDINATES = (gap, beta)
@@ -34,6 +35,31 @@ class System(Protocol):
     def __getitem__(self, name: str) -> Any: ...
 
     def expanded(self, expression: sp.Expr) -> sp.Expr: ...
+
+
+class OpenSystem(System, Protocol):
+    """A model of which some named intermediates are left open."""
+
+    @property
+    def definitions(self) -> tuple[Definition, ...]: ...
+
+
+def open_rates(system: OpenSystem, closed: Callable[[sp.Symbol], bool] = lambda _: False) -> dict[sp.Symbol, sp.Expr]:
+    """Rates with named intermediates as symbols, which an invariant then holds for any values of.
+
+    Arguments:
+        closed: those that are substituted besides the ones that do not vary along a trajectory.
+    """
+    constant: set[sp.Basic] = {quantity.symbol for quantity in VOCABULARY.values()} - set(system.states)
+    whole: dict[sp.Symbol, sp.Expr] = {}
+    for symbol, value in system.definitions:
+        if value.free_symbols <= constant and not value.atoms(AppliedUndef):
+            constant.add(symbol)
+        elif not closed(symbol):
+            continue
+        whole[symbol] = value.xreplace(whole)
+    named = dict(system["right_hand_side"].outputs)
+    return {state: sp.sympify(named[state.name]).xreplace(whole) for state in system.states}
 
 
 class NoInvariantError(ValueError):
@@ -141,6 +167,21 @@ def conserved_momentum(
     raise NoInvariantError(
         f"no spin can be eliminated: angular momentum is not conserved ({chosen}), conserved is {conserved}"
     )
+
+
+def conserved_components(system: OpenSystem) -> tuple[Invariant, ...]:
+    """The three components of the angular momentum of two spheres in space, among the invariants found.
+
+    They are conserved for any torques, which remain open here.
+
+    Raises:
+        NoInvariantError: one of them is not.
+    """
+    found = invariants(open_rates(system), coordinates=(*_COORDINATES, *normal), degree=0)
+    each = [[one for one in found if one.coefficients[0][0] == momentum] for momentum in orbital_momenta]
+    if any(len(own) != 1 for own in each):
+        raise NoInvariantError(f"angular momentum is not conserved in space: {[one.describe() for one in found]}")
+    return tuple(own[0] for own in each)
 
 
 def _conditions(rates: Mapping[sp.Symbol, sp.Expr], ansatz: list[tuple[sp.Symbol, sp.Expr]]) -> sp.Matrix:

@@ -27,9 +27,13 @@ from ..vocabulary.quantities import (
     e_dry,
     gap,
     glass_number,
+    initial_normals,
     initial_partner_spin,
+    initial_partner_spins,
     initial_spin,
+    initial_spins,
     initial_turning,
+    initial_turnings,
     mass_ratio,
     mu_f,
     normal_velocity,
@@ -51,16 +55,19 @@ from .certificates.pendulum import definitions as pendulum_definitions
 from .certificates.pendulum import margins as pendulum_margins
 from .events import CONTACT_GAPS, events, rebound, rebound_loss, start
 from .intermediates import intermediates
-from .invariants import Invariant, conserved_momentum
+from .invariants import Invariant, conserved_components, conserved_momentum
 from .observables import (
     angular_momentum,
     effective_potential,
     energies,
     energy_rates,
+    inward_at_rest,
     outputs,
+    outward_at_most,
     restitution_ceiling,
     rigid_rotation,
     surface_slip,
+    wobble,
 )
 from .rates import inward_force, rates, resting_rates, turning_rate
 
@@ -113,7 +120,7 @@ def derive(structure: Structure) -> Model:
     """
     states = _states(structure)
     functions = _functions(structure, states)
-    definitions = intermediates(structure, _conserved(structure) if structure.reduced else None)
+    definitions = intermediates(structure, _conserved(structure) if structure.reduced else ())
     if _pendulum(structure):
         definitions += pendulum_definitions()
     elif attraction_certificate.admits(structure):
@@ -152,25 +159,31 @@ def _pendulum(structure: Structure) -> bool:
 # In the order in which modules list those that they use.
 GROUPS = (
     stokes, aspect, obliquity, initial_turning, initial_spin, initial_partner_spin, capillary, volume, contact_angle,
-    adhesion, weight, string_ratio, radius_ratio, mass_ratio, glass_number, *CONTACT_GAPS.values(), rupture_gap, e_dry,
+    adhesion, weight, string_ratio, radius_ratio, mass_ratio, *initial_normals, *initial_turnings, *initial_spins,
+    *initial_partner_spins, glass_number, *CONTACT_GAPS.values(), rupture_gap, e_dry,
     mu_f, beta_0,
 )  # fmt: skip
 
 
-def _conserved(structure: Structure) -> tuple[Invariant, sp.Expr]:
+def _conserved(structure: Structure) -> tuple[tuple[Invariant, sp.Expr], ...]:
     """The angular momentum and its initial value, as found in the full equations with the lever arm at mid-gap.
+
+    In space, its three components.
 
     Raises:
         NoInvariantError: the full equations do not conserve it.
     """
+    if structure.partner == "space":
+        found = conserved_components(derive(replace(structure, reduced=False)))
+        return tuple((invariant, invariant.at(start(structure))) for invariant in found)
     invariant = conserved_momentum(derive(replace(structure, reduced=False)), {"arm": LAWS["arm"]["midgap"]})
-    return invariant, invariant.at(start(structure))
+    return ((invariant, invariant.at(start(structure))),)
 
 
 def _states(structure: Structure) -> tuple[sp.Symbol, ...]:
     states = [gap, normal_velocity]
     if structure.partner:
-        return (*states, *rotation(structure.partner, structure.friction).states)
+        return (*states, *rotation(structure.partner, structure.friction, structure.reduced).states)
     if structure.oblique:
         states += [orbital_momentum] + ([] if structure.reduced else [spin]) + ([beta] if structure.strings else [])
     return tuple(states)
@@ -179,7 +192,7 @@ def _states(structure: Structure) -> tuple[sp.Symbol, ...]:
 def _slots(structure: Structure) -> tuple[str, ...]:
     slots = ["film", "glass"]
     if structure.oblique:
-        slots += ["shear"] + ([] if structure.reduced or structure.partner == "wall" else ["arm"])
+        slots += ["shear"] + ([] if structure.reduced or structure.partner in ("wall", "space") else ["arm"])
     slots += [slot for slot in ("bridge", "strings", "attraction") if getattr(structure, slot)]
     return tuple(slots)
 
@@ -376,13 +389,31 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                 tuple(effective_potential(structure).items()),
             )
         )
-        functions.append(
-            ModelFunction(
-                "rigid_rotation",
-                "The state with this least energy: no normal velocity, rigid rotation.",
-                of_states(rigid_rotation(structure)),
+        if structure.partner == "space":
+            functions.append(
+                ModelFunction(
+                    "resting_bound",
+                    "Normal forces of a doublet in resting contact from now on, over m v0^2/x0: the largest "
+                    "centrifugal force, and the sum of the others, positive inward.",
+                    (("outward", outward_at_most(structure)), ("inward", inward_at_rest(structure))),
+                )
             )
-        )
+            functions.append(
+                ModelFunction(
+                    "wobble",
+                    "Energy over m v0^2 of all motion but rotation as a rigid doublet across the line of centres, and "
+                    "twist.",
+                    (("wobble", wobble(structure)),),
+                )
+            )
+        else:
+            functions.append(
+                ModelFunction(
+                    "rigid_rotation",
+                    "The state with this least energy: no normal velocity, rigid rotation.",
+                    of_states(rigid_rotation(structure)),
+                )
+            )
     if structure.partner == "wall":  # the energy of the motion along the wall cannot lead to separation
         functions.append(
             ModelFunction(

@@ -28,10 +28,16 @@ from ..vocabulary.quantities import (
     gap,
     glass_number,
     impact_partner_spin,
+    impact_partner_spins,
     impact_spin,
+    impact_spins,
+    impact_turnings,
     initial_partner_spin,
+    initial_partner_spins,
     initial_spin,
+    initial_spins,
     initial_turning,
+    initial_turnings,
     l_s,
     m,
     mu,
@@ -142,13 +148,15 @@ def scale_definitions() -> dict[sp.Symbol, sp.Expr]:
 
 @cache
 def impact_groups(partner: str = "") -> dict[sp.Symbol, sp.Expr]:
-    """T, and the rates at initial contact over their scale, for a partner: "", "pair" or "wall".
+    """T, and the rates at initial contact over their scale, for a partner: "", "pair", "wall" or "space".
 
     T is a scale and no more: no result depends on it, so its own derivatives are never needed. Where nothing moves
     sideways it vanishes, and any other number does.
     """
     from .partners.bodies import radii
 
+    if partner == "space":
+        return _vector_groups()
     scales = scale_definitions()
     scale = {"": scales[rate_scale], "pair": scales[rate_scale_pair], "wall": scales[rate_scale_wall]}[partner]
     tangent = sp.tan(theta0)
@@ -161,6 +169,23 @@ def impact_groups(partner: str = "") -> dict[sp.Symbol, sp.Expr]:
     if partner != "pair":
         del rates[initial_partner_spin]
     return {obliquity: sp.Max(*sideways), **rates}
+
+
+def _vector_groups() -> dict[sp.Symbol, sp.Expr]:
+    """The same for vectors in the laboratory's axes: T is a length, so that no direction is distinguished."""
+    from .partners.bodies import centres, radii
+
+    levers = (centres() * a, *radii())
+    rates = (impact_turnings, impact_spins, impact_partner_spins)
+    speeds = sum(
+        (lever**2 * each**2 for lever, vector in zip(levers, rates, strict=True) for each in vector), sp.Integer(0)
+    )
+    unit = scale_definitions()[rate_scale_pair]
+    groups = (initial_turnings, initial_spins, initial_partner_spins)
+    found = {obliquity: sp.sqrt(speeds) / v0}
+    for vector, group in zip(rates, groups, strict=True):
+        found |= {own: each / unit for own, each in zip(group, vector, strict=True)}
+    return found
 
 
 def first_rates(scale: sp.Expr) -> dict[sp.Symbol, sp.Expr]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from itertools import product
 from typing import Literal
 
-Partner = Literal["", "pair", "wall"]
+Partner = Literal["", "pair", "wall", "space"]
 Friction = Literal["", "solid", "all"]
 
 
@@ -21,7 +21,8 @@ class Structure:
         reduced: the spin is eliminated by conservation of angular momentum (no strings, lever arm at mid-gap).
         attraction: with an attraction besides the bridge's (van der Waals).
         spread: the rim of the film follows from the bridge volume, so there is no film edge event.
-        partner: the partner of the sphere: "" an equal sphere, "pair" another sphere, "wall" a wall.
+        partner: the partner of the sphere: "" an equal sphere, "pair" another sphere, "wall" a wall, "space" any
+            sphere, with vectors in the laboratory's axes in place of a plane of motion.
         friction: of the dry contact: at no rebound, at those by solid contact, or at all.
     """
 
@@ -39,10 +40,12 @@ class Structure:
             raise ValueError("a reduced form needs a conserved angular momentum: oblique and without strings")
         if self.spread and not self.bridge:
             raise ValueError("a film of constant volume needs the bridge whose volume it is")
-        if self.partner and (not self.oblique or self.strings or self.reduced):
+        if self.partner and (not self.oblique or self.strings):
             raise ValueError("another partner than an equal is oblique (head-on it makes no difference) and free")
-        if self.friction and (not self.oblique or self.reduced):
-            raise ValueError("friction is oblique, and acts on the spin, which stays a state")
+        if self.friction and (not self.oblique or self.reduced or self.partner == "space"):
+            raise ValueError("friction is oblique and planar, and acts on the spin, which stays a state")
+        if self.reduced and self.partner not in ("", "space"):
+            raise ValueError("a spin of an unequal pair in the plane is not eliminated")
 
     @property
     def name(self) -> str:
@@ -64,11 +67,13 @@ def structures() -> tuple[Structure, ...]:
 def known() -> tuple[Structure, ...]:
     """Every structure that a scene can request: another partner, another attraction, a spreading film, friction."""
     others = [Structure(True, bridge, False, partner=partner) for partner in _PARTNERS for bridge in _EITHER]
-    shapes = (*structures(), *others)
+    space = [Structure(True, bridge, False, reduced, partner="space") for bridge in _EITHER for reduced in _EITHER]
+    shapes = (*structures(), *others, *space)
     extended = []
     for attraction, spread in product(_EITHER, repeat=2):
         extended += [replace(s, attraction=attraction, spread=spread) for s in shapes if s.bridge or not spread]
-    rough = [replace(s, friction=friction) for friction in _FRICTIONS for s in extended if s.oblique and not s.reduced]
+    planar = [s for s in extended if s.oblique and not s.reduced and s.partner != "space"]
+    rough = [replace(s, friction=friction) for friction in _FRICTIONS for s in planar]
     return (*extended, *rough)
 
 
@@ -76,9 +81,10 @@ def committed() -> tuple[Structure, ...]:
     """The structures emitted in advance; the others are derived when a scene first needs them.
 
     Structures that combine more than one of strings, another attraction and a spreading film are left out, and those
-    with friction.
+    with friction or in space.
     """
-    return tuple(s for s in known() if s.strings + s.attraction + s.spread < 2 and not s.friction)
+    plain = (s for s in known() if not s.friction and s.partner != "space")
+    return tuple(s for s in plain if s.strings + s.attraction + s.spread < 2)
 
 
 _EITHER = (False, True)

@@ -18,6 +18,7 @@ HAMAKER = "Hamaker 1937"
 WALTON = "Walton & Braun 1986"
 PAIR = "two unequal spheres, or a wall"
 SPIN = "spins at initial contact"
+SPACE = "two spheres in space"
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,20 @@ def _quantity(
         raise ValueError(f"{name} stands twice in the vocabulary")
     _ALL[name] = Quantity(symbol, latex, dimension, unit, meaning, source)
     return symbol
+
+
+Vector = tuple[sp.Symbol, sp.Symbol, sp.Symbol]
+AXES = "xyz"
+
+
+def _vector(name: str, latex: str, dimension: Dimension, unit: str, meaning: str) -> Vector:
+    """The components of a vector in the laboratory's axes, as quantities `name_x`, `name_y`, `name_z`."""
+    first, second, third = (
+        _quantity(f"{name}_{axis}", rf"{latex}^{{{axis}}}", dimension, unit, f"{meaning}, {axis} component", SPACE,
+                  real=True)
+        for axis in AXES
+    )  # fmt: skip
+    return first, second, third
 
 
 # Particles and liquid
@@ -145,6 +160,31 @@ last_roll = _quantity(
     "last_roll", r"\hat\xi_r", ONE, "v0 T/a", "roll beside a wall just after the last rebound", PAIR, real=True
 )
 roll = _quantity("roll", r"\hat\xi_w", ONE, "v0 T/a", "spin beside a wall", PAIR, real=True)
+
+# Vectors in the laboratory's axes
+normal = _vector("normal", r"\hat{n}", ONE, "1", "unit vector along the line of centres")
+orbital_momenta = _vector("orbital_momentum", "J", ONE, "a^2 Omega", "orbital angular momentum r^2 n x dn/dt")
+spins = _vector("spin", r"\hat\xi", ONE, "Omega", "angular velocity of the first sphere")
+partner_spins = _vector("partner_spin", r"\hat\xi_2", ONE, "Omega", "angular velocity of the partner")
+initial_normals = _vector("initial_normal", r"\hat{n}_0", ONE, "1", "line of centres at initial contact")
+initial_turnings = _vector(
+    "initial_turning", r"\hat\omega_0", ONE, "Omega", "angular velocity of the line of centres at initial contact"
+)
+initial_spins = _vector("initial_spin", r"\hat\xi_0", ONE, "Omega", "spin of the first sphere at initial contact")
+initial_partner_spins = _vector(
+    "initial_partner_spin", r"\hat\xi_{2,0}", ONE, "Omega", "spin of the partner at initial contact"
+)
+impact_turnings = _vector(
+    "impact_turning", r"\omega_0", RATE, "rad/s", "angular velocity of the line of centres at initial contact"
+)
+impact_spins = _vector("impact_spin", r"\xi_0", RATE, "rad/s", "spin of the first sphere at initial contact")
+impact_partner_spins = _vector(
+    "impact_partner_spin", r"\xi_{2,0}", RATE, "rad/s", "spin of the partner at initial contact"
+)
+
+obliquity_space = _quantity(
+    "obliquity_space", "T_s", ONE, "1", "T in space: a length of its three vectors together", SPACE, nonnegative=True
+)
 
 # Dimensionless groups
 stokes = _quantity("stokes", "St", ONE, "1", "Stokes number m v0/(6 pi mu a^2)")

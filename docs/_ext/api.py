@@ -8,7 +8,7 @@ import wetdoublet.solvers as solvers
 
 GROUPS = {
     "Scenes": ("Scene",),
-    "Collisions": ("collide", "Collision", "collide_many", "regime_map", "compile_kernels"),
+    "Collisions": ("collide", "Collision", "collide_many", "collide_pair", "regime_map", "compile_kernels"),
     "Boundaries": ("boundary", "Boundaries", "atlas", "Atlas"),
     "Sensitivities and uncertainty": (
         "sensitivities",

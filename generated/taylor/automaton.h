@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 10d0e15ec3cfe3df5157011f39422b145bc1c1ee87e772db3bf54f0caaa00d4f */
+ * Automaton sha256 550c057a0ccb20c9aca15b504895644dbf911a1798670da9362c57f0df3be984 */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H
@@ -74,6 +74,7 @@ enum { FILM_DEPTHS = 16 }; /* gaps in geometric sequence down to contact at whic
 enum { ATTRACTED_FILM_DEPTHS = 48 }; /* the same with an attraction, which grows at small gaps */
 enum { APPROACH_PARTS = 24 }; /* parts of the film, in geometric sequence, of the approach certificate */
 static const double DEEPEST_PART = 0.01; /* where they end, over x0, unless solid contact is above */
+static const double TUMBLES = 0.001; /* in space: a doublet tumbles as one body where all other motion has less than this part of the energy of rigid rotation */
 static const double LEAST_SLIP = 1e-12; /* in the scale of tangential speeds: below it at initial contact no ratio of slips is formed */
 static const double LEAST_DEPTH = 1e-40; /* least gap, relative to the present one, of the film certificate without contact */
 

@@ -38,6 +38,7 @@
 #define ATTRACTION 0
 #define SPREAD 0
 #define WALL 0
+#define SPACE 0
 #if defined(BRIDGE_FORCE_WORK) && !WITH_LEDGER
 #define CAPILLARY_STATE 0
 #else

@@ -30,6 +30,7 @@
 #define ATTRACTION 0
 #define SPREAD 0
 #define WALL 0
+#define SPACE 0
 #define CAPILLARY_STATE 0
 #define TURNING_STATE (WITH_ROTATION && 1)
 #define LEDGER_STATES 0

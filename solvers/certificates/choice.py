@@ -16,6 +16,7 @@ from .orbital_momentum import OrbitalMomentumCertificate, covers
 from .pendulum import PendulumCertificate
 from .spin_down import SpinDownCertificate
 from .spin_down import covers as spins_down
+from .tumbling import TumblingCertificate
 
 
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:
@@ -27,7 +28,9 @@ def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:
     found = _first(model, p, rtol)
     if covers(model):
         return OrbitalMomentumCertificate(model, p, rtol, found)
-    chatters = model.oblique and not model.wall and not model.strings and model.works
+    if model.space and isinstance(found, EnergyCertificate):
+        return TumblingCertificate(model, p, rtol, found)
+    chatters = model.oblique and not model.wall and not model.space and not model.strings and model.works
     return ChatterCertificate(model, p, rtol, found) if chatters else found
 
 
@@ -51,7 +54,9 @@ def _first(model: Model, p: np.ndarray, rtol: float) -> Certificate:
 
 def energy_proof(proof: Certificate) -> EnergyCertificate | None:
     """The energy certificate contained in `proof`, or None."""
-    while isinstance(proof, AttractionCertificate | OrbitalMomentumCertificate | ChatterCertificate):
+    while isinstance(
+        proof, AttractionCertificate | OrbitalMomentumCertificate | ChatterCertificate | TumblingCertificate
+    ):
         proof = proof.beside
     return proof if isinstance(proof, EnergyCertificate) else None
 

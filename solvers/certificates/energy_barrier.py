@@ -44,7 +44,7 @@ class EnergyCertificate:
         self.model, self.p, self.rtol = model, p, rtol
         self.groups = dict(zip(model.groups, p, strict=True))
         self.theorem = model.choice.law("arm") != "surface"
-        self._largest = float(sum(model.values(model.escape, model.start(p), p).values()))
+        self.largest = float(sum(model.values(model.escape, model.start(p), p).values()))
         self._approach = Approach(model, p, SAFETY * rtol)
         start = model.start(p)
         self._conserved = self._search(start) if self.theorem else ()
@@ -57,7 +57,7 @@ class EnergyCertificate:
         ahead = [barrier for barrier in self.barriers(y) if barrier.gap > y[0]]
         if not ahead:
             return None
-        scale = self._largest + abs(
+        scale = self.largest + abs(
             ahead[0].height
         )  # constant along the trajectory; otherwise the level would depend on the event's own state
         return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
@@ -81,7 +81,7 @@ class EnergyCertificate:
         beyond = [barrier.height for barrier in self.barriers(y) if barrier.gap >= y[0]]
         if not beyond:
             return False
-        limit = beyond[0] - SAFETY * self.rtol * (self._largest + abs(beyond[0]))
+        limit = beyond[0] - SAFETY * self.rtol * (self.largest + abs(beyond[0]))
         rest = self.energy(y) - float(y[1]) ** 2 / 2
         outward = self._approach.outward(y)
         return any(
@@ -95,7 +95,11 @@ class EnergyCertificate:
         that of the deviation from it (`derive.checks.partners.slip_energy_adds`). The slip energy thus bounds the
         excess of the orbital momentum over its rigid value. Twice this bound is used where angular momentum drifts.
         """
-        model, margin, orbital_momentum = self.model, SAFETY * self.rtol, abs(self._rigid(y, float(y[0])))
+        model, margin = self.model, SAFETY * self.rtol
+        if model.space:
+            bound = model.values("resting_bound", y, self.p)
+            return bool(bound["inward"] - bound["outward"] > margin * bound["inward"])
+        orbital_momentum = abs(self._rigid(y, float(y[0])))
         if model.reduced:  # a single slip, which decreases without changing sign: J stays between its ends
             orbital_momentum = max(abs(float(y[2])), orbital_momentum)
         else:

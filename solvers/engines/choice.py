@@ -8,6 +8,7 @@ from ..scene.scene import Scene
 from ..settings import CASADI_ENGINES, ENGINES, FEW
 from .taylor.build import at_hand, supported
 from .taylor.call import variant_for_many
+from .taylor.in_space import variant_in_space
 from .taylor.orders import order_for
 from .taylor.record import variant_to_record
 from .taylor.tangent import differentiates, variant_of
@@ -51,6 +52,17 @@ def bulk_engine(
             for own in sorted(oblique)
         )
         return _kernel_or_rosenbrock(bool(needed) and at_hand(needed))
+    return _kernel_or_rosenbrock(supported(scene))
+
+
+def space_engine(asked: str | None, count: int, scene: Scene, rtol: float) -> str:
+    """The engine for `count` collisions in space, by the rules of `bulk_engine`; beside a wall these are planar."""
+    if scene.wall:
+        return bulk_engine(asked, count, scene, rtol, (True,), varied=True)
+    if asked not in (None, "taylor"):
+        return asked
+    if asked is None and count <= FEW:
+        return _kernel_or_rosenbrock(at_hand((variant_in_space(scene, rtol),)))
     return _kernel_or_rosenbrock(supported(scene))
 
 

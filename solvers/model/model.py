@@ -41,19 +41,21 @@ class ModelKey:
         return dict(self.laws).get(slot)
 
 
-def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = False) -> ModelKey:
+def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = False, space: bool = False) -> ModelKey:
     """The key of the smallest structure that represents the scene.
 
     Arguments:
         oblique: something moves sideways: the impact angle or a spin is not zero.
         full: keep the spin as a state even where angular momentum would eliminate it (for the ledger).
         fold: treat a partner that equals the sphere as such; not for derivatives along the partner's size.
+        space: two spheres whose motion is not planar, each with its own spin; the lever arm is at mid-gap.
     """
     alike = fold and scene.radius_ratio == 1 and scene.mass_ratio == 1 and scene.impact.partner_spin is None
     equal = not (scene.pair or scene.wall) or alike
     partner = "" if equal or not oblique else "wall" if scene.wall else "pair"  # head-on, only a and m matter
+    partner = "space" if space else partner
     friction = oblique and scene.particles.friction is not None
-    free = oblique and not partner and scene.pendulum is None and scene.model.arm == "midgap"
+    free = oblique and partner in ("", "space") and scene.pendulum is None and scene.model.arm == "midgap"
     turned = scene.package is not None and any(each.spins for each in scene.package.events)  # by a declared event
     reduced = free and not full and not friction and not turned
     spread = scene.model.film == "constant-volume"
@@ -71,7 +73,7 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
     laws = [("film", scene.model.film), ("glass", scene.model.glass)]
     if oblique:
         laws.append(("shear", scene.model.tangential))
-        if not reduced and partner != "wall":
+        if not reduced and partner not in ("wall", "space"):
             laws.append(("arm", scene.model.arm))
     if scene.bridge is not None:
         laws.append(("bridge", scene.bridge.law))
@@ -133,11 +135,16 @@ class Model:
 
     @property
     def oblique(self) -> bool:
-        return "orbital_momentum" in self.state or self.wall
+        return "orbital_momentum" in self.state or self.wall or self.space
 
     @property
     def wall(self) -> bool:
         return "decay" in self.state
+
+    @property
+    def space(self) -> bool:
+        """True if the states are vectors in space."""
+        return "normal_x" in self.state
 
     @property
     def reduced(self) -> bool:

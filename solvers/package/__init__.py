@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from wetdoublet.solvers import boundary_sensitivities as boundary_sensitivities
     from wetdoublet.solvers import collide as collide
     from wetdoublet.solvers import collide_many as collide_many
+    from wetdoublet.solvers import collide_pair as collide_pair
     from wetdoublet.solvers import compile_kernels as compile_kernels
     from wetdoublet.solvers import gradients_many as gradients_many
     from wetdoublet.solvers import plot as plot

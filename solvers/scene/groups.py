@@ -17,7 +17,7 @@ from .user_model import Package
 Formula = tuple[Callable[..., Any], tuple[str, ...]]
 _VARIANTS = (
     "initial_rate_pair", "centrifugal_pair", "generalised_centrifugal", "obliquity_pair", "obliquity_wall",
-    "rate_scale_pair", "rate_scale_wall",
+    "obliquity_space", "rate_scale_pair", "rate_scale_wall",
 )  # fmt: skip
 
 

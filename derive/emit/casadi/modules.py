@@ -13,7 +13,7 @@ from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import Law
 from ...physics.scaling import first_rates, group_definitions, impact_groups, scale_definitions
-from ...vocabulary.quantities import VOCABULARY, obliquity, obliquity_pair, obliquity_wall, rate_scale
+from ...vocabulary.quantities import VOCABULARY, obliquity, obliquity_pair, obliquity_space, obliquity_wall, rate_scale
 from ..taylor.header import Beside, structure_header
 from ..taylor.law_header import law_header
 from ..taylor.law_slopes import slopes_header
@@ -109,7 +109,12 @@ def _described(name: str, own: Own) -> str:
 
 def _describe(model: Model, own: Own) -> str:
     shape = model.structure
-    what = {"": "Oblique" if shape.oblique else "Head-on", "pair": "Oblique unequal", "wall": "Oblique sphere-wall"}
+    what = {
+        "": "Oblique" if shape.oblique else "Head-on",
+        "pair": "Oblique unequal",
+        "wall": "Oblique sphere-wall",
+        "space": "Spatial",
+    }
     words = {"a liquid bridge": shape.bridge, "pendulum strings": shape.strings, "another attraction": shape.attraction}
     extras = [word for word, there in words.items() if there]
     title = f"{what[shape.partner]} doublet" + (f" with {' and '.join(extras)}" if extras else " with a film only")
@@ -205,7 +210,7 @@ def scaling_digest() -> str:
 
 
 def _scaling() -> dict[sp.Symbol, sp.Expr]:
-    sideways = {obliquity: "", obliquity_pair: "pair", obliquity_wall: "wall"}
+    sideways = {obliquity: "", obliquity_pair: "pair", obliquity_wall: "wall", obliquity_space: "space"}
     first = {group: impact_groups(partner)[obliquity] for group, partner in sideways.items()}
     return group_definitions() | scale_definitions() | first | first_rates(rate_scale)
 

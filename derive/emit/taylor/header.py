@@ -12,7 +12,7 @@ from sympy.core.function import AppliedUndef
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import is_slot_call
-from ...vocabulary.quantities import VOCABULARY, normal_velocity
+from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
 from ..text import needed
 from .c_text import Constants, Recurrences
 from .certificates import approach_functions, attraction_functions, pendulum_functions, spin_down_functions
@@ -108,6 +108,7 @@ class Header:
         flags = {
             "OBLIQUE": shape.oblique, "BRIDGE": shape.bridge, "STRINGS": shape.strings, "REDUCED": shape.reduced,
             "ATTRACTION": shape.attraction, "SPREAD": shape.spread, "WALL": shape.partner == "wall",
+            "SPACE": shape.partner == "space",
         }  # fmt: skip
         lines = [f"#define {name} {int(value)}" for name, value in flags.items()]
         if shape.friction:
@@ -129,6 +130,10 @@ class Header:
             "/* Index of coefficient k of a series used in sums only; the cases listed also read past coefficients. */",
             "#define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)",
         ]
+        if shape.partner == "space":
+            lines.append(
+                f"#define FIRST_VECTOR {normal[0].name.upper()} /* from here on vectors of three components */"
+            )
         upper = ", ".join(state.upper() for state in states)
         lines += ["", f"enum {{ {upper}, MODEL_STATES }};"]
         lines += ["enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };"]
@@ -333,13 +338,23 @@ class Header:
                 "Slip omega - xi at this gap, J^2/(2 r^2), and the slip energy (lever arm at the surface), over m v0^2 "
                 "(derive/equations/certificates/orbital_momentum.py).",
             )
-        if shape.oblique and not shape.strings and shape.partner != "wall":
+        turning = shape.oblique and not shape.strings and shape.partner != "wall"
+        if shape.partner == "space":
+            lines += self._value(
+                "resting_bound",
+                "static inline void resting_bound(const constants *c, const vec *y, vec *found)",
+                {"outward": "found[0]", "inward": "found[1]"},
+            )
+            lines += self._value(
+                "wobble", "static inline vec wobble(const constants *c, const vec *y)", {"wobble": "return"}
+            )
+        elif turning:
             lines += self._value(
                 "rigid_rotation",
                 "static inline vec rigid_momentum(const constants *c, const vec *y)",
                 {"orbital_momentum": "return"},
             )
-        if shape.oblique and not shape.strings and shape.partner != "wall" and not shape.reduced:
+        if turning and shape.partner != "space" and not shape.reduced:
             lines += self._value(
                 "rigid_rotation",
                 "static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)",

@@ -26,8 +26,10 @@ class Rotation:
         outputs: results for a separated pair.
         surface_slip: relative velocity of the surfaces at the contact, over a times the scale of rates.
         least: (least rotational energy over m v0^2 for the state's angular momentum, its slope along the gap).
-        rigid: the state with that energy.
+        rigid: the state with that energy; None in space, where it also depends on the direction of n.
         start: the state at initial contact.
+        wobble: in space, energy over m v0^2 of neither rigid rotation across the line of centres nor twist.
+        outward_at_most: in space, a bound of the centrifugal force on a resting doublet from now on, over m v0^2/x0.
     """
 
     states: tuple[sp.Symbol, ...]
@@ -41,8 +43,10 @@ class Rotation:
     outputs: Mapping[str, sp.Expr]
     surface_slip: sp.Expr
     least: tuple[sp.Expr, sp.Expr]
-    rigid: Mapping[sp.Symbol, sp.Expr]
+    rigid: Mapping[sp.Symbol, sp.Expr] | None
     start: Mapping[sp.Symbol, sp.Expr]
+    outward_at_most: sp.Expr | None = None
+    wobble: sp.Expr | None = None
 
 
 def relative_change(momentum: sp.Expr, first: Sequence[sp.Expr]) -> sp.Expr:

@@ -28,7 +28,7 @@ from ...host.user_cache import folder, found, has, kept, loaded
 from ...model.model import ModelKey, select_model
 from .headers import automaton, has_events, headers, tangents
 from .includes import resolved
-from .layout import MOST_STEPS, RESULTS, declarations
+from .layout import MORE_RESULTS, MOST_STEPS, SHOWN, SHOWN_IN_SPACE, declarations
 from .machine import described, lanes, native
 
 if TYPE_CHECKING:
@@ -87,6 +87,11 @@ class Variant:
         if structure.startswith("head_on") or "strings" in structure:  # nothing turns, or the rotation is a state
             object.__setattr__(self, "rotation", False)
 
+    @property
+    def space(self) -> bool:
+        """True if the states are vectors in space."""
+        return "_space" in self.choice.structure
+
 
 def supported(scene: Scene) -> bool:
     """True if the kernel can integrate a scene here: its laws have recurrences, and there is a compiler."""
@@ -118,7 +123,8 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "WITH_LEDGER": int(variant.ledger),
         "WITH_TRAJECTORY": int(variant.trajectory),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
-        "RESULTS": 1 if variant.backward else RESULTS,
+        "SHOWN": SHOWN_IN_SPACE if variant.space else SHOWN,
+        "RESULTS": 1 if variant.backward else MORE_RESULTS + (SHOWN_IN_SPACE if variant.space else SHOWN),
         "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
@@ -127,7 +133,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
     return {
         **({} if own else {"own_events.h": ""}),
         "settings.h": "\n".join([_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), ""]),
-        "layout.h": f"{_ONCE}\n{declarations(variant.ledger, own)}\n",
+        "layout.h": f"{_ONCE}\n{declarations(variant.ledger, own, variant.space)}\n",
         "automaton.h": f"{_ONCE}\n{rules}",
         "criteria.h": f'{_ONCE}\n#include "automaton.h"\n#include "model.h"\n{criteria}',
         "effects.h": f'{_ONCE}\n#include "transitions.h"\n{effects}',

@@ -12,24 +12,24 @@ from functools import cache
 import numpy as np
 
 BUFFER = np.dtype([("at", np.uintp), ("bytes", "i8")], align=True)
-ANSWER = np.dtype(
-    [
-        # restitution, tangential restitution, rotation rate, spin, partner's spin; if handed over: states after the gap
-        ("shown", "f8", 5),
-        ("time", "f8"),
-        ("smallest_gap", "f8"),
-        ("turned", "f8"),
-        ("final_gap", "f8"),
-        ("slip", "f8"),  # of the surfaces at the contact, at separation over initial contact; NaN where there is none
-        ("outcome", "i4"),
-        ("certified", "i4"),
-        ("status", "i4"),
-        ("steps", "i4"),
-        ("reversal", "i4"),  # the first rebound criterion met; -1 for none
-        ("events", "i4"),  # including those for which the log had no room
-    ],
-    align=True,
-)
+SHOWN, SHOWN_IN_SPACE = 5, 13  # results of a collision: the outputs of its structure; in space also of a stick
+_ANSWER = [
+    # restitution, tangential restitution, rotation rate, spin, partner's spin; if handed over: states after the gap
+    ("shown", "f8", SHOWN),
+    ("time", "f8"),
+    ("smallest_gap", "f8"),
+    ("turned", "f8"),
+    ("final_gap", "f8"),
+    ("slip", "f8"),  # of the surfaces at the contact, at separation over initial contact; NaN where there is none
+    ("outcome", "i4"),
+    ("certified", "i4"),
+    ("status", "i4"),
+    ("steps", "i4"),
+    ("reversal", "i4"),  # the first rebound criterion met; -1 for none
+    ("events", "i4"),  # including those for which the log had no room
+]
+ANSWER = np.dtype(_ANSWER, align=True)
+ANSWER_IN_SPACE = np.dtype([("shown", "f8", SHOWN_IN_SPACE), *_ANSWER[1:]], align=True)
 HAPPENING = np.dtype([("kind", "f8"), ("time", "f8")], align=True)
 LEDGER = np.dtype(
     [
@@ -75,21 +75,24 @@ TASK = np.dtype(
     ],
     align=True,
 )
-RESULTS = 8  # that have derivatives: the outputs, then time, smallest gap, angle turned
+MORE_RESULTS = 3  # that have derivatives besides the outputs: time, smallest gap, angle turned
+RESULTS = SHOWN + MORE_RESULTS
 MOST_STEPS = 300  # most steps of a trajectory with an adjoint sweep
 OWN_LEDGER = np.dtype([*LEDGER.descr, ("own_events", "f8")], align=True)  # of a model that declares events
 _STRUCTURES = {"buffer": BUFFER, "answer": ANSWER, "happening": HAPPENING, "ledger": LEDGER, "nearness": NEARNESS}
 _C_TYPES = {"f8": "double", "i8": "int64_t", "i4": "int32_t"}
 
 
-def declarations(ledger: bool, events: bool = False) -> str:
+def declarations(ledger: bool, events: bool = False, space: bool = False) -> str:
     """C structures of these types, with static assertions that the compiler lays them out as numpy does.
 
     Arguments:
         events: the ledger has a term for declared events.
+        space: answers have room for vectors.
     """
     lines = ["#include <stddef.h>", "#include <stdint.h>"]
-    structures = {**_STRUCTURES, "ledger": OWN_LEDGER} if events else _STRUCTURES
+    structures = {**_STRUCTURES, **({"ledger": OWN_LEDGER} if events else {})}
+    structures |= {"answer": ANSWER_IN_SPACE} if space else {}
     for name, layout in (*structures.items(), ("task", TASK)):
         if name == "ledger" and not ledger:
             continue

@@ -191,6 +191,15 @@ static inline mask spun_down(const constants *c, const vec *y, mask asked, doubl
 
 #define RESTS_FOR_GOOD (TURNS && ATTRACTS && !STRINGS)
 #if RESTS_FOR_GOOD
+#if SPACE
+/* Resting contact that persists: the slip energy never grows, which bounds the orbital momentum for good. */
+static mask rests_for_good(const constants *c, const vec *y, double tolerance)
+{
+    vec bound[2]; /* outward, inward */
+    resting_bound(c, y, bound);
+    return bound[1] - bound[0] > SAFETY*tolerance*bound[1];
+}
+#else
 /* Resting contact that persists while the slip decays: |J| exceeds that of rigid rotation by no more than the slip
  * energy allows, or by twice that where angular momentum drifts (solvers/certificates/energy_barrier.py `rests`).
  */
@@ -219,6 +228,7 @@ static mask rests_for_good(const constants *c, const vec *y, double tolerance)
     there[ORBITAL_MOMENTUM] = momentum;
     return inward_force(c, there) > margin*still;
 }
+#endif
 #endif
 
 /* Lanes in which a certificate excludes separation, of those certificates checked at every step. */
@@ -250,6 +260,24 @@ static inline mask proved_sticks(
 #endif /* OWN_EVENTS */
     return proved;
 }
+
+#if SPACE && PROOF_BY_ENERGY
+/* Lanes whose doublet tumbles as one body: all other motion is small. */
+static mask one_body(const constants *c, const vec *y)
+{
+    return wobble(c, y) < TUMBLES*potential_energy(c, y);
+}
+
+/* Lanes whose doublet tumbles as one body, and is held even if all of its angular momentum turns across the line of
+ * centres (solvers/certificates/tumbling.py). Decides a stick, but is no certificate.
+ */
+static mask tumbles(const constants *c, const vec *y, const barrier *b, double tolerance)
+{
+    vec rest = wobble(c, y), rigid = potential_energy(c, y), height = height_ahead(y, b);
+    vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
+    return one_body(c, y) & (rest + rigid + work_done(c, y, b) < height - margin);
+}
+#endif
 
 /* Lanes in which the attraction certificate is checked: at the start of a phase, and after a number of steps. With an
  * energy certificate, which covers most sticks earlier, only in long trajectories.

@@ -69,6 +69,11 @@ static void run(queue *q)
 #endif
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
+#if SPACE && PROOF_BY_ENERGY
+        mask late = l.alive & ((l.steps & (EVERY - 1)) == EVERY - 1);
+        for (unsigned held = bits(late) ? bits(late & tumbles(&f.c, l.y, &f.b, q->rtol)) : 0; held; held &= held - 1)
+            finish(q, &l, &f, __builtin_ctz(held), DECIDED, STICK, 0);
+#endif
         criteria_met(q, &l, &f);
 #if FRICTION && TURNS
         if (rests_ended(q, &l, &f)) /* other collisions may have taken these lanes */
@@ -172,6 +177,12 @@ static void run(queue *q)
 #endif
         for (; slow_ones; slow_ones &= slow_ones - 1)
             park(q, &l, &f, __builtin_ctz(slow_ones));
+#if SPACE && PROOF_BY_ENERGY
+        mask idle = spent & ~lost & one_body(&f.c, l.y);
+        for (unsigned cut = bits(idle); cut; cut &= cut - 1) /* it has tumbled for as long as it was followed */
+            finish(q, &l, &f, __builtin_ctz(cut), DECIDED, STICK, 0);
+        spent &= ~idle;
+#endif
         for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
             int lane = __builtin_ctz(failed);
             int status = lost[lane] ? NOT_FINITE : l.phases[lane] > CHATTER_PHASES ? CHATTER : NO_BUDGET;

@@ -170,12 +170,15 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
     for (int state = 0; state < STATES; state++) {
         change[state] = table[COLUMNS - 1][state];
         y[state] = l->y[state] + change[state];
-        vec allowed = f->tolerance*vec_abs(change[state]) + FLOOR*vec_abs(l->y[state]);
+        d[state] = change[state] - table[COLUMNS - 2][state];
+    }
+    EACH_SIZE(state) {
+        vec allowed = f->tolerance*size_of(change, 1, state) + FLOOR*size_of(l->y, 1, state);
         if (state == GAP)
             carried = allowed/l->stride; /* an error of the normal velocity decays within a Taylor step */
         if (state == NORMAL_VELOCITY)
             allowed = carried;
-        error = vec_larger(error, vec_abs(change[state] - table[COLUMNS - 2][state])/allowed);
+        error = vec_larger(error, size_of(d, 1, state)/allowed);
     }
     *clear &= clear_of_events(w, l, f, l->y, y);
     return error;

@@ -195,7 +195,7 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
     if (status > PROVED_AT_TOUCH) /* handed over: the state reached */
         for (int state = NORMAL_VELOCITY; state < MODEL_STATES; state++)
             a->shown[state - NORMAL_VELOCITY] = l->y[state][lane];
-    if (status == DECIDED && outcome != STICK) {
+    if (status == DECIDED && (SPACE || outcome != STICK)) {
         vec shown[OUTPUTS];
         outputs(&f->c, l->y, shown);
         for (int k = 0; k < OUTPUTS; k++)
@@ -214,7 +214,8 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
 #if BACKWARD
         end_on_tape(q, l->index[lane], lane, l->y, f);
 #else
-        along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + l->index[lane]*GROUPS*RESULTS));
+        if (outcome != STICK)
+            along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + l->index[lane]*GROUPS*RESULTS));
 #endif
 #endif
     }

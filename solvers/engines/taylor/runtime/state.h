@@ -24,6 +24,29 @@ static const double SLOW = 0.1; /* in v0: least scale of the error of the normal
 
 _Static_assert(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double), "all outputs are shown");
 
+/* Magnitude of a state, one of `stride` numbers each. That of the first component of a vector is the vector's length, and
+ * EACH_SIZE passes over the others, so that error norms distinguish no direction.
+ */
+#if SPACE
+#define EACH_SIZE(state) \
+    for (int state = 0; state < STATES; state += state >= FIRST_VECTOR && state < MODEL_STATES ? 3 : 1)
+
+static inline vec size_of(const vec *all, int stride, int state)
+{
+    const vec *x = all + state*stride;
+    if (state < FIRST_VECTOR || state >= MODEL_STATES)
+        return vec_abs(x[0]);
+    return vec_sqrt(x[0]*x[0] + x[stride]*x[stride] + x[2*stride]*x[2*stride]);
+}
+#else
+#define EACH_SIZE(state) for (int state = 0; state < STATES; state++)
+
+static inline vec size_of(const vec *all, int stride, int state)
+{
+    return vec_abs(all[state*stride]);
+}
+#endif
+
 /* Constants of a trajectory. */
 typedef struct {
     constants c;

@@ -20,8 +20,8 @@ static inline vec power_of(vec logarithm)
  * */
 static inline mask room_of(const mask *scale, const vec (*a)[TERMS], int k, double share, mask least_room)
 {
-    for (int state = 0; state < STATES; state++)
-        least_room = least(scale[state] - (mask)vec_abs(share*a[state][k]), least_room);
+    EACH_SIZE(state)
+        least_room = least(scale[state] - (mask)(share*size_of(&a[0][k], TERMS, state)), least_room);
     return least_room;
 }
 
@@ -48,8 +48,8 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
 {
     const vec(*a)[TERMS] = (const void *)s;
     mask scale[STATES];
-    for (int state = 0; state < STATES; state++) {
-        vec size = vec_abs(a[state][0]);
+    EACH_SIZE(state) {
+        vec size = size_of(a[0], TERMS, state);
         scale[state] = (mask)(state == NORMAL_VELOCITY ? size + f->rest : state == GAP ? size : size + 1e-3);
     }
     vec allowed = __builtin_convertvector((mask)f->tolerance - ONE, vec);

@@ -24,8 +24,8 @@ static const vec NOTHING[TERMS];
 static void expand_along(tangents *all, const lanes *l, const fixed *f, const series *s, const slopes *d, unsigned asked)
 {
     vec own[STATES];
-    for (int state = 0; state < STATES; state++)
-        own[state] = vec_abs(l->y[state]) + (state == NORMAL_VELOCITY ? f->rest : state == GAP ? splat(0.0) : splat(1e-3));
+    EACH_SIZE(state)
+        own[state] = size_of(l->y, 1, state) + (state == NORMAL_VELOCITY ? f->rest : state == GAP ? splat(0.0) : splat(1e-3));
     all->asked = 0;
     for (int group = 0; group < GROUPS; group++) {
         if (!(asked >> group & 1) || !bits(l->along.there[group] & l->alive))
@@ -36,8 +36,9 @@ static void expand_along(tangents *all, const lanes *l, const fixed *f, const se
         for (int state = 0; state < STATES; state++) {
             source[state] = NOTHING;
             t[state][0] = l->along.t[group][state];
-            all->scale[group][state] = (mask)(DERIVATIVES*vec_abs(t[state][0]) + f->one[group]*own[state]);
         }
+        EACH_SIZE(state)
+            all->scale[group][state] = (mask)(DERIVATIVES*size_of(t[0], TERMS, state) + f->one[group]*own[state]);
         sources(d, s, group, source);
         expand_tangent(t, d, &f->slopes, s, &f->c, acting(l), l->shear, source);
     }

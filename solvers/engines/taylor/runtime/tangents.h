@@ -11,7 +11,7 @@
 #if GRADIENTS
 /* Columns of a collision's derivatives: the outputs, then these; the adjoint sweep computes those of the restitution
  * only. */
-enum { BY_TIME = 5, BY_SMALLEST, BY_TURNED };
+enum { BY_TIME = SHOWN, BY_SMALLEST, BY_TURNED };
 _Static_assert(BACKWARD || RESULTS == BY_TURNED + 1, "a column each");
 
 /* Boundaries between outcomes, by the measures of distance to them (solvers/sensitivity/boundary_distance.py).

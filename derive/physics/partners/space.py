@@ -1,0 +1,266 @@
+"""Two spheres in space, each with its own spin: vectors in the laboratory's axes, with the line of centres as a state.
+
+The torques are those of the plane for each transverse component of the slip omega - xi_i: the film is isotropic about
+n. The component along n (twist) has no leading logarithm: no torque acts along n. A spin along n is not thereby
+constant, as n turns away from it.
+
+The lever arm is at mid-gap, so that the torques on the spheres balance that on their line of centres. In the reduced
+form the partner's spin follows from the three components of the angular momentum L, and its twist from J . n = 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+
+import sympy as sp
+
+from ...vocabulary.quantities import (
+    AXES,
+    Vector,
+    a,
+    aspect,
+    gap,
+    initial_normals,
+    initial_partner_spins,
+    initial_spins,
+    initial_turnings,
+    m,
+    mu,
+    normal,
+    omega,
+    orbital_momenta,
+    orbital_momentum,
+    partner_spins,
+    rate_scale,
+    spins,
+    v0,
+    x,
+    x0,
+)
+from ..forces import SHEAR, TANGENTIAL
+from ..laws import slot_call
+from ..laws.base import Definition
+from ..scaling import DISTANCE, INERTIA
+from .base import Rotation
+from .bodies import CENTRES, centres, inertias, r, radii
+from .pair import DRAG, INERTIA_RATIO, PARTNER_INERTIA, PARTNER_RADIUS, RADIUS, SPIN_INERTIA, scaled
+from .rolling import R_1, R_2, torque_matrix
+from .vectors import APART, FORCE, LINE_RATE, cross, dot, motion, on_the_sphere
+
+
+def _named(name: str) -> Vector:
+    first, second, third = (sp.Symbol(f"{name}_{axis}", real=True) for axis in AXES)
+    return first, second, third
+
+
+MOMENTA, RATES = _named("momentum"), _named("orbital_rate")
+SLIPS, PARTNER_SLIPS = _named("slip"), _named("partner_slip")
+TORQUES, PARTNER_TORQUES = _named("torque"), _named("partner_torque")
+STRENGTH = sp.Symbol("strength", positive=True)
+MOMENTUM_SQUARE, RATE_SQUARE = sp.symbols("momentum_square rate_square", nonnegative=True)
+TWIST, PARTNER_TWIST, ALONG, PARTNER_ALONG = sp.symbols("twist partner_twist along partner_along", real=True)
+
+Eliminated = tuple[Definition, ...]  # the components of L, then those of the partner's spin in terms of them
+
+
+def torques(slips: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+    """Torques on the two spheres over `STRENGTH`, of the slips of both in one direction across the line of centres."""
+    shape = (torque_matrix() / (2 * sp.pi * mu * a**3)).subs({R_1: a * RADIUS, R_2: a * PARTNER_RADIUS})
+    first, second = sp.simplify(shape) * sp.Matrix(slips)
+    return first, second
+
+
+def start() -> dict[sp.Symbol, sp.Expr]:
+    """State of the rotation at initial contact."""
+    return {
+        **dict(zip(normal, initial_normals, strict=True)),
+        **{
+            state: (CENTRES + aspect) ** 2 * rate for state, rate in zip(orbital_momenta, initial_turnings, strict=True)
+        },
+        **dict(zip(spins, initial_spins, strict=True)),
+        **dict(zip(partner_spins, initial_partner_spins, strict=True)),
+    }
+
+
+def sizes() -> list[Definition]:
+    """Centre distances, radii over a, and moments of inertia over m a^2."""
+    (radius, partner_radius), (inertia, partner_inertia) = radii(), inertias()
+    return [
+        (CENTRES, centres()),
+        (DISTANCE, CENTRES + aspect * gap),
+        (RADIUS, sp.factor(radius / a)),
+        (PARTNER_RADIUS, sp.factor(partner_radius / a)),
+        (SPIN_INERTIA, sp.factor(inertia / (m * a**2))),
+        (PARTNER_INERTIA, sp.factor(partner_inertia / (m * a**2))),
+    ]
+
+
+def _momenta() -> list[Definition]:
+    each = zip(MOMENTA, orbital_momenta, spins, partner_spins, strict=True)
+    return [(of, own + SPIN_INERTIA * first + PARTNER_INERTIA * second) for of, own, first, second in each]
+
+
+def _twists(eliminated: Eliminated) -> list[Definition]:
+    """Components along n of the two slips; omega has none."""
+    if not eliminated:
+        return [(TWIST, dot(SLIPS, normal)), (PARTNER_TWIST, dot(PARTNER_SLIPS, normal))]
+    follows = sp.expand(dict(eliminated)[partner_spins[0]])
+    by_momentum, by_spin = (follows.coeff(symbol) for symbol in (MOMENTA[0], spins[0]))
+    return [
+        (TWIST, -dot(spins, normal)),
+        (PARTNER_TWIST, by_spin * TWIST - by_momentum * dot(MOMENTA, normal)),
+    ]
+
+
+def definitions(eliminated: Eliminated = ()) -> tuple[Definition, ...]:
+    """Named intermediates, in order."""
+    log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
+    unit = 2 * sp.pi * mu * a**3
+    found = [*sizes(), *(eliminated or _momenta())]
+    found += [(rate, own / DISTANCE**2) for rate, own in zip(RATES, orbital_momenta, strict=True)]
+    found += [(MOMENTUM_SQUARE, dot(MOMENTA, MOMENTA)), (RATE_SQUARE, dot(RATES, RATES))]
+    found.append((INERTIA_RATIO, DISTANCE**2 + SPIN_INERTIA + PARTNER_INERTIA))
+    found += [(slip, rate - own) for slip, rate, own in zip(SLIPS, RATES, spins, strict=True)]
+    found += [(slip, rate - own) for slip, rate, own in zip(PARTNER_SLIPS, RATES, partner_spins, strict=True)]
+    found += _twists(eliminated)
+    found.append((DRAG, scaled(log * unit * rate_scale / (TANGENTIAL * a))))
+    found.append((STRENGTH, DRAG * DISTANCE / CENTRES))
+    found += list(zip((ALONG, PARTNER_ALONG), torques((TWIST, PARTNER_TWIST)), strict=True))
+    across = [torques(both) for both in zip(SLIPS, PARTNER_SLIPS, strict=True)]
+    for place, (symbols, along) in enumerate(((TORQUES, ALONG), (PARTNER_TORQUES, PARTNER_ALONG))):
+        found += [
+            (symbol, STRENGTH * (both[place] - along * line))
+            for symbol, both, line in zip(symbols, across, normal, strict=True)
+        ]
+    return tuple(found)
+
+
+def rates() -> dict[sp.Symbol, sp.Expr]:
+    """Rates of n, J and both spins, per v0/x0."""
+    moved = motion()
+    pull, shear = sp.Symbol("F", real=True), _named("S")  # on sphere 2: -F n - S x n, with r S = T_1 + T_2
+    force = -pull * sp.Matrix(normal) - cross(shear, normal)
+    by_force = dict(zip(FORCE, force, strict=True))
+    torque = [on_the_sphere(each.subs(by_force), normal, shear) for each in moved.orbital_momentum]
+    assert list(torque) == [-APART * each for each in shear]
+    assert (
+        on_the_sphere(moved.opening.subs(by_force) - APART * dot(LINE_RATE, LINE_RATE) + pull / m, normal, shear) == 0
+    )
+    turned = scaled(rate_scale * x0 / v0)
+    found = dict(
+        zip(
+            normal, (turned * each for each in moved.normal.subs(dict(zip(LINE_RATE, RATES, strict=True)))), strict=True
+        )
+    )
+    assert scaled(TANGENTIAL * a * x0 / (v0 * m * a**2 * rate_scale)) == 1
+    for place in range(3):
+        found[orbital_momenta[place]] = -(TORQUES[place] + PARTNER_TORQUES[place])
+        found[spins[place]] = TORQUES[place] / SPIN_INERTIA
+        found[partner_spins[place]] = PARTNER_TORQUES[place] / PARTNER_INERTIA
+    return found
+
+
+def _centrifugal(square: sp.Expr) -> sp.Expr:
+    """Centrifugal force over m v0^2/x0 for a square of the orbital momentum."""
+    return sp.expand(scaled(m * r * omega**2 / INERTIA).subs(orbital_momentum**2, square))
+
+
+def _unit() -> sp.Expr:
+    """M a^2 Omega^2 over m v0^2."""
+    return scaled(m * a**2 * rate_scale**2 / (m * v0**2))
+
+
+def energy(orbital: Vector | sp.Matrix, first: Vector | sp.Matrix, second: Vector | sp.Matrix) -> sp.Expr:
+    """Kinetic energy over m a^2 Omega^2 of an orbital momentum and two spins."""
+    spinning = SPIN_INERTIA * dot(first, first) + PARTNER_INERTIA * dot(second, second)
+    return (dot(orbital, orbital) / DISTANCE**2 + spinning) / 2
+
+
+def slip_energy() -> sp.Expr:
+    """What the energy of rotation exceeds |L|^2/(2 I) by, I the inertia across the line of centres.
+
+    It is the energy of the deviation from a rotation of everything at L/I, whatever the directions of n, J and the
+    spins (`derive.checks.space.least_energy_in_space`).
+    """
+    rigid = sp.Matrix(MOMENTA) / INERTIA_RATIO
+    apart = sp.Matrix(orbital_momenta) - DISTANCE**2 * rigid
+    return energy(apart, sp.Matrix(spins) - rigid, sp.Matrix(partner_spins) - rigid)
+
+
+def wobble() -> sp.Expr:
+    """Energy over m a^2 Omega^2 of what is neither the rotation of a rigid doublet across n nor twist."""
+    line = sp.Matrix(normal)
+    rigid = (sp.Matrix(MOMENTA) - dot(MOMENTA, normal) * line) / INERTIA_RATIO
+    first = sp.Matrix(spins) - dot(spins, normal) * line - rigid
+    second = sp.Matrix(partner_spins) - dot(partner_spins, normal) * line - rigid
+    return energy(sp.Matrix(orbital_momenta) - DISTANCE**2 * rigid, first, second)
+
+
+def outward_at_most() -> sp.Expr:
+    """Centrifugal force on a resting doublet from now on, at most: its slip energy never grows, so |J| is bounded."""
+    rigid = DISTANCE**2 * sp.sqrt(MOMENTUM_SQUARE) / INERTIA_RATIO
+    return _centrifugal((rigid + DISTANCE * sp.sqrt(2 * slip_energy())) ** 2)
+
+
+def surface_slip() -> sp.Expr:
+    """Magnitude of the relative velocity of the surfaces at the contact, over a Omega."""
+    across = [
+        RADIUS * (one - TWIST * line) + PARTNER_RADIUS * (other - PARTNER_TWIST * line)
+        for one, other, line in zip(SLIPS, PARTNER_SLIPS, normal, strict=True)
+    ]
+    return DISTANCE / CENTRES * sp.sqrt(dot(across, across))
+
+
+def drift() -> sp.Expr:
+    """1 + |L - L(0)| over the sum of its parts at initial contact."""
+    first = start()
+    parts = [
+        (sp.Matrix(vector).subs(first, simultaneous=True), inertia)
+        for vector, inertia in ((orbital_momenta, 1), (spins, SPIN_INERTIA), (partner_spins, PARTNER_INERTIA))
+    ]
+    begun = [momentum.subs(first, simultaneous=True) for _, momentum in _momenta()]
+    apart = sp.Matrix(MOMENTA) - sp.Matrix(begun)
+    return 1 + sp.sqrt(dot(apart, apart)) / sum(inertia * sp.sqrt(dot(vector, vector)) for vector, inertia in parts)
+
+
+def _outputs() -> dict[str, sp.Expr]:
+    found: dict[str, sp.Expr] = {}
+    for name, vector in (
+        ("final_normal", normal),
+        ("final_rotation_rate", RATES),
+        ("final_spin", spins),
+        ("final_spin_partner", partner_spins),
+    ):
+        found |= {f"{name}_{axis}": component for axis, component in zip(AXES, vector, strict=True)}
+    return found
+
+
+@cache
+def rotation(reduced: bool) -> Rotation:
+    """The rotation of two spheres in space, for their equations.
+
+    Arguments:
+        reduced: without the partner's spin, which `definitions` then take from what is conserved.
+    """
+    own: Mapping[sp.Symbol, sp.Expr] = rates()
+    states = (*normal, *orbital_momenta, *spins, *(() if reduced else partner_spins))
+    lost = dot(TORQUES, SLIPS) + dot(PARTNER_TORQUES, PARTNER_SLIPS)
+    least = _unit() * MOMENTUM_SQUARE / (2 * INERTIA_RATIO)
+    return Rotation(
+        states=states,
+        definitions=definitions(),
+        centrifugal=_centrifugal(RATE_SQUARE * DISTANCE**4),
+        rates={state: own[state] for state in states},
+        turning=None,
+        kinetic=_unit() * energy(orbital_momenta, spins, partner_spins),
+        power=scaled(TANGENTIAL * a * rate_scale * x0 / v0 / (m * v0**2)) * lost,
+        momentum=drift(),
+        outputs=_outputs(),
+        surface_slip=surface_slip(),
+        least=(least, least.diff(INERTIA_RATIO) * 2 * DISTANCE * aspect),
+        rigid=None,
+        start=start(),
+        outward_at_most=outward_at_most(),
+        wobble=_unit() * wobble(),
+    )

@@ -1,0 +1,64 @@
+"""Collisions of two spheres in space by the kernel, with vectors in the laboratory's axes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from ....generated.automaton import LOOSEST
+from ...model.model import select_model
+from ...scene.contact import NEVER_MET
+from ...scene.groups import si_values
+from ...scene.scene import Scene
+from .build import Variant, for_few, kernel
+from .call import variant
+from .layout import ANSWER_IN_SPACE, Task, names
+
+BUDGET = 30_000  # steps of a collision; a doublet that then tumbles as one body is taken for a stick
+_CHUNK = 4096  # collisions in a block for a thread
+AXES = "xyz"
+
+
+def variant_in_space(scene: Scene, rtol: float) -> Variant:
+    """The variant that `run_in_space` takes."""
+    return variant(scene, select_model(scene, True, space=True), rtol, rotation=False)
+
+
+def run_in_space(
+    scene: Scene, vectors: Mapping[str, np.ndarray], speed: np.ndarray, rtol: float, threads: int = 1, few: bool = False
+) -> np.ndarray | None:
+    """An array of ANSWER_IN_SPACE, one per collision; None if no kernel is available.
+
+    Arguments:
+        vectors: `initial_normal`, `impact_turning`, `impact_spin` and `impact_partner_spin`, each (collisions, 3), SI.
+        speed: normal approach speeds, m/s.
+        few: use a kernel that compiles faster and integrates slightly slower.
+    """
+    wanted = variant_in_space(scene, rtol)
+    library = kernel(for_few(wanted) if few else wanted)
+    if library is None:
+        return None
+    given: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET, **si_values(scene, None, None)}
+    for name, rows in vectors.items():
+        given |= {f"{name}_{axis}": np.ascontiguousarray(rows[:, k]) for k, axis in enumerate(AXES)}
+    given["speed"] = np.ascontiguousarray(speed)
+    found = np.zeros(speed.size, ANSWER_IN_SPACE)
+
+    def chunk(first: int) -> None:
+        part = slice(first, min(first + _CHUNK, speed.size))
+        asked = Task(library, part.stop - first, min(rtol, LOOSEST), BUDGET)
+        columns = (given[name] for name in names(library, "quantity_names"))
+        asked.columns([column if isinstance(column, float) else column[part] for column in columns])
+        asked.buffer("answers", found[part])
+        asked.run()
+
+    firsts = range(0, speed.size, _CHUNK)
+    if threads == 1 or len(firsts) == 1:
+        for first in firsts:
+            chunk(first)
+    else:
+        with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
+            list(pool.map(chunk, firsts))
+    return found

@@ -1,0 +1,177 @@
+"""Pairs by the Taylor kernel: in their plane where they have one, else with vectors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...generated.automaton import LAST_ANSWER, Status
+from ..engines.taylor.call import Impacts, run_kernel
+from ..engines.taylor.in_space import run_in_space
+from ..model.model import load, select_model
+from ..scene.groups import rate_scales, si_values
+from ..scene.scene import Scene
+from .ends import Ends
+from .pairs import Bodies, Pairs, dot, length
+
+_ROUNDING = 16 * np.finfo(float).eps  # of a component over the largest of its kind
+_SPINS = ("impact_spin", "impact_partner_spin")
+
+
+@dataclass(frozen=True)
+class Planes:
+    """Which pairs move in a plane, the direction of all rotation, and the components along it."""
+
+    planar: np.ndarray
+    axis: np.ndarray
+    turning: np.ndarray
+    spins: np.ndarray
+
+
+def planes(pairs: Pairs) -> Planes:
+    """The planes of motion: all rotation is along one direction across the line of centres."""
+    radii = np.array(Bodies.of(pairs.scene).radius)
+    speeds = np.concatenate([pairs.sliding[:, None], radii[:, None] * pairs.spins], axis=1)
+    sizes = length(speeds)
+    largest = np.max(sizes, axis=1)
+    turned = np.concatenate([pairs.turning[:, None], pairs.spins], axis=1)
+    rows = np.arange(pairs.size)
+    chosen = np.where(sizes[:, 0] > _ROUNDING * largest, 0, 1 + np.argmax(sizes[:, 1:], axis=1))
+    axis = turned[rows, chosen]
+    axis = axis - dot(axis, pairs.normal) * pairs.normal
+    with np.errstate(all="ignore"):
+        axis = np.where(largest[:, None] > 0, axis / length(axis)[:, None], 0.0)
+    along = np.einsum("ikj,ij->ik", turned, axis)
+    rest = turned - along[:, :, None] * axis[:, None]
+    rest[:, 1:] *= radii[:, None]
+    rest[:, 0] *= pairs.distance
+    given = np.maximum(largest, np.max(np.abs(pairs.velocities), axis=(1, 2)))
+    planar = np.all(length(rest) <= _ROUNDING * given[:, None], axis=1)
+    return Planes(planar, axis, along[:, 0], along[:, 1:])
+
+
+def by_kernel(pairs: Pairs, rtol: float, threads: int, few: bool) -> tuple[Ends, np.ndarray] | None:
+    """Ends of the pairs, and a mask of those that need another engine; None if no kernel is available."""
+    ends, left = Ends.blank(pairs.size), np.zeros(pairs.size, bool)
+    found = planes(pairs)
+    which = np.flatnonzero(found.planar)
+    if which.size:
+        flat = _in_planes(pairs.part(which), _part(found, which), rtol, threads, few)
+        if flat is None:
+            return None
+        ends.put(which, flat[0])
+        left[which] = flat[1]
+    which = np.flatnonzero(~found.planar)
+    if which.size:
+        solid = _in_space(pairs.part(which), rtol, threads, few)
+        if solid is None:
+            return None
+        ends.put(which, solid[0])
+        left[which] = solid[1]
+    return ends, left
+
+
+def _part(found: Planes, which: np.ndarray) -> Planes:
+    return Planes(found.planar[which], found.axis[which], found.turning[which], found.spins[which])
+
+
+def _in_space(pairs: Pairs, rtol: float, threads: int, few: bool) -> tuple[Ends, np.ndarray] | None:
+    vectors = {"initial_normal": pairs.normal, "impact_turning": pairs.turning}
+    vectors |= {name: pairs.spins[:, k] for k, name in enumerate(_SPINS)}
+    answers = run_in_space(pairs.scene, vectors, -pairs.opening, rtol, threads, few)
+    if answers is None:
+        return None
+    ends, left = _of_answers(pairs, answers)
+    known = answers["status"] == Status.DECIDED
+    names = load(select_model(pairs.scene, True, space=True)).names("outputs")
+    place = {name: k for k, name in enumerate(names)}
+    rate = scales(pairs)
+
+    def vector(name: str) -> np.ndarray:
+        first = place[f"{name}_x"]
+        found: np.ndarray = answers["shown"][:, first : first + 3]
+        return found
+
+    ends.normal[known] = vector("final_normal")[known]
+    ends.turning[known] = (vector("final_rotation_rate") * rate[:, None])[known]
+    for k, name in enumerate(("final_spin", "final_spin_partner")):
+        ends.spins[known, k] = (vector(name) * rate[:, None])[known]
+    ends.opening[known] = (-pairs.opening * answers["shown"][:, place["restitution"]])[known]
+    return ends, left
+
+
+def scales(pairs: Pairs) -> np.ndarray:
+    """The scale of angular velocities of each collision in space, rad/s."""
+    from ...generated import scaling
+
+    given = dict(si_values(pairs.scene, None, None)) | {"speed": -pairs.opening}
+    for name, rows in (
+        ("impact_turning", pairs.turning),
+        (_SPINS[0], pairs.spins[:, 0]),
+        (_SPINS[1], pairs.spins[:, 1]),
+    ):
+        given |= {f"{name}_{axis}": rows[:, k] for k, axis in enumerate("xyz")}
+    tangent = scaling.obliquity_space(*(given[name] for name in scaling.ARGUMENTS["obliquity_space"]))
+    given["obliquity"] = np.asarray(tangent).reshape(-1)
+    found = scaling.rate_scale_pair(*(given[name] for name in scaling.ARGUMENTS["rate_scale_pair"]))
+    return np.asarray(found).reshape(-1)
+
+
+def _in_planes(pairs: Pairs, found: Planes, rtol: float, threads: int, few: bool) -> tuple[Ends, np.ndarray] | None:
+    """By the planar kernel; what rounding leaves of the spins out of the plane stays as it is."""
+    same = pairs.scene.partner is None and bool(np.all(found.spins[:, 0] == found.spins[:, 1]))
+    scene = resting(pairs.scene, own_spins=not same)
+    contact = pairs.distance - float(scene.material["film_thickness"])
+    angle = np.arctan2(contact * np.abs(found.turning), -pairs.opening)
+    sense = np.where(found.turning < 0, -1.0, 1.0)  # the angle is not negative
+    spins = sense[:, None] * found.spins
+    others = {name: np.ascontiguousarray(spins[:, k]) for k, name in enumerate(_SPINS)}
+    impacts = Impacts(scene, -pairs.opening, angle, others)
+    answers = run_kernel(impacts, rtol, True, threads, few=few)
+    if answers is None:
+        return None
+    ends, left = _of_answers(pairs, answers)
+    known = answers["status"] == Status.DECIDED
+    axis = sense[:, None] * found.axis
+    given = dict(si_values(scene, None, None)) | others | {"speed": impacts.speed, "angle": angle}
+    rate = rate_scales(scene, given)
+    oblique = impacts.oblique
+    shown = {name: answers["shown"][:, k] for k, name in enumerate(load(select_model(scene, True)).names("outputs"))}
+    moved = {name: np.where(oblique, values * rate, 0.0) for name, values in shown.items() if name.startswith("final")}
+    moved.setdefault("final_spin_partner", moved["final_spin"])
+    turned = np.where(known, answers["turned"], 0.0)[:, None]
+    across = np.cross(axis, pairs.normal)
+    ends.normal = np.cos(turned) * pairs.normal + np.sin(turned) * across
+    separated = known & (answers["outcome"] > 0)
+    ends.opening[known] = (-pairs.opening * answers["shown"][:, 0])[known]
+    ends.turning = np.where(separated[:, None], moved["final_rotation_rate"][:, None] * axis, pairs.turning)
+    rest = pairs.spins - found.spins[:, :, None] * found.axis[:, None]
+    for k, name in enumerate(("final_spin", "final_spin_partner")):
+        later = moved[name][:, None] * axis + rest[:, k]
+        ends.spins[:, k] = np.where(separated[:, None], later, pairs.spins[:, k])
+    return ends, left
+
+
+def resting(scene: Scene, own_spins: bool) -> Scene:
+    """The scene without spins of its own; equal spheres keep one state for both unless each has its own."""
+    changes = dict.fromkeys((["impact.spin"] if scene.impact.spin else []) + ["impact.partner_spin"] * own_spins, 0.0)
+    return scene.with_entries(changes) if changes else scene
+
+
+def _of_answers(pairs: Pairs, answers: np.ndarray) -> tuple[Ends, np.ndarray]:
+    """What answers of any structure say; a stick proved at initial contact is as it arrived."""
+    ends = Ends.blank(pairs.size)
+    left = answers["status"] > LAST_ANSWER
+    touch = answers["status"] == Status.PROVED_AT_TOUCH
+    thickness = float(pairs.scene.material["film_thickness"])
+    ends.outcome[:] = answers["outcome"]
+    ends.certified[:] = answers["certified"] != 0
+    ends.time[:] = np.where(touch, 0.0, answers["time"] * thickness / -pairs.opening)
+    ends.gap[:] = np.where(touch, 1.0, answers["final_gap"]) * thickness
+    ends.slip[:] = np.where(answers["outcome"] > 0, answers["slip"], np.nan)
+    ends.opening[touch] = pairs.opening[touch]
+    ends.normal[touch] = pairs.normal[touch]
+    ends.turning[touch] = pairs.turning[touch]
+    ends.spins[touch] = pairs.spins[touch]
+    return ends, left

@@ -1,0 +1,191 @@
+"""Collisions of two spheres, or of a sphere and a wall, that move and spin in any direction."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..engines.choice import space_engine
+from ..errors import InputError
+from ..host.cores import usable_cores
+from ..host.pictures import register
+from ..many.results import outcome_attributes
+from ..model.validity import warn
+from ..scene.scene import Scene
+from ..settings import FEW, RTOL, check_engine, check_rtol
+from .beside_wall import beside_wall, planar_by_casadi, planar_by_kernel
+from .by_casadi import by_casadi
+from .by_kernel import by_kernel
+from .ends import FAILED, Ends, Motions, after, after_wall
+from .pairs import Pairs, checked
+
+if TYPE_CHECKING:
+    import xarray
+
+_AXES = ("x", "y", "z")
+_NUMBERS = {
+    "restitution": ("1", "normal restitution e_n"),
+    "slip_restitution": ("1", "relative velocity of the surfaces at the contact, after over before"),
+    "time": ("s", "time from initial contact to the end"),
+    "gap": ("m", "gap at the end"),
+}
+_VECTORS = {
+    "position": (("axis",), "m", "from the first centre to the second, or to the wall's surface"),
+    "normal": (("axis",), "1", "direction of the position"),
+    "velocities": (("particle", "axis"), "m/s", "velocities of the centres; the second beside a wall is the wall's"),
+    "spins": (("particle", "axis"), "rad/s", "angular velocities"),
+    "centre_velocity": (("axis",), "m/s", "velocity of the centre of mass, or of the wall"),
+    "angular_velocity": (("axis",), "rad/s", "rigid rotation of a doublet that sticks"),
+}
+
+
+def collide_pair(
+    scene: Scene | str | Path,
+    normal: Any,
+    velocities: Any,
+    spins: Any,
+    *,
+    rtol: float = RTOL,
+    engine: str | None = None,
+) -> xarray.Dataset:
+    """Collisions of two spheres, or of a sphere and a wall, with any velocities and spins.
+
+    The spheres are the scene's, at the distance at which its film begins. Its [impact] is not used.
+
+    Arguments:
+        scene: a Scene, a path or a preset's name; without strings and friction, with the lever arm at mid-gap.
+        normal: (..., 3), from the first sphere to the second, or to the wall; of any length but zero.
+        velocities: (..., 2, 3), m/s. Beside a wall (..., 1, 3), or (..., 2, 3) with the wall's velocity.
+        spins: (..., 2, 3), angular velocities in rad/s. Beside a wall (..., 1, 3).
+        rtol: relative tolerance, 1e-13..1e-3.
+        engine: "taylor" (default where its kernel is compiled, and for more than 100 collisions where there is a C
+            compiler), "rosenbrock" or "cvodes".
+
+    Leading shapes are broadcast against each other. Vectors are in the laboratory's axes.
+
+    Returns:
+        Dataset over dim_0, dim_1, ..., with vectors over `axis` and `particle`: outcome (int8: 0 stick, 1
+        stick-rotate-separate, 2 bounce, -1 failed), certified, restitution, slip_restitution, time (s, to separation,
+        or to where the integration of a stick stopped), gap, position, normal, velocities, spins, centre_velocity,
+        angular_velocity, and reason (of a failure, else ""). What is undefined is NaN. A stick is given as the rigid
+        motion that has its angular momentum, at the gap and in the direction of the end. Components of the spins along
+        the line of centres (twist) have no friction to leading logarithm, and stay as they are there; the angular
+        velocity has their mean by inertia. Beside a wall a stick moves with the wall, and only its twist is left.
+
+    Raises:
+        InputError: an invalid shape or scene. A collision that fails, as of a pair that does not approach, raises
+            nothing; it is marked.
+
+    Example:
+        >>> from wetdoublet.solvers import collide_pair
+        >>> velocities, spins = [[0.1, 0, 0.5], [0, 0, 0]], [[0, 0, 0], [0, 1000, 200]]  # m/s, rad/s
+        >>> found = collide_pair("granulation", [0, 0, 1], velocities, spins, engine="rosenbrock")
+        >>> int(found.outcome), found.velocities.shape
+        (2, (2, 3))
+    """
+    loaded = Scene.load(scene)
+    rtol, asked = check_rtol(rtol), check_engine(engine)
+    _check_scene(loaded)
+    pairs = checked(loaded, normal, velocities, spins)
+    ends, refused = Ends.blank(pairs.size), _refused(pairs)
+    sound = np.ones(pairs.size, bool)
+    for k, why in refused.items():
+        ends.reason[k], sound[k] = why, False
+    chosen = asked or ""
+    if sound.any():
+        warn(loaded)
+        chosen = space_engine(asked, int(np.count_nonzero(sound)), loaded, rtol)
+        which = np.flatnonzero(sound)
+        ends.put(which, _ends(pairs.part(which), chosen, rtol))
+    with np.errstate(invalid="ignore"):
+        motions = after_wall(pairs, ends) if loaded.wall else after(pairs, ends)
+    return _dataset(pairs, ends, motions, {"scene": loaded.to_toml(), "rtol": rtol, "engine": chosen})
+
+
+def _check_scene(scene: Scene) -> None:
+    if scene.pendulum is not None:
+        raise InputError("pendulum", "strings", "a scene without [pendulum]", "hold the spheres in one plane")
+    if scene.particles.friction is not None:
+        problem = "is in a plane only: its impulse in space is not derived"
+        raise InputError("particles.friction", scene.particles.friction, "a scene without friction", problem)
+    if scene.package is not None and scene.package.events:
+        raise InputError("model", "declared events", "a model without events", "are of collisions in a plane")
+    if not scene.wall and scene.model.arm != "midgap":
+        problem = "does not conserve the angular momentum of a pair in space"
+        raise InputError("model.arm", scene.model.arm, "midgap", problem)
+
+
+def _refused(pairs: Pairs) -> dict[int, str]:
+    """Why rows cannot be computed: a number that is not finite, or a pair that does not approach."""
+    numbers = np.concatenate([pairs.velocities, pairs.spins], axis=1).reshape(pairs.size, 12)
+    finite = np.isfinite(numbers).all(axis=1)
+    with np.errstate(invalid="ignore"):
+        approaches = pairs.opening < 0
+    found: dict[int, str] = {}
+    for k in np.flatnonzero(~(finite & approaches)).tolist():
+        if finite[k]:
+            error = InputError(
+                "velocities",
+                f"{pairs.opening[k]:.6g} m/s along normal",
+                "the second, or the wall, against the first with a negative component along normal",
+                "do not approach",
+            )
+        else:
+            bad = float(numbers[k][~np.isfinite(numbers[k])][0])
+            error = InputError("velocities, spins", bad, "finite numbers", "is not finite")
+        found[k] = str(error)
+    return found
+
+
+def _ends(pairs: Pairs, engine: str, rtol: float) -> Ends:
+    """Ends of pairs that approach."""
+    if engine != "taylor":
+        return _by_casadi(pairs, engine, rtol)
+    few, threads = pairs.size <= FEW, usable_cores() if pairs.size > FEW else 1
+    if pairs.scene.wall:
+        made = beside_wall(pairs, lambda those: planar_by_kernel(those, rtol, threads, few))
+    else:
+        made = by_kernel(pairs, rtol, threads, few)
+    if made is None:
+        return _by_casadi(pairs, "rosenbrock", rtol)
+    ends, left = made
+    if left.any():
+        which = np.flatnonzero(left)
+        ends.put(which, _by_casadi(pairs.part(which), "rosenbrock", rtol))
+    return ends
+
+
+def _by_casadi(pairs: Pairs, engine: str, rtol: float) -> Ends:
+    if not pairs.scene.wall:
+        return by_casadi(pairs, engine, rtol)
+    made = beside_wall(pairs, lambda those: planar_by_casadi(those, rtol))
+    assert made is not None
+    return made[0]
+
+
+def _dataset(pairs: Pairs, ends: Ends, motions: Motions, said: dict[str, Any]) -> xarray.Dataset:
+    import xarray as xr
+
+    register()
+    dims = tuple(f"dim_{k}" for k in range(len(pairs.shape)))
+    failed, separated = ends.outcome == FAILED, ends.outcome > 0
+    with np.errstate(all="ignore"):
+        restitution = np.where(separated, ends.opening / -pairs.opening, np.where(failed, np.nan, 0.0))
+    made = {"restitution": restitution, "slip_restitution": ends.slip, "time": ends.time, "gap": ends.gap}
+    made |= {**vars(motions), "normal": motions.position / np.linalg.norm(motions.position, axis=1, keepdims=True)}
+    found: dict[str, Any] = {
+        "outcome": (dims, ends.outcome, outcome_attributes()),
+        "certified": (dims, ends.certified, {"long_name": "the stick is proved"}),
+        "reason": (dims, ends.reason.astype(str), {"long_name": "why it failed"}),
+    }
+    found |= {name: (dims, made[name], {"units": u, "long_name": what}) for name, (u, what) in _NUMBERS.items()}
+    for name, (more, unit, what) in _VECTORS.items():
+        values = np.where(failed.reshape(-1, *[1] * len(more)), np.nan, made[name])
+        found[name] = (*dims, *more), values, {"units": unit, "long_name": what}
+    shaped = {
+        name: (own, values.reshape((*pairs.shape, *values.shape[1:])), attributes)
+        for name, (own, values, attributes) in found.items()
+    }
+    return xr.Dataset(shaped, {"axis": list(_AXES)}, said)

@@ -1,0 +1,142 @@
+"""From the end of a relative motion to both particles in the laboratory: what is conserved stays so to rounding."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...generated.automaton import OUTCOMES, STICK
+from .pairs import Bodies, Pairs, dot, length
+
+FAILED = -1
+_STICK = OUTCOMES.index(STICK)
+
+
+@dataclass
+class Ends:
+    """Ends of collisions, a row each, SI; rows that nothing has been written to are NaN, and failed.
+
+    Attributes:
+        gap: of the surfaces, m.
+        opening: normal relative velocity, m/s.
+        turning: angular velocity of the line of centres, rad/s.
+        sliding: beside a wall, velocity along it relative to the wall, m/s.
+    """
+
+    outcome: np.ndarray
+    certified: np.ndarray
+    reason: np.ndarray
+    time: np.ndarray
+    gap: np.ndarray
+    opening: np.ndarray
+    slip: np.ndarray
+    normal: np.ndarray
+    turning: np.ndarray
+    sliding: np.ndarray
+    spins: np.ndarray
+
+    @classmethod
+    def blank(cls, size: int) -> Ends:
+        """Ends of which nothing is known."""
+
+        def unknown(*shape: int) -> np.ndarray:
+            return np.full((size, *shape), np.nan)
+
+        return cls(
+            outcome=np.full(size, FAILED, np.int8),
+            certified=np.zeros(size, bool),
+            reason=np.full(size, "", object),
+            time=unknown(),
+            gap=unknown(),
+            opening=unknown(),
+            slip=unknown(),
+            normal=unknown(3),
+            turning=unknown(3),
+            sliding=unknown(3),
+            spins=unknown(2, 3),
+        )
+
+    def put(self, where: np.ndarray, other: Ends) -> None:
+        """Write the ends of some rows."""
+        for name, values in vars(other).items():
+            getattr(self, name)[where] = values
+
+
+def across(vectors: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """The parts of vectors across a direction."""
+    found: np.ndarray = vectors - dot(vectors, normal) * normal
+    return found
+
+
+@dataclass(frozen=True)
+class Motions:
+    """Both particles after their collisions.
+
+    Attributes:
+        position: of the second centre from the first, or of the wall's surface, m.
+        angular_velocity: of a stick, the rigid rotation with its angular momentum; NaN where they separated.
+    """
+
+    position: np.ndarray
+    velocities: np.ndarray
+    spins: np.ndarray
+    centre_velocity: np.ndarray
+    angular_velocity: np.ndarray
+
+
+def after(pairs: Pairs, ends: Ends) -> Motions:
+    """The motion of two spheres after their collision; a stick turns as one body.
+
+    A stick keeps its angular momentum: across the line of centres it turns with the inertia that the doublet has at the
+    gap of the end. Twist has no friction to leading logarithm: along the line each sphere keeps its own spin, and the
+    doublet's angular velocity has their mean by inertia.
+    """
+    bodies = Bodies.of(pairs.scene)
+    sticks = (ends.outcome == _STICK)[:, None]
+    normal = ends.normal / length(ends.normal)[:, None]
+    apart = (sum(bodies.radius) + ends.gap)[:, None]
+    (first, second), m = bodies.inertia, bodies.reduced_mass
+    inertia = m * apart**2 + first + second
+    momentum = angular_momentum(pairs)
+    rigid = across(momentum, normal) / inertia
+    along = dot(momentum, normal) / (first + second) * normal
+    turning = np.where(sticks, rigid, across(ends.turning, normal))
+    twists = dot(ends.spins, normal[:, None]) * normal[:, None]
+    spins = np.where(sticks[:, None], rigid[:, None] + twists, ends.spins)
+    heavy = int(second > first)  # its spin takes what rounding leaves of the angular momentum
+    spins = np.array(spins)
+    spins[:, heavy] += (momentum - m * apart**2 * turning - first * spins[:, 0] - second * spins[:, 1]) / max(
+        first, second
+    )
+    relative = apart * np.cross(turning, normal)
+    relative += np.where(sticks, 0.0, ends.opening[:, None]) * normal
+    whole = sum(bodies.mass)
+    centre = (bodies.mass[0] * pairs.velocities[:, 0] + bodies.mass[1] * pairs.velocities[:, 1]) / whole
+    velocities = np.stack(
+        [centre - bodies.mass[1] / whole * relative, centre + bodies.mass[0] / whole * relative], axis=1
+    )
+    return Motions(apart * normal, velocities, spins, centre, np.where(sticks, rigid + along, np.nan))
+
+
+def after_wall(pairs: Pairs, ends: Ends) -> Motions:
+    """The motion after a collision with a wall, whose velocity stays; a stick neither slides nor rolls on."""
+    radius = float(pairs.scene.material["reduced_radius"])
+    sticks = (ends.outcome == _STICK)[:, None]
+    wall = pairs.velocities[:, 1]
+    twist = dot(ends.spins[:, 0], pairs.normal) * pairs.normal
+    leaving = ends.sliding - ends.opening[:, None] * pairs.normal
+    velocity = wall + np.where(sticks, 0.0, leaving)
+    spins = np.stack([np.where(sticks, twist, ends.spins[:, 0]), np.full_like(twist, np.nan)], axis=1)
+    velocities = np.stack([velocity, wall], axis=1)
+    apart = (radius + ends.gap)[:, None] * pairs.normal
+    return Motions(apart, velocities, spins, wall, np.where(sticks, twist, np.nan))
+
+
+def angular_momentum(pairs: Pairs) -> np.ndarray:
+    """Angular momentum about the centre of mass at initial contact, kg m^2/s."""
+    bodies = Bodies.of(pairs.scene)
+    turning = np.cross(pairs.normal, pairs.velocities[:, 1] - pairs.velocities[:, 0])
+    spinning = bodies.inertia[0] * pairs.spins[:, 0] + bodies.inertia[1] * pairs.spins[:, 1]
+    found: np.ndarray = bodies.reduced_mass * pairs.distance * turning + spinning
+    return found

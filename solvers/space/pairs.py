@@ -1,0 +1,153 @@
+"""Pairs that collide: checked vectors, masses and radii, and the motion relative to the centre of mass."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..scene.scene import Scene
+
+
+def dot(left: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Scalar products of vectors along the last axis, kept as an axis of length 1."""
+    found: np.ndarray = np.sum(left * right, axis=-1, keepdims=True)
+    return found
+
+
+def length(vectors: np.ndarray) -> np.ndarray:
+    """Lengths of vectors along the last axis."""
+    found: np.ndarray = np.sqrt(np.sum(vectors * vectors, axis=-1))
+    return found
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """Masses, radii and moments of inertia of a scene's two spheres, SI; beside a wall the second has none."""
+
+    mass: tuple[float, float]
+    radius: tuple[float, float]
+
+    @property
+    def inertia(self) -> tuple[float, float]:
+        """Moments of inertia about a diameter, kg m^2."""
+        first, second = (0.4 * mass * radius**2 for mass, radius in zip(self.mass, self.radius, strict=True))
+        return first, second
+
+    @property
+    def reduced_mass(self) -> float:
+        return self.mass[0] * self.mass[1] / (self.mass[0] + self.mass[1])
+
+    @classmethod
+    def of(cls, scene: Scene) -> Bodies:
+        """The spheres of a scene without a wall."""
+        names = ("reduced_radius", "reduced_mass", "radius_ratio", "mass_ratio")
+        a, m, size, weight = (float(scene.material[name]) for name in names)
+        return cls((m * (1 + weight) / weight, m * (1 + weight)), (a * (1 + size) / size, a * (1 + size)))
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """Pairs at initial contact, one a row, SI.
+
+    Attributes:
+        shape: of the request, whose rows these are.
+        normal: (pairs, 3), unit vectors from the first particle to the second, or to the wall.
+        velocities: (pairs, 2, 3), of the centres; the second beside a wall is the wall's.
+        spins: (pairs, 2, 3); the second beside a wall is zero.
+    """
+
+    scene: Scene
+    shape: tuple[int, ...]
+    normal: np.ndarray
+    velocities: np.ndarray
+    spins: np.ndarray
+
+    @property
+    def size(self) -> int:
+        return int(self.normal.shape[0])
+
+    @property
+    def distance(self) -> float:
+        """Distance of the centres at initial contact, m."""
+        return sum(Bodies.of(self.scene).radius) + float(self.scene.material["film_thickness"])
+
+    @cached_property
+    def turning(self) -> np.ndarray:
+        """Angular velocity of the line of centres at initial contact, rad/s."""
+        found: np.ndarray = np.cross(self.normal, self.sliding) / self.distance
+        return found
+
+    @cached_property
+    def opening(self) -> np.ndarray:
+        """Normal component of the relative velocity, negative on approach, m/s."""
+        found: np.ndarray = dot(self.normal, self.velocities[:, 1] - self.velocities[:, 0])[:, 0]
+        return found
+
+    @cached_property
+    def sliding(self) -> np.ndarray:
+        """Relative velocity of the second centre, or of the wall, across the line of centres, m/s."""
+        relative = self.velocities[:, 1] - self.velocities[:, 0]
+        found: np.ndarray = relative - dot(self.normal, relative) * self.normal
+        return found
+
+    def part(self, which: np.ndarray) -> Pairs:
+        """A subset, as a request of its own."""
+        rows = (self.normal[which], self.velocities[which], self.spins[which])
+        return Pairs(self.scene, rows[0].shape[:1], *rows)
+
+
+def checked(scene: Scene, normal: Any, velocities: Any, spins: Any) -> Pairs:
+    """The pairs of a request, broadcast against each other.
+
+    Raises:
+        InputError: a shape, or a normal that is not finite or has length zero.
+    """
+    directions = _numbers("normal", normal, (3,), "three components")
+    wall = scene.wall
+    either = "(..., 1, 3), or (..., 2, 3) with the wall's velocity" if wall else "(..., 2, 3)"
+    moving = _numbers("velocities", velocities, (1 if wall else 2, 3), either, more=(2, 3) if wall else None)
+    turning = _numbers("spins", spins, (1 if wall else 2, 3), "(..., 1, 3): a wall has no spin" if wall else either)
+    if wall:
+        still = np.zeros((*turning.shape[:-2], 1, 3))
+        turning = np.concatenate([turning, still], axis=-2)
+        if moving.shape[-2] == 1:
+            moving = np.concatenate([moving, np.zeros((*moving.shape[:-2], 1, 3))], axis=-2)
+    try:
+        shape = np.broadcast_shapes(directions.shape[:-1], moving.shape[:-2], turning.shape[:-2])
+    except ValueError:
+        given = f"{directions.shape}, {moving.shape} and {turning.shape}"
+        accepted = "normal (..., 3), velocities and spins (..., 2, 3) whose leading shapes broadcast"
+        raise InputError("normal, velocities, spins", given, accepted, "have shapes that do not fit") from None
+    count = int(np.prod(shape))
+    rows = np.broadcast_to(directions, (*shape, 3)).reshape(count, 3)
+    largest = np.max(np.abs(rows), axis=1, initial=0.0, keepdims=True)
+    if not np.all((largest > 0) & np.isfinite(largest)):
+        first = rows[np.flatnonzero(~((largest > 0) & np.isfinite(largest)))[0]].tolist()
+        raise InputError("normal", first, "finite vectors that are not zero", "has no direction")
+    with np.errstate(all="ignore"):
+        rows = rows / largest  # no square overflows
+    rows = rows / length(rows)[:, None]
+    return Pairs(
+        scene,
+        shape,
+        np.ascontiguousarray(rows),
+        np.array(np.broadcast_to(moving, (*shape, 2, 3)).reshape(count, 2, 3)),
+        np.array(np.broadcast_to(turning, (*shape, 2, 3)).reshape(count, 2, 3)),
+    )
+
+
+def _numbers(
+    name: str, values: Any, last: tuple[int, ...], accepted: str, more: tuple[int, ...] | None = None
+) -> np.ndarray:
+    try:
+        found = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(name, values, f"SI numbers of shape {accepted}", "is not numbers") from None
+    shapes = {last, more} - {None}
+    if not any(found.shape[-len(own) :] == own for own in shapes if own):
+        raise InputError(name, f"an array of shape {found.shape}", accepted, "has another shape")
+    return found

@@ -1,0 +1,268 @@
+"""Collisions in space: what is conserved, what turning and moving the picture does, the plane, a wall, chains."""
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Scene, collide_many, collide_pair
+from wetdoublet.solvers.errors import InputError
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.scene.groups import si_values
+
+pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+_FEW = 1e-9
+GRANULATION = Scene.load("granulation")
+UNEQUAL = GRANULATION.with_entries({"partner.radius": "0.2 mm", "partner.mass": "3e-5 g"})
+ROUGH = GRANULATION.with_entries({"particles.friction": 0.3, "particles.contact_tangential_restitution": 0.2})
+WALL = GRANULATION.with_entries({"partner.wall": True})
+VECTORS = ("position", "normal", "velocities", "spins")
+
+
+def sizes(scene):
+    """Masses, moments of inertia and the distance of the centres at initial contact, SI."""
+    own = si_values(scene, None, None)
+    size, weight = own["radius_ratio"], own["mass_ratio"]
+    radius = np.array([1 + 1 / size, 1 + size]) * own["reduced_radius"]
+    mass = np.array([1 + 1 / weight, 1 + weight]) * own["reduced_mass"]
+    return mass, 0.4 * mass * radius**2, radius.sum() + own["film_thickness"]
+
+
+def arrivals(scene, count, seed, spinning=0.3):
+    """Random normals, velocities and spins of pairs that approach, from slow to fast."""
+    draw, own = np.random.default_rng(seed), si_values(scene, None, None)
+    a = own["reduced_radius"]
+    speed = 10 ** draw.uniform(-1.5, 1.0, count) * 6 * np.pi * own["viscosity"] * a**2 / own["reduced_mass"]
+    normal = draw.normal(size=(count, 3))
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    velocities = draw.normal(size=(count, 2, 3)) * speed[:, None, None]
+    opening = np.sum(normal * (velocities[:, 1] - velocities[:, 0]), axis=1)
+    velocities[:, 1] -= (opening + speed)[:, None] * normal
+    return normal, velocities, spinning * draw.normal(size=(count, 2, 3)) * (speed / a)[:, None, None]
+
+
+def turning(seed):
+    """A rotation."""
+    found, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    return found * np.sign(np.linalg.det(found))
+
+
+def momentum(scene, distance, velocities, spins):
+    """Angular momentum about the centre of mass, and the sum of the sizes of its parts."""
+    mass, inertia, _ = sizes(scene)
+    orbital = mass.prod() / mass.sum() * np.cross(distance, velocities[:, 1] - velocities[:, 0])
+    parts = [orbital, *(inertia[k] * spins[:, k] for k in range(2))]
+    return sum(parts), sum(np.linalg.norm(part, axis=1) for part in parts)
+
+
+def energy(scene, velocities, spins):
+    """Kinetic energy."""
+    mass, inertia, _ = sizes(scene)
+    return 0.5 * (mass[:, None] * velocities**2 + inertia[:, None] * spins**2).sum(axis=(-2, -1))
+
+
+def same(found, expected, rows, names=VECTORS, rtol=_FEW):
+    """Compare vectors by their length."""
+    for name in names:
+        ours, theirs = found[name][rows], expected[name][rows]
+        scale = np.linalg.norm(theirs.reshape(len(theirs), -1), axis=1)
+        gap = np.linalg.norm((ours - theirs).reshape(len(theirs), -1), axis=1)
+        assert np.all(gap <= rtol * scale), (name, (gap / scale).max())
+
+
+def values(data):
+    """The variables of a Dataset."""
+    return {name: data[name].values for name in data.data_vars}
+
+
+@pytest.fixture(scope="module")
+def equal():
+    """Random collisions of equal spheres, and what became of them."""
+    given = arrivals(GRANULATION, 150, 1)
+    return given, values(collide_pair(GRANULATION, *given, rtol=1e-11))
+
+
+def test_momentum_and_angular_momentum_are_kept_to_rounding(equal):
+    """Of bounces, separations and sticks; energy is never created."""
+    (normal, velocities, spins), found = equal
+    assert set(found["outcome"]) == {0, 1, 2}
+    mass, _, distance = sizes(GRANULATION)
+    before, after = ((mass[:, None] * each).sum(axis=1) for each in (velocities, found["velocities"]))
+    assert np.all(np.abs(after - before) <= 1e-14 * (mass[:, None] * np.abs(velocities)).sum(axis=1))
+    first, size = momentum(GRANULATION, distance * normal, velocities, spins)
+    last, _ = momentum(GRANULATION, found["position"], found["velocities"], found["spins"])
+    assert np.all(np.linalg.norm(last - first, axis=1) <= 1e-12 * size)
+    left = energy(GRANULATION, found["velocities"], found["spins"]) / energy(GRANULATION, velocities, spins)
+    assert np.all(left < 1)
+
+
+def test_turning_the_picture_turns_the_answer(equal):
+    """In any direction, to what rounding becomes of within the tolerance."""
+    (normal, velocities, spins), found = equal
+    turn = turning(2)
+    turned = values(collide_pair(GRANULATION, normal @ turn.T, velocities @ turn.T, spins @ turn.T, rtol=1e-11))
+    assert np.array_equal(turned["outcome"], found["outcome"])
+    back = {name: turned[name] @ turn for name in VECTORS}
+    same(back, found, (found["outcome"] > 0) | found["certified"])
+
+
+def test_a_common_velocity_is_added(equal):
+    """Physics does not depend on the frame's velocity."""
+    (normal, velocities, spins), found = equal
+    common = np.array([3.0, -2.0, 1.0])
+    moved = values(collide_pair(GRANULATION, normal, velocities + common, spins, rtol=1e-11))
+    moved["velocities"] = moved["velocities"] - common
+    same(moved, found, found["outcome"] > 0)
+
+
+@pytest.mark.parametrize("scene", [GRANULATION, UNEQUAL], ids=["equal", "unequal"])
+def test_in_a_plane_it_is_the_planar_collision(scene):
+    """Restitutions, rates and times of `collide_many`, with spins, in a plane of any direction."""
+    draw, turn = np.random.default_rng(4), turning(5)
+    normal, across, out = turn.T
+    speed, angle = 10 ** draw.uniform(0.0, 1.5, 40), draw.uniform(0.0, 1.3, 40)
+    spins = draw.normal(size=(2, 40)) * speed / 1e-4
+    own = si_values(scene, None, None)
+    distance = sizes(scene)[2]
+    sideways = speed * np.tan(angle) * distance / (distance - own["film_thickness"])  # theta0 is of r omega at contact
+    velocities = np.zeros((40, 2, 3))
+    velocities[:, 1] = sideways[:, None] * across - speed[:, None] * normal
+    both = spins.T[:, :, None] * out
+    found = values(collide_pair(scene, normal, velocities, both, rtol=1e-11, engine="taylor"))
+    of = ["tangential_restitution", "contact_time", "final_spin", "final_spin_partner", "certified"]
+    planar = collide_many(
+        scene, speed=speed, angle=angle, vary={"impact.spin": spins[0], "impact.partner_spin": spins[1]}, of=of,
+        rtol=1e-11, engine="taylor",
+    )  # fmt: skip
+    assert np.array_equal(found["outcome"], planar.outcome.values)
+    parted = found["outcome"] > 0
+    assert parted.sum() > 10
+    assert found["restitution"][parted] == pytest.approx(planar.restitution.values[parted], rel=_FEW)
+    assert found["time"][parted] == pytest.approx(planar.contact_time.values[parted], rel=_FEW)
+    for k, name in enumerate(("final_spin", "final_spin_partner")):
+        assert found["spins"][parted, k] @ out == pytest.approx(planar[name].values[parted], rel=1e-7, abs=1e-3)
+    assert np.abs(found["normal"][parted] @ out).max() < 1e-12
+
+
+def test_hardly_out_of_the_plane_it_is_hardly_another_collision():
+    """The vectors' kernel beside the planar one: a small spin out of the plane changes little."""
+    normal, velocities = np.array([1.0, 0, 0]), np.array([[0.0, 0, 0], [-20.0, 15.0, 0]])
+    spins = np.array([[0.0, 0, 3e5], [0.0, 0, -1e5]])
+    tilted = spins + np.array([[1e-5, 1e-4, 0], [0, 0, 0]])
+    flat, solid = (
+        values(collide_pair(GRANULATION, normal, velocities, w, rtol=1e-11, engine="taylor")) for w in (spins, tilted)
+    )
+    assert flat["outcome"] == solid["outcome"] > 0
+    for name in VECTORS:
+        assert solid[name] == pytest.approx(flat[name], rel=1e-7, abs=1e-7 * np.abs(flat[name]).max())
+
+
+def test_engines_agree(equal):
+    """Rosenbrock and CVODES, in axes of the pair, with the kernel."""
+    (normal, velocities, spins), found = equal
+    rows = np.flatnonzero(found["outcome"] > 0)[:3]
+    for engine in ("rosenbrock", "cvodes"):
+        given = (each[rows] for each in (normal, velocities, spins))
+        other = values(collide_pair(GRANULATION, *given, rtol=1e-11, engine=engine))
+        assert np.array_equal(other["outcome"], found["outcome"][rows])
+        same(other, {name: found[name][rows] for name in VECTORS}, slice(None), rtol=1e-8)
+
+
+def test_a_stick_turns_as_one_body(equal):
+    """Velocities and spins of a stick are those of a rigid rotation, but for twist."""
+    _, found = equal
+    stuck = found["outcome"] == 0
+    rate, place, normal = (found[name][stuck] for name in ("angular_velocity", "position", "normal"))
+    relative = found["velocities"][stuck, 1] - found["velocities"][stuck, 0]
+    assert relative == pytest.approx(np.cross(rate, place), abs=1e-9 * np.abs(relative).max())
+    for k in range(2):
+        rest = found["spins"][stuck, k] - rate
+        along = np.sum(rest * normal, axis=1, keepdims=True) * normal
+        assert rest == pytest.approx(along, abs=1e-9 * np.abs(rate).max())
+    assert np.isnan(found["angular_velocity"][~stuck]).all()
+
+
+def test_sliding_and_rolling_along_a_wall_superpose():
+    """A wall turns nothing out of a plane: the sum of two planar collisions, and twist stays."""
+    slide, spin, twist = np.array([3.0, 0, 0]), np.array([0, 0, 4e4]), np.array([0.0, -7e4, 0])
+    down = np.array([0.0, -1.0, 0])
+    fall = 30.0 * down
+
+    def hit(velocity, rate):
+        return values(collide_pair(WALL, down, velocity[None], rate[None], rtol=1e-11, engine="taylor"))
+
+    both = hit(fall + slide + slide[[2, 1, 0]], spin + 2 * spin[[2, 1, 0]] + twist)
+    one, other = hit(fall + slide, spin), hit(fall + slide[[2, 1, 0]], 2 * spin[[2, 1, 0]])
+    assert both["outcome"] == one["outcome"] > 0
+    rebound = -both["restitution"] * fall
+    assert both["velocities"][0] - rebound == pytest.approx(
+        one["velocities"][0] - rebound + other["velocities"][0] - rebound, rel=1e-10, abs=1e-10
+    )
+    assert both["spins"][0] == pytest.approx(one["spins"][0] + other["spins"][0] + twist, rel=1e-10, abs=1e-6)
+    assert np.isnan(both["spins"][1]).all()
+
+
+def test_beside_a_wall_it_is_the_planar_collision():
+    """Restitutions of `collide_many` with spin, against a wall that moves."""
+    angle, spin, speed = 0.7, 2e5, 40.0
+    planar = collide_many(
+        WALL, speed=speed, angle=[angle], vary={"impact.spin": [spin]}, of=["tangential_restitution", "final_spin"],
+        rtol=1e-11, engine="taylor",
+    )  # fmt: skip
+    wall = np.array([1.0, 2.0, 3.0])
+    velocity = wall + np.array([speed * np.tan(angle), 0, -speed])
+    rolls = np.cross([spin, 0, 0], [0, 0, -1.0])  # turns about normal x sliding
+    found = values(collide_pair(WALL, [0, 0, -2], [velocity, wall], [rolls], rtol=1e-11, engine="taylor"))
+    left = found["velocities"][0] - wall
+    assert left[2] / speed == pytest.approx(planar.restitution.values[0], rel=_FEW)
+    assert left[0] / (speed * np.tan(angle)) == pytest.approx(planar.tangential_restitution.values[0], rel=_FEW)
+    assert found["spins"][0] == pytest.approx(rolls / spin * planar.final_spin.values[0], rel=_FEW)
+
+
+def test_what_comes_out_goes_in_again():
+    """100 collisions with random normals, in a frame that moves: none is refused, and energy is never created."""
+    draw = np.random.default_rng(8)
+    velocities, spins = draw.normal(size=(2, 3)) * 30, draw.normal(size=(2, 3)) * 1e5
+    outcomes = []
+    for _ in range(100):
+        normal = draw.normal(size=3)
+        normal *= -np.sign(normal @ (velocities[1] - velocities[0]))
+        found = collide_pair(UNEQUAL, normal, velocities, spins, engine="taylor")
+        assert not str(found.reason.values), str(found.reason.values)
+        after = found.velocities.values, found.spins.values
+        assert energy(UNEQUAL, *after) <= energy(UNEQUAL, velocities, spins) * (1 + 1e-9)
+        velocities, spins = after
+        outcomes.append(int(found.outcome))
+        if outcomes[-1] == 0:  # they are thrown again
+            velocities = draw.normal(size=(2, 3)) * 30
+    assert len(set(outcomes)) > 1
+
+
+def test_a_bad_row_leaves_the_others():
+    """A pair that recedes, and one that is nowhere, say so; the others are computed."""
+    velocities = np.zeros((3, 2, 3))
+    velocities[:, 1, 0] = -20.0, 5.0, np.nan
+    found = values(collide_pair(GRANULATION, [1, 0, 0], velocities, np.zeros((2, 3)), engine="taylor"))
+    assert list(found["outcome"] < 0) == [False, True, True]
+    assert "do not approach" in found["reason"][1]
+    assert "not finite" in found["reason"][2]
+    assert np.isnan(found["velocities"][1:]).all()
+    assert np.isfinite(found["velocities"][0]).all()
+
+
+@pytest.mark.parametrize(
+    ("scene", "normal", "velocities", "spins", "field"),
+    [
+        (GRANULATION, [0, 0, 0], np.ones((2, 3)), np.ones((2, 3)), "normal"),
+        (GRANULATION, [0, 1], np.ones((2, 3)), np.ones((2, 3)), "normal"),
+        (GRANULATION, [0, 0, 1], np.ones((1, 3)), np.ones((2, 3)), "velocities"),
+        (GRANULATION, [0, 0, 1], np.ones((4, 2, 3)), np.ones((3, 2, 3)), "normal, velocities, spins"),
+        (WALL, [0, 0, 1], np.ones((1, 3)), np.ones((2, 3)), "spins"),
+        (GRANULATION, [0, 0, 1], [["fast"] * 3] * 2, np.ones((2, 3)), "velocities"),
+        ("pendulum", [0, 0, 1], np.ones((2, 3)), np.ones((2, 3)), "pendulum"),
+        (ROUGH, [0, 0, 1], np.ones((2, 3)), np.ones((2, 3)), "particles.friction"),
+        (GRANULATION.with_entries({"model.arm": "surface"}), [0, 0, 1], np.ones((2, 3)), np.ones((2, 3)), "model.arm"),
+    ],
+)
+def test_bad_input_is_named(scene, normal, velocities, spins, field):
+    """Shapes, directions and scenes that there is no collision in space for."""
+    with pytest.raises(InputError) as caught:
+        collide_pair(scene, normal, velocities, spins)
+    assert caught.value.field == field
