@@ -59,9 +59,9 @@ ROUNDING = sp.Float(2.0**-48)  # relative to the parts of L: some steps of doubl
 
 
 def admits(structure: Structure) -> bool:
-    """True for the structures covered: oblique, a film alone, no wall."""
+    """True for the structures covered: oblique in a plane, a film alone, no wall."""
     alone = not (structure.bridge or structure.attraction or structure.strings)
-    return structure.oblique and alone and structure.partner != "wall"
+    return structure.oblique and alone and structure.partner not in ("wall", "space")
 
 
 def _full(structure: Structure) -> Structure:
