@@ -16,7 +16,7 @@ from .build import Variant, for_few, kernel
 from .call import variant
 from .layout import ANSWER_IN_SPACE, Task, names
 
-BUDGET = 30_000  # steps of a collision; a doublet that then tumbles as one body is taken for a stick
+BUDGET = 30_000  # steps of a collision; one that tumbles for longer is stiff, and left to Rosenbrock
 _CHUNK = 4096  # collisions in a block for a thread
 AXES = "xyz"
 

@@ -262,12 +262,6 @@ static inline mask proved_sticks(
 }
 
 #if SPACE && PROOF_BY_ENERGY
-/* Lanes whose doublet tumbles as one body: all other motion is small. */
-static mask one_body(const constants *c, const vec *y)
-{
-    return wobble(c, y) < TUMBLES*potential_energy(c, y);
-}
-
 /* Lanes whose doublet tumbles as one body, and is held even if all of its angular momentum turns across the line of
  * centres (solvers/certificates/tumbling.py). Decides a stick, but is no certificate.
  */
@@ -275,7 +269,7 @@ static mask tumbles(const constants *c, const vec *y, const barrier *b, double t
 {
     vec rest = wobble(c, y), rigid = potential_energy(c, y), height = height_ahead(y, b);
     vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
-    return one_body(c, y) & (rest + rigid + work_done(c, y, b) < height - margin);
+    return (rest < TUMBLES*rigid) & (rest + rigid + work_done(c, y, b) < height - margin);
 }
 #endif
 

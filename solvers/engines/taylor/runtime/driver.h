@@ -177,12 +177,6 @@ static void run(queue *q)
 #endif
         for (; slow_ones; slow_ones &= slow_ones - 1)
             park(q, &l, &f, __builtin_ctz(slow_ones));
-#if SPACE && PROOF_BY_ENERGY
-        mask idle = spent & ~lost & one_body(&f.c, l.y);
-        for (unsigned cut = bits(idle); cut; cut &= cut - 1) /* it has tumbled for as long as it was followed */
-            finish(q, &l, &f, __builtin_ctz(cut), DECIDED, STICK, 0);
-        spent &= ~idle;
-#endif
         for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
             int lane = __builtin_ctz(failed);
             int status = lost[lane] ? NOT_FINITE : l.phases[lane] > CHATTER_PHASES ? CHATTER : NO_BUDGET;
