@@ -53,7 +53,8 @@ MOTIONS = {"closing": CLOSING, "opening": OPENING, "any": 0}
 REGIONS = {"": None, "inside the film": 1, "beyond the film": 0}
 PLACES = tuple(f"{motion} {region}".strip() for motion in MOTIONS for region in REGIONS)
 ENDINGS = {"": "go on", "separated": "part", "stick": "cut off"}
-_PROOFS = ("pendulum_margins", "attraction_margins", "approach_step", "approach_force", "orbital_margins")
+_PROOFS = ("pendulum_margins", "attraction_margins", "approach_step", "approach_force", "orbital_margins",
+           "spin_down_margins")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -247,7 +248,7 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     still = {mark: sp.Integer(0) for mark in marks}
     same = {mark: mark for mark in marks}
     more: dict[str, Mapping[sp.Symbol, sp.Expr]] = {
-        "right_hand_side": still, "resting_rates": still, "rebound": same, "rigid_rotation": same,
+        "right_hand_side": still, "resting_rates": still, "rebound": same, "rigid_rotation": same, "rubbed": same,
         "start": dict.fromkeys(marks, sp.Integer(1)),
     }  # fmt: skip
     functions = []

@@ -35,7 +35,7 @@ class EnergyBesideEvents(EnergyCertificate):
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
         """The verdict; in motion nothing is shown for a lever arm with which angular momentum drifts."""
         if phase.resting:  # declared events are watched in motion only
-            still = not self.model.oblique or self.model.wall or not phase.shear
+            still = not self.model.oblique or self.model.wall or not (phase.shear or self.model.friction)
             return Certainty.of(still or self.rests(y), self.theorem)
         if not self.theorem:
             return Certainty.OPEN
@@ -66,6 +66,12 @@ class EnergyBesideEvents(EnergyCertificate):
         heights: list[float] = (self._least(y, 1.0) + risen - risen[PARTS]).tolist()
         return heights
 
+    def attracts(self, y: np.ndarray) -> bool:
+        """True if the potential of the attractions varies with the gap, at the marks as they are."""
+        end = self.groups["rupture_gap"] if self.model.bridge else 1.0
+        gaps = np.concatenate([np.geomspace(_LEAST, 1.0, PARTS), np.linspace(1.0, end, PARTS)])
+        return bool(self.model.works) and bool(np.any(self._slope(gaps, y) != 0))
+
     def _least(self, y: np.ndarray, gap: float) -> float:
         return self.model.values("effective_potential", np.array([gap, *y[1:]]), self.p)["energy"]
 
@@ -75,12 +81,15 @@ class EnergyBesideEvents(EnergyCertificate):
         state[marks] = y[marks]
         return state
 
-    def excluded(self, y: np.ndarray, energy: float, motions: Sequence[int]) -> bool:
+    def excluded(self, y: np.ndarray, energy: float, motions: Sequence[int], inside: bool = False) -> bool:
         """True if this energy does not suffice for a declared event that has not happened, in these directions.
 
         The speed at a gap is at most that of the energy above the height there. A guard is positive in a part of the
         gap and at the speeds there if it is in the worst corner, by the signs of its slopes. Harmless events change no
         barrier.
+
+        Arguments:
+            inside: the doublet stays inside the film.
         """
         model = self.model
         left = [
@@ -97,15 +106,15 @@ class EnergyBesideEvents(EnergyCertificate):
             return False
         gaps = [*np.geomspace(start, 1.0, PARTS + 1).tolist(), *np.linspace(1.0, end, PARTS + 1)[1:].tolist()]
         there = y[: len(model.state)]
-        heights = self._heights(gaps if end > 1 else gaps[: PARTS + 1], there)
+        heights = self._heights(gaps[: PARTS + 1] if inside or end <= 1 else gaps, there)
         for k in range(len(heights) - 1):
             low, high = heights[k], heights[k + 1]
             above = energy - (min(low, high) - abs(high - low))
             if above <= 0:
                 continue
-            inside = int(k < PARTS)
+            film = int(k < PARTS)
             for each in left:
-                if _film(each) in (None, inside) and not self._clear(each, there, gaps[k : k + 2], above, motions):
+                if _film(each) in (None, film) and not self._clear(each, there, gaps[k : k + 2], above, motions):
                     return False
         return True
 
@@ -128,7 +137,10 @@ class EnergyBesideEvents(EnergyCertificate):
 
 
 class FilmBesideEvents:
-    """The film certificate of a model with declared events, where energy excludes those of the present direction."""
+    """The film certificate of a model with declared events, where energy excludes those of the present direction.
+
+    It holds while nothing attracts: without attractions, or after the event that ends them. Else energy decides.
+    """
 
     watches: str | None = None
 
@@ -140,11 +152,13 @@ class FilmBesideEvents:
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
         """The verdict; a doublet that the film stops while closing never opens."""
+        if self.beside.attracts(y):
+            return self.beside.decided(y, phase, maxima)
         found = self.inner.decided(y, phase, maxima)
         if not found or phase.resting:
             return found
         energy = self.beside.energy(y) * (1 + SAFETY * self.beside.rtol)
-        return found if self.beside.excluded(y, energy, (phase.motion,)) else Certainty.OPEN
+        return found if self.beside.excluded(y, energy, (phase.motion,), inside=True) else Certainty.OPEN
 
 
 def _film(each: OwnEvent) -> int | None:
@@ -155,7 +169,7 @@ def beside_events(model: Model, p: np.ndarray, rtol: float, film: Certificate | 
     """The certificate of a model with declared events; None where nothing is shown.
 
     Arguments:
-        film: the certificate of the film alone, where the model has one.
+        film: the certificate of the film alone, where the model has one if nothing attracts.
     """
     if not model.has("effective_potential"):
         return None

@@ -21,7 +21,7 @@ from .spin_down import covers as spins_down
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:
     """The certificate that applies to a model."""
     if model.own_events:
-        alone = not (model.works or model.strings or (model.oblique and not model.wall))
+        alone = not model.strings and (not model.oblique or model.wall) and (model.edged or not model.works)
         film = FilmCertificate(model, p, rtol) if alone and _momentum(model) else None
         return beside_events(model, p, rtol, film) or NoCertificate()
     found = _first(model, p, rtol)
