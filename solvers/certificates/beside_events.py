@@ -43,7 +43,7 @@ class EnergyBesideEvents(EnergyCertificate):
         if not ahead:
             return Certainty.OPEN
         energy, height = self.energy(y), ahead[0].height
-        margin = SAFETY * self.rtol * (max(self._largest, abs(energy)) + abs(height))
+        margin = SAFETY * self.rtol * (max(self.largest, abs(energy)) + abs(height))
         return Certainty.of(energy < height - margin and self.excluded(y, energy + margin, _BOTH))
 
     def barriers(self, y: np.ndarray) -> tuple[Barrier, ...]:
