@@ -25,7 +25,7 @@ def sizes(scene):
     return mass, 0.4 * mass * radius**2, radius.sum() + own["film_thickness"]
 
 
-def arrivals(scene, count, seed, spinning=0.3):
+def arrivals(scene, count, seed, spinning=0.1):
     """Random normals, velocities and spins of pairs that approach, from slow to fast."""
     draw, own = np.random.default_rng(seed), si_values(scene, None, None)
     a = own["reduced_radius"]
