@@ -13,6 +13,7 @@ from .flow import Flow, Guard, Rates, State, Unfinished
 from .two_bodies import Bodies
 
 PHASES = 200
+LONGEST = 1e13  # of x0/v0, for one phase
 RESTS = 1e-9  # of v0: a slower rebound against attraction rests
 MARGIN = 1e-6  # of all energies, by which a stick has to lie below the barrier
 DRIFTS = 0.02  # the same, of the energy of rotation, where angular momentum is not conserved
@@ -168,7 +169,7 @@ class Course(ABC):
         for _ in range(PHASES):
             name = self.met() if self.closing else None
             if name is None:
-                flow = Flow(self.rates(), self.sizes(), 1e9 * self.bodies.film_thickness / self.speed)
+                flow = Flow(self.rates(), self.sizes(), LONGEST * self.bodies.film_thickness / self.speed)
                 arrival = flow.until(self.end.time, self.y, self.guards(), self.sticks)
                 self.end.time, self.y[:] = arrival.t, arrival.y
                 if arrival.guard is None:
