@@ -49,7 +49,7 @@ def events(told: Recorded, k: int) -> list[str]:
 
 
 def test_the_kernel_looks_for_every_event() -> None:
-    """Each event of the table is looked for by the kernel's `find_events`; those of friction at rest are handed over."""
+    """Each event of the table is looked for by `find_events` of the kernel, but for those of friction at rest."""
     looked = (RUNTIME / "events.h").read_text()
     ours = [event for event in EVENTS if "rolling" not in dict(event.where)]
     assert len(ours) == len(EVENTS) - 2
