@@ -15,13 +15,15 @@ from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ...generated.automaton import Event
 from ..errors import InputError, did_you_mean
 from ..host import bounded
 from ..host.emitted import derived_once, executed
 from .schema import FIELDS, TABLES, Field, Range, Raw
+
+if TYPE_CHECKING:
+    from ...generated.automaton import Event
 
 TABLE = "custom"
 ACCEPTED = "a folder made by `wetdoublet generate MODEL.py --out DIR`, or a model file MODEL.py"
@@ -62,6 +64,8 @@ class OwnEvent:
     @classmethod
     def read(cls, one: Mapping[str, Any]) -> OwnEvent:
         """An entry of the manifest."""
+        from ...generated.automaton import Event  # not where nothing emitted is read, as by `generate`
+
         given = {name: one[name] for name in Event._fields}
         given |= {"where": tuple((part, value) for part, value in one["where"])}
         given |= {name: tuple(one[name]) for name in ("functions", "words", "actions")}

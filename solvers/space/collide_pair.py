@@ -80,7 +80,7 @@ def collide_pair(
 
     Example:
         >>> from wetdoublet.solvers import collide_pair
-        >>> velocities, spins = [[0.1, 0, 0.5], [0, 0, 0]], [[0, 0, 0], [0, 1000, 200]]  # m/s, rad/s
+        >>> velocities, spins = [[0.1, 0, 3.0], [0, 0, 0]], [[0, 0, 0], [0, 1000, 200]]  # m/s, rad/s
         >>> found = collide_pair("granulation", [0, 0, 1], velocities, spins, engine="rosenbrock")
         >>> int(found.outcome), found.velocities.shape
         (2, (2, 3))

@@ -246,8 +246,8 @@ def test_a_ceiling_of_another_inertia(mutate: Mutate, healthy: Healthy):
 def test_a_reduced_form_of_another_start(mutate: Mutate, healthy: Healthy):
     """A spin eliminated with another value of L than the start's is not the full model's spin."""
 
-    def wrong(structure: Structure, conserved: Any = None) -> Any:
-        return intermediates(structure, conserved and (conserved[0], 2 * conserved[1]))
+    def wrong(structure: Structure, conserved: Any = ()) -> Any:
+        return intermediates(structure, tuple((invariant, 2 * value) for invariant, value in conserved))
 
     mutate(intermediates, wrong)
     caught(reduced_is_full(), healthy, "reduced form")
