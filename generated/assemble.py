@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from inspect import signature
 from types import ModuleType
 from typing import Any
 
@@ -34,15 +35,30 @@ def vector(values: Mapping[str, Any]) -> SX:
 def casadi_functions(structure: ModuleType, laws: Laws, film: int = 1, shear: int = 1) -> dict[str, Function]:
     """Every function of a structure as a CasADi Function (state, groups) -> column, and the derivatives of two.
 
+    Those of the friction of a dry contact have further arguments behind these two, scalars (`further`).
     `jacobian` is that of right_hand_side in the state; `event_rates` the time derivatives of the event functions.
     """
     state, groups = symbols(structure.STATES), symbols(structure.GROUPS)
     inputs = [vector(state), vector(groups)] if groups else [vector(state), SX(0, 1)]
-    columns = {}
+    columns, given = {}, {}
     for name in structure.FUNCTIONS:
+        function = getattr(structure, name)
         region = {"film": film, "shear": shear} if name in structure.REGIONAL else {}
-        columns[name] = vector(getattr(structure, name)(state, groups, laws, **region))
+        given[name] = symbols(further(function))
+        columns[name] = vector(function(state, groups, laws, **region, **given[name]))
     rates = columns["right_hand_side"]
     columns["jacobian"] = jacobian(rates, inputs[0])
     columns["event_rates"] = jtimes(columns["events"], inputs[0], rates)
-    return {name: Function(name, inputs, [column], ["state", "groups"], [name]) for name, column in columns.items()}
+    return {
+        name: Function(name, [*inputs, *more.values()], [column], ["state", "groups", *more], [name])
+        for name, column in columns.items()
+        for more in [given.get(name, {})]
+    }
+
+
+def further(function: Callable[..., Any]) -> tuple[str, ...]:
+    """Names of a structure function's arguments behind the state, the groups, the laws and the flags of the region."""
+    return tuple(name for name in signature(function).parameters if name not in _ARGUMENTS)
+
+
+_ARGUMENTS = ("state", "groups", "laws", "film", "shear")

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Finding:
-    """An engine's findings: times in x0/v0, gaps in x0, rates in omega0; the ledger and the trajectory are in SI.
+    """An engine's findings: times in x0/v0, gaps in x0, rates in their scale; the ledger and the trajectory are in SI.
 
     Arguments:
         outputs: the model's outputs at separation, by name; empty for a stick.

@@ -188,6 +188,7 @@ def _outcome(collision: Outcome) -> list[str]:
     speed = (plain if collision.speed >= 0.01 else quantity)(collision.speed, "m/s")
     lines += [
         _line("approach speed", speed, "normal component"),
+        *_first_spins(collision.scene),
         _line("restitution e_n", plain(restitution), gained),
     ]
     if collision.outcome == "stick":  # the other quantities are undefined
@@ -199,7 +200,7 @@ def _outcome(collision: Outcome) -> list[str]:
             *_slip(collision),
             _line("contact time", quantity(collision.contact_time, "s")),
             _line("smallest gap", quantity(collision.smallest_gap, "m")),
-            *_spins(collision),
+            *_spins(collision.scene, "final spin", collision.final_spin, collision.final_spin_partner),
         ]
     rotation = collision.rotation
     turns = f"{rotation / math.tau:.2f} turns" if rotation is not None and abs(rotation) > math.tau else ""
@@ -211,14 +212,13 @@ def _outcome(collision: Outcome) -> list[str]:
         _line("contact time", quantity(collision.contact_time, "s")),
         _line("smallest gap", quantity(collision.smallest_gap, "m")),
         _line("final rotation rate", plain(collision.final_rotation_rate, "rad/s"), "omega, of the line of centres"),
-        *_spins(collision),
+        *_spins(collision.scene, "final spin", collision.final_spin, collision.final_spin_partner),
     ]
 
 
 def _slip(collision: Outcome) -> list[str]:
     """The restitution of the slip, of spheres that arrive spinning; without spins e_t says as much."""
-    impact = collision.scene.impact
-    if impact.spin is None and impact.partner_spin is None:
+    if not _arrives_spinning(collision.scene):
         return []
     return [_line("slip restitution", plain(collision.slip_restitution), "of the surfaces' relative velocity")]
 
@@ -230,14 +230,26 @@ def _partner(scene: Scene) -> str:
     return f"a sphere of {plain(radius)} times the radius and {plain(mass)} times the mass"
 
 
-def _spins(collision: Outcome) -> list[str]:
-    own = plain(collision.final_spin, "rad/s")
-    if not (collision.scene.pair or collision.scene.wall):
-        return [_line("final spin", own, "xi, of each sphere")]
-    lines = [_line("final spin", own, "xi, of the sphere")]
-    if not collision.scene.wall:
-        lines.append(_line("", plain(collision.final_spin_partner, "rad/s"), "xi, of its partner"))
+def _spins(scene: Scene, name: str, own: float | None, partner: float | None) -> list[str]:
+    """The spins before or after the collision, rad/s."""
+    if not (scene.pair or scene.wall):
+        return [_line(name, plain(own, "rad/s"), "xi, of each sphere")]
+    lines = [_line(name, plain(own, "rad/s"), "xi, of the sphere")]
+    if not scene.wall:
+        lines.append(_line("", plain(partner, "rad/s"), "xi, of its partner"))
     return lines
+
+
+def _first_spins(scene: Scene) -> list[str]:
+    """The spins before the collision, where the scene gives any."""
+    if not _arrives_spinning(scene):
+        return []
+    found = scene.material
+    return _spins(scene, "initial spin", found["impact_spin"], found.get("impact_partner_spin"))
+
+
+def _arrives_spinning(scene: Scene) -> bool:
+    return scene.impact.spin is not None or scene.impact.partner_spin is not None
 
 
 def _events(events: tuple[Event, ...]) -> list[str]:

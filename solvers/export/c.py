@@ -11,7 +11,10 @@ from ..scene.scene import Scene
 from .equations import file_name
 
 _REGIONS = (("", 1, 1), ("_beyond_film", 0, 1), ("_beyond_shear", 1, 0), ("_beyond_both", 0, 0))
-_UNITS = {"gap": "x0", "normal_velocity": "v0", "orbital_momentum": "a^2 omega0", "spin": "omega0", "rotation": "rad"}
+_UNITS = {
+    "gap": "x0", "normal_velocity": "v0", "orbital_momentum": "a^2 Omega", "spin": "Omega", "partner_spin": "Omega",
+    "last_slide": "v0 T", "last_roll": "v0 T/a", "rotation": "rad",
+}  # fmt: skip
 
 
 def texts(scene: Scene) -> dict[str, str]:
@@ -32,7 +35,7 @@ def texts(scene: Scene) -> dict[str, str]:
 
 
 def functions(model: Model, prefix: str) -> list[Function]:
-    """The model's functions (state, groups) -> column; one per region for those that depend on it."""
+    """The model's functions (state, groups, further scalars) -> column; one per region for those that depend on it."""
     found: dict[str, Function] = {}
     for suffix, film, shear in _REGIONS if model.oblique else _REGIONS[:2]:
         for name, function in casadi_functions(model.structure, model.laws, film, shear).items():
@@ -45,7 +48,7 @@ def functions(model: Model, prefix: str) -> list[Function]:
 
 def _renamed(function: Function, name: str) -> Function:
     inputs = function.sx_in()
-    return Function(name, inputs, [function(*inputs)], ["state", "groups"], [name])
+    return Function(name, inputs, [function(*inputs)], function.name_in(), [name])
 
 
 def _comment(scene: Scene, model: Model, values: DimensionlessGroups | None) -> str:
@@ -57,6 +60,7 @@ def _comment(scene: Scene, model: Model, values: DimensionlessGroups | None) -> 
         f"Equations sha256 {model.structure.DIGEST}",
         "",
         "Each function takes arg[0] = state, arg[1] = groups and fills res[0]; casadi's calling convention.",
+        *(["T = obliquity; Omega = v0 T over the distance of the centres in contact."] if model.oblique else []),
         "Time in x0/v0. Suffix _beyond_film: gap > x0; _beyond_shear: beyond the edge of the tangential force.",
         "State: " + ", ".join(f"{name} [{_UNITS.get(name, '1')}]" for name in model.state) + ".",
         "Groups: " + ", ".join(model.groups) + ".",
@@ -82,7 +86,8 @@ def _header(scene: Scene, name: str, model: Model, found: list[Function], values
     for function in found:
         rows, columns = function.size_out(0)
         shape = f"{rows}" if columns == 1 else f"{rows} x {columns}, column by column"
-        lines.append(f"/* {function.name()}: {shape} */")
+        more = [f"arg[{k}] = {given}" for k, given in enumerate(function.name_in()) if k > 1]
+        lines.append(f"/* {', '.join([f'{function.name()}: {shape}', *more])} */")
         lines.append(f"int {function.name()}(const double** arg, double** res, long long int* iw, double* w, int mem);")
         lines.append(
             f"int {function.name()}_work(long long int* sz_arg, long long int* sz_res, "

@@ -30,7 +30,7 @@ class DimensionlessGroups:
     speed: float  # m/s
     length: float  # x0, m
     time: float  # x0/v0, s
-    rate: float  # scale of angular velocities, rad/s: omega0 without spins; with a wall v0 tan(theta0)/a
+    rate: float  # scale of angular velocities, rad/s: v0 T/(4a), omega0 without spins; beside a wall v0 T/a
     energy: float  # m v0^2, J
     stokes: float
     centrifugal: float | None

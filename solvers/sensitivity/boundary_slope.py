@@ -50,7 +50,7 @@ def slope(scene: Scene, angle: float, change: Change, rtol: float) -> Slope | No
     Raises:
         ComputationError: the trajectory there could not be followed.
     """
-    if load(select_model(scene, angle > 0)).own_events:
+    if load(select_model(scene, scene.turns(angle))).own_events:
         return None
     try:
         if change.kind == GRAZE:

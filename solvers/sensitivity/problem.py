@@ -86,7 +86,7 @@ class Problem:
 
     def defined(self, name: str, path: EventSequence) -> bool:
         """True if a quantity is defined for the collision and can vary."""
-        if name == "tangential_restitution" and not self.n.oblique:
+        if name == "tangential_restitution" and not self.n.angle > 0:
             return False
         return path.separated or name == "energy.initial"
 

@@ -88,7 +88,7 @@ def sensitivities(
     v0, angle_ = loaded.need_impact()
     plugin = casadi_gradient_engine(asked)
     if asked is None and method == "forward" and hessian is False:
-        plugin = gradient_engine(loaded, of, kernel.KNOWN, (angle_ > 0,), rtol)
+        plugin = gradient_engine(loaded, of, kernel.KNOWN, (loaded.turns(angle_),), rtol)
     problem = Problem.of(loaded, v0, angle_, names, held)
     path, near = problem.located(of, rtol)
     todo = tuple(name for name in computed(of) if problem.defined(name, path))

@@ -114,12 +114,28 @@ def _parted(one: Collision) -> bool:
 
 def _released(one: Collision) -> float:
     """Rotational energy at initial contact minus that at separation, J, from the rates, independent of the ledger."""
-    particles, film = one.scene.particles, one.scene.liquid.film_thickness
-    a, m = particles.reduced_radius, particles.reduced_mass
-    first, last = 4 * a + film, 4 * a + _separation(one)
-    start = one.speed * math.tan(one.angle) / (4 * a)
-    rate, spin = one.final_rotation_rate or 0.0, one.final_spin or 0.0
-    return 0.5 * m * ((first * start) ** 2 - (last * rate) ** 2 - 6.4 * (a * spin) ** 2)
+    a, m = one.scene.particles.reduced_radius, one.scene.particles.reduced_mass
+    spin, last = one.final_spin or 0.0, 4 * a + _separation(one)
+    spins = spin, spin if one.final_spin_partner is None else one.final_spin_partner
+    left = (last * (one.final_rotation_rate or 0.0)) ** 2 + _spun(spins, a)
+    return 0.5 * m * (first_rotation(one.scene, one.angle, one.speed) * one.speed**2 - left)
+
+
+def first_rotation(scene: Scene, angle: float, speed: float) -> float:
+    """Rotational energy of equal spheres at initial contact, over m v0^2/2."""
+    a = scene.particles.reduced_radius
+    sideways = (4 * a + scene.liquid.film_thickness) * math.tan(angle) / (4 * a)
+    return sideways**2 + _spun(_first_spins(scene), a) / speed**2
+
+
+def _first_spins(scene: Scene) -> tuple[float, float]:
+    """Spins of both spheres at initial contact, rad/s; a wall has none."""
+    return scene.material["impact_spin"], scene.material.get("impact_partner_spin", 0.0)
+
+
+def _spun(spins: tuple[float, float], a: float) -> float:
+    """Energy of both spins over m/2: the inertia of either equal sphere is (16/5) m a^2."""
+    return 3.2 * a**2 * (spins[0] ** 2 + spins[1] ** 2)
 
 
 def _separation(one: Collision) -> float:
@@ -129,11 +145,11 @@ def _separation(one: Collision) -> float:
 
 def ceiling(one: Collision) -> float:
     """Upper limit of e_n^2 if only the bridge dissipates energy; NaN for the surface lever arm and with strings."""
-    if one.energy is None or one.scene.pendulum is not None or one.scene.model.arm != "midgap":
+    scene = one.scene
+    if one.energy is None or scene.pendulum is not None or scene.model.arm != "midgap":
         return math.nan
-    particles = one.scene.particles
-    a, m = particles.reduced_radius, particles.reduced_mass
-    first, last = 4 * a + one.scene.liquid.film_thickness, 4 * a + _separation(one)
-    inertia = (last / a) ** 2 + 6.4  # I(x_f)/(m a^2)
-    released = (first * math.tan(one.angle) / (4 * a)) ** 2 * (1 - (first / a) ** 2 / inertia)
+    a, m = scene.particles.reduced_radius, scene.particles.reduced_mass
+    first, last = 4 + scene.liquid.film_thickness / a, 4 + _separation(one) / a  # distances over a
+    momentum = first**2 * math.tan(one.angle) / 4 + 3.2 * a * sum(_first_spins(scene)) / one.speed  # L over m a v0
+    released = first_rotation(scene, one.angle, one.speed) - momentum**2 / (last**2 + 6.4)
     return 1 + released - 2 * one.energy.capillary / (m * one.speed**2)

@@ -19,6 +19,7 @@ from ..model.model import load, select_model
 from ..model.phases import Flow, Region
 from ..scene.contact import contact_gap
 from ..scene.scene import Scene
+from ..scene.schema import SPINS
 from .report import Finding, bounded
 from .sample import PLUGINS, RTOL, Collide, own_stokes, place
 
@@ -88,9 +89,10 @@ def film_loss(s: float) -> float:
 
 
 def _bare(scene: Scene) -> Scene:
-    """The scene without bridge, attraction and strings, and without the quantities of a user's model."""
+    """The scene without bridge, attraction, strings, spins, and without the quantities of a user's model."""
     without = ("bridge", "attraction", "pendulum", "custom")
     tables = {name: value for name, value in scene.to_dict().items() if name not in without}
+    tables["impact"] = {name: value for name, value in tables["impact"].items() if f"impact.{name}" not in SPINS}
     return Scene.from_dict(tables)
 
 
@@ -207,7 +209,7 @@ def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple
             y = _integrated(plain, flow, engine, n, start, time)
             rate = y[2] / (r / a) ** 2
             slip = math.exp(-decay * time * n.time)
-            rigid = (r / a) ** 2 / ((r / a) ** 2 + 6.4)  # over omega0, at the same angular momentum
+            rigid = (r / a) ** 2 / ((r / a) ** 2 + 6.4)  # over the first rate, at the same angular momentum
             spin = rigid * (1 - slip)
             error = max(abs(rate - y[3] - slip), abs(y[3] - spin))
             worst = max(worst, (error, place(n.stokes, n.angle, engine, f"x = {gap:.3g} x0")))

@@ -14,7 +14,7 @@ from ..collision.collide import collide
 from ..collision.result import Collision
 from ..engines.choice import boundary_engine
 from ..scene.scene import Scene
-from .budget import LOSSES, TERMS, budgeted
+from .budget import LOSSES, TERMS, budgeted, first_rotation
 from .conserved import RESIDUAL, agreement
 from .edges import Above, above_one
 from .report import Finding, bounded
@@ -77,12 +77,12 @@ def argument(group: str, scene: Scene, data: xarray.Dataset) -> Iterator[Finding
     open_by = np.abs(data["gap"].values + data["residual"].values) / size
     where, worst = _worst(data, open_by)
     # the ledger's residual, bounded relative to the whole initial energy, not to v0^2 alone
-    energy = 1 + np.tan(data["angle"].values)[:, None] ** 2
+    energy = _first_energy(scene, data)
     bound = RESIDUAL * float((energy / size).ravel()[np.nanargmax(np.where(parted, open_by, -1))])
     rounding = float(np.nanmax(np.abs(data["gap"].values) / size))
     told = (f"  {int(parted.sum())} points that separate; with the ledger's residual in it: {rounding:.0e}",)
     yield bounded(group, "e_n^2 - 1: identity", statement, worst, bound, where, told)
-    yield from _ceiling(group, data)
+    yield from _ceiling(group, data, float(energy.max()))
     yield _region(group, scene, data)
 
 
@@ -92,17 +92,20 @@ def _worst(data: xarray.Dataset, figure: np.ndarray) -> tuple[str, float]:
     return place(float(data["stokes"][k]), float(data["angle"][j])), float(figure[j, k])
 
 
-def _ceiling(group: str, data: xarray.Dataset) -> Iterator[Finding]:
+def _first_energy(scene: Scene, data: xarray.Dataset) -> np.ndarray:
+    """Energy at initial contact over m v0^2/2, by angle and Stokes number."""
+    speeds = [scene.speed_of(float(stokes)) for stokes in data["stokes"]]
+    return np.array([[1 + first_rotation(scene, float(angle), v0) for v0 in speeds] for angle in data["angle"]])
+
+
+def _ceiling(group: str, data: xarray.Dataset, energy: float) -> Iterator[Finding]:
     above = (data["restitution"] ** 2 - data["ceiling"]).values
     if not np.isfinite(above).any():
         why = "with strings or the surface arm there is no closed form"
         yield Finding(group, "e_n^2: ceiling", "e_n^2 <= its closed-form ceiling", why, "", None)
         return
     where, worst = _worst(data, above)
-    statement = (
-        "e_n^2 <= 1 + (r0 tan(theta0)/(4a))^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2): the largest of left less right"
-    )
-    energy = 1 + math.tan(float(data["angle"].max())) ** 2
+    statement = "e_n^2 <= 1 + [E_rot(0) - L^2/(2 I(x_f)) - W_c]/(m v0^2/2): the largest of left less right"
     yield bounded(group, "e_n^2: ceiling", statement, worst, RESIDUAL * energy, where)
 
 

@@ -28,10 +28,14 @@ def surface_arm(group: str, sample: Sample, integral: Callable[[Followed], float
     scene = sample.scene
     if scene.model.arm != "surface" or scene.pendulum is not None:
         return
+    law, statement = "dL = -int x F_t dt", "L(end) - L(0) = -(integral of x F_t dt) for the surface arm, over |L(0)|"
+    if scene.pair or scene.wall:
+        yield Finding(group, law, statement, "derived for equal spheres with one spin", "", None)
+        return
     found: list[tuple[float, float, str]] = []
     for impact in sample.impacts:
         one = next(iter(impact.values()))
-        if one.angle == 0:
+        if not scene.turns(one.angle):
             continue
         try:
             followed = follow(scene, one.stokes, one.angle, REFERENCE, RTOL)
@@ -48,8 +52,7 @@ def surface_arm(group: str, sample: Sample, integral: Callable[[Followed], float
         f"drift {largest[1]:.1e}: a known violation of this arm", "", None, largest[2],
     )  # fmt: skip
     worst = max(found)
-    statement = "L(end)/L(0) - 1 = -(integral of x F_t dt)/L(0) for the surface arm"
-    yield bounded(group, "dL = -int x F_t dt", statement, worst[0], _BOUND, worst[2])
+    yield bounded(group, law, statement, worst[0], _BOUND, worst[2])
 
 
 def torque(followed: Followed) -> float:
@@ -69,7 +72,7 @@ def _torque(flow: Flow, relative: float, absolute: float) -> Function:
     parts, model = expressions(flow), flow.model
     gap, aspect = model.state["gap"], model.groups["aspect"]
     slip = model.state["orbital_momentum"] / (4 + aspect * gap) ** 2 - model.state["spin"]
-    # 8 pi mu a^2 = (4/3) m v0/St, and rates of L are over m a^2 omega0 v0/x0
+    # 8 pi mu a^2 = (4/3) m v0/St, and rates of L are over m a^2 Omega v0/x0
     force = flow.region.shear * 4 * aspect / (3 * model.groups["stokes"]) * slip
     force *= model.laws.shear.log_factor(gap, aspect)
     duration = SX.sym("duration")

@@ -31,7 +31,7 @@ def draw(collision: Outcome) -> Figure:
     pictures = frames(collision)
     data = collision.trajectory
     duration = float(data["time"][-1]) if data is not None else 0.0
-    rows = 0 if duration <= 0 else 2 if not collision.angle else 4
+    rows = 0 if duration <= 0 else 4 if _turns(collision) else 2
     across, high = strip_size(pictures)
     strip = min(_STRIP * high / across, 2.0) + 0.45
     figure = Figure(figsize=(WIDTH, 1.0 + strip + rows * _ROW + 0.75 * bool(rows)), layout="constrained")
@@ -45,6 +45,11 @@ def draw(collision: Outcome) -> Figure:
     letter(axes, "c" if rows == 4 else "b" if rows else "")
     figure.supxlabel(_note(collision, pictures), color=GREY)
     return figure
+
+
+def _turns(collision: Outcome) -> bool:
+    """True if something moves sideways: the impact has an angle, or a sphere spins."""
+    return collision.scene.turns(collision.angle)
 
 
 def _short(value: float) -> str:
@@ -69,7 +74,7 @@ def _spins(collision: Outcome) -> str:
 def _note(collision: Outcome, pictures: Sequence[Frame]) -> str:
     text = "Seen from above, to scale (thin films thicker, to be seen); liquid in blue; arrows: velocities"
     text += "; lines: marks that met at initial contact."
-    if collision.scene.wall and (collision.angle or collision.scene.impact.spin):
+    if collision.scene.wall and _turns(collision):
         text += "\nBeside a wall no line of centres turns (ω = 0): the sphere slides and rolls along it."
     if collision.contact_time == 0 or collision.until == 0:
         text += "\nThe outcome is certain at initial contact: there is no trajectory to follow."
@@ -85,10 +90,10 @@ def _caption(frame: Frame, collision: Outcome, latest: float, last: Frame) -> st
     factor, unit = prefix(latest)
     time = "initial contact" if frame.time == 0 else f"{_short(frame.time / factor)} {micro(unit + 's')}"
     moved = ""
-    if collision.angle and frame.wall:
+    if _turns(collision) and frame.wall:
         size, name = prefix(frame.slid)
         moved = f"\nslid {_short(frame.slid / size)} {micro(name + 'm')}" if frame.slid else "\nslid 0"
-    elif collision.angle:
+    elif _turns(collision):
         moved = f"\nβ = {_short(math.degrees(frame.angle))}°"
     ending = "\napart" if frame.free else "\nsticks" if collision.outcome == STICK and frame is last else ""
     return f"{time}{moved}{ending}"

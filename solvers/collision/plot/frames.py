@@ -121,6 +121,7 @@ class _Trajectory:
     first: Frame  # at initial contact
     approach: Vector  # relative velocity at initial contact
     parting: tuple[float, float]  # normal and transverse relative velocity at the end
+    first_spins: tuple[float, float]
     spins: tuple[float, float]  # at the end
 
     @classmethod
@@ -135,11 +136,13 @@ class _Trajectory:
         first = _first(collision.scene, float(gap[0]))
         sideways = collision.speed * math.tan(collision.angle)
         approach = (-collision.speed, sideways * (1.0 if first.wall else first.distance / (first.distance - gap[0])))
-        sliding = np.asarray(data["sliding_velocity"]) if first.wall and collision.angle else np.zeros(time.size)
+        sliding = np.asarray(data.get("sliding_velocity", np.zeros(time.size)))
         across = float(sliding[-1]) if first.wall else float(rate[-1]) * (first.distance - gap[0] + gap[-1])
         parting = float(data["normal_velocity"][-1]), across
+        found = collision.scene.material
+        begun = found["impact_spin"], found.get("impact_partner_spin", 0.0)
         spins = float(spin[-1]), float(other[-1])
-        return cls(time, gap, rotation, turned, _integral(time, sliding), first, approach, parting, spins)
+        return cls(time, gap, rotation, turned, _integral(time, sliding), first, approach, parting, begun, spins)
 
     def at(self, instant: float) -> Frame:
         known = (self.gap, self.rotation, *self.turned, self.slid)
@@ -158,8 +161,9 @@ class _Trajectory:
         x, y = first.distance + self.approach[0] * instant, self.approach[1] * instant * (not first.wall)
         gap = math.hypot(x, y) - (first.distance - first.gap)
         return replace(
-            first, time=float(instant), gap=gap, angle=math.atan2(y, x), turned=0.0, partner_turned=0.0,
-            slid=self.approach[1] * instant * first.wall, relative=self.approach, free=True,
+            first, time=float(instant), gap=gap, angle=math.atan2(y, x), turned=self.first_spins[0] * instant,
+            partner_turned=self.first_spins[1] * instant, slid=self.approach[1] * instant * first.wall,
+            relative=self.approach, free=True,
         )  # fmt: skip
 
     def apart(self, wait: float) -> Frame:
