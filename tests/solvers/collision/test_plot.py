@@ -167,6 +167,16 @@ def test_after_rupture_the_pair_moves_straight(collisions, name):
     assert after.gap - before.gap == pytest.approx(0.8 * before.radius)
 
 
+def test_spheres_that_spin_along_the_line_of_centres_turn():
+    """At angle zero a spin gives the panels of rotation and of sliding beside a wall, and pictures that slide."""
+    spinning = Scene.load("granulation").with_entries({"partner.wall": True, "impact.spin": 2e5})
+    found = collide(spinning, stokes=0.5, angle=0.0, trajectory=True)
+    assert [axes.get_ylabel().split()[0] for axes in draw(found).axes[:4]] == ["gap", "normal", "rotation", "sliding"]
+    slid = np.trapezoid(found.trajectory["sliding_velocity"], found.trajectory["time"])
+    *_, last, _ = frames(found)
+    assert last.slid == pytest.approx(slid, rel=1e-4) and slid > 0
+
+
 def test_orientation_is_the_integral_of_spin():
     """A sphere's orientation is int xi dt: exact where it turns with the doublet, to second order where it slips."""
     time = np.linspace(0, 2, 401)

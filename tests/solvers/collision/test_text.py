@@ -8,6 +8,7 @@ from wetdoublet.solvers.collision.outcome import Event
 from wetdoublet.solvers.collision.text import name_of, prefix, quantity, table
 
 SURFACE = Scene.load("pendulum").with_entries({"model.arm": "surface"})  # no proof on strings: runs to its cut-off
+SPINNING = Scene.load("granulation").with_entries({"impact.spin": 2e5, "impact.partner_spin": -5e4})
 IMPACTS = {
     "escapes": ("granulation", {}),
     "bounces": ("granulation", {"stokes": 0.14, "angle": "40 deg"}),
@@ -18,6 +19,7 @@ IMPACTS = {
     "pendulum": ("pendulum", {"stokes": 1.0, "angle": "45 deg"}),
     "reversed, sticks": ("pendulum", {"stokes": 1.37, "angle": "20 deg"}),
     "head-on": ("granulation", {"stokes": 0.125, "angle": 0.0}),
+    "spins": (SPINNING, {"stokes": 0.5, "angle": 0.0}),
     "gains": ("granulation", {"stokes": 0.3, "angle": "70 deg"}),
     "film alone": ("granulation-dry-bridge", {"stokes": 0.05, "angle": 0.0}),
     "parts at touch": ("granulation-dry-bridge", {"stokes": 0.3, "angle": "70 deg"}),
@@ -190,3 +192,13 @@ def test_a_name_is_one_short_line():
     assert name_of(scene, 20) == "a [2J bbbbbbbbbbb..."
     assert max(map(len, table(collide(scene)).splitlines())) <= 88
     assert name_of(scene.with_entries({"name": ""})) == "unnamed scene"
+
+
+def test_spins_before_and_after(collisions):
+    """Both spheres' spins at initial contact and at separation; none before where the scene gives none."""
+    lines = table(collisions["spins"]).splitlines()
+    names = [line[:12].strip() for line in lines]
+    first, last = names.index("initial spin"), names.index("final spin")
+    assert "200000 rad/s" in lines[first] and "-50000 rad/s" in lines[first + 1]
+    assert lines[first + 1].endswith("its partner") and lines[last + 1].endswith("its partner")
+    assert "initial spin" not in table(collisions["head-on"])

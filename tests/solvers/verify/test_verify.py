@@ -20,6 +20,7 @@ from wetdoublet.solvers.verify import (
     edges,
     numeric,
     order,
+    region,
     restitution_budget,
     sample,
     surface,
@@ -82,6 +83,25 @@ def test_the_budget_adds_up() -> None:
     # rounding of sums of terms of about 7
     assert float(at["rotation_released"]) - lost == pytest.approx(float(at["restitution"]) ** 2 - 1, abs=1e-12)
     assert 1 < float(at["restitution"]) ** 2 < float(at["ceiling"])
+
+
+@pytest.mark.slow
+def test_the_budget_of_spinning_spheres() -> None:
+    """What the spins bring counts as rotation: the identity closes, and e_n stays below its ceiling."""
+    scene = Scene.load("granulation").with_entries({"impact.spin": 5e4, "impact.partner_spin": -2e5})
+    at = restitution_budget(scene, stokes=[0.5], angle=[0.0, 1.0])
+    assert np.abs(at["gap"].values).max() < 1e-12 * at["tangential_lubrication"].values.max()
+    assert np.all(at["restitution"].values ** 2 < at["ceiling"].values)
+    found = {finding.name: finding.ok for finding in region.argument("g", scene, at)}
+    assert found["e_n^2 - 1: identity"] and found["e_n^2: ceiling"]
+
+
+@pytest.mark.slow
+def test_closed_forms_are_of_spheres_that_do_not_spin() -> None:
+    """Forms without rotation are compared with collisions without it, though the scene's spheres spin."""
+    scene = Scene.load("granulation").with_entries({"impact.spin": 2e4, "impact.partner_spin": -5e3})
+    found = list(closed.closed_forms("g", scene))
+    assert [finding.ok for finding in found] == [True, True, True]
 
 
 @pytest.mark.slow
