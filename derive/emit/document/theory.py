@@ -217,7 +217,8 @@ def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
     length = sp.simplify(elastic_length() * (_COMPLIANCE / elastic_compliance()) ** _TWO_FIFTHS)
     cubed = sp.powsimp(sp.expand_power_base(length**5, force=True), force=True)
     yield Equation(group, f"{latex(x)}(0)", start[x], "initial contact")
-    yield Equation(group, f"{latex(u)}(0)", start[u], "no spin, no angle turned yet")
+    yield Equation(group, f"{latex(u)}(0)", start[u], "no angle turned yet")
+    yield Equation(group, rf"{latex(xi)}(0)", start[xi], "spin before the collision, 0 if none is given")
     yield Equation(group, latex(omega0), initial_rate())
     printed = {"glass": pressure, "elastic": sp.Pow(sp.sqrt(cubed), _TWO_FIFTHS, evaluate=False)}  # as in the paper
     for number, each in zip(_ROMAN, CRITERIA, strict=False):
