@@ -285,6 +285,8 @@ def test_emitted_groups_are_the_published_ones():
             "obliquity": 1.7,
             "rate_scale": 11.0,
         }
+        turns = {name: [draw.uniform(-300, 300) for _ in range(3)] for name in ("turning", "spin", "partner_spin")}
+        si |= {f"impact_{name}_{axis}": value for name, own in turns.items() for axis, value in zip("xyz", own)}
         theta_e = 2 * (1 - extra["nu"] ** 2) / (pi * extra["E"])
         tangent, turned = math.tan(scene["theta"]), abs(scene["spin"]) / v0
         published = _groups(scene, ("stokes", "aspect", "obliquity", "capillary", "weight", "string_ratio")) | {
@@ -293,6 +295,11 @@ def test_emitted_groups_are_the_published_ones():
             "initial_partner_spin": -2 / a / 11.0,
             "obliquity_pair": max(tangent, 1.4 * a * turned, 3.5 * a * (2 / a) / v0),
             "obliquity_wall": max(tangent, a * turned),
+            "obliquity_space": math.hypot(
+                *(4.9 * a * each / v0 for each in turns["turning"]),
+                *(1.4 * a * each / v0 for each in turns["spin"]),
+                *(3.5 * a * each / v0 for each in turns["partner_spin"]),
+            ),
             "rate_scale": 1.7 * v0 / (4 * a),
             "rate_scale_pair": 1.7 * v0 / (4.9 * a),
             "rate_scale_wall": 1.7 * v0 / a,

@@ -307,7 +307,12 @@ def test_a_new_scene(tmp_path, monkeypatch):
     assert run("collide", "mine.toml").exit_code == 0
     text = (tmp_path / "mine.toml").read_text()
     assert 'name = "mine"' in text and all("#" in line for line in text.splitlines() if line.startswith("# "))
-    uncommented = re.sub(r"^# (?=youngs|poisson|glass_|coating_fraction)", "", text, flags=re.MULTILINE)
+    uncommented = re.sub(
+        r"^# (?=youngs|poisson|friction|contact_|glass_|coating_fraction|spin|partner_spin)",
+        "",
+        text,
+        flags=re.MULTILINE,
+    )
     assert Scene.from_toml(uncommented).bridge is not None  # what is offered is right as well
     again = run("scenes", "--new", "mine")
     assert again.exit_code == 2 and again.stderr.startswith('--new: "mine" would overwrite mine.toml; accepted: ')
