@@ -19,7 +19,7 @@ from .base import Certainty, Certificate
 from .energy_barrier import Barrier, EnergyCertificate
 from .quadrature import panels
 
-PARTS = 24  # of the film, and as many beyond it, within which heights are bounded by those at their ends
+PARTS = 24  # of the film, and as many beyond it, within which the potential is bounded by its parts at their ends
 _LEAST = 1e-6  # gap down to which heights are known
 _BOTH = (CLOSING, OPENING)
 
@@ -59,12 +59,20 @@ class EnergyBesideEvents(EnergyCertificate):
         """The effective potential at a gap."""
         return self._least(y, 1.0) + self._rise(gap, y)
 
-    def _heights(self, gaps: Sequence[float], y: np.ndarray) -> list[float]:
-        """The effective potential at ascending gaps, of which the one at PARTS is 1."""
+    def _floors(self, gaps: Sequence[float], y: np.ndarray) -> list[float]:
+        """Lower bounds of the effective potential between ascending gaps, of which the one at PARTS is 1.
+
+        The energy of rotation falls with the gap while that of the attractions rises, so that their sum may have its
+        minimum between two gaps: each is taken at its lower end, and that of the attractions less what it rises, for
+        laws of a user's own.
+        """
         parts = panels(lambda logs: self._slope(np.exp(logs), y) * np.exp(logs), np.log(gaps))
         risen = np.concatenate([[0.0], np.cumsum(parts)])
-        heights: list[float] = (self._least(y, 1.0) + risen - risen[PARTS]).tolist()
-        return heights
+        rotating = self._potential(np.asarray(gaps), y)[0]
+        attracted = rotating[PARTS] + risen - risen[PARTS] - rotating
+        floors = np.minimum(rotating[1:], rotating[:-1]) + np.minimum(attracted[1:], attracted[:-1])
+        found: list[float] = (floors - np.abs(np.diff(attracted))).tolist()
+        return found
 
     def attracts(self, y: np.ndarray) -> bool:
         """True if the potential of the attractions varies with the gap, at the marks as they are."""
@@ -106,10 +114,8 @@ class EnergyBesideEvents(EnergyCertificate):
             return False
         gaps = [*np.geomspace(start, 1.0, PARTS + 1).tolist(), *np.linspace(1.0, end, PARTS + 1)[1:].tolist()]
         there = y[: len(model.state)]
-        heights = self._heights(gaps[: PARTS + 1] if inside or end <= 1 else gaps, there)
-        for k in range(len(heights) - 1):
-            low, high = heights[k], heights[k + 1]
-            above = energy - (min(low, high) - abs(high - low))
+        for k, floor in enumerate(self._floors(gaps[: PARTS + 1] if inside or end <= 1 else gaps, there)):
+            above = energy - floor
             if above <= 0:
                 continue
             film = int(k < PARTS)

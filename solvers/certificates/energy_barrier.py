@@ -159,11 +159,14 @@ class EnergyCertificate:
         return self.model.values("rigid_rotation", np.array([gap, *y[1:]]), self.p)["orbital_momentum"]
 
     def _slope(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
+        slope: np.ndarray = self._potential(gaps, y)[1]
+        return slope
+
+    def _potential(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Least energy of rotation at these gaps, and the slope of the effective potential: two rows."""
         states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)
         states[0] = gaps
-        both = np.asarray(self.model.function("effective_potential")(states, self.p).full())
-        slope: np.ndarray = both[1]
-        return slope
+        return np.asarray(self.model.function("effective_potential")(states, self.p).full())
 
     def _search(self, y: np.ndarray) -> tuple[Barrier, ...]:
         """Local maxima from the sign of the slope on a grid in ln(gap), refined by bisection, heights by quadrature."""

@@ -25,7 +25,7 @@ static inline mask own_watched(const vec *y, int which, mask closing, vec film)
 
 #if defined(POTENTIAL) && (!SURFACE_ARM || WALL || !OBLIQUE)
 #define OWN_PROOFS 1
-enum { OWN_PARTS = 24 }; /* of the film, and as many beyond it, within which heights are bounded by those at their ends */
+enum { OWN_PARTS = 24 }; /* of the film, and as many beyond it, within which the potential is bounded by its parts at their ends */
 
 static inline vec gap_of_part(vec start, vec end, int k)
 {
@@ -62,6 +62,7 @@ static mask own_events_excluded(const constants *c, const vec *y, vec energy, ma
 #endif
     vec contact = contact_gap(c), start = vec_min(vec_max(contact, splat(1e-6)), splat(0.5));
     vec there[STATES], guard[OWN_EVENTS], last = start, height = height_at(c, y, start);
+    vec rotating = energy_at(c, y, start), attracted = height - rotating;
     mask excluded = splat_mask(-1);
     for (int which = 0; which < OWN_EVENTS; which++) {
         if (OWN[which].harmless)
@@ -77,7 +78,9 @@ static mask own_events_excluded(const constants *c, const vec *y, vec energy, ma
     memcpy(there, y, sizeof there);
     for (int k = 1; k <= 2*OWN_PARTS && bits(excluded); k++) {
         vec next = gap_of_part(start, end, k), above = height + risen(c, y, last, next);
-        vec least = vec_min(height, above) - vec_abs(above - height);
+        /* rotation falls and attraction rises: their sum may have a minimum in between */
+        vec turning = energy_at(c, y, next), pulled = above - turning;
+        vec least = vec_min(rotating, turning) + vec_min(attracted, pulled) - vec_abs(pulled - attracted);
         mask reached = energy > least;
         vec speed = vec_sqrt(2.0*vec_max(energy - least, splat(0.0)));
         for (int which = 0; which < OWN_EVENTS; which++) {
@@ -99,6 +102,8 @@ static mask own_events_excluded(const constants *c, const vec *y, vec energy, ma
         }
         last = next;
         height = above;
+        rotating = turning;
+        attracted = pulled;
     }
     return excluded;
 }
