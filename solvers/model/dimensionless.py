@@ -67,6 +67,7 @@ def _as_given(scene: Scene, speed: float, stokes: float) -> float:
     return given if given is not None and scene.speed_of(given) == speed else stokes
 
 
+_ENTRIES = {"speed": "impact.speed", "impact_spin": "impact.spin", "impact_partner_spin": "impact.partner_spin"}
 # Ranges of groups and scales in which products and quotients of several stay within a double's range. Divisors have a
 # lower limit.
 _RANGES = (
@@ -91,8 +92,10 @@ def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
     least, most = _RANGES.get(name, (0.0, math.inf))
     if least <= abs(value) <= most and math.isfinite(value):
         return value
-    entry = "impact.speed" if "speed" in arguments else arguments[0]
-    shown = dict(zip(arguments, given, strict=True)).get("speed", given[0])
+    numbers = dict(zip(arguments, given, strict=True))
+    spins = [each for each in ("impact_spin", "impact_partner_spin") if numbers.get(each)]
+    quantity = spins[0] if spins else "speed" if "speed" in arguments else arguments[0]
+    entry, shown = _ENTRIES.get(quantity, quantity), numbers[quantity]
     kind = "scale" if name in _SCALES else "number"
     span = "within a double's range" if most == math.inf else f"from {least:g} to {most:g}"
     raise InputError(entry, shown, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")

@@ -88,6 +88,8 @@ class Problem:
         """True if a quantity is defined for the collision and can vary."""
         if name == "tangential_restitution" and not self.n.angle > 0:
             return False
+        if name == "final_spin_partner" and not (self.scene.pair or self.scene.wall):
+            return False
         return path.separated or name == "energy.initial"
 
     def slopes(

@@ -171,6 +171,12 @@ def test_extreme_spans_are_bad_input(span: tuple[float, float]) -> None:
         boundary("granulation", angle=0.5, stokes=span)
 
 
+def test_a_spin_beyond_all_bounds_is_named() -> None:
+    """A spin that no double resolves beside the speed is refused by its own name."""
+    with pytest.raises(InputError, match=r"^impact.spin: 1e\+150 is too far off; accepted: "):
+        collide(Scene.load("granulation").with_entries({"impact.spin": 1e150}))
+
+
 CIRCLES = {
     "particles": {
         "reduced_radius": 1.61e-4, "reduced_mass": 5.4e-10, "roughness": 1.25e-6, "dry_restitution": 0.938,

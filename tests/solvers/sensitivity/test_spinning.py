@@ -31,10 +31,10 @@ def differences(scene: Scene) -> np.ndarray:
 
 
 def test_derivatives_along_the_line_of_centres() -> None:
-    """At angle zero, by spin and by speed; there is no e_t, whatever else is asked for."""
-    wrt, of = ["impact.spin", "impact.speed"], [*OF, "tangential_restitution"]
-    found = sensitivities(GRANULATION, of, wrt, speed=SPEED, angle=0.0, rtol=1e-10, hold="speed")
-    assert found.value["tangential_restitution"] is None
+    """At angle zero, by spin and by speed; there is no e_t, nor a spin of a partner, whatever else is asked for."""
+    wrt, undefined = ["impact.spin", "impact.speed"], ["tangential_restitution", "final_spin_partner"]
+    found = sensitivities(GRANULATION, [*OF, *undefined], wrt, speed=SPEED, angle=0.0, rtol=1e-10, hold="speed")
+    assert [found.value[name] for name in undefined] == [None, None]
     gradient = np.array([[found.gradient[name][each] for each in wrt] for name in OF], dtype=float)
     assert gradient == pytest.approx(differences(GRANULATION), rel=1e-6)
 
