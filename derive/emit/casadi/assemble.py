@@ -43,10 +43,9 @@ def casadi_functions(structure: ModuleType, laws: Laws, film: int = 1, shear: in
     inputs = [vector(state), vector(groups)] if groups else [vector(state), SX(0, 1)]
     columns, given = {}, {}
     for name in structure.FUNCTIONS:
-        function = getattr(structure, name)
         region = {"film": film, "shear": shear} if name in structure.REGIONAL else {}
-        given[name] = symbols(further(function))
-        columns[name] = vector(function(state, groups, laws, **region, **given[name]))
+        given[name] = symbols(further(getattr(structure, name)))
+        columns[name] = vector(getattr(structure, name)(state, groups, laws, **region, **given[name]))
     rates = columns["right_hand_side"]
     columns["jacobian"] = jacobian(rates, inputs[0])
     columns["event_rates"] = jtimes(columns["events"], inputs[0], rates)
@@ -59,7 +58,7 @@ def casadi_functions(structure: ModuleType, laws: Laws, film: int = 1, shear: in
 
 def further(function: Callable[..., Any]) -> tuple[str, ...]:
     """Names of a structure function's arguments behind the state, the groups, the laws and the flags of the region."""
-    return tuple(name for name in signature(function).parameters if name not in _ARGUMENTS)
+    return (*(name for name in signature(function).parameters if name not in _ARGUMENTS),)
 
 
 _ARGUMENTS = ("state", "groups", "laws", "film", "shear")
