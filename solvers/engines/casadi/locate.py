@@ -144,8 +144,8 @@ class EventLocator:
         """Integrate the collision to separation, to a cut-off, or to a certificate, and from there up to `until`."""
         if self.groups["obliquity"] ** 2 * self.groups["aspect"] / 16 > MOST_OBLIQUE:
             raise self._error(
-                "at this angle, with these spins, the rotation reverses the approach within a rounding error of the film's "
-                "thickness",
+                "at this angle, with these spins, the rotation reverses the approach within a rounding error of the "
+                "film thickness",
                 "try a smaller angle or slower spins",
             )
         path = self._followed()
