@@ -55,14 +55,14 @@ def bulk_engine(
     return _kernel_or_rosenbrock(supported(scene))
 
 
-def space_engine(asked: str | None, count: int, scene: Scene, rtol: float) -> str:
+def space_engine(asked: str | None, count: int, scene: Scene, rtol: float, ledger: bool = False) -> str:
     """The engine for `count` collisions in space, by the rules of `bulk_engine`; beside a wall these are planar."""
     if scene.wall:
-        return bulk_engine(asked, count, scene, rtol, (True,), varied=True)
+        return bulk_engine(asked, count, scene, rtol, (True,), ledger=ledger, varied=True)
     if asked not in (None, "taylor"):
         return asked
     if asked is None and count <= FEW:
-        return _kernel_or_rosenbrock(at_hand((variant_in_space(scene, rtol),)))
+        return _kernel_or_rosenbrock(at_hand((variant_in_space(scene, rtol, ledger),)))
     return _kernel_or_rosenbrock(supported(scene))
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
@@ -11,8 +10,7 @@ from ...generated import scaling
 from ...generated.automaton import KINDS, LAST_ANSWER
 from ..collision.outcome import open_beyond
 from ..engines.taylor.call import Impacts, run_kernel
-from ..engines.taylor.layout import ANSWER, LEDGER
-from ..engines.taylor.record import run_recorded
+from ..engines.taylor.record import run_with_books
 from ..errors import ComputationError
 from ..model.model import load, select_model
 from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
@@ -29,7 +27,6 @@ from .results import NONE, RATES, REVERSALS, TIMES, Block
 _STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
 _MOST = 1e30  # largest magnitude of an SI quantity; its inverse is the smallest
 _NEVER = ("glass_transition_pressure", "youngs_modulus")  # set very large to disable a rebound criterion
-_CHUNK = 4096  # collisions a thread takes at a time
 _TERMS = {
     "initial": "initial",
     "final": "final",
@@ -63,7 +60,7 @@ def collide_by_kernel(
         impacts, sound = impacts_of(request if whole else request.part(part))
         books = None
         if ledger:
-            both = _with_books(impacts, request.rtol, threads)
+            both = run_with_books(impacts, request.rtol, threads)
             found, books = both if both is not None else (None, None)
         else:
             found = run_kernel(
@@ -208,28 +205,3 @@ def _closed(found: np.ndarray, books: np.ndarray, rtol: float) -> np.ndarray:
     largest = np.maximum(np.abs(terms).max(axis=0), residual)
     closed: np.ndarray = (found["outcome"] == 0) | (residual <= open_beyond(rtol) * largest)
     return closed
-
-
-def _with_books(impacts: Impacts, rtol: float, threads: int) -> tuple[np.ndarray, np.ndarray] | None:
-    """Answers and ledgers of impacts; None if there is no kernel here."""
-    found, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, LEDGER)
-
-    def run(oblique: bool, which: np.ndarray) -> bool:
-        fold = not impacts.others
-        told = run_recorded(impacts.part(which), oblique, rtol, ledger=True, events=False, fold=fold)
-        if told is None or told.ledger is None:
-            return False
-        found[which], books[which] = told.answers, told.ledger
-        return True
-
-    turns = impacts.oblique
-    parts = [
-        (oblique, which[first : first + _CHUNK])
-        for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns)))
-        for first in range(0, which.size, _CHUNK)
-    ]
-    if threads == 1 or len(parts) < 2:
-        return (found, books) if all(run(*part) for part in parts) else None
-    with ThreadPoolExecutor(threads) as pool:  # the kernel runs without the interpreter's lock
-        done = list(pool.map(lambda part: run(*part), parts))
-    return (found, books) if all(done) else None

@@ -3,6 +3,9 @@
 The normal motion does not depend on the tangential one. Friction is linear in sliding and rolling and the same in every
 direction along the wall, so both components of these vectors go through one linear map. Two planar collisions with the
 same normal motion give it: one that slides, and one that slides and spins. Spin along the normal stays as it is.
+
+Energies are quadratic in both vectors: for a ledger two more collisions, of which one only spins, give their
+coefficients.
 """
 
 from __future__ import annotations
@@ -15,9 +18,11 @@ import numpy as np
 from ...generated.automaton import LAST_ANSWER, OUTCOMES, Status
 from ..engines.casadi.locate import locate
 from ..engines.taylor.call import Impacts, run_kernel
+from ..engines.taylor.record import run_with_books
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
+from .books import TERMS, TRANSVERSE, extras_of, is_open, of_casadi, of_kernel
 from .ends import FAILED, Ends
 from .pairs import Pairs, dot, length
 
@@ -26,7 +31,7 @@ _SLIDES = np.pi / 4  # slides as fast as it approaches
 
 @dataclass
 class Planar:
-    """Planar collisions with a wall; lengths over x0, times over x0/v0, speeds over that of the approach."""
+    """Planar collisions with a wall; lengths over x0, times over x0/v0, speeds over v0, energies over m v0^2."""
 
     outcome: np.ndarray
     certified: np.ndarray
@@ -37,34 +42,45 @@ class Planar:
     opening: np.ndarray
     slide: np.ndarray
     roll: np.ndarray
+    energy: np.ndarray
 
 
-def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, few: bool) -> Planar | None:
+def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, few: bool, ledger: bool) -> Planar | None:
     """Planar collisions by the kernel; None if none is available."""
-    found = run_kernel(impacts, rtol, False, threads, few=few)
-    if found is None:
-        return None
+    terms = np.full((impacts.speed.size, len(TERMS)), np.nan)
+    if ledger:
+        both = run_with_books(impacts, rtol, threads)
+        if both is None:
+            return None
+        found, terms = both[0], of_kernel(both[1])
+    else:
+        plain = run_kernel(impacts, rtol, False, threads, few=few)
+        if plain is None:
+            return None
+        found = plain
     touch = found["status"] == Status.PROVED_AT_TOUCH
     reason = np.full(found.size, "", object)
     gap = np.where(touch, 1.0, found["final_gap"])
     opening, slide, _, roll = found["shown"].T[:4]
     left = found["status"] > LAST_ANSWER
     sure = found["certified"] != 0
-    return Planar(found["outcome"], sure, reason, left, found["time"], gap, opening, slide, roll)
+    return Planar(found["outcome"], sure, reason, left, found["time"], gap, opening, slide, roll, terms)
 
 
-def planar_by_casadi(impacts: Impacts, rtol: float) -> Planar:
+def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool) -> Planar:
     """Planar collisions by Rosenbrock, one after the other."""
     size = impacts.speed.size
     time, gap, opening, slide, roll = (np.full(size, np.nan) for _ in range(5))
     outcome, reason = np.full(size, FAILED), np.full(size, "", object)
-    found = Planar(outcome, np.zeros(size, bool), reason, np.zeros(size, bool), time, gap, opening, slide, roll)
+    terms = np.full((size, len(TERMS)), np.nan)
+    found = Planar(outcome, np.zeros(size, bool), reason, np.zeros(size, bool), time, gap, opening, slide, roll, terms)
     for k in range(size):
         scene = impacts.scene.with_entries({"impact.spin": float(impacts.others["impact_spin"][k])})
         try:
             n = nondimensionalise(scene, float(impacts.speed[k]), float(impacts.angle[k]))
             try:
-                path = locate(load(select_model(scene, True)), n.groups, rtol, (), False)
+                model = load(select_model(scene, True, full=ledger))
+                path = locate(model, n.groups, rtol, extras_of(model) if ledger else ())
             except ComputationError as error:
                 raise n.in_si(error) from None
         except WetDoubletError as error:
@@ -74,19 +90,28 @@ def planar_by_casadi(impacts: Impacts, rtol: float) -> Planar:
         outcome[k], found.certified[k] = OUTCOMES.index(path.outcome), path.certified
         time[k], gap[k], opening[k] = path.time, float(path.y[0]), shown["restitution"]
         slide[k], roll[k] = shown["tangential_restitution"], shown["final_spin"]
+        if ledger:
+            taken = dict(zip(path.extras, path.y[len(model.state) :].tolist(), strict=True))
+            terms[k] = of_casadi(model, path.p, path.y, taken, path.dry_loss)
     return found
 
 
-def beside_wall(pairs: Pairs, planar: Callable[[Impacts], Planar | None]) -> tuple[Ends, np.ndarray] | None:
+def beside_wall(
+    pairs: Pairs, planar: Callable[[Impacts], Planar | None], rtol: float, ledger: bool = False
+) -> tuple[Ends, np.ndarray] | None:
     """Ends of collisions with a wall, and a mask of those left to another engine; None if `planar` has no engine.
 
     Arguments:
         planar: computes planar collisions.
     """
     radius = float(pairs.scene.material["reduced_radius"])
-    speed, angle = -pairs.opening, np.full(pairs.size, _SLIDES)
-    slides = planar(Impacts(pairs.scene, speed, angle, {"impact_spin": np.zeros(pairs.size)}))
-    both = planar(Impacts(pairs.scene, speed, angle, {"impact_spin": speed / radius}))
+    speed = -pairs.opening
+
+    def collided(angle: float, spinning: float) -> Planar | None:
+        spin = {"impact_spin": spinning * speed / radius}
+        return planar(Impacts(pairs.scene, speed, np.full(pairs.size, angle), spin))
+
+    slides, both = collided(_SLIDES, 0.0), collided(_SLIDES, 1.0)
     if slides is None or both is None:
         return None
     # sliding is that of the sphere along the wall; rolling turns it about normal x sliding
@@ -110,4 +135,32 @@ def beside_wall(pairs: Pairs, planar: Callable[[Impacts], Planar | None]) -> tup
     first, last = length(sliding - rolling), length(later[0] - later[1])
     with np.errstate(all="ignore"):
         ends.slip[:] = np.where((first > 0) & (ends.outcome > 0), last / first, np.nan)
-    return ends, slides.left | both.left
+    left = slides.left | both.left
+    if ledger:
+        spins, against = collided(0.0, 1.0), collided(_SLIDES, -1.0)
+        if spins is None or against is None:
+            return None
+        left |= spins.left | against.left
+        ends.energy[:] = _energies(pairs, sliding, rolling, [each.energy for each in (slides, spins, both, against)])
+        left |= is_open(ends.energy, ends.outcome > 0, rtol)
+    return ends, left
+
+
+def _energies(pairs: Pairs, sliding: np.ndarray, rolling: np.ndarray, planar: list[np.ndarray]) -> np.ndarray:
+    """The ledger, J: quadratic forms in sliding and rolling, which collisions with unit vectors determine.
+
+    Arguments:
+        planar: terms of one that slides, one that spins, one with both, and one with both against each other.
+    """
+    slides, spins, both, against = (each[:, TRANSVERSE] for each in planar)
+    along = slides + spins - (both + against) / 2  # the normal motion's
+    forms = slides - along, spins - along, (both - against) / 2
+    mass, speed = float(pairs.scene.material["reduced_mass"]), -pairs.opening[:, None]
+    squares = dot(sliding, sliding), dot(rolling, rolling), dot(sliding, rolling)
+    found = planar[0] * mass * speed**2
+    across = sum(form * square for form, square in zip(forms, squares, strict=True))
+    found[:, TRANSVERSE] = mass * (along * speed**2 + across)
+    twist = dot(pairs.spins[:, 0], pairs.normal)
+    radius = float(pairs.scene.material["reduced_radius"])
+    found[:, TRANSVERSE[:2]] += 0.2 * mass * radius**2 * twist**2
+    return found

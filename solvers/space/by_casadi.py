@@ -14,12 +14,13 @@ from ...generated import scaling
 from ...generated.automaton import LEAST_SLIP, OUTCOMES
 from ..engines.casadi.integrators import tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence
-from ..engines.casadi.replay import Stopped, replay
+from ..engines.casadi.replay import Replay, Stopped, as_located, replay
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
-from ..model.model import Model, load, select_model
+from ..model.model import Model, ModelKey, load, select_model
 from ..model.phases import Flow, Region
 from ..scene.groups import si_values
+from .books import extras_of, is_open, of_casadi
 from .ends import FAILED, Ends
 from .pairs import Bodies, Pairs, length
 
@@ -28,12 +29,12 @@ _LEAST = 1e-300
 _TIGHTEST = 1e-13
 
 
-def by_casadi(pairs: Pairs, plugin: str, rtol: float) -> Ends:
+def by_casadi(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False) -> Ends:
     """Ends of the pairs, one after the other; a pair that fails says why."""
     ends = Ends.blank(pairs.size)
     for k in range(pairs.size):
         try:
-            ends.put(np.array([k]), _one(pairs.part(np.array([k])), plugin, rtol))
+            ends.put(np.array([k]), _one(pairs.part(np.array([k])), plugin, rtol, ledger))
         except WetDoubletError as error:
             ends.outcome[k], ends.reason[k] = FAILED, str(error)
     return ends
@@ -81,49 +82,56 @@ def groups_of(pairs: Pairs, axes: np.ndarray) -> DimensionlessGroups:
     return replace(n, groups={**n.groups, **groups, **normal, **first}, rate=rate)
 
 
-def _one(pair: Pairs, plugin: str, rtol: float) -> Ends:
+def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     axes = own_axes(pair)
     n = groups_of(pair, axes)
-    model = load(select_model(pair.scene, True, space=True))
+    model = load(select_model(pair.scene, True, full=ledger, space=True))
+    extras = extras_of(model) if ledger else ()
     try:
-        path, y, time = _integrated(model, n, plugin, rtol)
+        path, found = _integrated(model, extras, select_model(pair.scene, True, space=True), n, plugin, rtol)
     except ComputationError as error:
         raise n.in_si(error) from None
-    p = model.group_values(n.groups)
+    p, y = model.group_values(n.groups), found.y
     shown = model.values("outputs", y, p)
 
     def vector(name: str) -> np.ndarray:
-        found: np.ndarray = np.array([[shown[f"{name}_{axis}"] for axis in AXES]]) @ axes
-        return found
+        turned: np.ndarray = np.array([[shown[f"{name}_{axis}"] for axis in AXES]]) @ axes
+        return turned
 
     ends = Ends.blank(1)
     ends.outcome[0], ends.certified[0] = OUTCOMES.index(path.outcome), path.certified
-    ends.time[0], ends.gap[0] = time * n.time, float(y[0]) * n.length
+    ends.time[0], ends.gap[0] = found.time * n.time, float(y[0]) * n.length
     ends.opening[0] = shown["restitution"] * n.speed
     ends.normal[:], ends.turning[:] = vector("final_normal"), vector("final_rotation_rate") * n.rate
     ends.spins[:, 0], ends.spins[:, 1] = vector("final_spin") * n.rate, vector("final_spin_partner") * n.rate
     if path.separated:
         first, last = (model.values("surface_slip", each, p)["surface_slip"] for each in (model.start(p), y))
         ends.slip[0] = last / first if first > LEAST_SLIP else np.nan
+    if ledger:
+        ends.energy[0] = n.energy * of_casadi(model, p, y, {name: found.extra(name) for name in extras}, found.dry_loss)
+        if is_open(ends.energy, ends.outcome > 0, rtol)[0]:
+            raise ComputationError("the energy ledger is open", advice="try a smaller rtol, or the other engine")
     return ends
 
 
 def _integrated(
-    model: Model, n: DimensionlessGroups, plugin: str, rtol: float
-) -> tuple[EventSequence, np.ndarray, float]:
-    """The located events, the last state and its time (x0/v0); tighter where the engine misses an event."""
+    model: Model, extras: tuple[str, ...], small: ModelKey, n: DimensionlessGroups, plugin: str, rtol: float
+) -> tuple[EventSequence, Replay]:
+    """The located events and the trajectory; tighter where the engine misses an event.
+
+    Arguments:
+        small: the reduced form of `model`, by which CVODES' events are located.
+    """
     asked = rtol
-    while True:
-        path = EventLocator(model, n.groups, asked).run()
-        if plugin == "rosenbrock":
-            return path, path.y, path.time
-        flow = Flow(model.choice, Region(1, 1, False), ())
+    while plugin != "rosenbrock":
+        path = EventLocator(load(small), n.groups, asked).run()
+        flow = Flow(model.choice, Region(1, 1, False), extras)
         start = model.start(model.group_values(n.groups))
         try:
-            found = replay(path, plugin, tolerance_for(asked, plugin, n.groups), flow, start)
+            return path, replay(path, plugin, tolerance_for(asked, plugin, n.groups), flow, start)
         except Stopped as failure:
-            if failure.missed and asked > _TIGHTEST:
-                asked = max(asked * 1e-2, _TIGHTEST)
-                continue
-            return path, path.y, path.time
-        return path, found.y, found.time
+            if not (failure.missed and asked > _TIGHTEST):
+                break
+            asked = max(asked * 1e-2, _TIGHTEST)
+    path = EventLocator(model, n.groups, asked, extras).run()
+    return path, as_located(path, model.choice)

@@ -9,9 +9,11 @@ import numpy as np
 from ...generated.automaton import LAST_ANSWER, Status
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.in_space import run_in_space
+from ..engines.taylor.record import run_with_books
 from ..model.model import load, select_model
 from ..scene.groups import rate_scales, si_values
 from ..scene.scene import Scene
+from .books import is_open, of_kernel
 from .ends import Ends
 from .pairs import Bodies, Pairs, dot, length
 
@@ -51,24 +53,28 @@ def planes(pairs: Pairs) -> Planes:
     return Planes(planar, axis, along[:, 0], along[:, 1:])
 
 
-def by_kernel(pairs: Pairs, rtol: float, threads: int, few: bool) -> tuple[Ends, np.ndarray] | None:
+def by_kernel(
+    pairs: Pairs, rtol: float, threads: int, few: bool, ledger: bool = False
+) -> tuple[Ends, np.ndarray] | None:
     """Ends of the pairs, and a mask of those that need another engine; None if no kernel is available."""
     ends, left = Ends.blank(pairs.size), np.zeros(pairs.size, bool)
     found = planes(pairs)
     which = np.flatnonzero(found.planar)
     if which.size:
-        flat = _in_planes(pairs.part(which), _part(found, which), rtol, threads, few)
+        flat = _in_planes(pairs.part(which), _part(found, which), rtol, threads, few, ledger)
         if flat is None:
             return None
         ends.put(which, flat[0])
         left[which] = flat[1]
     which = np.flatnonzero(~found.planar)
     if which.size:
-        solid = _in_space(pairs.part(which), rtol, threads, few)
+        solid = _in_space(pairs.part(which), rtol, threads, few, ledger)
         if solid is None:
             return None
         ends.put(which, solid[0])
         left[which] = solid[1]
+    if ledger:  # where it is open the trajectory is wrong
+        left |= is_open(ends.energy, ends.outcome > 0, rtol)
     return ends, left
 
 
@@ -76,13 +82,14 @@ def _part(found: Planes, which: np.ndarray) -> Planes:
     return Planes(found.planar[which], found.axis[which], found.turning[which], found.spins[which])
 
 
-def _in_space(pairs: Pairs, rtol: float, threads: int, few: bool) -> tuple[Ends, np.ndarray] | None:
+def _in_space(pairs: Pairs, rtol: float, threads: int, few: bool, ledger: bool) -> tuple[Ends, np.ndarray] | None:
     vectors = {"initial_normal": pairs.normal, "impact_turning": pairs.turning}
     vectors |= {name: pairs.spins[:, k] for k, name in enumerate(_SPINS)}
-    answers = run_in_space(pairs.scene, vectors, -pairs.opening, rtol, threads, few)
-    if answers is None:
+    ran = run_in_space(pairs.scene, vectors, -pairs.opening, rtol, threads, few, ledger)
+    if ran is None:
         return None
-    ends, left = _of_answers(pairs, answers)
+    answers, books = ran
+    ends, left = _of_answers(pairs, answers, books)
     known = answers["status"] == Status.DECIDED
     names = load(select_model(pairs.scene, True, space=True)).names("outputs")
     place = {name: k for k, name in enumerate(names)}
@@ -118,7 +125,9 @@ def scales(pairs: Pairs) -> np.ndarray:
     return np.asarray(found).reshape(-1)
 
 
-def _in_planes(pairs: Pairs, found: Planes, rtol: float, threads: int, few: bool) -> tuple[Ends, np.ndarray] | None:
+def _in_planes(
+    pairs: Pairs, found: Planes, rtol: float, threads: int, few: bool, ledger: bool
+) -> tuple[Ends, np.ndarray] | None:
     """By the planar kernel; what rounding leaves of the spins out of the plane stays as it is."""
     same = pairs.scene.partner is None and bool(np.all(found.spins[:, 0] == found.spins[:, 1]))
     scene = resting(pairs.scene, own_spins=not same)
@@ -128,10 +137,15 @@ def _in_planes(pairs: Pairs, found: Planes, rtol: float, threads: int, few: bool
     spins = sense[:, None] * found.spins
     others = {name: np.ascontiguousarray(spins[:, k]) for k, name in enumerate(_SPINS)}
     impacts = Impacts(scene, -pairs.opening, angle, others)
-    answers = run_kernel(impacts, rtol, True, threads, few=few)
+    books = None
+    if ledger:
+        both = run_with_books(impacts, rtol, threads)
+        answers, books = both if both is not None else (None, None)
+    else:
+        answers = run_kernel(impacts, rtol, True, threads, few=few)
     if answers is None:
         return None
-    ends, left = _of_answers(pairs, answers)
+    ends, left = _of_answers(pairs, answers, books)
     known = answers["status"] == Status.DECIDED
     axis = sense[:, None] * found.axis
     given = dict(si_values(scene, None, None)) | others | {"speed": impacts.speed, "angle": angle}
@@ -159,7 +173,7 @@ def resting(scene: Scene, own_spins: bool) -> Scene:
     return scene.with_entries(changes) if changes else scene
 
 
-def _of_answers(pairs: Pairs, answers: np.ndarray) -> tuple[Ends, np.ndarray]:
+def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None) -> tuple[Ends, np.ndarray]:
     """What answers of any structure say; a stick proved at initial contact is as it arrived."""
     ends = Ends.blank(pairs.size)
     left = answers["status"] > LAST_ANSWER
@@ -174,4 +188,6 @@ def _of_answers(pairs: Pairs, answers: np.ndarray) -> tuple[Ends, np.ndarray]:
     ends.normal[touch] = pairs.normal[touch]
     ends.turning[touch] = pairs.turning[touch]
     ends.spins[touch] = pairs.spins[touch]
+    if books is not None:
+        ends.energy[:] = of_kernel(books) * (float(pairs.scene.material["reduced_mass"]) * pairs.opening**2)[:, None]
     return ends, left

@@ -9,13 +9,15 @@ import numpy as np
 
 from ..engines.choice import space_engine
 from ..errors import InputError
+from ..host.arguments import check_flag
 from ..host.cores import usable_cores
 from ..host.pictures import register
-from ..many.results import outcome_attributes
+from ..many.results import attributes, outcome_attributes
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import FEW, RTOL, check_engine, check_rtol
 from .beside_wall import beside_wall, planar_by_casadi, planar_by_kernel
+from .books import named
 from .by_casadi import by_casadi
 from .by_kernel import by_kernel
 from .ends import FAILED, Ends, Motions, after, after_wall
@@ -49,6 +51,7 @@ def collide_pair(
     *,
     rtol: float = RTOL,
     engine: str | None = None,
+    ledger: bool = False,
 ) -> xarray.Dataset:
     """Collisions of two spheres, or of a sphere and a wall, with any velocities and spins.
 
@@ -62,6 +65,7 @@ def collide_pair(
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default where its kernel is compiled, and for more than 100 collisions where there is a C
             compiler), "rosenbrock" or "cvodes".
+        ledger: also the energy ledger, which takes longer.
 
     Leading shapes are broadcast against each other. Vectors are in the laboratory's axes.
 
@@ -73,6 +77,9 @@ def collide_pair(
         motion that has its angular momentum, at the gap and in the direction of the end. Components of the spins along
         the line of centres (twist) have no friction to leading logarithm, and stay as they are there; the angular
         velocity has their mean by inertia. Beside a wall a stick moves with the wall, and only its twist is left.
+        With `ledger` also energy.initial, .final (kinetic energies of both particles, with all spins, relative to their
+        centre of mass or to the wall), .normal_lubrication, .tangential_lubrication, .capillary, .attraction (NaN
+        without), .dry_contact and .residual, J; of a stick up to `time`, where its motion is not yet rigid.
 
     Raises:
         InputError: an invalid shape or scene. A collision that fails, as of a pair that does not approach, raises
@@ -87,6 +94,7 @@ def collide_pair(
     """
     loaded = Scene.load(scene)
     rtol, asked = check_rtol(rtol), check_engine(engine)
+    ledger = check_flag(ledger, "ledger")
     _check_scene(loaded)
     pairs = checked(loaded, normal, velocities, spins)
     ends, refused = Ends.blank(pairs.size), _refused(pairs)
@@ -96,12 +104,12 @@ def collide_pair(
     chosen = asked or ""
     if sound.any():
         warn(loaded)
-        chosen = space_engine(asked, int(np.count_nonzero(sound)), loaded, rtol)
+        chosen = space_engine(asked, int(np.count_nonzero(sound)), loaded, rtol, ledger)
         which = np.flatnonzero(sound)
-        ends.put(which, _ends(pairs.part(which), chosen, rtol))
+        ends.put(which, _ends(pairs.part(which), chosen, rtol, ledger))
     with np.errstate(invalid="ignore"):
         motions = after_wall(pairs, ends) if loaded.wall else after(pairs, ends)
-    return _dataset(pairs, ends, motions, {"scene": loaded.to_toml(), "rtol": rtol, "engine": chosen})
+    return _dataset(pairs, ends, motions, {"scene": loaded.to_toml(), "rtol": rtol, "engine": chosen}, ledger)
 
 
 def _check_scene(scene: Scene) -> None:
@@ -139,33 +147,33 @@ def _refused(pairs: Pairs) -> dict[int, str]:
     return found
 
 
-def _ends(pairs: Pairs, engine: str, rtol: float) -> Ends:
+def _ends(pairs: Pairs, engine: str, rtol: float, ledger: bool) -> Ends:
     """Ends of pairs that approach."""
     if engine != "taylor":
-        return _by_casadi(pairs, engine, rtol)
+        return _by_casadi(pairs, engine, rtol, ledger)
     few, threads = pairs.size <= FEW, usable_cores() if pairs.size > FEW else 1
     if pairs.scene.wall:
-        made = beside_wall(pairs, lambda those: planar_by_kernel(those, rtol, threads, few))
+        made = beside_wall(pairs, lambda those: planar_by_kernel(those, rtol, threads, few, ledger), rtol, ledger)
     else:
-        made = by_kernel(pairs, rtol, threads, few)
+        made = by_kernel(pairs, rtol, threads, few, ledger)
     if made is None:
-        return _by_casadi(pairs, "rosenbrock", rtol)
+        return _by_casadi(pairs, "rosenbrock", rtol, ledger)
     ends, left = made
     if left.any():
         which = np.flatnonzero(left)
-        ends.put(which, _by_casadi(pairs.part(which), "rosenbrock", rtol))
+        ends.put(which, _by_casadi(pairs.part(which), "rosenbrock", rtol, ledger))
     return ends
 
 
-def _by_casadi(pairs: Pairs, engine: str, rtol: float) -> Ends:
+def _by_casadi(pairs: Pairs, engine: str, rtol: float, ledger: bool) -> Ends:
     if not pairs.scene.wall:
-        return by_casadi(pairs, engine, rtol)
-    made = beside_wall(pairs, lambda those: planar_by_casadi(those, rtol))
+        return by_casadi(pairs, engine, rtol, ledger)
+    made = beside_wall(pairs, lambda those: planar_by_casadi(those, rtol, ledger), rtol, ledger)
     assert made is not None
     return made[0]
 
 
-def _dataset(pairs: Pairs, ends: Ends, motions: Motions, said: dict[str, Any]) -> xarray.Dataset:
+def _dataset(pairs: Pairs, ends: Ends, motions: Motions, said: dict[str, Any], ledger: bool) -> xarray.Dataset:
     import xarray as xr
 
     register()
@@ -181,11 +189,14 @@ def _dataset(pairs: Pairs, ends: Ends, motions: Motions, said: dict[str, Any]) -
         "reason": (dims, ends.reason.astype(str), {"long_name": "why it failed"}),
     }
     found |= {name: (dims, made[name], {"units": u, "long_name": what}) for name, (u, what) in _NUMBERS.items()}
+    if ledger:
+        terms = named(pairs.scene, ends.energy)
+        found |= {f"energy.{key}": (dims, column, attributes(f"energy.{key}")) for key, column in terms.items()}
     for name, (more, unit, what) in _VECTORS.items():
         values = np.where(failed.reshape(-1, *[1] * len(more)), np.nan, made[name])
         found[name] = (*dims, *more), values, {"units": unit, "long_name": what}
     shaped = {
-        name: (own, values.reshape((*pairs.shape, *values.shape[1:])), attributes)
-        for name, (own, values, attributes) in found.items()
+        name: (own, values.reshape((*pairs.shape, *values.shape[1:])), notes)
+        for name, (own, values, notes) in found.items()
     }
     return xr.Dataset(shaped, {"axis": list(_AXES)}, said)

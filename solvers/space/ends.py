@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
+from .books import TERMS
 from .pairs import Bodies, Pairs, dot, length
 
 FAILED = -1
@@ -22,6 +23,7 @@ class Ends:
         opening: normal relative velocity, m/s.
         turning: angular velocity of the line of centres, rad/s.
         sliding: beside a wall, velocity along it relative to the wall, m/s.
+        energy: terms of the ledger in the order of `TERMS`, J; NaN without one.
     """
 
     outcome: np.ndarray
@@ -35,6 +37,7 @@ class Ends:
     turning: np.ndarray
     sliding: np.ndarray
     spins: np.ndarray
+    energy: np.ndarray
 
     @classmethod
     def blank(cls, size: int) -> Ends:
@@ -55,6 +58,7 @@ class Ends:
             turning=unknown(3),
             sliding=unknown(3),
             spins=unknown(2, 3),
+            energy=unknown(len(TERMS)),
         )
 
     def put(self, where: np.ndarray, other: Ends) -> None:

@@ -14,29 +14,35 @@ from ...scene.groups import si_values
 from ...scene.scene import Scene
 from .build import Variant, for_few, kernel
 from .call import variant
-from .layout import ANSWER_IN_SPACE, Task, names
+from .layout import ANSWER_IN_SPACE, LEDGER, Task, names
 
 BUDGET = 30_000  # steps of a collision; one that tumbles for longer is stiff, and left to Rosenbrock
 _CHUNK = 4096  # collisions in a block for a thread
 AXES = "xyz"
 
 
-def variant_in_space(scene: Scene, rtol: float) -> Variant:
+def variant_in_space(scene: Scene, rtol: float, ledger: bool = False) -> Variant:
     """The variant that `run_in_space` takes."""
-    return variant(scene, select_model(scene, True, space=True), rtol, rotation=False)
+    return variant(scene, select_model(scene, True, full=ledger, space=True), rtol, rotation=False, ledger=ledger)
 
 
 def run_in_space(
-    scene: Scene, vectors: Mapping[str, np.ndarray], speed: np.ndarray, rtol: float, threads: int = 1, few: bool = False
-) -> np.ndarray | None:
-    """An array of ANSWER_IN_SPACE, one per collision; None if no kernel is available.
+    scene: Scene,
+    vectors: Mapping[str, np.ndarray],
+    speed: np.ndarray,
+    rtol: float,
+    threads: int = 1,
+    few: bool = False,
+    ledger: bool = False,
+) -> tuple[np.ndarray, np.ndarray | None] | None:
+    """An array of ANSWER_IN_SPACE, one per collision, and with `ledger` one of LEDGER; None if no kernel is available.
 
     Arguments:
         vectors: `initial_normal`, `impact_turning`, `impact_spin` and `impact_partner_spin`, each (collisions, 3), SI.
         speed: normal approach speeds, m/s.
         few: use a kernel that compiles faster and integrates slightly slower.
     """
-    wanted = variant_in_space(scene, rtol)
+    wanted = variant_in_space(scene, rtol, ledger)
     library = kernel(for_few(wanted) if few else wanted)
     if library is None:
         return None
@@ -45,6 +51,7 @@ def run_in_space(
         given |= {f"{name}_{axis}": np.ascontiguousarray(rows[:, k]) for k, axis in enumerate(AXES)}
     given["speed"] = np.ascontiguousarray(speed)
     found = np.zeros(speed.size, ANSWER_IN_SPACE)
+    books = np.zeros(speed.size, LEDGER) if ledger else None
 
     def chunk(first: int) -> None:
         part = slice(first, min(first + _CHUNK, speed.size))
@@ -52,6 +59,8 @@ def run_in_space(
         columns = (given[name] for name in names(library, "quantity_names"))
         asked.columns([column if isinstance(column, float) else column[part] for column in columns])
         asked.buffer("answers", found[part])
+        if books is not None:
+            asked.buffer("books", books[part])
         asked.run()
 
     firsts = range(0, speed.size, _CHUNK)
@@ -61,4 +70,4 @@ def run_in_space(
     else:
         with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
             list(pool.map(chunk, firsts))
-    return found
+    return found, books

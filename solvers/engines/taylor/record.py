@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,7 @@ from .headers import has_events
 from .layout import ANSWER, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
 
 _ROOM = 64, 256  # events and steps of a collision
+_CHUNK = 4096  # collisions a thread takes at a time
 
 
 @dataclass(frozen=True)
@@ -131,3 +133,28 @@ def run_recorded(
     turned = number(library, "row_turned") if trajectory else -1
     kept = None if rows is None else Steps(rows[:steps], None if turned < 0 else turned)
     return Recorded(answers, log, books if ledger else None, kept, margins)
+
+
+def run_with_books(impacts: Impacts, rtol: float, threads: int) -> tuple[np.ndarray, np.ndarray] | None:
+    """Answers and ledgers of impacts, oblique or head-on; None if there is no kernel here."""
+    found, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, LEDGER)
+
+    def run(oblique: bool, which: np.ndarray) -> bool:
+        fold = not impacts.others
+        told = run_recorded(impacts.part(which), oblique, rtol, ledger=True, events=False, fold=fold)
+        if told is None or told.ledger is None:
+            return False
+        found[which], books[which] = told.answers, told.ledger
+        return True
+
+    turns = impacts.oblique
+    parts = [
+        (oblique, which[first : first + _CHUNK])
+        for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns)))
+        for first in range(0, which.size, _CHUNK)
+    ]
+    if threads == 1 or len(parts) < 2:
+        return (found, books) if all(run(*part) for part in parts) else None
+    with ThreadPoolExecutor(threads) as pool:  # the kernel runs without the interpreter's lock
+        done = list(pool.map(lambda part: run(*part), parts))
+    return (found, books) if all(done) else None

@@ -1,0 +1,57 @@
+"""Energy ledgers of collisions in space: terms over m v0^2 by either engine, a row each, and in J."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ..collision.outcome import open_beyond
+from ..model.model import Model
+from ..scene.scene import Scene
+
+TERMS = (
+    "initial", "final", "normal_lubrication", "tangential_lubrication", "capillary", "attraction", "dry_contact",
+)  # fmt: skip
+_OF_KERNEL = ("initial", "final", "normal", "tangential", "capillary", "attraction", "dry")
+_INITIAL, _FINAL, _SHEAR = (TERMS.index(name) for name in ("initial", "final", "tangential_lubrication"))
+TRANSVERSE = [_INITIAL, _FINAL, _SHEAR]
+"""Places of the terms to which motion across the line of centres contributes."""
+
+
+def of_kernel(books: np.ndarray) -> np.ndarray:
+    """The terms of ledgers by the kernel, (collisions, terms)."""
+    return np.stack([books[name] for name in _OF_KERNEL], axis=-1)
+
+
+def extras_of(model: Model) -> tuple[str, ...]:
+    """Names of a model's quadratures for the ledger."""
+    return tuple(name for name in model.names("energy_rates") if name in TERMS)
+
+
+def of_casadi(model: Model, p: np.ndarray, y: np.ndarray, extras: Mapping[str, float], dry: float) -> np.ndarray:
+    """The terms of a trajectory by CasADi, from its last state and quadratures."""
+    first, last = (model.values("energies", each, p)["kinetic"] for each in (model.start(p), y))
+    known = dict(extras) | {"initial": first, "final": last, "dry_contact": dry}
+    return np.array([known.get(name, 0.0) for name in TERMS])
+
+
+def residual(terms: np.ndarray) -> np.ndarray:
+    """What the terms (collisions, terms) leave of the initial energy: the error of the integration."""
+    found: np.ndarray = terms[:, _INITIAL] - np.sum(np.delete(terms, _INITIAL, axis=1), axis=1)
+    return found
+
+
+def is_open(terms: np.ndarray, separated: np.ndarray, rtol: float) -> np.ndarray:
+    """Mask of separated collisions whose residual says that the trajectory is wrong."""
+    rest = np.abs(residual(terms))
+    found: np.ndarray = separated & (rest > open_beyond(rtol) * np.maximum(np.abs(terms).max(axis=1), rest))
+    return found
+
+
+def named(scene: Scene, terms: np.ndarray) -> dict[str, np.ndarray]:
+    """The terms by name, and the residual; NaN where the scene has no such force."""
+    found = {name: terms[:, k] for k, name in enumerate(TERMS)} | {"residual": residual(terms)}
+    if scene.attraction is None:
+        found["attraction"] = np.full(len(terms), np.nan)
+    return found
