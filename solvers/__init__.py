@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
     from .sensitivity.gradients_many import gradients_many
+    from .sensitivity.pair_gradients import pair_gradients
     from .sensitivity.result import Sensitivities
     from .sensitivity.sensitivities import sensitivities
     from .sensitivity.trajectory import trajectory_sensitivities
@@ -48,6 +49,7 @@ _HOMES = {
     "collide_many": "many.collide_many",
     "collide_pair": "space.collide_pair",
     "gradients_many": "sensitivity.gradients_many",
+    "pair_gradients": "sensitivity.pair_gradients",
     "plot": "host.pictures",
     "regime_map": "many.regime_map",
     "sensitivities": "sensitivity.sensitivities",
@@ -76,6 +78,7 @@ __all__ = [
     "collide_pair",
     "compile_kernels",
     "gradients_many",
+    "pair_gradients",
     "plot",
     "regime_map",
     "sensitivities",

@@ -14,6 +14,7 @@ GROUPS = {
         "sensitivities",
         "Sensitivities",
         "gradients_many",
+        "pair_gradients",
         "trajectory_sensitivities",
         "boundary_sensitivities",
         "BoundarySensitivities",

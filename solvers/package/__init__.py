@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from wetdoublet.solvers import collide_pair as collide_pair
     from wetdoublet.solvers import compile_kernels as compile_kernels
     from wetdoublet.solvers import gradients_many as gradients_many
+    from wetdoublet.solvers import pair_gradients as pair_gradients
     from wetdoublet.solvers import plot as plot
     from wetdoublet.solvers import regime_map as regime_map
     from wetdoublet.solvers import sensitivities as sensitivities

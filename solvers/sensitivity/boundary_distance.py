@@ -32,6 +32,7 @@ LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
 LOOK = 30.0  # multiple of the limit; at smaller estimates the distance is computed
 _WORTH_SAYING = 0.5  # largest logarithmic distance that is reported
 _HINT = "v0 squared"  # marks an estimate that is no distance; it is computed or dropped
+_ESTIMATE = "the energy of approach, by an estimate"
 _COARSE, _FINE = 1e-6, 1e-11
 _ASIDE, _SECANTS, _FAR = 1e-4, 4, 0.1  # secants in St: first relative step, number, reach
 _GRID = (*(float(t) for t in np.unique(np.concatenate([np.geomspace(1e-3, 1, 40), np.linspace(0, 1, 41)[1:]]))),)
@@ -40,6 +41,7 @@ GLASS = "graze of the glass criterion"
 CONTACT = "graze of the contact gap"
 SADDLE = "separatrix (saddle of the effective potential)"
 RIM = "separatrix (rim: it just reaches the rupture gap)"
+CHATTER = Near("chatter (it rests on the solids before it separates)", 0.0, "rebound speed")
 GRIP = "switch between sliding and sticking contact"
 DECLARED = "edge of the declared event"
 
@@ -62,11 +64,21 @@ def checked(
         near = _stick(scene, n, finder, path, least)
     else:
         if KINDS[EventKind.RESTS] in path.kinds:
-            near = Near("chatter (it rests on the solids before it separates)", 0.0, "rebound speed")
-            raise refused(near, least)
+            raise refused(CHATTER, least)
         near = _nearest(scene, n, list(_suspects(finder, path)), least)
     if near is not None and near.distance < least:
         raise refused(near, least)
+    return near
+
+
+def checked_by_estimates(finder: EventLocator, path: EventSequence, rtol: float) -> Near | None:
+    """The boundary nearest to a separated trajectory in space, by estimates only; ComputationError if it is near."""
+    least = LOOK * limit(rtol)
+    if KINDS[EventKind.RESTS] in path.kinds:
+        raise refused(CHATTER, least)
+    near = min(_suspects(finder, path), key=lambda one: one.distance, default=None)
+    if near is not None and near.distance < least:
+        raise refused(Near(near.boundary, near.distance, _ESTIMATE) if near.of == _HINT else near, least)
     return near
 
 

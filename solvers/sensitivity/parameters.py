@@ -69,6 +69,11 @@ def check_hold(hold: object, label: str = "hold") -> str:
     return hold
 
 
+def known_of_particles(scene: Scene) -> tuple[str, ...]:
+    """The parameters of a scene without its impact."""
+    return tuple(name for name in known(scene) if not name.startswith("impact."))
+
+
 @dataclass(frozen=True)
 class Kind:
     """Key of a parameter map: the entries that a scene has, and the held quantity of the impact."""

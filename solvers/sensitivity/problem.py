@@ -22,7 +22,7 @@ from .result import Near
 from .results import DIFFERENTIATED
 from .trajectory_expression import course_of, influential, trajectory_expression
 
-_LOCATED = 1e-8  # tolerance of the event location; landings on the events correct the remaining error
+LOCATED = 1e-8  # tolerance of the event location; landings on the events correct the remaining error
 NEAR = 1e-2  # at smaller distances to a boundary errors are amplified, so the tolerance is reduced with the distance
 SHARPEST = 1e-13
 _ASIDE = 1e-5  # rad
@@ -59,14 +59,14 @@ class Problem:
 
     def located(self, of: tuple[str, ...], rtol: float) -> tuple[EventSequence, Near | None]:
         """The located trajectory and the nearest boundary found; ComputationError if that is too near."""
-        finder = EventLocator(load(select_model(self.scene, self.n.oblique)), self.n.groups, _LOCATED)
+        finder = EventLocator(load(select_model(self.scene, self.n.oblique)), self.n.groups, LOCATED)
         try:
             path = finder.run()
         except ComputationError as error:
             raise self.n.in_si(nearness.explained(self.scene, self.n, error, rtol)) from None
         near = nearness.checked(self.scene, self.n, finder, path, rtol)
         if not self.n.oblique and path.separated and self.odd(of) and self.scene.pendulum is None:
-            path = EventLocator(load(select_model(self.scene, True)), self.n.groups, _LOCATED).run()
+            path = EventLocator(load(select_model(self.scene, True)), self.n.groups, LOCATED).run()
         return path, near
 
     def odd(self, of: tuple[str, ...]) -> tuple[str, ...]:
@@ -80,7 +80,7 @@ class Problem:
         angle.
         """
         aside = Problem.of(self.scene, self.n.speed, _ASIDE, ("impact.angle",), self.kind.hold)
-        path = EventLocator(load(select_model(self.scene, True)), aside.n.groups, _LOCATED).run()
+        path = EventLocator(load(select_model(self.scene, True)), aside.n.groups, LOCATED).run()
         slopes = aside.slopes(path, of, method, plugin, rtol)
         return dict(zip(of, (slopes.first[:, 0] / aside.units()[0]).tolist(), strict=True))
 
@@ -125,7 +125,7 @@ class Problem:
         try:
             # second derivatives of the groups need the gradient in every group
             how = method if along is None else "adjoint"
-            durations, z, dz = differentiated(expression, course, p, durations, dp, active, how, _amplifies(near))
+            durations, z, dz = differentiated(expression, course, p, durations, dp, active, how, amplifies(near))
             if along is not None:
                 seed_directions = np.eye(len(self.wrt)) if isinstance(along, str) else along / self.units()[:, None]
                 durations = settled(expression, p, durations, landed(course), LANDED_WELL)
@@ -159,10 +159,11 @@ class Problem:
 
 def sharpened(rtol: float, near: Near | None) -> float:
     """The tolerance reduced for a trajectory near a boundary, which amplifies errors by one over the distance."""
-    return min(rtol, max(rtol * near.distance / NEAR, SHARPEST)) if near is not None and _amplifies(near) else rtol
+    return min(rtol, max(rtol * near.distance / NEAR, SHARPEST)) if near is not None and amplifies(near) else rtol
 
 
-def _amplifies(near: Near | None) -> bool:
+def amplifies(near: Near | None) -> bool:
+    """True if a boundary is so near that the trajectory amplifies errors."""
     return near is not None and near.distance < NEAR
 
 

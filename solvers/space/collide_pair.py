@@ -26,14 +26,14 @@ from .pairs import Pairs, checked
 if TYPE_CHECKING:
     import xarray
 
-_AXES = ("x", "y", "z")
-_NUMBERS = {
+AXES = ("x", "y", "z")
+NUMBERS = {
     "restitution": ("1", "normal restitution e_n"),
     "slip_restitution": ("1", "relative velocity of the surfaces at the contact, after over before"),
     "time": ("s", "time from initial contact to the end"),
     "gap": ("m", "gap at the end"),
 }
-_VECTORS = {
+VECTORS = {
     "position": (("axis",), "m", "from the first centre to the second, or to the wall's surface"),
     "normal": (("axis",), "1", "direction of the position"),
     "velocities": (("particle", "axis"), "m/s", "velocities of the centres; the second beside a wall is the wall's"),
@@ -95,9 +95,9 @@ def collide_pair(
     loaded = Scene.load(scene)
     rtol, asked = check_rtol(rtol), check_engine(engine)
     ledger = check_flag(ledger, "ledger")
-    _check_scene(loaded)
+    check_scene(loaded)
     pairs = checked(loaded, normal, velocities, spins)
-    ends, refused = Ends.blank(pairs.size), _refused(pairs)
+    ends, refused = Ends.blank(pairs.size), refusals(pairs)
     sound = np.ones(pairs.size, bool)
     for k, why in refused.items():
         ends.reason[k], sound[k] = why, False
@@ -112,7 +112,8 @@ def collide_pair(
     return _dataset(pairs, ends, motions, {"scene": loaded.to_toml(), "rtol": rtol, "engine": chosen}, ledger)
 
 
-def _check_scene(scene: Scene) -> None:
+def check_scene(scene: Scene) -> None:
+    """InputError for a scene that has no collisions in space."""
     if scene.pendulum is not None:
         raise InputError("pendulum", "strings", "a scene without [pendulum]", "hold the spheres in one plane")
     if scene.particles.friction is not None:
@@ -125,7 +126,7 @@ def _check_scene(scene: Scene) -> None:
         raise InputError("model.arm", scene.model.arm, "midgap", problem)
 
 
-def _refused(pairs: Pairs) -> dict[int, str]:
+def refusals(pairs: Pairs) -> dict[int, str]:
     """Why rows cannot be computed: a number that is not finite, or a pair that does not approach."""
     numbers = np.concatenate([pairs.velocities, pairs.spins], axis=1).reshape(pairs.size, 12)
     finite = np.isfinite(numbers).all(axis=1)
@@ -188,15 +189,15 @@ def _dataset(pairs: Pairs, ends: Ends, motions: Motions, said: dict[str, Any], l
         "certified": (dims, ends.certified, {"long_name": "the stick is proved"}),
         "reason": (dims, ends.reason.astype(str), {"long_name": "why it failed"}),
     }
-    found |= {name: (dims, made[name], {"units": u, "long_name": what}) for name, (u, what) in _NUMBERS.items()}
+    found |= {name: (dims, made[name], {"units": u, "long_name": what}) for name, (u, what) in NUMBERS.items()}
     if ledger:
         terms = named(pairs.scene, ends.energy)
         found |= {f"energy.{key}": (dims, column, attributes(f"energy.{key}")) for key, column in terms.items()}
-    for name, (more, unit, what) in _VECTORS.items():
+    for name, (more, unit, what) in VECTORS.items():
         values = np.where(failed.reshape(-1, *[1] * len(more)), np.nan, made[name])
         found[name] = (*dims, *more), values, {"units": unit, "long_name": what}
     shaped = {
         name: (own, values.reshape((*pairs.shape, *values.shape[1:])), notes)
         for name, (own, values, notes) in found.items()
     }
-    return xr.Dataset(shaped, {"axis": list(_AXES)}, said)
+    return xr.Dataset(shaped, {"axis": list(AXES)}, said)

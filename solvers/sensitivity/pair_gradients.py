@@ -1,0 +1,224 @@
+"""`pair_gradients()`: derivatives of collisions with vectors, of two spheres in space or of a sphere and a wall."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from casadi import Function, vertcat
+
+from ...generated.automaton import OUTCOMES
+from ..engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance_for
+from ..engines.casadi.locate import EventLocator
+from ..errors import ComputationError, WetDoubletError
+from ..host.arguments import check_names
+from ..host.pictures import register
+from ..host.thread_caches import own_cache
+from ..many.results import FAILED, outcome_attributes
+from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.model import Model, load, select_model
+from ..model.validity import warn
+from ..scene.scene import Scene
+from ..settings import check_rtol
+from ..space.by_casadi import groups_of, own_axes
+from ..space.collide_pair import AXES, NUMBERS, VECTORS, check_scene, refusals
+from ..space.pairs import Pairs, checked
+from .boundary_distance import checked_by_estimates
+from .directions import differentiated
+from .gradients_many import STICK
+from .pair_maps import RESULTS, pair_maps, quantities_of
+from .parameters import kind_of, known_of_particles, parameter_map, references
+from .problem import LOCATED, amplifies, sharpened
+from .trajectory_expression import Course, TrajectoryExpression, course_of, follow_course, influential, symbols
+
+if TYPE_CHECKING:
+    import xarray
+
+INPUTS = ("normal", "velocities", "spins")
+_SHAPES = {"normal": (3,), "velocities": (2, 3), "spins": (2, 3)}
+_ROWS = sum(int(np.prod(shape)) for shape in RESULTS.values())
+
+
+def pair_gradients(
+    scene: Scene | str | FilePath,
+    normal: Any,
+    velocities: Any,
+    spins: Any,
+    *,
+    wrt: Sequence[str] | str | None = None,
+    rtol: float = 1e-9,
+) -> xarray.Dataset:
+    """Exact derivatives of collisions with vectors, through their events; one pair after another, by Rosenbrock.
+
+    Arguments:
+        scene, normal, velocities, spins: as for `collide_pair`.
+        wrt: numeric entries of the scene by dotted name (but not its impact), and "normal", "velocities", "spins" for
+            all their components; None for all of these.
+        rtol: relative tolerance, 1e-13..1e-3.
+
+    Returns:
+        Dataset over dim_0, dim_1, ...: outcome, restitution, time, gap, normal, position, velocities and spins as
+        `collide_pair` has them, each but the outcome with its derivatives `d_NAME` over `parameter` too, SI.
+        Components of inputs are called "normal.x", "velocities.1.x", "spins.0.z". Only the direction of the normal
+        matters: its derivatives are those across it. Where no derivative exists, as of sticks and near boundaries,
+        there is NaN, and `reason` says why.
+
+    Raises:
+        InputError: as for `collide_pair`, or an unknown name.
+
+    Example:
+        >>> from wetdoublet.solvers import pair_gradients
+        >>> velocities, spins = [[0.1, 0, 0.5], [0, 0, 0]], [[0, 0, 0], [0, 1000, 200]]  # m/s, rad/s
+        >>> found = pair_gradients("granulation", [0, 0, 1], velocities, spins, wrt=["liquid.viscosity", "spins"])
+        >>> found.d_velocities.sel(parameter="spins.1.y").dims
+        ('particle', 'axis')
+    """
+    import xarray as xr
+
+    register()
+    loaded, rtol = Scene.load(scene), check_rtol(rtol)
+    check_scene(loaded)
+    everything = (*known_of_particles(loaded), *INPUTS)
+    names = everything if wrt is None else check_names(wrt, everything, "wrt")
+    pairs = checked(loaded, normal, velocities, spins)
+    asked = _Asked.of(loaded, names)
+    size = pairs.size
+    outcome, reason = np.full(size, FAILED, np.int8), np.full(size, "", object)
+    value, slope = np.full((size, _ROWS), np.nan), np.full((size, _ROWS, len(asked.parameters)), np.nan)
+    refused = refusals(pairs)
+    if len(refused) < size:
+        warn(loaded)
+    for k in range(size):
+        if k in refused:
+            reason[k] = refused[k]
+            continue
+        try:
+            outcome[k], found = _one(asked, pairs.part(np.array([k])), rtol)
+        except WetDoubletError as error:
+            reason[k] = str(error)
+            continue
+        if found is None:
+            reason[k] = STICK
+        else:
+            value[k], slope[k] = found
+    if loaded.wall:
+        value[:, -3:] = slope[:, -3:] = np.nan
+    dims = tuple(f"dim_{k}" for k in range(len(pairs.shape)))
+    data: dict[str, Any] = {
+        "outcome": (dims, outcome.reshape(pairs.shape), outcome_attributes()),
+        "reason": (dims, reason.astype(str).reshape(pairs.shape), {"long_name": "why there is no derivative"}),
+    }
+    first = 0
+    for name, shape in RESULTS.items():
+        unit, what = NUMBERS[name] if name in NUMBERS else VECTORS[name][1:]
+        more = VECTORS[name][0] if name in VECTORS else ()
+        part = slice(first, first := first + int(np.prod(shape)))
+        data[name] = ((*dims, *more), value[:, part].reshape(*pairs.shape, *shape), {"units": unit, "long_name": what})
+        slopes = slope[:, part].reshape(*pairs.shape, *shape, len(asked.parameters))
+        data[f"d_{name}"] = ((*dims, *more, "parameter"), slopes, {"long_name": f"derivative of the {what}"})
+    coordinates = {"axis": list(AXES), "parameter": list(asked.parameters)}
+    return xr.Dataset(data, coordinates, {"scene": loaded.to_toml(), "rtol": rtol, "engine": "rosenbrock"})
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """The request: entries of the scene, and the places of components among all inputs."""
+
+    scene: Scene
+    entries: tuple[str, ...]
+    components: tuple[int, ...]
+    parameters: tuple[str, ...]
+
+    @classmethod
+    def of(cls, scene: Scene, names: Sequence[str]) -> _Asked:
+        entries = tuple(name for name in names if name not in INPUTS)
+        labels = {}
+        place = 0
+        for name, shape in _SHAPES.items():
+            for index in np.ndindex(shape):
+                own = name in names and not (scene.wall and name == "spins" and index[0] == 1)
+                if own:
+                    labels[place] = ".".join((name, *map(str, index[:-1]), AXES[index[-1]]))
+                place += 1
+        return cls(scene, entries, tuple(labels), (*entries, *labels.values()))
+
+
+def _one(asked: _Asked, pair: Pairs, rtol: float) -> tuple[int, tuple[np.ndarray, np.ndarray] | None]:
+    """Outcome of one pair; its results and their derivatives by the parameters (results, parameters), None if it sticks.
+
+    Raises:
+        ComputationError: near a boundary, or the trajectory could not be differentiated.
+    """
+    scene = asked.scene
+    model = load(select_model(scene, True, space=not scene.wall))
+    maps, names = pair_maps(model.choice), quantities_of(model)
+    x = np.concatenate([pair.normal[0], pair.velocities[0].ravel(), pair.spins[0].ravel()])
+    speed, d_speed = (each.full() for each in maps.speed(x))
+    v0 = float(speed.item())
+    kind = kind_of(scene, "speed")
+    mapping = parameter_map(kind, (*asked.entries, "impact.speed"), names)
+    reference = references(scene, kind, v0, 0.0)
+    by_theta, units = (each.full() for each in mapping.slopes(reference))
+    g = np.append(mapping.values(reference).full().ravel()[: len(names) + 1], v0)  # and the film's thickness, v0
+    n, axes = _scaled(pair)
+    scale = n.groups["obliquity"]
+    # columns of order one: entries in theta, inputs over what is typical of each
+    count = len(asked.entries)
+    typical = np.concatenate([np.ones(3), np.full(6, v0), np.full(6, v0 / float(scene.material["reduced_radius"]))])
+    sizes = np.append(units.ravel()[:count], typical[list(asked.components)])
+    dx = np.zeros((x.size, sizes.size))
+    dx[list(asked.components), range(count, sizes.size)] = typical[list(asked.components)]
+    by_speed = d_speed @ dx
+    dg = np.zeros((g.size, sizes.size))
+    dg[:-1, :count] = by_theta[: len(names) + 1, :count]
+    dg[:-1] += by_theta[: len(names) + 1, count:] / v0 * by_speed
+    dg[-1:] = by_speed
+    p, by_g, by_x = (each.full() for each in maps.groups(g, x, axes, scale))
+    p, dp = p.ravel(), by_g @ dg + by_x @ dx
+    n = replace(n, groups={**n.groups, **dict(zip(model.groups, p.tolist(), strict=True))})
+    try:
+        finder = EventLocator(model, n.groups, LOCATED)
+        path = finder.run()
+    except ComputationError as error:
+        raise n.in_si(error) from None
+    outcome = OUTCOMES.index(path.outcome)
+    if not path.separated:
+        return outcome, None
+    near = checked_by_estimates(finder, path, rtol)
+    course = course_of(path, model.choice)
+    active = influential(course, n.groups)
+    expression = _end(course, tolerance_for(sharpened(rtol, near), "rosenbrock", n.groups))
+    durations = np.array([step.duration for step in path.steps])
+    dp = dp * np.array(active)[:, None]
+    try:
+        _, end, by_p = differentiated(expression, course, p, durations, dp, active, "forward", amplifies(near))
+    except IntegrationFailed as failure:
+        raise ComputationError(
+            f"rosenbrock could not differentiate the trajectory ({failure})", advice="try another rtol"
+        ) from None
+    value, *slopes = (each.full() for each in maps.results(end, p, g, x, axes, scale))
+    moved = slopes[0] @ (by_p @ dp) + slopes[1] @ dp + slopes[2] @ dg + slopes[3] @ dx
+    return outcome, (value.ravel(), moved / sizes)
+
+
+def _scaled(pair: Pairs) -> tuple[DimensionlessGroups, np.ndarray]:
+    """The groups of a pair, and the axes of its vectors; where nothing moves sideways rates have a scale of 1."""
+    if pair.scene.wall:
+        return nondimensionalise(pair.scene, -float(pair.opening[0]), 0.0), np.eye(3)
+    axes = own_axes(pair)
+    n = groups_of(pair, axes)
+    return replace(n, groups={**n.groups, "obliquity": n.groups["obliquity"] or 1.0}), axes
+
+
+@own_cache(256)
+def _end(course: Course, tolerance: Tolerance) -> TrajectoryExpression:
+    """The expression of a course's last state and its time."""
+    p, durations = symbols(course)
+    at = follow_course(course, p, durations, (), "rosenbrock", tolerance)
+    end, missed = vertcat(at.y, at.time), vertcat(*at.shifts)
+    model: Model = course.model
+    names = (*model.state, "time")
+    return TrajectoryExpression(Function("end", [p, durations], [end, missed]), names, tuple(model.groups))

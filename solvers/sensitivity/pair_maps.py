@@ -1,0 +1,171 @@
+"""Maps around a trajectory of a pair: from quantities and vectors to its groups, and from its end to the motion after.
+
+Vectors are in the laboratory's axes; the equations of two spheres are integrated in axes that are constant along all
+derivatives. The scale of rates keeps its number, too: no result depends on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from casadi import SX, Function, cross, densify, dot, jacobian, norm_2, vertcat
+
+from ...generated import scaling
+from ..host.thread_caches import own_cache
+from ..model.model import Model, ModelKey, load
+
+AXES = "xyz"
+INPUTS = 15  # normal, two velocities, two spins
+SIZES = ("reduced_radius", "radius_ratio", "mass_ratio")
+RESULTS: Mapping[str, tuple[int, ...]] = {
+    "restitution": (), "time": (), "gap": (), "normal": (3,), "position": (3,), "velocities": (2, 3), "spins": (2, 3),
+}  # fmt: skip
+"""Shapes of the results, in the order of the maps' rows."""
+
+
+def quantities_of(model: Model) -> tuple[str, ...]:
+    """Names of the quantities `g` of a pair's maps: groups that no vector changes, and sizes."""
+    moved = {"obliquity", "initial_normal", "initial_turning", "initial_spin", "initial_partner_spin"}
+    own = (name for name in model.groups if name.rstrip(AXES).rstrip("_") not in moved and name not in moved)
+    return tuple(dict.fromkeys((*own, *(SIZES if model.space else SIZES[:1]))))
+
+
+@dataclass(frozen=True)
+class PairMaps:
+    """CasADi functions; `g` has the quantities, film thickness and speed, `x` the inputs.
+
+    Arguments:
+        speed: x -> speed of approach, and its gradient.
+        groups: (g, x, axes, scale) -> groups, their derivatives by g and by x.
+        results: (end, groups, g, x, axes, scale) -> results, their derivatives by the end, groups, g and x.
+    """
+
+    speed: Function
+    groups: Function
+    results: Function
+
+
+@dataclass(frozen=True)
+class _Inputs:
+    normal: SX
+    velocities: tuple[SX, SX]
+    spins: tuple[SX, SX]
+
+    @classmethod
+    def of(cls, x: SX) -> _Inputs:
+        normal, first, second, spin, partner = (x[k : k + 3] for k in range(0, INPUTS, 3))
+        return cls(normal / norm_2(normal), (first, second), (spin, partner))
+
+    @property
+    def relative(self) -> SX:
+        return self.velocities[1] - self.velocities[0]
+
+
+@own_cache(32)
+def pair_maps(choice: ModelKey) -> PairMaps:
+    """The maps of a model of two spheres in space, or of a sphere beside a wall."""
+    model = load(choice)
+    names = (*quantities_of(model), "film_thickness", "speed")
+    x, g = SX.sym("x", INPUTS), SX.sym("g", len(names))
+    axes, scale = SX.sym("axes", 3, 3), SX.sym("scale")
+    given, inputs = dict(zip(names, (g[k] for k in range(len(names))), strict=True)), _Inputs.of(x)
+    approach = -dot(inputs.normal, inputs.relative)
+    first = _first(given, inputs, axes, scale) if model.space else {"initial_turning": SX(1), "initial_spin": SX(0)}
+    first |= {"obliquity": scale} if model.space else {"obliquity": SX(1)}
+    p = densify(vertcat(*(first[name] if name in first else given[name] for name in model.groups)))
+    groups, end = SX.sym("groups", p.numel()), SX.sym("end", len(model.state) + 1)
+    after = _of_spheres if model.space else _beside_wall
+    found = densify(after(model, end, groups, given, inputs, axes, scale))
+    return PairMaps(
+        Function("speed", [x], [approach, densify(jacobian(approach, x))]),
+        Function("groups", [g, x, axes, scale], [p, densify(jacobian(p, g)), densify(jacobian(p, x))]),
+        Function(
+            "results",
+            [end, groups, g, x, axes, scale],
+            [found, *(densify(jacobian(found, each)) for each in (end, groups, g, x))],
+        ),
+    )
+
+
+def _sizes(given: Mapping[str, SX]) -> tuple[SX, SX]:
+    """Sum of the radii, and the part of the mass that is the first sphere's."""
+    a, ratio = given["reduced_radius"], given["radius_ratio"]
+    return a * (1 + ratio) ** 2 / ratio, 1 / (1 + given["mass_ratio"])
+
+
+def _rate(given: Mapping[str, SX], scale: SX) -> SX:
+    """The scale of rates, rad/s."""
+    values = {**given, "obliquity": scale}
+    found: SX = scaling.rate_scale_pair(*(values[name] for name in scaling.ARGUMENTS["rate_scale_pair"]))
+    return found
+
+
+def _first(given: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX) -> dict[str, SX]:
+    """The groups that are components of vectors."""
+    distance, rate = _sizes(given)[0] + given["film_thickness"], _rate(given, scale)
+    vectors = {
+        "initial_normal": inputs.normal,
+        "initial_turning": cross(inputs.normal, inputs.relative) / distance / rate,
+        "initial_spin": inputs.spins[0] / rate,
+        "initial_partner_spin": inputs.spins[1] / rate,
+    }
+    return {f"{name}_{axis}": (axes @ v)[k] for name, v in vectors.items() for k, axis in enumerate(AXES)}
+
+
+def _of_spheres(model: Model, end: SX, groups: SX, given: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX) -> SX:
+    """Results of two spheres, as `space.ends.after` has them."""
+    y, rate, speed = end[:-1], _rate(given, scale), given["speed"]
+    shown = dict(zip(model.names("outputs"), _parts(model.function("outputs")(y, groups)), strict=True))
+
+    def vector(name: str) -> SX:
+        return axes.T @ vertcat(*(shown[f"{name}_{axis}"] for axis in AXES))
+
+    contact, share = _sizes(given)
+    gap, normal = y[0] * given["film_thickness"], vector("final_normal")
+    turning = vector("final_rotation_rate") * rate
+    relative = (contact + gap) * cross(turning, normal) + shown["restitution"] * speed * normal
+    centre = share * inputs.velocities[0] + (1 - share) * inputs.velocities[1]
+    return vertcat(
+        shown["restitution"],
+        end[-1] * given["film_thickness"] / speed,
+        gap,
+        normal,
+        (contact + gap) * normal,
+        centre - (1 - share) * relative,
+        centre + share * relative,
+        vector("final_spin") * rate,
+        vector("final_spin_partner") * rate,
+    )
+
+
+def _beside_wall(
+    model: Model, end: SX, groups: SX, given: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX
+) -> SX:
+    """Results beside a wall, as `space.beside_wall` has them: one linear map of sliding and rolling."""
+    y, speed, radius, normal = end[:-1], given["speed"], given["reduced_radius"], inputs.normal
+    spinning = SX(groups)
+    spinning[list(model.groups).index("initial_spin")] = 1
+    places = [model.names("outputs").index(name) for name in ("tangential_restitution", "final_spin")]
+    slides, both = (model.function("outputs")(y, each) for each in (groups, spinning))
+    restitution = slides[model.names("outputs").index("restitution")]
+    sliding = dot(normal, inputs.relative) * normal - inputs.relative
+    rolling = radius * cross(normal, inputs.spins[0])
+    later_slide, later_roll = (slides[k] * sliding + (both[k] - slides[k]) * rolling for k in places)
+    gap = y[0] * given["film_thickness"]
+    wall, nothing = inputs.velocities[1], SX.zeros(3)
+    return vertcat(
+        restitution,
+        end[-1] * given["film_thickness"] / speed,
+        gap,
+        normal,
+        (radius + gap) * normal,
+        wall + later_slide - restitution * speed * normal,
+        wall,
+        cross(later_roll, normal) / radius + dot(inputs.spins[0], normal) * normal,
+        nothing,
+    )
+
+
+def _parts(column: SX) -> list[SX]:
+    return [column[k] for k in range(column.numel())]
