@@ -28,7 +28,6 @@ from ..space.collide_pair import AXES, NUMBERS, VECTORS, check_scene, refusals
 from ..space.pairs import Pairs, checked
 from .boundary_distance import checked_by_estimates
 from .directions import differentiated
-from .gradients_many import STICK
 from .pair_maps import RESULTS, pair_maps, quantities_of
 from .parameters import kind_of, known_of_particles, parameter_map, references
 from .problem import LOCATED, amplifies, sharpened
@@ -39,6 +38,7 @@ if TYPE_CHECKING:
 
 INPUTS = ("normal", "velocities", "spins")
 _SHAPES = {"normal": (3,), "velocities": (2, 3), "spins": (2, 3)}
+_STICK = "a stick: the rigid motion that it is given as is not differentiated"
 _ROWS = sum(int(np.prod(shape)) for shape in RESULTS.values())
 
 
@@ -101,7 +101,7 @@ def pair_gradients(
             reason[k] = str(error)
             continue
         if found is None:
-            reason[k] = STICK
+            reason[k] = _STICK
         else:
             value[k], slope[k] = found
     if loaded.wall:
@@ -116,8 +116,12 @@ def pair_gradients(
         unit, what = NUMBERS[name] if name in NUMBERS else VECTORS[name][1:]
         more = VECTORS[name][0] if name in VECTORS else ()
         part = slice(first, first := first + int(np.prod(shape)))
-        data[name] = ((*dims, *more), value[:, part].reshape(*pairs.shape, *shape), {"units": unit, "long_name": what})
-        slopes = slope[:, part].reshape(*pairs.shape, *shape, len(asked.parameters))
+        data[name] = (
+            (*dims, *more),
+            value[:, part].reshape((*pairs.shape, *shape)),
+            {"units": unit, "long_name": what},
+        )
+        slopes = slope[:, part].reshape((*pairs.shape, *shape, len(asked.parameters)))
         data[f"d_{name}"] = ((*dims, *more, "parameter"), slopes, {"long_name": f"derivative of the {what}"})
     coordinates = {"axis": list(AXES), "parameter": list(asked.parameters)}
     return xr.Dataset(data, coordinates, {"scene": loaded.to_toml(), "rtol": rtol, "engine": "rosenbrock"})
@@ -147,7 +151,7 @@ class _Asked:
 
 
 def _one(asked: _Asked, pair: Pairs, rtol: float) -> tuple[int, tuple[np.ndarray, np.ndarray] | None]:
-    """Outcome of one pair; its results and their derivatives by the parameters (results, parameters), None if it sticks.
+    """Outcome of one pair; its results and their derivatives (results, parameters), None if it sticks.
 
     Raises:
         ComputationError: near a boundary, or the trajectory could not be differentiated.

@@ -75,8 +75,10 @@ def pair_maps(choice: ModelKey) -> PairMaps:
     first |= {"obliquity": scale} if model.space else {"obliquity": SX(1)}
     p = densify(vertcat(*(first[name] if name in first else given[name] for name in model.groups)))
     groups, end = SX.sym("groups", p.numel()), SX.sym("end", len(model.state) + 1)
-    after = _of_spheres if model.space else _beside_wall
-    found = densify(after(model, end, groups, given, inputs, axes, scale))
+    if model.space:
+        found = densify(_of_spheres(model, end, groups, given, inputs, axes, scale))
+    else:
+        found = densify(_beside_wall(model, end, groups, given, inputs))
     return PairMaps(
         Function("speed", [x], [approach, densify(jacobian(approach, x))]),
         Function("groups", [g, x, axes, scale], [p, densify(jacobian(p, g)), densify(jacobian(p, x))]),
@@ -139,9 +141,7 @@ def _of_spheres(model: Model, end: SX, groups: SX, given: Mapping[str, SX], inpu
     )
 
 
-def _beside_wall(
-    model: Model, end: SX, groups: SX, given: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX
-) -> SX:
+def _beside_wall(model: Model, end: SX, groups: SX, given: Mapping[str, SX], inputs: _Inputs) -> SX:
     """Results beside a wall, as `space.beside_wall` has them: one linear map of sliding and rolling."""
     y, speed, radius, normal = end[:-1], given["speed"], given["reduced_radius"], inputs.normal
     spinning = SX(groups)

@@ -1,0 +1,83 @@
+"""Derivatives of collisions with vectors, against central differences of `collide_pair`."""
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Scene, collide_pair, pair_gradients
+from wetdoublet.solvers.errors import InputError
+
+FILM = Scene.load("granulation-dry-bridge").with_entries({"partner.radius": "0.2 mm", "partner.mass": "3e-5 g"})
+WALL = Scene.load("granulation").with_entries({"partner.wall": True})
+RESULTS = ("restitution", "time", "gap", "normal", "position", "velocities", "spins")
+NORMAL = np.array([0.0, 0.6, -0.8])
+VELOCITIES = np.array([[1.0, 0, -2], [0, 0.3, 0]])
+SPINS = np.array([[2e3, 3e3, 1e4], [-4e3, 1e4, 1e3]])
+_STEP = 2e-5
+
+
+def differences(scene, inputs, name):
+    """Central differences in a parameter, by name of the result."""
+    ends = []
+    kind, *place = name.split(".")
+    step = _STEP * {"normal": 1.0, "velocities": 1.0, "spins": 1e4}.get(kind, scene.entries.get(name))
+    for sign in (1, -1):
+        moved = {key: np.array(values) for key, values in inputs.items()}
+        own = scene
+        if kind in inputs:
+            moved[kind][(*map(int, place[:-1]), "xyz".index(place[-1]))] += sign * step
+        else:
+            own = scene.with_entries({name: scene.entries[name] + sign * step})
+        ends.append(collide_pair(own, **moved, rtol=1e-12, engine="rosenbrock"))
+    return {key: (ends[0][key].values - ends[1][key].values) / (2 * step) for key in RESULTS}, step
+
+
+def agree(scene, inputs, names):
+    """Derivatives against differences, by the size of a result's change or of its rounding."""
+    found = pair_gradients(scene, **inputs)
+    assert not str(found.reason.values)
+    assert int(found.outcome) > 0
+    for name in names:
+        expected, step = differences(scene, inputs, name)
+        for key, slope in expected.items():
+            ours = found[f"d_{key}"].sel(parameter=name).values
+            size = np.nanmax(np.abs(slope)) + _STEP / step * np.nanmax(np.abs(found[key].values))
+            assert ours == pytest.approx(slope, abs=1e-6 * size, nan_ok=True), (name, key)
+    return found
+
+
+def test_of_spheres_by_entries_and_vectors():
+    """Spins in and out of the plane, velocities along and across the normal, its direction, and the scene."""
+    inputs = {"normal": NORMAL, "velocities": VELOCITIES, "spins": SPINS}
+    names = ("liquid.viscosity", "partner.radius", "normal.y", "velocities.1.z", "spins.0.x", "spins.1.y")
+    found = agree(FILM, inputs, names)
+    same = collide_pair(FILM, **inputs, rtol=1e-11, engine="rosenbrock")
+    for key in RESULTS:
+        assert found[key].values == pytest.approx(same[key].values, rel=1e-7, abs=1e-9 * float(np.abs(same[key]).max()))
+    along = found.d_velocities.sel(parameter=[f"normal.{axis}" for axis in "xyz"]).values @ NORMAL
+    assert along == pytest.approx(np.zeros((2, 3)), abs=1e-9 * np.abs(found.d_velocities.values).max())
+
+
+def test_beside_a_wall():
+    """Sliding, rolling and twist, and a wall that moves."""
+    inputs = {"normal": NORMAL, "velocities": 5 * VELOCITIES, "spins": 5 * SPINS[:1]}
+    found = agree(WALL, inputs, ("liquid.film_thickness", "normal.z", "velocities.1.x", "spins.0.y"))
+    assert np.isnan(found.spins.values[1]).all()
+    assert not any(str(name).startswith("spins.1") for name in found.parameter.values)
+
+
+def test_a_stick_and_a_pair_that_recedes_say_so():
+    """They have no derivatives; rows keep their shape, and the others are not lost."""
+    velocities = np.array([5 * VELOCITIES, -VELOCITIES, 0.02 * VELOCITIES])[:, None]
+    found = pair_gradients(WALL, NORMAL, velocities, 0.02 * SPINS[:1], wrt=["velocities", "liquid.viscosity"])
+    assert found.d_spins.shape == (3, 1, 2, 3, 7)
+    assert [str(why) for why in found.reason.values[:1, 0]] == [""]
+    assert "do not approach" in str(found.reason.values[1, 0])
+    assert "stick" in str(found.reason.values[2, 0])
+    assert np.isnan(found.d_velocities.values[1:]).all()
+    assert np.isfinite(found.d_velocities.values[0]).all()
+
+
+def test_an_unknown_parameter_is_named():
+    """The impact of the scene is not used, and has no derivatives."""
+    with pytest.raises(InputError) as caught:
+        pair_gradients(FILM, NORMAL, VELOCITIES, SPINS, wrt=["impact.angle"])
+    assert caught.value.field == "wrt"
