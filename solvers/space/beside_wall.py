@@ -157,7 +157,7 @@ def _energies(pairs: Pairs, sliding: np.ndarray, rolling: np.ndarray, planar: li
     forms = slides - along, spins - along, (both - against) / 2
     mass, speed = float(pairs.scene.material["reduced_mass"]), -pairs.opening[:, None]
     squares = dot(sliding, sliding), dot(rolling, rolling), dot(sliding, rolling)
-    found = planar[0] * mass * speed**2
+    found: np.ndarray = planar[0] * mass * speed**2
     across = sum(form * square for form, square in zip(forms, squares, strict=True))
     found[:, TRANSVERSE] = mass * (along * speed**2 + across)
     twist = dot(pairs.spins[:, 0], pairs.normal)

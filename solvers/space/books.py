@@ -15,6 +15,7 @@ TERMS = (
 )  # fmt: skip
 _OF_KERNEL = ("initial", "final", "normal", "tangential", "capillary", "attraction", "dry")
 _INITIAL, _FINAL, _SHEAR = (TERMS.index(name) for name in ("initial", "final", "tangential_lubrication"))
+OPEN = "the energy ledger is open: try a smaller rtol, or another engine"
 TRANSVERSE = [_INITIAL, _FINAL, _SHEAR]
 """Places of the terms to which motion across the line of centres contributes."""
 

@@ -20,7 +20,7 @@ from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, ModelKey, load, select_model
 from ..model.phases import Flow, Region
 from ..scene.groups import si_values
-from .books import extras_of, is_open, of_casadi
+from .books import OPEN, extras_of, is_open, of_casadi
 from .ends import FAILED, Ends
 from .pairs import Bodies, Pairs, length
 
@@ -110,7 +110,7 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     if ledger:
         ends.energy[0] = n.energy * of_casadi(model, p, y, {name: found.extra(name) for name in extras}, found.dry_loss)
         if is_open(ends.energy, ends.outcome > 0, rtol)[0]:
-            raise ComputationError("the energy ledger is open", advice="try a smaller rtol, or the other engine")
+            raise ComputationError(OPEN)
     return ends
 
 

@@ -17,7 +17,7 @@ from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import FEW, RTOL, check_engine, check_rtol
 from .beside_wall import beside_wall, planar_by_casadi, planar_by_kernel
-from .books import named
+from .books import OPEN, named
 from .by_casadi import by_casadi
 from .by_kernel import by_kernel
 from .ends import FAILED, Ends, Motions, after, after_wall
@@ -171,7 +171,9 @@ def _by_casadi(pairs: Pairs, engine: str, rtol: float, ledger: bool) -> Ends:
         return by_casadi(pairs, engine, rtol, ledger)
     made = beside_wall(pairs, lambda those: planar_by_casadi(those, rtol, ledger), rtol, ledger)
     assert made is not None
-    return made[0]
+    ends, is_open = made
+    ends.outcome[is_open], ends.reason[is_open] = FAILED, OPEN
+    return ends
 
 
 def _dataset(pairs: Pairs, ends: Ends, motions: Motions, said: dict[str, Any], ledger: bool) -> xarray.Dataset:

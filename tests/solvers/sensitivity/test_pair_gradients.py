@@ -76,6 +76,22 @@ def test_a_stick_and_a_pair_that_recedes_say_so():
     assert np.isfinite(found.d_velocities.values[0]).all()
 
 
+def test_near_a_boundary_it_is_refused_by_name():
+    """Just above the speed at which a sphere leaves the wall."""
+
+    def outcome(scale):
+        return int(collide_pair(WALL, NORMAL, scale * VELOCITIES, SPINS[:1], engine="rosenbrock").outcome)
+
+    stuck, parted = 1.004, 1.01
+    assert outcome(stuck) == 0 < outcome(parted)
+    while parted - stuck > 1e-5:
+        middle = (stuck + parted) / 2
+        stuck, parted = (middle, parted) if outcome(middle) == 0 else (stuck, middle)
+    found = pair_gradients(WALL, NORMAL, parted * VELOCITIES, SPINS[:1], wrt="velocities")
+    assert "no derivative: the collision lies at the" in str(found.reason.values)
+    assert np.isnan(found.d_velocities.values).all()
+
+
 def test_an_unknown_parameter_is_named():
     """The impact of the scene is not used, and has no derivatives."""
     with pytest.raises(InputError) as caught:
