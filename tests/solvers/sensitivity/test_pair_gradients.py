@@ -5,7 +5,7 @@ import pytest
 from wetdoublet.solvers import Scene, collide_pair, pair_gradients
 from wetdoublet.solvers.errors import InputError
 
-FILM = Scene.load("granulation-dry-bridge").with_entries({"partner.radius": "0.2 mm", "partner.mass": "3e-5 g"})
+UNEQUAL = Scene.load("granulation").with_entries({"partner.radius": "0.2 mm", "partner.mass": "3e-5 g"})
 WALL = Scene.load("granulation").with_entries({"partner.wall": True})
 RESULTS = ("restitution", "time", "gap", "normal", "position", "velocities", "spins")
 NORMAL = np.array([0.0, 0.6, -0.8])
@@ -48,8 +48,8 @@ def test_of_spheres_by_entries_and_vectors():
     """Spins in and out of the plane, velocities along and across the normal, its direction, and the scene."""
     inputs = {"normal": NORMAL, "velocities": VELOCITIES, "spins": SPINS}
     names = ("liquid.viscosity", "partner.radius", "normal.y", "velocities.1.z", "spins.0.x", "spins.1.y")
-    found = agree(FILM, inputs, names)
-    same = collide_pair(FILM, **inputs, rtol=1e-11, engine="rosenbrock")
+    found = agree(UNEQUAL, inputs, names)
+    same = collide_pair(UNEQUAL, **inputs, rtol=1e-11, engine="rosenbrock")
     for key in RESULTS:
         assert found[key].values == pytest.approx(same[key].values, rel=1e-7, abs=1e-9 * float(np.abs(same[key]).max()))
     along = found.d_velocities.sel(parameter=[f"normal.{axis}" for axis in "xyz"]).values @ NORMAL
@@ -95,5 +95,5 @@ def test_near_a_boundary_it_is_refused_by_name():
 def test_an_unknown_parameter_is_named():
     """The impact of the scene is not used, and has no derivatives."""
     with pytest.raises(InputError) as caught:
-        pair_gradients(FILM, NORMAL, VELOCITIES, SPINS, wrt=["impact.angle"])
+        pair_gradients(UNEQUAL, NORMAL, VELOCITIES, SPINS, wrt=["impact.angle"])
     assert caught.value.field == "wrt"
