@@ -302,7 +302,7 @@ def event(
         guard: positive before the event: an SI expression of x, u, omega, xi and quantities.
         where: "closing", "opening" or "any", and "inside the film" or "beyond the film" if it matters.
         jump: u, omega or xi just after the event, in SI; what is left out is continuous.
-        ends: "separated" or "stick" if the event ends the collision.
+        ends: "separated" (while opening only) or "stick" if the event ends the collision.
         releases: stored energy that the jump may give to the motion, J.
         word: its name in reports; by default the name.
 
@@ -328,6 +328,9 @@ def event(
         raise ModelFileError(f"{label}.where", where, ", ".join(own_events.PLACES))
     if ends not in own_events.ENDINGS:
         raise ModelFileError(f"{label}.ends", ends, '"separated", "stick", or "" for an event that ends nothing')
+    if ends == "separated" and not where.startswith("opening"):  # a restitution would be negative
+        accepted = '"opening", "opening inside the film" or "opening beyond the film" with ends="separated"'
+        raise ModelFileError(f"{label}.where", where, accepted, "may be on approach, where nothing separates")
     for what, text in (("meaning", meaning), ("source", source)):
         if not isinstance(text, str):
             raise ModelFileError(f"{label}.{what}", text, "text")

@@ -26,7 +26,8 @@ def map_curves(data: xarray.Dataset, package: Package | None = None) -> dict[int
     """The boundaries of each panel of a map: angles (rad) of every curve, and Stokes numbers or speeds (m/s).
 
     Nothing for a panel of one angle or one Stokes number, of a scene that the kernel does not support (one by one the
-    thousands of collisions would take minutes), or that cannot be.
+    thousands of collisions would take minutes), whose model declares events (there is no atlas of it), or that
+    cannot be.
 
     Arguments:
         package: the scene's own model; a map only describes it, so that without its files there are no boundaries.
@@ -34,8 +35,8 @@ def map_curves(data: xarray.Dataset, package: Package | None = None) -> dict[int
     base = scene_of(data)
     if package is not None:
         base = Scene(base.name, base.given, base.comments, package)
-    if base.package is not None and base.package.folder is None:
-        return {}  # only described
+    if base.package is not None and (base.package.folder is None or base.package.events):
+        return {}  # only described, or without atlas
     angles = data["angle"].values
     impact = impact_axis(data)
     values = data[impact].values

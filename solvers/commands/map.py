@@ -11,7 +11,7 @@ import click
 
 from ..errors import InputError
 from ..scene.ranges import MOST, MOST_STORED, check_cells
-from ..scene.schema import FIELDS
+from ..scene.schema import FIELDS, SPINS
 from ..scene.user_model import fields
 from ..settings import RTOL, check_engine, check_rtol
 from . import options
@@ -88,8 +88,9 @@ def command(
     asked = options.SceneRequest.check(source, changes, model=model)
     varied = _varied(vary, asked)
     for name in asked.entries:
-        if name.startswith("impact."):
-            raise InputError("--set", name, "entries that are not of the impact", "is an axis of the map")
+        if name.startswith("impact.") and name not in SPINS:
+            accepted = "entries that are not of the impact, or " + " and ".join(SPINS)
+            raise InputError("--set", name, accepted, "is an axis of the map")
     scene = asked.scene()
     if not {*axes} - {"angle"}:
         raise InputError("--stokes", None, "LO:HI:N or log:LO:HI:N, or --speed, or --relative-speed")

@@ -61,7 +61,7 @@ def collide_pair(
         scene: a Scene, a path or a preset's name; without strings and friction, with the lever arm at mid-gap.
         normal: (..., 3), from the first sphere to the second, or to the wall; of any length but zero.
         velocities: (..., 2, 3), m/s. Beside a wall (..., 1, 3), or (..., 2, 3) with the wall's velocity.
-        spins: (..., 2, 3), angular velocities in rad/s. Beside a wall (..., 1, 3).
+        spins: (..., 2, 3), angular velocities in rad/s. Beside a wall (..., 1, 3). Velocities too may carry units.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "taylor" (default where its kernel is compiled, and for more than 100 collisions where there is a C
             compiler), "rosenbrock" or "cvodes".

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Real
 from typing import Any
 
 import numpy as np
 
 from ..errors import InputError
 from ..scene.scene import Scene
+from ..scene.units import quantity
+from ..scene.values import array, scalar
 
 
 def dot(left: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -140,13 +143,32 @@ def checked(scene: Scene, normal: Any, velocities: Any, spins: Any) -> Pairs:
     )
 
 
+_UNITS = {"normal": "m", "velocities": "m/s", "spins": "rad/s"}
+
+
+@dataclass(frozen=True)
+class _Component:
+    """A component of a vector, as `values.array` takes entries: NaN and inf pass, since they mark a pair."""
+
+    unit: str
+    accepts: str
+
+    def number(self, raw: object, *, label: str | None = None) -> float:
+        if isinstance(raw, Real) and not isinstance(raw, bool):
+            return float(raw)
+        if isinstance(raw, str):
+            return quantity(raw, self.unit, label or "", self.accepts)
+        found = scalar(raw, self, label or "")
+        if not isinstance(found, float):
+            raise InputError(label or "", raw, self.accepts, "is not a number")
+        return found
+
+
 def _numbers(
     name: str, values: Any, last: tuple[int, ...], accepted: str, more: tuple[int, ...] | None = None
 ) -> np.ndarray:
-    try:
-        found = np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(name, values, f"SI numbers of shape {accepted}", "is not numbers") from None
+    shaped = f"numbers of shape {accepted}, SI or with their unit"
+    found = array(values, _Component(_UNITS[name], shaped), name)
     shapes = {last, more} - {None}
     if not any(found.shape[-len(own) :] == own for own in shapes if own):
         raise InputError(name, f"an array of shape {found.shape}", accepted, "has another shape")

@@ -35,6 +35,7 @@ def model(body: str) -> UserModel:
         ('event("snap", guard=d - x, releases=m)', "event snap.releases: 'reduced_mass' has dimension M; accepted"),
         ('event("snap", guard=d - x, word="rupture")', "event snap.word: 'rupture' exists already; accepted: any word"),
         ('event("snap", guard=d - x, ends="bounce")', "event snap.ends: 'bounce' is not accepted; accepted"),
+        ('event("snap", guard=d - x, ends="separated")', "event snap.where: 'any' may be on approach"),
         ('event("snap", guard=d - x, ends="stick", jump={u: u/2})', "event snap.jump"),
         ('event("glass", guard=d - x)', "'glass' is an event of the library; accepted: a name of your own"),
         ('event("gap", guard=d - x)', "event: 'gap' is taken already"),

@@ -124,6 +124,7 @@ BAD = [
     ("verify --stokes 1", "--stokes", '"1" needs a SCENE', "a SCENE with --stokes"),
     ("generate --out /dev/null/x", "--out", "/dev/null", "a folder"),
     ("verify --stress -1", "--stress", '"-1" is out of range', "1 to 10000000"),
+    ("map granulation --stokes 1:2:2 --angle 0:1:2 --set impact.angle=3", "--set", "axis of the map", "impact.spin"),
     ("map granulation --stokes 0.1:0.2:1000000000", "--stokes", "has too many values", "N at most 10000000"),
     ("sensitivity granulation --uncertainty liquid.viscosity=5", "--uncertainty of liquid.viscosity", "no unit", "5 %"),
     ("scenes granulation-dry", "scene", "did you mean granulation-dry-bridge?", "granulation, pendulum"),

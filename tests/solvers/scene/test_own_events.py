@@ -15,8 +15,10 @@ from wetdoublet.solvers import (
     boundary,
     collide,
     collide_many,
+    regime_map,
     sensitivities,
 )
+from wetdoublet.solvers.boundaries.on_map import map_curves
 from wetdoublet.solvers.engines.taylor import build
 from wetdoublet.solvers.engines.taylor.call import variant
 from wetdoublet.solvers.host.compiler import compiler
@@ -176,6 +178,13 @@ def test_an_atlas_is_refused(snaps: Path):
     """Kinds of curves are told by functions that know of no declared event, so there is no atlas."""
     with pytest.raises(InputError, match="spans no atlas of a model that declares events; accepted: boundaries along"):
         atlas(scene(snaps), over="impact.angle", span=(0.0, 0.3), stokes=(0.1, 0.2))
+
+
+def test_a_map_is_drawn_without_boundaries(snaps: Path):
+    """There is no atlas of such a model to draw over the cells of its map."""
+    own = scene(snaps, critical_rate="1e4 1/s")
+    found = regime_map(own, stokes=[0.05, 0.1], angle=[0.5, 1.0])
+    assert map_curves(found, own.package) == {}
 
 
 def test_energy_is_not_created_unsaid(snaps: Path):

@@ -1,7 +1,9 @@
 """Collisions in space: what is conserved, what turning and moving the picture does, the plane, a wall, chains."""
 
 import numpy as np
+import pint
 import pytest
+import xarray as xr
 from wetdoublet.solvers import Scene, collide_many, collide_pair
 from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.host.compiler import compiler
@@ -247,6 +249,19 @@ def test_a_bad_row_leaves_the_others():
     assert np.isfinite(found["velocities"][0]).all()
 
 
+def test_velocities_and_spins_carry_units():
+    """Vectors in cm/s and revolutions per minute give what the same ones in SI do."""
+    units = pint.UnitRegistry()
+    velocities, spins = np.array([[0.0, 0.0, 20.0], [5.0, 0.0, 0.0]]), np.array([[0.0, 0.0, 0.0], [2e4, 0.0, -5e4]])
+    plain = values(collide_pair(GRANULATION, [0, 0, 1], velocities, spins))
+    given = 100 * velocities * units.cm / units.s, spins * 30 / np.pi * units.rpm
+    found = values(collide_pair(GRANULATION, [0, 0, 1], *given))
+    assert found["velocities"] == pytest.approx(plain["velocities"], rel=1e-9)
+    as_data = xr.DataArray(100 * velocities, attrs={"units": "cm/s"})
+    found = values(collide_pair(GRANULATION, [0, 0, 1], as_data, spins))
+    assert found["velocities"] == pytest.approx(plain["velocities"], rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("scene", "normal", "velocities", "spins", "field"),
     [
@@ -256,6 +271,8 @@ def test_a_bad_row_leaves_the_others():
         (GRANULATION, [0, 0, 1], np.ones((4, 2, 3)), np.ones((3, 2, 3)), "normal, velocities, spins"),
         (WALL, [0, 0, 1], np.ones((1, 3)), np.ones((2, 3)), "spins"),
         (GRANULATION, [0, 0, 1], [["fast"] * 3] * 2, np.ones((2, 3)), "velocities"),
+        (GRANULATION, [0, 0, 1], [["5 m"] * 3] * 2, np.ones((2, 3)), "velocities"),
+        (GRANULATION, [0, 0, 1], np.ones((2, 3)), None, "spins"),
         ("pendulum", [0, 0, 1], np.ones((2, 3)), np.ones((2, 3)), "pendulum"),
         (ROUGH, [0, 0, 1], np.ones((2, 3)), np.ones((2, 3)), "particles.friction"),
         (GRANULATION.with_entries({"model.arm": "surface"}), [0, 0, 1], np.ones((2, 3)), np.ones((2, 3)), "model.arm"),
