@@ -1,7 +1,8 @@
 """One pair in space by Rosenbrock or CVODES, in axes that go with the pair.
 
 CasADi's integrators measure errors by component, so the axes must not be the laboratory's: the first is the line of
-centres, the second lies along what rotates most across it. Turning the picture then changes rounding only.
+centres, the second lies along what rotates most across it. Turning the picture then changes rounding only. During
+the integration they turn about the angular momentum as a rigid doublet would (`model.phases`).
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from .ends import FAILED, Ends
 from .pairs import Bodies, Pairs, length
 
 AXES = "xyz"
+EXTRAS = ("rotation",)
 _LEAST = 1e-300
 _TIGHTEST = 1e-13
 
@@ -91,6 +93,7 @@ def _one(pair: Pairs, plugin: str, rtol: float) -> Ends:
         raise n.in_si(error) from None
     p = model.group_values(n.groups)
     shown = model.values("outputs", y, p)
+    axes = _turned_back(model, y, p) @ axes
 
     def vector(name: str) -> np.ndarray:
         found: np.ndarray = np.array([[shown[f"{name}_{axis}"] for axis in AXES]]) @ axes
@@ -108,16 +111,29 @@ def _one(pair: Pairs, plugin: str, rtol: float) -> Ends:
     return ends
 
 
+def _turned_back(model: Model, y: np.ndarray, p: np.ndarray) -> np.ndarray:
+    """The axes in which the integration ended, as rows, in those in which it began (`model.phases`)."""
+    parts = model.values("precession", y, p)
+    momentum = np.array([parts[f"momentum_{axis}"] for axis in AXES])
+    angle = float(np.sqrt(momentum @ momentum)) * float(y[len(model.state)])
+    if angle == 0.0:
+        return np.eye(3)
+    line = momentum / np.sqrt(momentum @ momentum)
+    along = np.outer(line, line)
+    turned = along + np.cos(angle) * (np.eye(3) - along) + np.sin(angle) * np.cross(line, np.eye(3)).T
+    return np.asarray(turned.T)
+
+
 def _integrated(
     model: Model, n: DimensionlessGroups, plugin: str, rtol: float
 ) -> tuple[EventSequence, np.ndarray, float]:
     """The located events, the last state and its time (x0/v0); tighter where the engine misses an event."""
     asked = rtol
     while True:
-        path = EventLocator(model, n.groups, asked).run()
+        path = EventLocator(model, n.groups, asked, EXTRAS).run()
         if plugin == "rosenbrock":
             return path, path.y, path.time
-        flow = Flow(model.choice, Region(1, 1, False), ())
+        flow = Flow(model.choice, Region(1, 1, False), EXTRAS)
         start = model.start(model.group_values(n.groups))
         try:
             found = replay(path, plugin, tolerance_for(asked, plugin, n.groups), flow, start)
@@ -126,4 +142,4 @@ def _integrated(
                 asked = max(asked * 1e-2, _TIGHTEST)
                 continue
             return path, path.y, path.time
-        return path, found.y, found.time
+        return path, np.append(found.y[:-1], found.extra(EXTRAS[0])), found.time
