@@ -64,6 +64,7 @@ from .observables import (
     inward_at_rest,
     outputs,
     outward_at_most,
+    precession,
     restitution_ceiling,
     rigid_rotation,
     surface_slip,
@@ -404,6 +405,14 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                     "Energy over m v0^2 of all motion but rotation as a rigid doublet across the line of centres, and "
                     "twist.",
                     (("wobble", wobble(structure)),),
+                )
+            )
+            functions.append(
+                ModelFunction(
+                    "precession",
+                    "Angular momentum over m a^2 Omega, and the rate per v0/x0, over its length, at which a rigid "
+                    "doublet turns about it.",
+                    tuple(precession(structure).items()),
                 )
             )
         else:
