@@ -147,6 +147,14 @@ def test_a_doublet_that_rolls_at_rest_while_its_spins_equalise_sticks() -> None:
     assert found.energy is not None and abs(found.energy.residual) < 1e-8 * found.energy.initial
 
 
+def test_slip_that_friction_reverses_wholly_may_be_zero() -> None:
+    """With opposite spins of equal spheres nothing turns at the surface arm either, and the engines agree."""
+    entries = KINDS["surface"] | {"impact.spin": 1e3, "impact.partner_spin": -1e3}
+    both = [collide(rough(entries, 1e6, 1.0), stokes=8.0, angle=0.0, engine=name) for name in ("rosenbrock", "taylor")]
+    assert both[0].outcome == both[1].outcome == "bounce"
+    assert both[0].restitution == pytest.approx(both[1].restitution, rel=1e-8)
+
+
 WRT = ("particles.friction", "particles.contact_tangential_restitution", "liquid.viscosity")
 OF = ("restitution", "tangential_restitution", "final_spin", "energy.dry_friction")
 
