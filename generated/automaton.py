@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 550c057a0ccb20c9aca15b504895644dbf911a1798670da9362c57f0df3be984
+# Automaton sha256 835c8efa0f6b310100f1672485815d2f3ec0a386a4dd955cbfc1e69cf5f8f5f9
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -114,6 +114,7 @@ class Purpose(IntEnum):
 
 
 REST_SPEED = 1e-09  # in v0: a slower rebound against an inward force rests
+RELEASE_SPEED = 1e-12  # in v0: with it a resting doublet is released. At rest, where no force is left, rounding would decide in which direction it starts
 MOST_OBLIQUE = 1000000000.0  # in v0^2/x0: a larger centrifugal force reverses the motion within rounding of x0
 LOOSEST = 1e-06  # largest relative tolerance; a larger one is reduced to it, as certificates need it
 SAFETY = 30.0  # least margin of a certificate in tolerances of the largest energy: errors of the fastest motion persist in the energy, and errors of many steps add up

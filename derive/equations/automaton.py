@@ -137,7 +137,7 @@ ACTIONS = (
     Action("turn", "closing becomes opening, and opening becomes closing"),
     Action("cross film edge", "inside the film becomes beyond; the tangential edge is crossed as well if it coincides"),
     Action("cross tangential edge", "inside the tangential edge becomes beyond, and beyond becomes inside"),
-    Action("open", "the next phase opens from the present gap; on an edge, it is beyond that edge"),
+    Action("open", "the next phase opens from the present gap, at RELEASE_SPEED; on an edge, it is beyond that edge"),
     Action("roll or slide", "rolling if friction can hold the surfaces together, else sliding"),
     Action("slide", "sliding in the direction in which the surfaces are driven past each other"),
     Action("separate", "the collision ends: separated"),
@@ -305,6 +305,8 @@ class Constant:
 
 CONSTANTS = (
     Constant("REST_SPEED", 1e-9, "in v0: a slower rebound against an inward force rests"),
+    Constant("RELEASE_SPEED", 1e-12, "in v0: with it a resting doublet is released. At rest, where no force is left, "
+             "rounding would decide in which direction it starts"),
     Constant("MOST_OBLIQUE", 1e9, "in v0^2/x0: a larger centrifugal force reverses the motion within rounding of x0"),
     Constant("LOOSEST", 1e-6, "largest relative tolerance; a larger one is reduced to it, as certificates need it"),
     Constant("SAFETY", 30.0, "least margin of a certificate in tolerances of the largest energy: errors of the fastest "

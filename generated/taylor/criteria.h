@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 550c057a0ccb20c9aca15b504895644dbf911a1798670da9362c57f0df3be984
+ * Automaton sha256 835c8efa0f6b310100f1672485815d2f3ec0a386a4dd955cbfc1e69cf5f8f5f9
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

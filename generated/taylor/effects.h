@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 550c057a0ccb20c9aca15b504895644dbf911a1798670da9362c57f0df3be984
+ * Automaton sha256 835c8efa0f6b310100f1672485815d2f3ec0a386a4dd955cbfc1e69cf5f8f5f9
  *
  * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
  * known. */
@@ -41,6 +41,7 @@ static void act(queue *q, lanes *l, fixed *f, int lane, int event)
     case AT_RELEASE:
         note(q, l->index[lane], KIND_RELEASED, l->time[lane]);
         new_phase(l, lane);
+        l->y[NORMAL_VELOCITY][lane] = RELEASE_SPEED;
         opens(l, f, lane);
         break;
     case AT_SLIPPING:

@@ -144,7 +144,7 @@ class EnergyCertificate:
         orbital_momentum = y[list(self.model.state).index("orbital_momentum")]
         rigid = self._rigid(y, float(y[0]))
         change, reach = abs(orbital_momentum - rigid), float(y[0])
-        if self.model.friction:  # impulses reverse the slip again and again
+        if self.model.friction and change > 0:  # impulses reverse the slip again and again
             reversed_part = self.groups["contact_tangential_restitution"]
             change *= (1 + reversed_part) / (1 - reversed_part) if reversed_part < 1 else np.inf
         if not phase.resting:

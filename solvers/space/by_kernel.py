@@ -15,9 +15,8 @@ from ..scene.groups import rate_scales, si_values
 from ..scene.scene import Scene
 from .books import is_open, of_kernel
 from .ends import Ends
-from .pairs import Bodies, Pairs, dot, length
+from .pairs import ROUNDING, Bodies, Pairs, dot, length
 
-_ROUNDING = 16 * np.finfo(float).eps  # of a component over the largest of its kind
 _SPINS = ("impact_spin", "impact_partner_spin")
 
 
@@ -39,7 +38,7 @@ def planes(pairs: Pairs) -> Planes:
     largest = np.max(sizes, axis=1)
     turned = np.concatenate([pairs.turning[:, None], pairs.spins], axis=1)
     rows = np.arange(pairs.size)
-    chosen = np.where(sizes[:, 0] > _ROUNDING * largest, 0, 1 + np.argmax(sizes[:, 1:], axis=1))
+    chosen = np.where(sizes[:, 0] > ROUNDING * largest, 0, 1 + np.argmax(sizes[:, 1:], axis=1))
     axis = turned[rows, chosen]
     axis = axis - dot(axis, pairs.normal) * pairs.normal
     with np.errstate(all="ignore"):
@@ -49,7 +48,7 @@ def planes(pairs: Pairs) -> Planes:
     rest[:, 1:] *= radii[:, None]
     rest[:, 0] *= pairs.distance
     given = np.maximum(largest, np.max(np.abs(pairs.velocities), axis=(1, 2)))
-    planar = np.all(length(rest) <= _ROUNDING * given[:, None], axis=1)
+    planar = np.all(length(rest) <= ROUNDING * given[:, None], axis=1)
     return Planes(planar, axis, along[:, 0], along[:, 1:])
 
 

@@ -14,6 +14,8 @@ from ..scene.scene import Scene
 from ..scene.units import quantity
 from ..scene.values import array, scalar
 
+ROUNDING = 16 * np.finfo(float).eps  # of a component over the largest of its kind
+
 
 def dot(left: np.ndarray, right: np.ndarray) -> np.ndarray:
     """Scalar products of vectors along the last axis, kept as an axis of length 1."""
@@ -92,9 +94,14 @@ class Pairs:
 
     @cached_property
     def sliding(self) -> np.ndarray:
-        """Relative velocity of the second centre, or of the wall, across the line of centres, m/s."""
+        """Relative velocity of the second centre, or of the wall, across the line of centres, m/s.
+
+        What rounding alone may have made is zero: a head-on collision is one in every direction.
+        """
         relative = self.velocities[:, 1] - self.velocities[:, 0]
-        found: np.ndarray = relative - dot(self.normal, relative) * self.normal
+        across = relative - dot(self.normal, relative) * self.normal
+        largest = np.max(np.abs(self.velocities), axis=(1, 2))
+        found: np.ndarray = np.where((length(across) > ROUNDING * largest)[:, None], across, 0.0)
         return found
 
     def part(self, which: np.ndarray) -> Pairs:

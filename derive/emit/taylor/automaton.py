@@ -24,7 +24,7 @@ _STATEMENTS = {
         "    l->shear[lane] = l->film[lane];",
     ),
     "cross tangential edge": ("l->shear[lane] = 1.0 - l->shear[lane];",),
-    "open": ("opens(l, f, lane);",),
+    "open": ("l->y[NORMAL_VELOCITY][lane] = RELEASE_SPEED;", "opens(l, f, lane);"),
     "roll or slide": ("finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);",),
     "slide": ("finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);",),
     "separate": ("separated(q, l, f, lane);",),

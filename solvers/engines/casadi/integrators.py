@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from casadi import SX, Function, if_else, integrator, jacobian, jtimes, vertcat
+from casadi import SX, Function, fabs, if_else, integrator, jacobian, jtimes, vertcat
 
 from ...host.buffered import Buffered
 from ...host.captured_stderr import listening
@@ -23,6 +23,7 @@ from ...model.phases import Flow, WatchedEvents, event_table, expressions, mecha
 from ...settings import STEPS
 
 _EXPECTED = "Event support is experimental"
+_FLAT = 1e-12  # of a function per x0/v0: a smaller slope is rounding, whose changes of sign are no minima
 
 
 class IntegrationFailed(Exception):
@@ -213,8 +214,8 @@ def locator(flow: Flow, watch: WatchedEvents, tolerance: Tolerance, machine_code
     # and would stop the flow repeatedly.
     passed = SX.sym("passed", len(minima))
     turning = [
-        if_else(passed[position] > 0, 1, -jtimes(table[k].function, parts.variables, parts.rates))
-        for position, k in enumerate(minima)
+        if_else(passed[position] > 0, 1, _FLAT * fabs(g) - jtimes(g, parts.variables, parts.rates))
+        for position, g in enumerate(table[k].function for k in minima)
     ]
     variables = vertcat(parts.variables, clock, active, number, passed)
     parameters = vertcat(model.parameters, duration, motion, level)

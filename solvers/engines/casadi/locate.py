@@ -21,6 +21,7 @@ from ....generated.automaton import (
     MOST_OBLIQUE,
     NO_SLIP,
     OPENING,
+    RELEASE_SPEED,
     REST_SPEED,
     ROTATE,
     SAFETY,
@@ -419,6 +420,7 @@ class EventLocator:
             case "cross tangential edge":
                 return phase.with_(shear=1 - phase.shear)
             case "open":
+                self._put(_VELOCITY, RELEASE_SPEED)
                 return self._opening(phase.with_(resting=False, sliding=0, rolling=False))
             case "roll or slide":
                 return self._grips(phase)

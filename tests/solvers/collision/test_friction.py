@@ -129,6 +129,32 @@ def test_a_spinning_doublet_that_slides_at_rest_is_released() -> None:
     assert found.angular_momentum_drift == pytest.approx(0.0, abs=1e-12)
 
 
+def test_a_doublet_that_rolls_at_rest_while_its_spins_equalise_sticks() -> None:
+    """No force of release or of rolling changes there: signs of rounding in their slopes are no events."""
+    entries = {
+        "particles": {
+            "radius": 8.3e-4, "mass": 1.65e-6, "roughness": 8e-8, "dry_restitution": 0.9, "youngs_modulus": 5e8,
+            "poisson_ratio": 0.49, "friction": 1e6,
+        },
+        "liquid": {"viscosity": 0.12, "film_thickness": 4.3e-5, "glass_transition_pressure": 3e6},
+        "impact": {"stokes": 1.45, "angle": 0.88, "spin": 1960.0, "partner_spin": -2245.0},
+        "attraction": {"hamaker": 6.4e-11},
+        "model": {"tangential": "film"},
+    }  # fmt: skip
+    found = collide(Scene.from_dict(entries), engine="rosenbrock")
+    assert found.outcome == "stick" and found.certified
+    assert [event.kind for event in found.events][-2:] == ["rests", "rolls"]
+    assert found.energy is not None and abs(found.energy.residual) < 1e-8 * found.energy.initial
+
+
+def test_slip_that_friction_reverses_wholly_may_be_zero() -> None:
+    """With opposite spins of equal spheres nothing turns at the surface arm either, and the engines agree."""
+    entries = KINDS["surface"] | {"impact.spin": 1e3, "impact.partner_spin": -1e3}
+    both = [collide(rough(entries, 1e6, 1.0), stokes=8.0, angle=0.0, engine=name) for name in ("rosenbrock", "taylor")]
+    assert both[0].outcome == both[1].outcome == "bounce"
+    assert both[0].restitution == pytest.approx(both[1].restitution, rel=1e-8)
+
+
 WRT = ("particles.friction", "particles.contact_tangential_restitution", "liquid.viscosity")
 OF = ("restitution", "tangential_restitution", "final_spin", "energy.dry_friction")
 

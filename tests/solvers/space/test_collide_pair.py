@@ -110,6 +110,14 @@ def test_turning_the_picture_turns_the_answer(equal):
     same(back, found, (found["outcome"] > 0) | found["certified"])
 
 
+def test_head_on_is_head_on_in_every_direction():
+    """Without a bridge only that sticks: rounding across the line of centres is no rotation."""
+    normal, _, _ = arrivals(GRANULATION, 8, 3)
+    velocities = np.stack([np.zeros_like(normal), -0.5 * normal], axis=1)
+    found = collide_pair("granulation-dry-bridge", normal, velocities, np.zeros((2, 3)), engine="taylor")
+    assert not found.outcome.values.any() and found.certified.values.all()
+
+
 def test_a_common_velocity_is_added(equal):
     """Physics does not depend on the frame's velocity."""
     (normal, velocities, spins), found = equal
