@@ -9,6 +9,11 @@ from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.groups import si_values
 
+from ...helpers.in_space import collided
+from ...helpers.random_in_space import differences, quantities, request
+from ...helpers.random_in_space import arrivals as any_arrivals
+from ...helpers.two_bodies import bodies_of
+
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 _FEW = 1e-9
 GRANULATION = Scene.load("granulation")
@@ -216,6 +221,21 @@ def test_beside_a_wall_it_is_the_planar_collision():
     assert left[2] / speed == pytest.approx(planar.restitution.values[0], rel=_FEW)
     assert left[0] / (speed * np.tan(angle)) == pytest.approx(planar.tangential_restitution.values[0], rel=_FEW)
     assert found["spins"][0] == pytest.approx(rolls / spin * planar.final_spin.values[0], rel=_FEW)
+
+
+@pytest.mark.parametrize("scene", [GRANULATION, UNEQUAL, WALL], ids=["equal", "unequal", "wall"])
+@pytest.mark.parametrize("speed", [3.0, 30.0])
+def test_the_reference_in_the_laboratory_s_axes_says_the_same(scene, speed):
+    """Outcomes, restitution, time, normal, velocities and spins of random pairs, from equations of both bodies."""
+    bodies = bodies_of(scene)
+    arrived = any_arrivals(bodies, speed, 3, np.random.default_rng(int(speed)))
+    found = values(collide_pair(scene, *request(bodies, arrived), rtol=1e-11, engine="taylor"))
+    for k, arrival in enumerate(arrived):
+        end = collided(bodies, arrival)
+        assert ["stick", "stick-rotate-separate", "bounce"][found["outcome"][k]] == end.outcome
+        row = {name: column[k] for name, column in found.items()}
+        apart = differences(bodies, arrival, row, quantities(bodies, arrival, end))
+        assert max(apart.values(), default=0.0) < 1e-9, apart
 
 
 def test_what_comes_out_goes_in_again():

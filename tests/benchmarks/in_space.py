@@ -1,0 +1,188 @@
+"""Random collisions in space beside the independent reference of the tests.
+
+    python -m tests.benchmarks.in_space [COUNT] [SEED] [MODELS]
+
+COUNT (1000) random pairs of MODELS (20) structures and laws, 5 of each random scene in one call: spheres equal and
+unequal, walls, films, attractions, any directions, spins up to five times the approach speed at the surface. By
+`collide_pair` at rtol 1e-12 and by `tests/helpers/in_space.py`, in two processes. Prints the largest differences and
+every disagreement with its scene; status 1 where there is one. What differs by more than 1e-8 is compared with the
+reference's own change for a normal speed that differs by 1e-7: near a boundary no engine can do better. A pair for
+which either takes too long is left out, and counted.
+"""
+
+# ruff: noqa: T201 -- a script that prints
+from __future__ import annotations
+
+import json
+import math
+import signal
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from itertools import groupby
+from types import FrameType
+
+import numpy as np
+from wetdoublet.solvers import Scene, collide_pair
+
+from ..helpers.flow import Unfinished
+from ..helpers.in_space import Arrival, Spatial, plus
+from ..helpers.phases import Chatter, End
+from ..helpers.random_in_space import arrivals, differences, quantities, request
+from ..helpers.random_spinning import Model, numbers, tables
+from ..helpers.random_spinning import models as drawn
+from ..helpers.two_bodies import Bodies, bodies_of
+
+RTOL, SAME, STEP = 1e-12, 1e-8, 1e-7
+OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
+OF_A_SCENE = 5
+LONGEST = 20.0  # s, for a scene's call or one pair of the reference
+Found = dict[str, np.ndarray]
+
+
+class OutOfTimeError(Exception):
+    """It took too long."""
+
+
+@contextmanager
+def within(seconds: float) -> Iterator[None]:
+    """Stop what takes longer."""
+
+    def stop(_: int, __: FrameType | None) -> None:
+        raise OutOfTimeError
+
+    signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """One comparison: `apart` by quantity, `sharpest` what an engine can be held to."""
+
+    tables: dict[str, object]
+    arrival: Arrival
+    expected: str
+    found: str
+    apart: dict[str, float] = field(default_factory=dict)
+    sharpest: float = SAME
+    said: str = ""
+
+    @property
+    def compared(self) -> bool:
+        """Whether both came to an end."""
+        return self.expected in OUTCOMES and self.found in OUTCOMES
+
+    @property
+    def agrees(self) -> bool:
+        return self.expected == self.found and max(self.apart.values(), default=0.0) <= self.sharpest
+
+
+def followed(bodies: Bodies, arrival: Arrival) -> End | str:
+    """The reference's end, or why it has none."""
+    try:
+        with within(LONGEST):
+            return Spatial(bodies, arrival).run()
+    except (Chatter, Unfinished, OutOfTimeError) as error:
+        return type(error).__name__
+
+
+def faster(arrival: Arrival) -> Arrival:
+    """The same with a normal speed that differs a little."""
+    first, second = arrival.velocities
+    return replace(arrival, velocities=(plus(first, STEP * arrival.speed, arrival.normal), second))
+
+
+def judged(described: dict[str, object], arrival: Arrival, found: Found, outcome: str) -> Verdict:
+    """The reference's answer beside the one found."""
+    bodies = bodies_of(Scene.from_dict(described))
+    end = followed(bodies, arrival)
+    if isinstance(end, str):
+        return Verdict(described, arrival, end, outcome)
+    if end.outcome != outcome:
+        return Verdict(described, arrival, end.outcome, outcome, said=f"{end.events} {end.time} {found['reason']}")
+    expected = quantities(bodies, arrival, end)
+    apart, sharpest = differences(bodies, arrival, found, expected), SAME
+    if max(apart.values(), default=0.0) > SAME:
+        other = followed(bodies, faster(arrival))
+        sharpest = math.inf
+        if not isinstance(other, str) and (values := quantities(bodies, arrival, other)):
+            sharpest = SAME * max(1.0, max(differences(bodies, arrival, values, expected).values()) / STEP)
+    return Verdict(described, arrival, end.outcome, outcome, apart, sharpest)
+
+
+def computed(scene: Scene, bodies: Bodies, arrived: list[Arrival]) -> list[tuple[Found, str]]:
+    """What `collide_pair` says: all of them at once, each alone if one takes too long."""
+    try:
+        with within(LONGEST):
+            data = collide_pair(scene, *request(bodies, arrived), rtol=RTOL, engine="taylor")
+    except OutOfTimeError:
+        if len(arrived) == 1:
+            return [({"reason": np.array("")}, "OutOfTimeError")]
+        return [one for each in arrived for one in computed(scene, bodies, [each])]
+    words = ["failed" if each < 0 else OUTCOMES[each] for each in data.outcome.values]
+    return [({name: data[name].values[k] for name in data.data_vars}, word) for k, word in enumerate(words)]
+
+
+def scenes(count: int, seed: int, of: int) -> Iterator[tuple[Model, dict[str, object], list[Arrival]]]:
+    """Models one after another, their scenes, and arrivals at each."""
+    every = drawn(min(of, count), seed)
+    for k, model in enumerate(every):
+        draw, left = np.random.default_rng((seed, 3, k)), count // len(every) + (k < count % len(every))
+        kept = model if model.partner == "wall" else replace(model, arm="midgap")
+        while left:
+            described = tables(kept, numbers(kept, draw))
+            scene = Scene.from_dict(described)
+            size = min(left, OF_A_SCENE)
+            yield kept, described, arrivals(bodies_of(scene), scene.need_impact()[0], size, draw)
+            left -= size
+
+
+def compared(count: int, seed: int, of: int) -> Iterator[list[Verdict]]:
+    """The comparisons of each model, in two processes (new ones: scipy's DOP853 loses memory by every call)."""
+    for _, group in groupby(scenes(count, seed, of), key=lambda each: each[0]):
+        jobs = []
+        for _, described, arrived in group:
+            scene = Scene.from_dict(described)
+            found = computed(scene, bodies_of(scene), arrived)
+            jobs += [(described, arrival, *one) for arrival, one in zip(arrived, found, strict=True)]
+        with ProcessPoolExecutor(2) as pool:
+            yield list(pool.map(judged, *zip(*jobs, strict=True), chunksize=4))
+
+
+def told(verdict: Verdict) -> None:
+    """Print what deserves a look, with its scene."""
+    if (verdict.compared and verdict.agrees) or (verdict.found in OUTCOMES and not verdict.compared):
+        return
+    word = "DISAGREES" if verdict.compared else "left"
+    print(f"{word}: {verdict.expected}, found {verdict.found} {verdict.apart} limit {verdict.sharpest:.1e}")
+    print(f"  {verdict.said}\n  {json.dumps(verdict.tables)}\n  {verdict.arrival}", flush=True)
+
+
+def main(count: int = 1000, seed: int = 16, of: int = 20) -> int:
+    verdicts: list[Verdict] = []
+    for some in compared(count, seed, of):
+        for one in some:
+            told(one)
+        verdicts += some
+        print(f"{len(verdicts)} done", flush=True)
+    print(Counter((one.expected, one.found) for one in verdicts))
+    both = [one for one in verdicts if one.compared]
+    for name in ("restitution", "time", "normal", "velocities", "spins"):
+        apart = sorted((one.apart[name] for one in both if name in one.apart), reverse=True)
+        if apart:
+            beyond = sum(value > SAME for value in apart)
+            print(f"{name:12} {len(apart)} largest {apart[0]:.1e}, {beyond} beyond {SAME:g}")
+    disagree = sum(not one.agrees for one in both)
+    print(f"{len(both)} pairs compared, {len(verdicts) - len(both)} left out, {disagree} disagreements")
+    return bool(disagree)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*(int(each) for each in sys.argv[1:4])))
