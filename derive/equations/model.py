@@ -67,6 +67,7 @@ from .observables import (
     restitution_ceiling,
     rigid_rotation,
     surface_slip,
+    precession,
     wobble,
 )
 from .rates import inward_force, rates, resting_rates, turning_rate
@@ -404,6 +405,14 @@ def _functions(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mod
                     "Energy over m v0^2 of all motion but rotation as a rigid doublet across the line of centres, and "
                     "twist.",
                     (("wobble", wobble(structure)),),
+                )
+            )
+            functions.append(
+                ModelFunction(
+                    "precession",
+                    "Angular momentum over m a^2 Omega, and the rate per v0/x0, over its length, at which a rigid "
+                    "doublet turns about it.",
+                    tuple(precession(structure).items()),
                 )
             )
         else:

@@ -173,6 +173,13 @@ def wobble(structure: Structure) -> sp.Expr:
     return normal_velocity**2 / 2 + found
 
 
+def precession(structure: Structure) -> dict[str, sp.Expr]:
+    """Angular momentum in space, and the rate by which a rigid doublet turns about it, over its length."""
+    found = rotation(structure.partner, structure.friction, structure.reduced).rigid_rotation
+    assert found is not None
+    return dict(found)
+
+
 def inward_at_rest(structure: Structure) -> sp.Expr:
     """Normal forces, positive inward, without the film's and the centrifugal force."""
     return inward_force(structure) + rotation(structure.partner, structure.friction, structure.reduced).centrifugal

@@ -1,7 +1,8 @@
 """One pair in space by Rosenbrock or CVODES, in axes that go with the pair.
 
 CasADi's integrators measure errors by component, so the axes must not be the laboratory's: the first is the line of
-centres, the second lies along what rotates most across it. Turning the picture then changes rounding only.
+centres, the second lies along what rotates most across it. Turning the picture then changes rounding only. During
+the integration they turn about the angular momentum as a rigid doublet would (`model.phases`).
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from .ends import FAILED, Ends
 from .pairs import Bodies, Pairs, length
 
 AXES = "xyz"
+EXTRAS = ("rotation",)
 _LEAST = 1e-300
 _TIGHTEST = 1e-13
 
@@ -86,13 +88,14 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     axes = own_axes(pair)
     n = groups_of(pair, axes)
     model = load(select_model(pair.scene, True, full=ledger, space=True))
-    extras = extras_of(model) if ledger else ()
+    extras = EXTRAS + (extras_of(model) if ledger else ())
     try:
         path, found = _integrated(model, extras, select_model(pair.scene, True, space=True), n, plugin, rtol)
     except ComputationError as error:
         raise n.in_si(error) from None
     p, y = model.group_values(n.groups), found.y
     shown = model.values("outputs", y, p)
+    axes = _turned_back(model, found, p) @ axes
 
     def vector(name: str) -> np.ndarray:
         turned: np.ndarray = np.array([[shown[f"{name}_{axis}"] for axis in AXES]]) @ axes
@@ -114,6 +117,19 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     return ends
 
 
+def _turned_back(model: Model, found: Replay, p: np.ndarray) -> np.ndarray:
+    """The axes in which the integration ended, as rows, in those in which it began (`model.phases`)."""
+    parts = model.values("precession", found.y, p)
+    momentum = np.array([parts[f"momentum_{axis}"] for axis in AXES])
+    angle = float(np.sqrt(momentum @ momentum)) * found.extra(EXTRAS[0])
+    if angle == 0.0:
+        return np.eye(3)
+    line = momentum / np.sqrt(momentum @ momentum)
+    along = np.outer(line, line)
+    turned = along + np.cos(angle) * (np.eye(3) - along) + np.sin(angle) * np.cross(line, np.eye(3)).T
+    return np.asarray(turned.T)
+
+
 def _integrated(
     model: Model, extras: tuple[str, ...], small: ModelKey, n: DimensionlessGroups, plugin: str, rtol: float
 ) -> tuple[EventSequence, Replay]:
@@ -124,7 +140,7 @@ def _integrated(
     """
     asked = rtol
     while plugin != "rosenbrock":
-        path = EventLocator(load(small), n.groups, asked).run()
+        path = EventLocator(load(small), n.groups, asked, EXTRAS).run()
         flow = Flow(model.choice, Region(1, 1, False), extras)
         start = model.start(model.group_values(n.groups))
         try:

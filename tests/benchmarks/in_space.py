@@ -49,15 +49,20 @@ class OutOfTimeError(Exception):
 
 @contextmanager
 def within(seconds: float) -> Iterator[None]:
-    """Stop what takes longer."""
+    """Stop what takes longer; CasADi's integrators turn what interrupts them into a KeyboardInterrupt."""
+    late = False
 
     def stop(_: int, __: FrameType | None) -> None:
+        nonlocal late
+        late = True
         raise OutOfTimeError
 
     signal.signal(signal.SIGALRM, stop)
     signal.setitimer(signal.ITIMER_REAL, seconds)
     try:
         yield
+    except KeyboardInterrupt:
+        raise OutOfTimeError if late else KeyboardInterrupt from None
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
 

@@ -30,6 +30,8 @@ class Rotation:
         start: the state at initial contact.
         wobble: in space, energy over m v0^2 of neither rigid rotation across the line of centres nor twist.
         outward_at_most: in space, a bound of the centrifugal force on a resting doublet from now on, over m v0^2/x0.
+        rigid_rotation: in space, the angular momentum's components, and rate of rotation per v0/x0 by which they turn
+            the doublet's line of centres, of each.
     """
 
     states: tuple[sp.Symbol, ...]
@@ -47,6 +49,7 @@ class Rotation:
     start: Mapping[sp.Symbol, sp.Expr]
     outward_at_most: sp.Expr | None = None
     wobble: sp.Expr | None = None
+    rigid_rotation: Mapping[str, sp.Expr] | None = None
 
 
 def relative_change(momentum: sp.Expr, first: Sequence[sp.Expr]) -> sp.Expr:

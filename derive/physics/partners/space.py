@@ -197,6 +197,15 @@ def wobble() -> sp.Expr:
     return energy(sp.Matrix(orbital_momenta) - DISTANCE**2 * rigid, first, second)
 
 
+def rigid_rotation() -> dict[str, sp.Expr]:
+    """Angular momentum over m a^2 Omega, and what it turns a rigid doublet's line of centres by, per v0/x0.
+
+    With twist such a doublet precesses: n, J and both spins turn about L at |L|/I.
+    """
+    momentum = {f"momentum_{axis}": component for axis, component in zip(AXES, MOMENTA, strict=True)}
+    return {**momentum, "per_momentum": scaled(rate_scale * x0 / v0) / INERTIA_RATIO}
+
+
 def outward_at_most() -> sp.Expr:
     """Centrifugal force on a resting doublet from now on, at most: its slip energy never grows, so |J| is bounded."""
     rigid = DISTANCE**2 * sp.sqrt(MOMENTUM_SQUARE) / INERTIA_RATIO
@@ -263,4 +272,5 @@ def rotation(reduced: bool) -> Rotation:
         start=start(),
         outward_at_most=outward_at_most(),
         wobble=_unit() * wobble(),
+        rigid_rotation=rigid_rotation(),
     )
