@@ -14,6 +14,7 @@ from .film import FilmCertificate
 from .film_and_attraction import FilmAndAttractionCertificate
 from .orbital_momentum import OrbitalMomentumCertificate, covers
 from .pendulum import PendulumCertificate
+from .rebounds import ReboundCertificate
 from .spin_down import SpinDownCertificate
 from .spin_down import covers as spins_down
 from .tumbling import TumblingCertificate
@@ -29,7 +30,8 @@ def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:
     if covers(model):
         return OrbitalMomentumCertificate(model, p, rtol, found)
     if model.space and isinstance(found, EnergyCertificate):
-        return TumblingCertificate(model, p, rtol, found)
+        held = TumblingCertificate(model, p, rtol, found)
+        return ReboundCertificate(model, p, rtol, held) if _falling(model) else held
     chatters = model.oblique and not model.wall and not model.space and not model.strings and model.works
     return ChatterCertificate(model, p, rtol, found) if chatters else found
 
@@ -55,7 +57,12 @@ def _first(model: Model, p: np.ndarray, rtol: float) -> Certificate:
 def energy_proof(proof: Certificate) -> EnergyCertificate | None:
     """The energy certificate contained in `proof`, or None."""
     while isinstance(
-        proof, AttractionCertificate | OrbitalMomentumCertificate | ChatterCertificate | TumblingCertificate
+        proof,
+        AttractionCertificate
+        | OrbitalMomentumCertificate
+        | ChatterCertificate
+        | TumblingCertificate
+        | ReboundCertificate,
     ):
         proof = proof.beside
     return proof if isinstance(proof, EnergyCertificate) else None
@@ -63,9 +70,13 @@ def energy_proof(proof: Certificate) -> EnergyCertificate | None:
 
 def _holds(model: Model) -> bool:
     """True if the attraction certificate applies: forces decrease with the gap and the lever arm conserves L."""
+    return model.has("attraction_margins") and _falling(model) and model.choice.law("arm") in (None, "midgap")
+
+
+def _falling(model: Model) -> bool:
+    """True if every attraction decreases with the gap."""
     attracting = [getattr(model.laws, slot) for slot in ("bridge", "attraction") if model.choice.law(slot)]
-    falling = all(getattr(law, "FALLS", False) for law in attracting)
-    return model.has("attraction_margins") and falling and model.choice.law("arm") in (None, "midgap")
+    return all(getattr(law, "FALLS", False) for law in attracting)
 
 
 def _momentum(model: Model) -> bool:
