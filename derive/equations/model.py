@@ -64,10 +64,10 @@ from .observables import (
     inward_at_rest,
     outputs,
     outward_at_most,
+    precession,
     restitution_ceiling,
     rigid_rotation,
     surface_slip,
-    precession,
     wobble,
 )
 from .rates import inward_force, rates, resting_rates, turning_rate

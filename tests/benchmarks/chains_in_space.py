@@ -2,7 +2,7 @@
 
     python -m tests.benchmarks.chains_in_space [CHAINS] [LENGTH] [SEED]
 
-CHAINS (20) chains of each kind (spheres equal and unequal, a wall; with a bridge, with attraction, with a film alone), of
+CHAINS (20) chains of each kind (spheres equal and unequal, a wall; with a bridge, attraction, a film alone), of
 LENGTH (100) collisions each, all chains of a kind at once by `collide_pair`. Before each collision both are turned
 against each other, with an approach speed from 0.003 to 10 times that which a film stops; their spins, and what they
 move across the new normal, are what the last one left, sticks' too, slowed down alike where the fastest is beyond

@@ -10,8 +10,8 @@ from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.groups import si_values
 
 from ...helpers.in_space import collided
-from ...helpers.random_in_space import differences, quantities, request
 from ...helpers.random_in_space import arrivals as any_arrivals
+from ...helpers.random_in_space import differences, quantities, request
 from ...helpers.two_bodies import bodies_of
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
