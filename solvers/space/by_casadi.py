@@ -88,14 +88,14 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     axes = own_axes(pair)
     n = groups_of(pair, axes)
     model = load(select_model(pair.scene, True, full=ledger, space=True))
-    extras = (*EXTRAS, *(extras_of(model) if ledger else ()))
+    extras = EXTRAS + (extras_of(model) if ledger else ())
     try:
         path, found = _integrated(model, extras, select_model(pair.scene, True, space=True), n, plugin, rtol)
     except ComputationError as error:
         raise n.in_si(error) from None
     p, y = model.group_values(n.groups), found.y
     shown = model.values("outputs", y, p)
-    axes = _turned_back(model, y, p, found.extra(*EXTRAS)) @ axes
+    axes = _turned_back(model, found, p) @ axes
 
     def vector(name: str) -> np.ndarray:
         turned: np.ndarray = np.array([[shown[f"{name}_{axis}"] for axis in AXES]]) @ axes
@@ -111,21 +111,17 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
         first, last = (model.values("surface_slip", each, p)["surface_slip"] for each in (model.start(p), y))
         ends.slip[0] = last / first if first > LEAST_SLIP else np.nan
     if ledger:
-        ends.energy[0] = n.energy * of_casadi(model, p, y, {name: found.extra(name) for name in extras[1:]}, found.dry_loss)
+        ends.energy[0] = n.energy * of_casadi(model, p, y, {name: found.extra(name) for name in extras}, found.dry_loss)
         if is_open(ends.energy, ends.outcome > 0, rtol)[0]:
             raise ComputationError(OPEN)
     return ends
 
 
-def _turned_back(model: Model, y: np.ndarray, p: np.ndarray, per_momentum: float) -> np.ndarray:
-    """The axes in which the integration ended, as rows, in those in which it began (`model.phases`).
-
-    Arguments:
-        per_momentum: the angle that they have turned over the size of the angular momentum.
-    """
-    parts = model.values("precession", y, p)
+def _turned_back(model: Model, found: Replay, p: np.ndarray) -> np.ndarray:
+    """The axes in which the integration ended, as rows, in those in which it began (`model.phases`)."""
+    parts = model.values("precession", found.y, p)
     momentum = np.array([parts[f"momentum_{axis}"] for axis in AXES])
-    angle = float(np.sqrt(momentum @ momentum)) * per_momentum
+    angle = float(np.sqrt(momentum @ momentum)) * found.extra(EXTRAS[0])
     if angle == 0.0:
         return np.eye(3)
     line = momentum / np.sqrt(momentum @ momentum)

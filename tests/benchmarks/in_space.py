@@ -39,7 +39,7 @@ from ..helpers.two_bodies import Bodies, bodies_of
 RTOL, SAME, STEP = 1e-12, 1e-8, 1e-7
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
 OF_A_SCENE = 5
-LONGEST = 2.0  # s of CPU time, for a scene's call or one pair of the reference
+LONGEST = 4.0  # s of CPU time, for a scene's call or one pair of the reference
 Found = dict[str, np.ndarray]
 
 
