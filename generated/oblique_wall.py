@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 601e77bf73c329f4bc378500dbaebd47525e38f737c38b497ae6df4e7b61c749
+# Equations sha256 7517700f13da3d25e6655b43da4e1c1b2610fb290be3f1965c3493fce584d52a
 """Oblique sphere-wall doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -61,7 +61,7 @@ FUNCTIONS = (
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "601e77bf73c329f4bc378500dbaebd47525e38f737c38b497ae6df4e7b61c749"
+DIGEST = "7517700f13da3d25e6655b43da4e1c1b2610fb290be3f1965c3493fce584d52a"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -163,7 +163,7 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 71
+    Total operations: 77
     """
     normal_velocity = state["normal_velocity"]
     decay = state["decay"]
@@ -173,12 +173,12 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = (
-        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
-        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+        fast_mode*(initial_turning/2 - sqrt(46)*initial_spin/46 - 3*sqrt(46)*initial_turning/46)
+        + slow_mode*(sqrt(46)*initial_spin/46 + 3*sqrt(46)*initial_turning/46 + initial_turning/2)
     )
     roll = (
-        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
-        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+        fast_mode*(3*sqrt(46)*initial_spin/46 + initial_spin/2 - 5*sqrt(46)*initial_turning/92)
+        + slow_mode*(initial_spin/2 - 3*sqrt(46)*initial_spin/46 + 5*sqrt(46)*initial_turning/92)
     )
     return {
         "kinetic": normal_velocity**2/2 + obliquity**2*(0.2*roll**2 + slide**2/2),
@@ -190,7 +190,7 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 89
+    Total operations: 95
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -203,12 +203,12 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = (
-        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
-        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+        fast_mode*(initial_turning/2 - sqrt(46)*initial_spin/46 - 3*sqrt(46)*initial_turning/46)
+        + slow_mode*(sqrt(46)*initial_spin/46 + 3*sqrt(46)*initial_turning/46 + initial_turning/2)
     )
     roll = (
-        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
-        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+        fast_mode*(3*sqrt(46)*initial_spin/46 + initial_spin/2 - 5*sqrt(46)*initial_turning/92)
+        + slow_mode*(initial_spin/2 - 3*sqrt(46)*initial_spin/46 + 5*sqrt(46)*initial_turning/92)
     )
     shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
@@ -234,7 +234,7 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Results for a separated doublet: restitutions, and rates over their scale.
 
-    Total operations: 62
+    Total operations: 68
     """
     normal_velocity = state["normal_velocity"]
     decay = state["decay"]
@@ -243,12 +243,12 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = (
-        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
-        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+        fast_mode*(initial_turning/2 - sqrt(46)*initial_spin/46 - 3*sqrt(46)*initial_turning/46)
+        + slow_mode*(sqrt(46)*initial_spin/46 + 3*sqrt(46)*initial_turning/46 + initial_turning/2)
     )
     roll = (
-        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
-        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+        fast_mode*(3*sqrt(46)*initial_spin/46 + initial_spin/2 - 5*sqrt(46)*initial_turning/92)
+        + slow_mode*(initial_spin/2 - 3*sqrt(46)*initial_spin/46 + 5*sqrt(46)*initial_turning/92)
     )
     return {
         "restitution": normal_velocity,
@@ -261,7 +261,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
 
-    Total operations: 62
+    Total operations: 68
     """
     decay = state["decay"]
     initial_turning = groups["initial_turning"]
@@ -269,12 +269,12 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = (
-        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
-        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+        fast_mode*(initial_turning/2 - sqrt(46)*initial_spin/46 - 3*sqrt(46)*initial_turning/46)
+        + slow_mode*(sqrt(46)*initial_spin/46 + 3*sqrt(46)*initial_turning/46 + initial_turning/2)
     )
     roll = (
-        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
-        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+        fast_mode*(3*sqrt(46)*initial_spin/46 + initial_spin/2 - 5*sqrt(46)*initial_turning/92)
+        + slow_mode*(initial_spin/2 - 3*sqrt(46)*initial_spin/46 + 5*sqrt(46)*initial_turning/92)
     )
     return {
         "surface_slip": slide - roll,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 d72617d2a1e7bc8430d30f38477ace81d611b644082ceff3b63ba13247995fe0
+# Equations sha256 e599cfc88ae93b232302e7892a75648d2670b2dd664ac086b93a1c6a2c614b83
 """Oblique sphere-wall doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -71,7 +71,7 @@ FUNCTIONS = (
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "d72617d2a1e7bc8430d30f38477ace81d611b644082ceff3b63ba13247995fe0"
+DIGEST = "e599cfc88ae93b232302e7892a75648d2670b2dd664ac086b93a1c6a2c614b83"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -185,7 +185,7 @@ def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
-    Total operations: 71
+    Total operations: 77
     """
     normal_velocity = state["normal_velocity"]
     decay = state["decay"]
@@ -195,12 +195,12 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = (
-        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
-        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+        fast_mode*(initial_turning/2 - sqrt(46)*initial_spin/46 - 3*sqrt(46)*initial_turning/46)
+        + slow_mode*(sqrt(46)*initial_spin/46 + 3*sqrt(46)*initial_turning/46 + initial_turning/2)
     )
     roll = (
-        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
-        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+        fast_mode*(3*sqrt(46)*initial_spin/46 + initial_spin/2 - 5*sqrt(46)*initial_turning/92)
+        + slow_mode*(initial_spin/2 - 3*sqrt(46)*initial_spin/46 + 5*sqrt(46)*initial_turning/92)
     )
     return {
         "kinetic": normal_velocity**2/2 + obliquity**2*(0.2*roll**2 + slide**2/2),
@@ -212,7 +212,7 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
 
     Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
 
-    Total operations: 95
+    Total operations: 101
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -228,12 +228,12 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = (
-        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
-        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+        fast_mode*(initial_turning/2 - sqrt(46)*initial_spin/46 - 3*sqrt(46)*initial_turning/46)
+        + slow_mode*(sqrt(46)*initial_spin/46 + 3*sqrt(46)*initial_turning/46 + initial_turning/2)
     )
     roll = (
-        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
-        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+        fast_mode*(3*sqrt(46)*initial_spin/46 + initial_spin/2 - 5*sqrt(46)*initial_turning/92)
+        + slow_mode*(initial_spin/2 - 3*sqrt(46)*initial_spin/46 + 5*sqrt(46)*initial_turning/92)
     )
     shear_force = 2*aspect*shear*(4*slide - roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
     torque = 2*aspect*shear*(slide - 4*roll)*laws.shear.log_factor(gap, aspect)/(15*stokes)
@@ -261,7 +261,7 @@ def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Results for a separated doublet: restitutions, and rates over their scale.
 
-    Total operations: 62
+    Total operations: 68
     """
     normal_velocity = state["normal_velocity"]
     decay = state["decay"]
@@ -270,12 +270,12 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = (
-        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
-        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+        fast_mode*(initial_turning/2 - sqrt(46)*initial_spin/46 - 3*sqrt(46)*initial_turning/46)
+        + slow_mode*(sqrt(46)*initial_spin/46 + 3*sqrt(46)*initial_turning/46 + initial_turning/2)
     )
     roll = (
-        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
-        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+        fast_mode*(3*sqrt(46)*initial_spin/46 + initial_spin/2 - 5*sqrt(46)*initial_turning/92)
+        + slow_mode*(initial_spin/2 - 3*sqrt(46)*initial_spin/46 + 5*sqrt(46)*initial_turning/92)
     )
     return {
         "restitution": normal_velocity,
@@ -288,7 +288,7 @@ def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
 
-    Total operations: 62
+    Total operations: 68
     """
     decay = state["decay"]
     initial_turning = groups["initial_turning"]
@@ -296,12 +296,12 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     slow_mode = exp(-decay)
     fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
     slide = (
-        fast_mode*(23*initial_turning - sqrt(46)*initial_spin - 3*sqrt(46)*initial_turning)/46
-        + slow_mode*(sqrt(46)*initial_spin + 3*sqrt(46)*initial_turning + 23*initial_turning)/46
+        fast_mode*(initial_turning/2 - sqrt(46)*initial_spin/46 - 3*sqrt(46)*initial_turning/46)
+        + slow_mode*(sqrt(46)*initial_spin/46 + 3*sqrt(46)*initial_turning/46 + initial_turning/2)
     )
     roll = (
-        sqrt(46)*fast_mode*(initial_spin*(6 + sqrt(46)) - 5*initial_turning)/92
-        + slow_mode*(46*initial_spin - 6*sqrt(46)*initial_spin + 5*sqrt(46)*initial_turning)/92
+        fast_mode*(3*sqrt(46)*initial_spin/46 + initial_spin/2 - 5*sqrt(46)*initial_turning/92)
+        + slow_mode*(initial_spin/2 - 3*sqrt(46)*initial_spin/46 + 5*sqrt(46)*initial_turning/92)
     )
     return {
         "surface_slip": slide - roll,

@@ -118,7 +118,7 @@ def modes(rates: Mapping[sp.Symbol, sp.Expr], start: Mapping[sp.Symbol, sp.Expr]
         raise ValueError(f"a mode of sliding and rolling does not decay: {slow}, {fast}")
     vectors = sp.Matrix.hstack(one, other)
     weights = vectors * sp.diag(*vectors.LUsolve(moving.subs(start)))
-    along, spun = (tuple(sp.radsimp(sp.simplify(weight)) for weight in weights.row(k)) for k in range(2))
+    along, spun = (tuple(sp.expand(sp.radsimp(sp.simplify(weight))) for weight in weights.row(k)) for k in range(2))
     return Modes(factor * sp.together(slow), sp.expand(sp.radsimp(fast / slow)), along, spun)
 
 
