@@ -23,7 +23,7 @@ from ...model.phases import Flow, WatchedEvents, event_table, expressions, mecha
 from ...settings import STEPS
 
 _EXPECTED = "Event support is experimental"
-_FLAT = 1e-12  # of a function per x0/v0: a smaller slope is rounding, whose changes of sign are no minima
+_FLAT = 1e-12  # of a function per x0/v0: a smaller slope is rounding, whose changes of sign are no minima, at rest
 
 
 class IntegrationFailed(Exception):
@@ -213,10 +213,10 @@ def locator(flow: Flow, watch: WatchedEvents, tolerance: Tolerance, machine_code
     # A minimum above zero is passed once per call: where a function varies slowly, its slope is dominated by rounding
     # and would stop the flow repeatedly.
     passed = SX.sym("passed", len(minima))
-    turning = [
-        if_else(passed[position] > 0, 1, _FLAT * fabs(g) - jtimes(g, parts.variables, parts.rates))
-        for position, g in enumerate(table[k].function for k in minima)
-    ]
+    slopes = [-jtimes(table[k].function, parts.variables, parts.rates) for k in minima]
+    if flow.region.resting:  # functions may stay as they are
+        slopes = [slope + _FLAT * fabs(table[k].function) for k, slope in zip(minima, slopes, strict=True)]
+    turning = [if_else(passed[position] > 0, 1, slope) for position, slope in enumerate(slopes)]
     variables = vertcat(parts.variables, clock, active, number, passed)
     parameters = vertcat(model.parameters, duration, motion, level)
     index, time = SX.sym("index"), SX.sym("time")
