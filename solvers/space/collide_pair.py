@@ -26,6 +26,7 @@ from .pairs import Pairs, checked
 if TYPE_CHECKING:
     import xarray
 
+_FURTHEST = 1e100  # products and quotients of several groups then stay within a double's range
 AXES = ("x", "y", "z")
 NUMBERS = {
     "restitution": ("1", "normal restitution e_n"),
@@ -127,14 +128,24 @@ def check_scene(scene: Scene) -> None:
 
 
 def refusals(pairs: Pairs) -> dict[int, str]:
-    """Why rows cannot be computed: a number that is not finite, or a pair that does not approach."""
+    """Why rows cannot be computed: numbers that are not finite or too far off, or a pair that does not approach."""
     numbers = np.concatenate([pairs.velocities, pairs.spins], axis=1).reshape(pairs.size, 12)
     finite = np.isfinite(numbers).all(axis=1)
-    with np.errstate(invalid="ignore"):
+    with np.errstate(all="ignore"):
         approaches = pairs.opening < 0
+        stokes = -pairs.opening * pairs.scene.stokes_per_speed
+        surfaces = float(pairs.scene.material["reduced_radius"]) * np.max(np.abs(pairs.spins), axis=(1, 2))
+        near = (stokes >= 1 / _FURTHEST) & (stokes <= _FURTHEST) & (surfaces <= -_FURTHEST * pairs.opening)
     found: dict[int, str] = {}
-    for k in np.flatnonzero(~(finite & approaches)).tolist():
-        if finite[k]:
+    for k in np.flatnonzero(~(finite & approaches & near)).tolist():
+        if finite[k] and approaches[k]:
+            error = InputError(
+                "velocities, spins",
+                f"{-pairs.opening[k]:g} m/s along normal, spins up to {np.abs(pairs.spins[k]).max():g} rad/s",
+                f"Stokes numbers from {1 / _FURTHEST:g} to {_FURTHEST:g}, surfaces up to {_FURTHEST:g} times as fast",
+                "are too far off",
+            )
+        elif finite[k]:
             error = InputError(
                 "velocities",
                 f"{pairs.opening[k]:.6g} m/s along normal",

@@ -110,6 +110,17 @@ def test_turning_the_picture_turns_the_answer(equal):
     same(back, found, (found["outcome"] > 0) | found["certified"])
 
 
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_numbers_beyond_a_doubles_products_are_refused(engine):
+    """Each row by its reason, beside a sound one: speeds and spins whose squares are no numbers."""
+    speeds, spins = np.array([0.5, 1e200, 1e-300, 0.5]), np.array([0.0, 0.0, 0.0, 1e200])
+    velocities = speeds[:, None, None] * [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0]]
+    rates = spins[:, None, None] * [[1.0, 1.0, 0.0], [0.0, 0.0, 0.0]]
+    found = collide_pair(GRANULATION, [0, 0, 1], velocities, rates, engine=engine)
+    assert found.outcome.values.tolist() == [0, -1, -1, -1]
+    assert all("too far off" in why for why in found.reason.values[1:].tolist())
+
+
 def test_head_on_is_head_on_in_every_direction():
     """Without a bridge only that sticks: rounding across the line of centres is no rotation."""
     normal, _, _ = arrivals(GRANULATION, 8, 3)
