@@ -12,10 +12,12 @@ from ..equations.model import Model, derive
 from ..equations.quadratic_invariants import quadratic_invariants
 from ..physics.laws import LAWS
 from ..physics.partners import space, vectors
+from ..physics.partners.pair import INERTIA_RATIO
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import (
     Vector,
+    aspect,
     beta,
     gap,
     normal,
@@ -151,6 +153,29 @@ def least_energy_in_space() -> Check:
     return vanishing("space: least energy", statement, [apart])
 
 
+def outward_at_smaller_gaps() -> Check:
+    """The bound of the centrifugal force by which `solvers.certificates.rebounds` excludes that a gap is reached again.
+
+    It is J^2/r^3 with |J| <= |L| r^2/I + r sqrt(2 D), D the slip energy. While the gap closes from r to a smaller r', D
+    grows by the work of the attractions at most, as L^2/(2 I) grows: the root of the bound then grows by
+    sqrt(2 work/r). At r' its two parts, |L| sqrt(r)/I and sqrt(2 D/r), are at most (r/r')^2 times those at r.
+    """
+    near, apart, work = sp.symbols("near apart work", positive=True)
+    far = near + apart
+    added = space.centrifugal(DISTANCE**2 * 2 * work / space.energy_unit())
+    inertia = dict(derive(_SPACE).definitions)[INERTIA_RATIO]
+    here, there = inertia.subs(DISTANCE, far), inertia.subs(DISTANCE, near)
+    falls = [
+        sp.expand(far**2 * there - near**2 * here),  # I/I' <= (r/r')^2, and sqrt(r') <= sqrt(r)
+        sp.expand(far**3 - near**3),  # sqrt(r/r') <= (r/r')^2
+        sp.expand(here - there),  # L^2/(2 I) is no smaller at r'
+    ]
+    statement = "C' <= (sqrt C + sqrt(2 work/r))^2 (r/r')^4 for a smaller distance r'"
+    check = vanishing("space: rebounds", statement, [added - 2 * work * aspect / DISTANCE])
+    positive = all(each.is_positive for each in falls)
+    return check if positive else replace(check, ok=False, figure=f"not all positive: {falls}")
+
+
 def reduced_in_space() -> Check:
     """The form without the partner's spin has the rates of the full one."""
     reduced, full = derive(replace(_SPACE, reduced=True)), derive(_SPACE)
@@ -213,6 +238,7 @@ def space_checks() -> tuple[Check, ...]:
         energy_in_space(),
         friction_in_space_dissipates(),
         least_energy_in_space(),
+        outward_at_smaller_gaps(),
         reduced_in_space(),
         plane_in_space(),
     )

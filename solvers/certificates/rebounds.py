@@ -22,8 +22,8 @@ class ReboundCertificate:
     left of this energy, and it takes at least W - C (x - y) to come back to x; W is at least P (x - y).
 
     The kinetic energy of rotation grows by the attraction's work down to the contact at most, and what of it is beyond
-    L^2/(2 I) bounds the orbital momentum (`derive.checks.space.least_energy_in_space`). By the same argument the bound
-    at smaller gaps is larger by the fourth power of the ratio of the centre distances at most.
+    L^2/(2 I) bounds the orbital momentum (`derive.checks.space.least_energy_in_space`). At smaller gaps the bound is
+    larger by the fourth power of the ratio of the centre distances at most (`outward_at_smaller_gaps` there).
 
     Arguments:
         beside: another certificate, tried first.

@@ -24,6 +24,7 @@ import numpy as np
 from wetdoublet.generated.automaton import Purpose
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.engines.taylor.in_space import run_in_space
 from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
@@ -40,6 +41,17 @@ BUDGET = 3000  # steps: what creeps for longer shows nothing new
 REFERENCE: list[dict[str, Any]] = json.loads((Path(__file__).parents[1] / "data" / "collisions.json").read_text())
 WALL, PAIR = {"partner.wall": True}, {"partner.radius": "0.25 mm", "partner.mass": "60 ug"}
 PULL = {"attraction.hamaker": 1e-19}
+SPINS = {"impact.spin": "5000 rad/s", "impact.partner_spin": "-2000 rad/s"}
+RUBS = {"particles.friction": 0.3, "particles.contact_tangential_restitution": 0.4, "model.contact_friction": "all"}
+# Events of a user's: each happens in some of the random collisions.
+EVENTS = """from wetdoublet.derive.user import *
+
+leaving = quantity("leaving_speed", r"u_l", unit="m/s", default="0.1 m/s", meaning="speed at which the bridge lets go")
+kept = quantity("kept", r"k", default=0.5, bounds=">= 0", meaning="part of the speed that a brake leaves")
+intact = event("let_go", guard=leaving - u, where="opening", meaning="the bridge lets go")
+event("brake", guard=2 * x0 - x, where="opening", jump={u: kept * u}, word="braked")
+law("bridge", "letting-go", force=intact * 4 * pi * a * sigma, source="a test")
+"""
 # Scenes by name: a preset and what is changed. Each is integrated obliquely and head-on.
 FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
     "granulation": ("granulation", {}),
@@ -59,6 +71,16 @@ FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
     "attraction and bridge": ("granulation", PULL),
     "wall that attracts": ("granulation-dry-bridge", WALL | PULL | {"model.film": "cavitating"}),
     "strings and bridge": ("granulation", {"pendulum.length": "0.5 m"}),
+    "equal spins": ("granulation", {"impact.spin": "5000 rad/s"}),
+    "spins": ("granulation", SPINS),
+    "spins of a film alone": ("granulation-dry-bridge", SPINS),
+    "spin beside a wall": ("granulation", WALL | {"impact.spin": "5000 rad/s"}),
+    "friction": ("granulation", RUBS),
+    "friction, surface arm": ("granulation", RUBS | {"model.arm": "surface"}),
+    "friction of a pair": ("granulation", PAIR | RUBS | SPINS),
+    "friction beside a wall": ("granulation", WALL | RUBS | {"impact.spin": "5000 rad/s"}),
+    "friction on strings": ("pendulum", RUBS),
+    "declared events": ("granulation", {}),
     **{
         f"bridge {law}": ("granulation", {"bridge.law": law})
         for law in ("mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
@@ -78,6 +100,19 @@ def _carried(backward: bool) -> Replay:
     return replay
 
 
+def _in_space(impacts: Impacts, ledger: bool) -> bool:
+    """The impacts with random vectors; of what varies only the speed."""
+    draw, speed = np.random.default_rng(impacts.angle.size), impacts.speed
+    names = ("initial_normal", "impact_turning", "impact_spin", "impact_partner_spin")
+    vectors = {name: draw.normal(size=(speed.size, 3)) for name in names}
+    normal = vectors["initial_normal"] / np.linalg.norm(vectors["initial_normal"], axis=1)[:, None]
+    vectors["initial_normal"] = normal
+    vectors["impact_turning"] -= (vectors["impact_turning"] * normal).sum(axis=1)[:, None] * normal
+    for name in names[1:]:
+        vectors[name] *= (speed / impacts.scene.reduced_radius)[:, None]
+    return run_in_space(impacts.scene, vectors, speed, RTOL, ledger=ledger) is not None
+
+
 KINDS: dict[str, Replay] = {
     "plain": lambda impacts, _: run_kernel(impacts, RTOL, budget=BUDGET, jumps=2) is not None,
     "rotation": lambda impacts, _: run_kernel(impacts, RTOL, rotation=True, budget=BUDGET, few=True) is not None,
@@ -89,13 +124,22 @@ KINDS: dict[str, Replay] = {
     "escape": _recorded(trajectory=True, purpose=Purpose.ESCAPE),
     "forwards": _carried(backward=False),
     "backwards": _carried(backward=True),
+    "in space": lambda impacts, _: _in_space(impacts, ledger=False),
+    "ledger in space": lambda impacts, _: _in_space(impacts, ledger=True),
 }
+IN_SPACE = ("in space", "ledger in space")
+SPATIAL = ("film alone", "granulation", "attraction and bridge", "pair with bridge", "film cavitating")
 LAWS_IN = ("plain", "ledger and trajectory", "forwards", "backwards")
 
 
 def scene_of(family: str) -> Scene:
     preset, entries = FAMILIES[family]
-    return Scene.load(preset).with_entries(entries)
+    if family != "declared events":
+        return Scene.load(preset).with_entries(entries)
+    with tempfile.TemporaryDirectory() as folder:
+        model = Path(folder) / "events.py"
+        model.write_text(EVENTS)
+        return Scene.load(preset, model=model)
 
 
 def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impacts:
@@ -108,7 +152,12 @@ def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impact
         for name, value in si_values(scene, None, None).items()
         if name not in ("speed", "angle") and value
     }
-    others["dry_restitution"] = draw.uniform(0, 1, count)
+    for name in ("dry_restitution", "contact_tangential_restitution", "kept"):
+        if name in others or name == "dry_restitution":
+            others[name] = draw.uniform(0, 1, count)
+    for name in ("impact_spin", "impact_partner_spin"):
+        if name in others:
+            others[name] = others[name] * draw.choice([-1.0, 0.0, 1.0], count)
     if "poisson_ratio" in others:
         others["poisson_ratio"] = draw.uniform(0, 0.5, count)
     columns = [speed, *others.values()]
@@ -182,6 +231,7 @@ def _everything(count: int) -> Iterator[list[Any]]:
     for family in FAMILIES:
         for oblique in (True, False):
             kinds = LAWS_IN if family.startswith("bridge ") else KINDS  # only the law is another
+            kinds = [kind for kind in kinds if kind not in IN_SPACE or (oblique and family in SPATIAL)]
             yield [["random", family, kind, oblique, count] for kind in kinds]
 
 

@@ -161,12 +161,12 @@ def rates() -> dict[sp.Symbol, sp.Expr]:
     return found
 
 
-def _centrifugal(square: sp.Expr) -> sp.Expr:
+def centrifugal(square: sp.Expr) -> sp.Expr:
     """Centrifugal force over m v0^2/x0 for a square of the orbital momentum."""
     return sp.expand(scaled(m * r * omega**2 / INERTIA).subs(orbital_momentum**2, square))
 
 
-def _unit() -> sp.Expr:
+def energy_unit() -> sp.Expr:
     """M a^2 Omega^2 over m v0^2."""
     return scaled(m * a**2 * rate_scale**2 / (m * v0**2))
 
@@ -209,7 +209,7 @@ def rigid_rotation() -> dict[str, sp.Expr]:
 def outward_at_most() -> sp.Expr:
     """Centrifugal force on a resting doublet from now on, at most: its slip energy never grows, so |J| is bounded."""
     rigid = DISTANCE**2 * sp.sqrt(MOMENTUM_SQUARE) / INERTIA_RATIO
-    return _centrifugal((rigid + DISTANCE * sp.sqrt(2 * slip_energy())) ** 2)
+    return centrifugal((rigid + DISTANCE * sp.sqrt(2 * slip_energy())) ** 2)
 
 
 def surface_slip() -> sp.Expr:
@@ -255,14 +255,14 @@ def rotation(reduced: bool) -> Rotation:
     own: Mapping[sp.Symbol, sp.Expr] = rates()
     states = (*normal, *orbital_momenta, *spins, *(() if reduced else partner_spins))
     lost = dot(TORQUES, SLIPS) + dot(PARTNER_TORQUES, PARTNER_SLIPS)
-    least = _unit() * MOMENTUM_SQUARE / (2 * INERTIA_RATIO)
+    least = energy_unit() * MOMENTUM_SQUARE / (2 * INERTIA_RATIO)
     return Rotation(
         states=states,
         definitions=definitions(),
-        centrifugal=_centrifugal(RATE_SQUARE * DISTANCE**4),
+        centrifugal=centrifugal(RATE_SQUARE * DISTANCE**4),
         rates={state: own[state] for state in states},
         turning=None,
-        kinetic=_unit() * energy(orbital_momenta, spins, partner_spins),
+        kinetic=energy_unit() * energy(orbital_momenta, spins, partner_spins),
         power=scaled(TANGENTIAL * a * rate_scale * x0 / v0 / (m * v0**2)) * lost,
         momentum=drift(),
         outputs=_outputs(),
@@ -271,6 +271,6 @@ def rotation(reduced: bool) -> Rotation:
         rigid=None,
         start=start(),
         outward_at_most=outward_at_most(),
-        wobble=_unit() * wobble(),
+        wobble=energy_unit() * wobble(),
         rigid_rotation=rigid_rotation(),
     )
