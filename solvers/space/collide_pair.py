@@ -128,7 +128,7 @@ def check_scene(scene: Scene) -> None:
 
 
 def refusals(pairs: Pairs) -> dict[int, str]:
-    """Why rows cannot be computed: numbers that are not finite or too far off, or a pair that does not approach."""
+    """Why rows cannot be computed: a normal or other numbers that cannot be, or a pair that does not approach."""
     numbers = np.concatenate([pairs.velocities, pairs.spins], axis=1).reshape(pairs.size, 12)
     finite = np.isfinite(numbers).all(axis=1)
     with np.errstate(all="ignore"):
@@ -138,7 +138,10 @@ def refusals(pairs: Pairs) -> dict[int, str]:
         near = (stokes >= 1 / _FURTHEST) & (stokes <= _FURTHEST) & (surfaces <= -_FURTHEST * pairs.opening)
     found: dict[int, str] = {}
     for k in np.flatnonzero(~(finite & approaches & near)).tolist():
-        if finite[k] and approaches[k]:
+        if not 0.5 < np.abs(pairs.normal[k]).max() <= 1.0:  # of a unit vector at least 1/sqrt(3)
+            given = ", ".join(f"{part:g}" for part in pairs.normal[k])
+            error = InputError("normal", f"({given})", "a finite vector that is not zero", "has no direction")
+        elif finite[k] and approaches[k]:
             error = InputError(
                 "velocities, spins",
                 f"{-pairs.opening[k]:g} m/s along normal, spins up to {np.abs(pairs.spins[k]).max():g} rad/s",

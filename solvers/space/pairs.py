@@ -60,7 +60,8 @@ class Pairs:
 
     Attributes:
         shape: of the request, whose rows these are.
-        normal: (pairs, 3), unit vectors from the first particle to the second, or to the wall.
+        normal: (pairs, 3), unit vectors from the first particle to the second, or to the wall; one without a direction
+            as it is given.
         velocities: (pairs, 2, 3), of the centres; the second beside a wall is the wall's.
         spins: (pairs, 2, 3); the second beside a wall is zero.
     """
@@ -114,7 +115,7 @@ def checked(scene: Scene, normal: Any, velocities: Any, spins: Any) -> Pairs:
     """The pairs of a request, broadcast against each other.
 
     Raises:
-        InputError: a shape, or a normal that is not finite or has length zero.
+        InputError: a shape.
     """
     directions = _numbers("normal", normal, (3,), "three components")
     wall = scene.wall
@@ -135,12 +136,10 @@ def checked(scene: Scene, normal: Any, velocities: Any, spins: Any) -> Pairs:
     count = int(np.prod(shape))
     rows = np.broadcast_to(directions, (*shape, 3)).reshape(count, 3)
     largest = np.max(np.abs(rows), axis=1, initial=0.0, keepdims=True)
-    if not np.all((largest > 0) & np.isfinite(largest)):
-        first = rows[np.flatnonzero(~((largest > 0) & np.isfinite(largest)))[0]].tolist()
-        raise InputError("normal", first, "finite vectors that are not zero", "has no direction")
+    directed = (largest > 0) & np.isfinite(largest)
     with np.errstate(all="ignore"):
-        rows = rows / largest  # no square overflows
-    rows = rows / length(rows)[:, None]
+        scaled = rows / largest  # no square overflows
+        rows = np.where(directed, scaled / length(scaled)[:, None], rows)
     return Pairs(
         scene,
         shape,

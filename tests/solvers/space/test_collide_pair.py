@@ -1,5 +1,7 @@
 """Collisions in space: what is conserved, what turning and moving the picture does, the plane, a wall, chains."""
 
+import math
+
 import numpy as np
 import pint
 import pytest
@@ -119,6 +121,17 @@ def test_numbers_beyond_a_doubles_products_are_refused(engine):
     found = collide_pair(GRANULATION, [0, 0, 1], velocities, rates, engine=engine)
     assert found.outcome.values.tolist() == [0, -1, -1, -1]
     assert all("too far off" in why for why in found.reason.values[1:].tolist())
+
+
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_a_normal_without_a_direction_marks_its_pair(engine):
+    """Zero, NaN, infinite: the others are computed, and the reason shows what was given."""
+    normals = [[0.0, 0.0, 2.0], [0.0, 0.0, 0.0], [0.0, math.nan, 1.0], [math.inf, 0.0, 0.0]]
+    found = collide_pair(GRANULATION, normals, [[0.0, 0.0, 0.5], [0.0, 0.0, 0.0]], np.zeros((2, 3)), engine=engine)
+    assert found.outcome.values.tolist() == [0, -1, -1, -1]
+    assert "(0, 0, 0)" in str(found.reason.values[1])
+    assert all("no direction" in why for why in found.reason.values[1:].tolist())
+    assert np.isnan(found.velocities.values[1:]).all()
 
 
 def test_head_on_is_head_on_in_every_direction():
@@ -304,7 +317,6 @@ def test_velocities_and_spins_carry_units():
 @pytest.mark.parametrize(
     ("scene", "normal", "velocities", "spins", "field"),
     [
-        (GRANULATION, [0, 0, 0], np.ones((2, 3)), np.ones((2, 3)), "normal"),
         (GRANULATION, [0, 1], np.ones((2, 3)), np.ones((2, 3)), "normal"),
         (GRANULATION, [0, 0, 1], np.ones((1, 3)), np.ones((2, 3)), "velocities"),
         (GRANULATION, [0, 0, 1], np.ones((4, 2, 3)), np.ones((3, 2, 3)), "normal, velocities, spins"),
@@ -318,7 +330,7 @@ def test_velocities_and_spins_carry_units():
     ],
 )
 def test_bad_input_is_named(scene, normal, velocities, spins, field):
-    """Shapes, directions and scenes that there is no collision in space for."""
+    """Shapes, and scenes that there is no collision in space for."""
     with pytest.raises(InputError) as caught:
         collide_pair(scene, normal, velocities, spins)
     assert caught.value.field == field
