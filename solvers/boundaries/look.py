@@ -160,9 +160,8 @@ class Look:
         stokes = float(found["stokes"][0])
         try:
             n = nondimensionalise(self.scene, self.scene.speed_of(stokes), angle)
-            path = EventLocator(
-                load(select_model(self.scene, self.scene.turns(angle))), n.groups, self.rtol, machine_code=True
-            ).run()
+            model = load(select_model(self.scene, n.oblique))
+            path = EventLocator(model, n.groups, self.rtol, machine_code=True).run()
         except (ComputationError, InputError) as error:
             self.reasons[angle, stokes] = str(n.in_si(error)) if isinstance(error, ComputationError) else str(error)
             return

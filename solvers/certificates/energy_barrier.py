@@ -57,9 +57,8 @@ class EnergyCertificate:
         ahead = [barrier for barrier in self.barriers(y) if barrier.gap > y[0]]
         if not ahead:
             return None
-        scale = self.largest + abs(
-            ahead[0].height
-        )  # constant along the trajectory; otherwise the level would depend on the event's own state
+        # constant along the trajectory, as the level must not depend on the event's own state
+        scale = self.largest + abs(ahead[0].height)
         return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:

@@ -71,10 +71,10 @@ def pair_gradients(
 
     Example:
         >>> from wetdoublet.solvers import pair_gradients
-        >>> velocities, spins = [[0.1, 0, 0.5], [0, 0, 0]], [[0, 0, 0], [0, 1000, 200]]  # m/s, rad/s
+        >>> velocities, spins = [[0.1, 0, 3.0], [0, 0, 0]], [[0, 0, 0], [0, 1000, 200]]  # m/s, rad/s
         >>> found = pair_gradients("granulation", [0, 0, 1], velocities, spins, wrt=["liquid.viscosity", "spins"])
-        >>> found.d_velocities.sel(parameter="spins.1.y").dims
-        ('particle', 'axis')
+        >>> found.d_velocities.sel(parameter="spins.1.y").dims, bool(found.d_restitution.notnull().all())
+        (('particle', 'axis'), True)
     """
     import xarray as xr
 

@@ -24,7 +24,7 @@ from .endless import decide
 from .layout import ANSWER, Task, names
 from .orders import order_for
 
-_CHUNK = 4096  # collisions in a block for a thread
+CHUNK = 4096  # collisions in a block for a thread
 
 
 @dataclass(frozen=True)
@@ -105,21 +105,26 @@ def _fill(
     which = those if whole else np.flatnonzero(those)
 
     def chunk(first: int) -> None:
-        last = min(first + _CHUNK, count)
+        last = min(first + CHUNK, count)
         part = slice(first, last) if whole else which[first:last]
         made = found[first:last] if whole else np.zeros(last - first, ANSWER)
         run(impacts.part(part), made)
         if not whole:
             found[part] = made
 
-    firsts = range(0, count, _CHUNK)
+    in_chunks(count, chunk, threads)
+    return True
+
+
+def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
+    """Run a kernel on the collisions from each first one on, `CHUNK` at a time, on several threads."""
+    firsts = range(0, count, CHUNK)
     if threads == 1 or len(firsts) == 1:
         for first in firsts:
-            chunk(first)
+            run(first)
     else:
         with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
-            list(pool.map(chunk, firsts))
-    return True
+            list(pool.map(run, firsts))
 
 
 def _plain(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
@@ -13,11 +12,10 @@ from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from .build import Variant, for_few, kernel
-from .call import variant
+from .call import CHUNK, in_chunks, variant
 from .layout import ANSWER_IN_SPACE, LEDGER, Task, names
 
 BUDGET = 30_000  # steps of a collision; one that tumbles for longer is stiff, and left to Rosenbrock
-_CHUNK = 4096  # collisions in a block for a thread
 AXES = "xyz"
 
 
@@ -54,7 +52,7 @@ def run_in_space(
     books = np.zeros(speed.size, LEDGER) if ledger else None
 
     def chunk(first: int) -> None:
-        part = slice(first, min(first + _CHUNK, speed.size))
+        part = slice(first, min(first + CHUNK, speed.size))
         asked = Task(library, part.stop - first, min(rtol, LOOSEST), BUDGET)
         columns = (given[name] for name in names(library, "quantity_names"))
         asked.columns([column if isinstance(column, float) else column[part] for column in columns])
@@ -63,11 +61,5 @@ def run_in_space(
             asked.buffer("books", books[part])
         asked.run()
 
-    firsts = range(0, speed.size, _CHUNK)
-    if threads == 1 or len(firsts) == 1:
-        for first in firsts:
-            chunk(first)
-    else:
-        with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
-            list(pool.map(chunk, firsts))
+    in_chunks(speed.size, chunk, threads)
     return found, books
