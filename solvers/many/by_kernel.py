@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 
 import numpy as np
 
@@ -161,7 +162,7 @@ def _block(request: Batch, found: np.ndarray, impacts: Impacts, books: np.ndarra
     }
     if any(name in RATES for name in request.of):
         rates = _rates(request.scene, found, impacts)
-        columns |= {name: lambda name=name: where(separated, rates[name]) for name in rates}  # type: ignore[misc]
+        columns |= {name: partial(where, separated, column) for name, column in rates.items()}
     if books is not None:
         block |= {name: column for name, column in _ledger(request, books, impacts).items() if name in request.of}
     return block | {name: column() for name, column in columns.items() if name in request.of}

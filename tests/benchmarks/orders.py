@@ -10,6 +10,7 @@ own best order. What is printed last are the fewest orders that lose at most 5 %
 ones (`ORDERS`) lose.
 """
 
+# ruff: noqa: T201 -- a script that prints
 from __future__ import annotations
 
 import itertools
@@ -150,8 +151,8 @@ def main() -> None:
     wrong = sum(sum(row["wrong"].values()) for row in rows)
     loss, chosen = fewest(rows)
     text = page(rows)
-    print(text)  # noqa: T201 # a script
-    print(f"fewest orders: {chosen}, at most {loss:.1%} lost; wrong outcomes: {wrong}")  # noqa: T201
+    print(text)  # a script
+    print(f"fewest orders: {chosen}, at most {loss:.1%} lost; wrong outcomes: {wrong}")
     if "--print" not in sys.argv:
         RECORD.write_text(json.dumps({"environment": environment(), "rows": rows}, indent=1) + "\n")
         whole = PAGE.read_text()

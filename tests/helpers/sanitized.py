@@ -7,6 +7,7 @@ twenty minutes of compiling on two cores; the suite has a sample (test_sanitized
 WETDOUBLET_CFLAGS into a folder of their own and loaded into processes that have the sanitizers' library from the start.
 """
 
+# ruff: noqa: T201 -- a script that prints
 from __future__ import annotations
 
 import json
@@ -223,7 +224,7 @@ def _inside(what: list[Any]) -> None:
             missing.append(" ".join(map(str, arguments)))
     if missing:
         sys.exit(f"no kernel: {'; '.join(missing)}")
-    print("done")  # noqa: T201
+    print("done")
 
 
 def _everything(count: int) -> Iterator[list[Any]]:
@@ -241,7 +242,7 @@ def main() -> int:
         _inside(json.loads(sys.argv[2]))
         return 0
     if not libraries():
-        print("the compiler has no sanitizers")  # noqa: T201
+        print("the compiler has no sanitizers")
         return 1
     jobs = list(_everything(int(sys.argv[1]) if len(sys.argv) > 1 else 1000))
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(usable_cores()) as pool:
@@ -249,7 +250,7 @@ def main() -> int:
         for job, done in zip(jobs, pool.map(lambda job: process(job, Path(folder)), jobs), strict=True):
             failed += done.returncode != 0
             said = [line for line in done.stderr.splitlines() if "Python/" not in line][:12]
-            print(job[0][:2], job[0][3:4], *done.stdout.splitlines(), *said, sep="\n  ", flush=True)  # noqa: T201
+            print(job[0][:2], job[0][3:4], *done.stdout.splitlines(), *said, sep="\n  ", flush=True)
     return failed
 
 

@@ -7,6 +7,7 @@ over; then one thread makes the same calls, once each. What it gives, every thre
 exit status 1 if one has not, or fails. `--quick` leaves out what takes more than a second.
 """
 
+# ruff: noqa: T201 -- a script that prints
 from __future__ import annotations
 
 import argparse
@@ -231,13 +232,13 @@ def main() -> int:
     for name, said in found.items():
         good = set(said) == {_digest(calls[name]())}
         wrong += not good
-        print("ok   " if good else "WRONG", name, sum(said.values()))  # noqa: T201
+        print("ok   " if good else "WRONG", name, sum(said.values()))
         for each in [] if good else said:
-            print("     ", each[:300])  # noqa: T201
+            print("     ", each[:300])
     if sys.stderr is not before:
-        print("WRONG sys.stderr is not what it was")  # noqa: T201
+        print("WRONG sys.stderr is not what it was")
         wrong += 1
-    print(f"{sum(sum(said.values()) for said in found.values())} calls of {len(found)} kinds, {wrong} wrong")  # noqa: T201
+    print(f"{sum(sum(said.values()) for said in found.values())} calls of {len(found)} kinds, {wrong} wrong")
     return min(wrong, 1)
 
 

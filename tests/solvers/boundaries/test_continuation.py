@@ -76,10 +76,10 @@ def test_a_circle_closes() -> None:
 def test_a_circle_is_cut_at_its_folds() -> None:
     """Two parts with x ascending between the folds, whose chords are refined; below the lower one is outside."""
     leaving, (found, _) = both_ways(circle, (0.5 + RADIUS * math.cos(1), 0.5 + RADIUS * math.sin(1)))
-    parts, folds = monotone(Square(circle), Arc(found.points, leaving[0].right, leaving[0].left))  # type: ignore[arg-type]
+    parts, folds = monotone(Square(circle), Arc(found.points, leaving[0].right, leaving[0].left))  # type: ignore[arg-type]  # a plane of known curves
     assert sorted(place[0] for place in folds) == pytest.approx([0.2, 0.8], abs=1e-9)
     assert {(part.right, part.left) for part in parts} == {(0, 1), (1, 0)}
-    for part in refined(Square(circle), parts):  # type: ignore[arg-type]
+    for part in refined(Square(circle), parts):  # type: ignore[arg-type]  # a plane of known curves
         assert (np.diff(part.points[:, 0]) > 0).all()
         middle = 0.5 * (part.points[1:] + part.points[:-1])
         assert np.hypot(*(middle - 0.5).T) == pytest.approx(RADIUS, abs=4e-5)
@@ -93,7 +93,7 @@ def test_a_folded_curve_is_followed_through_its_folds() -> None:
     y = 2 * points[:, 1] - 1
     assert points[:, 0] == pytest.approx(0.5 + 0.3 * (4 * y**3 - 3 * y), abs=1e-9)
     assert {points[0, 1], points[-1, 1]} == {0.0, 1.0}
-    parts, folds = monotone(Square(cubic), Arc(points, leaving[0].right, leaving[0].left))  # type: ignore[arg-type]
+    parts, folds = monotone(Square(cubic), Arc(points, leaving[0].right, leaving[0].left))  # type: ignore[arg-type]  # a plane of known curves
     assert len(parts) == 3
     assert sorted(place[0] for place in folds) == pytest.approx([0.2, 0.8], abs=1e-9)
     assert sorted(place[1] for place in folds) == pytest.approx([0.25, 0.75], abs=1e-6)

@@ -41,7 +41,7 @@ def leaves(scene: Scene) -> bool:
     def out(_: float, y: np.ndarray) -> float:
         return float(y[0] - x0) if y[1] > 0 else -1.0
 
-    out.terminal = True  # type: ignore[attr-defined]
+    out.terminal = True  # type: ignore[attr-defined]  # how scipy marks an end
     start = [x0 * (1 - 1e-12), -speed, (4 * a + x0) ** 2 * speed * math.tan(angle) / (4 * a)]
     found = solve_ivp(rates, (0.0, 1e5 * x0 / speed), start, "Radau", rtol=1e-9, atol=1e-30, events=out)
     return bool(found.t_events[0].size)

@@ -52,7 +52,7 @@ def test_docstring_and_version() -> None:
 def test_a_name_that_is_not_there() -> None:
     """An unknown attribute is an AttributeError that names it."""
     with pytest.raises(AttributeError, match="'wetdoublet' has no attribute 'colide'"):
-        _ = wd.colide  # type: ignore[attr-defined]
+        _ = wd.colide  # type: ignore[attr-defined]  # misspelt
 
 
 def test_import_loads_no_other_package() -> None:
