@@ -12,8 +12,8 @@ static inline vec contact_gap(const constants *c)
 /* What is reported of contact: the first whose gap is largest and positive, else the last. */
 static inline int contact_kind(const constants *c, int lane)
 {
-    double contact = contact_gap(c)[lane];
-    if (c->elastic_gap[lane] == contact && contact > 0.0)
+    double contact = in_lane(contact_gap(c), lane);
+    if (LANE(c->elastic_gap, lane) == contact && contact > 0.0)
         return KIND_ELASTIC;
     return KIND_ROUGH;
 }
@@ -21,7 +21,7 @@ static inline int contact_kind(const constants *c, int lane)
 /* The first criterion that holds at a gap where one does. */
 static inline int kind_at_gap(const constants *c, double gap, int lane)
 {
-    if (gap <= c->elastic_gap[lane])
+    if (gap <= LANE(c->elastic_gap, lane))
         return KIND_ELASTIC;
     return KIND_ROUGH;
 }
@@ -29,7 +29,7 @@ static inline int kind_at_gap(const constants *c, double gap, int lane)
 /* The second largest of the gaps; 0 if there is none. */
 static inline double second_gap(const constants *c, int lane)
 {
-    double gaps[] = {c->elastic_gap[lane], c->rough_gap[lane]}, largest = 0.0, second = 0.0;
+    double gaps[] = {LANE(c->elastic_gap, lane), LANE(c->rough_gap, lane)}, largest = 0.0, second = 0.0;
     for (int k = 0; k < 2; k++)
         if (gaps[k] > largest) {
             second = largest;
@@ -46,8 +46,8 @@ static inline mask contact_moves_with(const constants *c, int group)
     vec contact = contact_gap(c);
     mask before = splat_mask(0);
     if (group == BY_ELASTIC_GAP)
-        return (c->elastic_gap == contact) & ~before;
+        return (c->elastic_gap == contact) & NOT(before);
     before |= c->elastic_gap == contact;
-    return group == BY_ROUGH_GAP ? ~before : splat_mask(0);
+    return group == BY_ROUGH_GAP ? NOT(before) : splat_mask(0);
 }
 #endif

@@ -85,7 +85,7 @@ class Adjoint:
             *function("static inline void prepare_slopes(slope_constants *c, const constants *v)", prepare), "",
             *comment("Derivatives of the laws by their arguments."),
             *function(
-                "static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, "
+                "OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, "
                 "const series *of, const constants *v)",
                 ["(void)s; (void)c; (void)of; (void)v;", *expand],
             ), "",

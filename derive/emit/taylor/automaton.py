@@ -12,19 +12,19 @@ _KIND = {word.word: f"KIND_{word.name}" for word in automaton.WORDS}
 
 # C statement of each action; "rebound" is a function of the word. The functions are in `engines/taylor/runtime/`.
 _STATEMENTS = {
-    "gap = contact": ("l->y[GAP][lane] = f->contact[lane];",),
-    "gap = film edge": ("l->y[GAP][lane] = 1.0;",),
-    "gap = tangential edge": ("l->y[GAP][lane] = f->edge[lane];",),
-    "gap = rupture": ("l->y[GAP][lane] = f->end[lane];",),
-    "velocity = 0": ("l->y[NORMAL_VELOCITY][lane] = 0.0;",),
-    "turn": ("l->closing[lane] = ~l->closing[lane];",),
+    "gap = contact": ("LANE(l->y[GAP], lane) = LANE(f->contact, lane);",),
+    "gap = film edge": ("LANE(l->y[GAP], lane) = 1.0;",),
+    "gap = tangential edge": ("LANE(l->y[GAP], lane) = LANE(f->edge, lane);",),
+    "gap = rupture": ("LANE(l->y[GAP], lane) = LANE(f->end, lane);",),
+    "velocity = 0": ("LANE(l->y[NORMAL_VELOCITY], lane) = 0.0;",),
+    "turn": ("LANE(l->closing, lane) = LANE(l->closing, lane) ? 0 : TRUTH;",),
     "cross film edge": (
-        "l->film[lane] = 1.0 - l->film[lane];",
-        "if (f->edge[lane] == 1.0)",
-        "    l->shear[lane] = l->film[lane];",
+        "LANE(l->film, lane) = 1.0 - LANE(l->film, lane);",
+        "if (LANE(f->edge, lane) == 1.0)",
+        "    LANE(l->shear, lane) = LANE(l->film, lane);",
     ),
-    "cross tangential edge": ("l->shear[lane] = 1.0 - l->shear[lane];",),
-    "open": ("l->y[NORMAL_VELOCITY][lane] = RELEASE_SPEED;", "opens(l, f, lane);"),
+    "cross tangential edge": ("LANE(l->shear, lane) = 1.0 - LANE(l->shear, lane);",),
+    "open": ("LANE(l->y[NORMAL_VELOCITY], lane) = RELEASE_SPEED;", "opens(l, f, lane);"),
     "roll or slide": ("finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);",),
     "slide": ("finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);",),
     "separate": ("separated(q, l, f, lane);",),
@@ -78,11 +78,11 @@ def criteria_header(provenance: str) -> str:
     lines += function(
         "static inline int contact_kind(const constants *c, int lane)",
         [
-            "double contact = contact_gap(c)[lane];",
+            "double contact = in_lane(contact_gap(c), lane);",
             *(
                 line
                 for group, kind, _ in first
-                for line in (f"if ({group}[lane] == contact && contact > 0.0)", f"    return {kind};")
+                for line in (f"if (LANE({group}, lane) == contact && contact > 0.0)", f"    return {kind};")
             ),
             f"return {last[1]};",
         ],
@@ -91,7 +91,7 @@ def criteria_header(provenance: str) -> str:
     lines += function(
         "static inline int kind_at_gap(const constants *c, double gap, int lane)",
         [
-            *(line for group, kind, _ in first for line in (f"if (gap <= {group}[lane])", f"    return {kind};")),
+            *(line for group, kind, _ in first for line in (f"if (gap <= LANE({group}, lane))", f"    return {kind};")),
             f"return {last[1]};",
         ],
     )
@@ -99,7 +99,7 @@ def criteria_header(provenance: str) -> str:
     lines += function(
         "static inline double second_gap(const constants *c, int lane)",
         [
-            f"double gaps[] = {{{', '.join(f'{group}[lane]' for group in groups)}}}, largest = 0.0, second = 0.0;",
+            f"double gaps[] = {{{', '.join(f'LANE({group}, lane)' for group in groups)}}}, largest = 0.0, second = 0.0;",
             f"for (int k = 0; k < {len(groups)}; k++)",
             "    if (gaps[k] > largest) {",
             "        second = largest;",
@@ -112,9 +112,9 @@ def criteria_header(provenance: str) -> str:
     lines += ["", "#if GRADIENTS", *comment("Lanes whose contact gap is this group.")]
     body = ["vec contact = contact_gap(c);", "mask before = splat_mask(0);"]
     for group, _, each in first:
-        body += [f"if (group == BY_{each.limit.upper()})", f"    return ({group} == contact) & ~before;"]
+        body += [f"if (group == BY_{each.limit.upper()})", f"    return ({group} == contact) & NOT(before);"]
         body.append(f"before |= {group} == contact;")
-    body.append(f"return group == BY_{last[2].limit.upper()} ? ~before : splat_mask(0);")
+    body.append(f"return group == BY_{last[2].limit.upper()} ? NOT(before) : splat_mask(0);")
     lines += function("static inline mask contact_moves_with(const constants *c, int group)", body)
     return "\n".join([*lines, "#endif"]) + "\n"
 
@@ -149,10 +149,10 @@ def _own_effect(event: Event) -> list[str]:
     """C statements of the effect of a user's event (runtime/transitions.h)."""
     ending = {
         "go on": "goes_on(l, f, lane);",
-        "part": "finish(q, l, f, lane, DECIDED, l->reversal[lane] >= 0 ? BOUNCE : ROTATE, 0);",
+        "part": "finish(q, l, f, lane, DECIDED, LANE(l->reversal, lane) >= 0 ? BOUNCE : ROTATE, 0);",
         "cut off": "finish(q, l, f, lane, DECIDED, STICK, 0);",
     }[event.actions[-1]]
-    noted = f"note(q, l->index[lane], {own_kind(event)}, l->time[lane]);"
+    noted = f"note(q, LANE(l->index, lane), {own_kind(event)}, LANE(l->time, lane));"
     return [noted, "if (own_event_jumps(q, l, f, lane, event))", f"    {ending}"]
 
 
@@ -169,14 +169,14 @@ def _effect(event: Event) -> list[str]:
         return [*_done(landing), f"rebounds(q, l, f, lane, {word});"]
     if last == "separate":  # logs its own word
         return [*_done(landing), *_done([last])]
-    noted = f"note(q, l->index[lane], {word}, l->time[lane]);"
+    noted = f"note(q, LANE(l->index, lane), {word}, LANE(l->time, lane));"
     return [noted, *([] if event.ends else ["new_phase(l, lane);"]), *_done(event.actions)]
 
 
 def _chosen(event: Event) -> str:
     names = [_KIND[word] for word in event.words]
     if event.chosen_by == "motion":
-        return f"l->closing[lane] ? {names[0]} : {names[1]}"
+        return f"LANE(l->closing, lane) ? {names[0]} : {names[1]}"
     if event.chosen_by == "larger gap":
         return "contact_kind(&f->c, lane)"
     return names[0]

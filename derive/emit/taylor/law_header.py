@@ -100,14 +100,16 @@ def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str
 
 def _constants(name: str, constants: Constants, still: tuple[sp.Symbol, ...]) -> list[str]:
     names = [*(argument.name for argument in still), *constants.prepared]
-    fields = f"vec {', '.join(names)};" if names else "char none[0];"
+    fields = f"vec {', '.join(names or ['none'])};"  # C has no empty structures
     arguments = "".join(f", vec {argument.name}" for argument in still)
     body = [f"c->{argument.name} = {argument.name};" for argument in still]
     body += [f"c->{key} = {constants.text.vector(value)};" for key, value in constants.prepared.items()]
     return [
         f"typedef struct {{ {fields} }} {name}_constants;",
         "",
-        *function(f"static inline void {name}_prepare({name}_constants *c{arguments})", body or ["(void)c;"]),
+        *function(
+            f"static inline void {name}_prepare({name}_constants *c{arguments})", body or ["c->none = splat(0.0);"]
+        ),
         "",
     ]
 

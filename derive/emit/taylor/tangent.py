@@ -113,7 +113,7 @@ class Tangent(LinearFlow):
             if not isinstance(entry, str):
                 body.append(each_term(f"s->{row}_by_{by}[k] = k == 0 ? {self._constant(entry)} : splat(0.0);"))
         head = (
-            "static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, "
+            "OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, "
             "const series *of, const constants *v, vec film, vec shear, unsigned asked)"
         )
         doc = "Derivatives of the rates by the states, and by the requested groups."

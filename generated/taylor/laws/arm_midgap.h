@@ -5,11 +5,11 @@
  *
  * Source: torque balance of the film about the centre of mass. */
 
-typedef struct { char none[0]; } arm_lever_constants;
+typedef struct { vec none; } arm_lever_constants;
 
 static inline void arm_lever_prepare(arm_lever_constants *c)
 {
-    (void)c;
+    c->none = splat(0.0);
 }
 
 typedef struct {

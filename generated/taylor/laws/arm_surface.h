@@ -5,11 +5,11 @@
  *
  * Source: Donahue, Davis, Kantak & Hrenya, Phys. Rev. E 86, 021303 (2012): leading order in the gap. */
 
-typedef struct { char none[0]; } arm_lever_constants;
+typedef struct { vec none; } arm_lever_constants;
 
 static inline void arm_lever_prepare(arm_lever_constants *c)
 {
-    (void)c;
+    c->none = splat(0.0);
 }
 
 typedef struct {

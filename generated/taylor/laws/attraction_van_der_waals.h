@@ -6,11 +6,11 @@
  *
  * Source: Hamaker, Physica 4, 1058 (1937); Derjaguin, Kolloid-Z. 69, 155 (1934). */
 
-typedef struct { char none[0]; } attraction_force_constants;
+typedef struct { vec none; } attraction_force_constants;
 
 static inline void attraction_force_prepare(attraction_force_constants *c)
 {
-    (void)c;
+    c->none = splat(0.0);
 }
 
 typedef struct {

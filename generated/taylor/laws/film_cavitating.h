@@ -6,11 +6,11 @@
  *
  * Source: Barnocky & Davis, Phys. Fluids 31, 1324 (1988); derived: the pressure cut off at ambient. */
 
-typedef struct { char none[0]; } film_resistance_constants;
+typedef struct { vec none; } film_resistance_constants;
 
 static inline void film_resistance_prepare(film_resistance_constants *c)
 {
-    (void)c;
+    c->none = splat(0.0);
 }
 
 typedef struct {

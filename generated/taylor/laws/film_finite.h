@@ -5,11 +5,11 @@
  *
  * Source: Kantak & Davis, Powder Technol. 168, 42 (2006); derived: pressure integrated over the disc h < x0. */
 
-typedef struct { char none[0]; } film_resistance_constants;
+typedef struct { vec none; } film_resistance_constants;
 
 static inline void film_resistance_prepare(film_resistance_constants *c)
 {
-    (void)c;
+    c->none = splat(0.0);
 }
 
 typedef struct {

@@ -6,11 +6,11 @@
  *
  * Source: Davis, Rager & Good, J. Fluid Mech. 468, 107 (2002); derived: the limit x0 -> infinity of `finite`. */
 
-typedef struct { char none[0]; } film_resistance_constants;
+typedef struct { vec none; } film_resistance_constants;
 
 static inline void film_resistance_prepare(film_resistance_constants *c)
 {
-    (void)c;
+    c->none = splat(0.0);
 }
 
 typedef struct {

@@ -46,8 +46,7 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
 }
 
 /* Derivatives of the laws by their arguments. */
-static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
-    *of, const constants *v)
+OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const series *of, const constants *v)
 {
     (void)s; (void)c; (void)of; (void)v;
     film_resistance_slopes_of(&s->film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
@@ -113,8 +112,8 @@ typedef struct {
 } slopes;
 
 /* Derivatives of the rates by the states, and by the requested groups. */
-static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
-    *of, const constants *v, vec film, vec shear, unsigned asked)
+OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const series *of, const constants *v,
+    vec film, vec shear, unsigned asked)
 {
     film_resistance_slopes film_resistance_law;
     vec film_force_by_gap[TERMS];

@@ -70,8 +70,7 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
 }
 
 /* Derivatives of the laws by their arguments. */
-static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
-    *of, const constants *v)
+OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const series *of, const constants *v)
 {
     (void)s; (void)c; (void)of; (void)v;
     shear_log_factor_slopes_of(&s->shear_log_factor_law, &c->shear_log_factor_law, &of->shear_log_factor_law,
@@ -348,8 +347,8 @@ typedef struct {
 } slopes;
 
 /* Derivatives of the rates by the states, and by the requested groups. */
-static __attribute__((noinline)) void expand_slopes(slopes *restrict s, const slope_constants *c, const series
-    *of, const constants *v, vec film, vec shear, unsigned asked)
+OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const series *of, const constants *v,
+    vec film, vec shear, unsigned asked)
 {
     shear_log_factor_slopes shear_log_factor_law;
     film_resistance_slopes film_resistance_law;

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
+import math
 import os
 import platform
 import re
@@ -132,13 +133,21 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
     own = has_events(variant.choice)
     return {
         **({} if own else {"own_events.h": ""}),
-        "settings.h": "\n".join([_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), ""]),
-        "layout.h": f"{_ONCE}\n{declarations(variant.ledger, own, variant.space)}\n",
+        "settings.h": "\n".join(
+            [_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), _binomials(variant.order), ""]
+        ),
+        "layout.h": f'{_ONCE}\n#include "vector.h"\n{declarations(variant.ledger, own, variant.space)}\n',
         "automaton.h": f"{_ONCE}\n{rules}",
         "criteria.h": f'{_ONCE}\n#include "automaton.h"\n#include "model.h"\n{criteria}',
         "effects.h": f'{_ONCE}\n#include "transitions.h"\n{effects}',
         "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted]),
     }
+
+
+def _binomials(order: int) -> str:
+    """Table that takes a polynomial of this order from powers to Bernstein coefficients on [0, 1]."""
+    row = ", ".join(f"1.0/{math.comb(order, k)}.0" for k in range(order + 1))
+    return f"static const double INVERSE_BINOMIAL[TERMS] = {{{row}}}; /* 1/C(ORDER, k) */"
 
 
 def _emitted(variant: Variant) -> tuple[str, ...] | None:

@@ -100,10 +100,10 @@ def declarations(ledger: bool, events: bool = False, space: bool = False) -> str
         lines += [f"    {_member(field, kind)};" for field, (kind, *_) in (layout.fields or {}).items()]
         lines.append(f"}} {name};")
         lines += [
-            f'_Static_assert(offsetof({name}, {field}) == {where}, "{name}");'
+            f"STATIC_ASSERT(offsetof({name}, {field}) == {where});"
             for field, (_, where, *_) in (layout.fields or {}).items()
         ]
-        lines.append(f'_Static_assert(sizeof({name}) == {layout.itemsize}, "{name}");')
+        lines.append(f"STATIC_ASSERT(sizeof({name}) == {layout.itemsize});")
     return "\n".join(lines)
 
 

@@ -54,7 +54,7 @@ struct derivatives {
 }
 
 /* Derivatives by the states at the start of the step, from those at its end. */
-static __attribute__((noinline)) void retrace(sweep *r, const vec *power, vec film, vec shear, mask moving)
+OUTLINE void retrace(sweep *r, const vec *power, vec film, vec shear, mask moving)
 {
     vec w[STATES];
     for (int state = 0; state < STATES; state++)
@@ -93,7 +93,7 @@ static vec flagged(mask flags, int64_t bit)
  * tolerance, would not decay with the rest where the film forgets: it is taken away, by the smallest change of `of`. */
 static void forget_time(sweep *r)
 {
-    const vec(*a)[TERMS] = (const void *)&r->s;
+    const vec (*a)[TERMS] = (const vec (*)[TERMS])&r->s;
     vec along = splat(0.0), size = splat(1e-300), by_scale[STATES];
     for (int state = 0; state < MODEL_STATES; state++) {
         vec over = 1.0/(1.0 + vec_abs(r->step.y[state]));
@@ -109,7 +109,7 @@ static void forget_time(sweep *r)
 static void unstep(sweep *r)
 {
     series *s = &r->s;
-    vec(*a)[TERMS] = (void *)s;
+    vec (*a)[TERMS] = (vec (*)[TERMS])s;
     mask flags = r->step.flags, moving = (flags & MOVES) != 0;
     vec film = flagged(flags, ACTS), shear = flagged(flags, SHEARS);
     for (int state = 0; state < STATES; state++)
@@ -140,15 +140,15 @@ static void unend(sweep *r, const taped_end *own, int lane)
         memset(at, 0, sizeof at);
         at[state] = splat(1.0);
         outputs_along(&r->f.c, y, at, GROUPS, shown);
-        r->of[state][lane] = shown[0][lane];
+        LANE(r->of[state], lane) = LANE(shown[0], lane);
     }
     memset(at, 0, sizeof at);
     for (int group = 0; group < GROUPS; group++) {
         outputs_along(&r->f.c, y, at, group, shown);
-        r->by_group[group][lane] = shown[0][lane];
+        LANE(r->by_group[group], lane) = LANE(shown[0], lane);
     }
     outputs(&r->f.c, y, shown);
-    r->least[lane] = NEGLECTED/STEEPEST*r->f.tolerance[lane]*fabs(shown[0][lane]);
+    LANE(r->least, lane) = NEGLECTED/STEEPEST*LANE(r->f.tolerance, lane)*fabs(LANE(shown[0], lane));
 }
 
 static void undo_rebound(sweep *r, const taped_rebound *own, int lane)
@@ -175,24 +175,24 @@ static void undo_rebound(sweep *r, const taped_rebound *own, int lane)
         if (by < STATES)
             found[by] = sum;
         else
-            r->by_group[by - STATES][lane] += sum[lane];
+            LANE(r->by_group[by - STATES], lane) += LANE(sum, lane);
     }
     for (int state = 0; state < STATES; state++)
-        r->of[state][lane] = found[state][lane];
+        LANE(r->of[state], lane) = LANE(found[state], lane);
 }
 
 /* The derivatives of a lane's trajectory are complete. */
 static void put_derivatives(const sweep *r, struct derivatives *into, int lane)
 {
     for (int state = 0; state < STATES; state++)
-        into->of[state] = r->of[state][lane];
+        into->of[state] = LANE(r->of[state], lane);
     for (int place = 0; place < CONSTANTS; place++)
-        into->constant[place] = r->bar.constant[place][lane];
-    into->at_contact = r->at_contact[lane];
-    into->at_end = r->at_end[lane];
-    into->at_edge = r->at_edge[lane];
+        into->constant[place] = LANE(r->bar.constant[place], lane);
+    into->at_contact = LANE(r->at_contact, lane);
+    into->at_end = LANE(r->at_end, lane);
+    into->at_edge = LANE(r->at_edge, lane);
     for (int group = 0; group < GROUPS; group++)
-        into->by_group[group] = r->by_group[group][lane];
+        into->by_group[group] = LANE(r->by_group[group], lane);
 }
 
 /* Puts a trajectory into a lane. */
@@ -203,10 +203,10 @@ static void load(sweep *r, const struct tape *t, long end, int lane)
     r->next[lane] = own->after;
     r->rebound[lane] = own->rebound;
     for (int field = 0; field < FIXED; field++)
-        ((double *)&((vec *)&r->f)[field])[lane] = t->rows[end][field];
+        LANE(((vec *)&r->f)[field], lane) = t->rows[end][field];
     for (int place = 0; place < CONSTANTS; place++)
-        r->bar.constant[place][lane] = 0.0;
-    r->at_contact[lane] = r->at_end[lane] = r->at_edge[lane] = 0.0;
+        LANE(r->bar.constant[place], lane) = 0.0;
+    LANE(r->at_contact, lane) = LANE(r->at_end, lane) = LANE(r->at_edge, lane) = 0.0;
     unend(r, own, lane);
 }
 
@@ -221,9 +221,9 @@ static int read_step(sweep *r, const struct tape *t, int lane)
         return 0;
     const taped_step *step = &t->steps[--r->next[lane]];
     for (int state = 0; state < STATES; state++)
-        r->step.y[state][lane] = step->y[state][own->lane];
-    r->step.h[lane] = step->h[own->lane];
-    r->step.flags[lane] = step->flags[own->lane];
+        LANE(r->step.y[state], lane) = LANE(step->y[state], own->lane);
+    LANE(r->step.h, lane) = LANE(step->h, own->lane);
+    LANE(r->step.flags, lane) = LANE(step->flags, own->lane);
     for (unsigned field = 0; r->next[lane] > 0 && field < sizeof(taped_step)/sizeof(vec); field++)
         __builtin_prefetch((const vec *)(step - 1) + field); /* read after this step */
     return 1;
@@ -246,16 +246,16 @@ static void take_back(const struct tape *t, sweep *r)
     for (;;) {
         EACH_LANE(lane)
         {
-            if (!r->active[lane]) {
+            if (!LANE(r->active, lane)) {
                 if (taken == t->ended)
                     continue;
                 load(r, t, taken++, lane);
-                r->active[lane] = -1;
+                LANE(r->active, lane) = TRUTH;
             }
             while (!read_step(r, t, lane)) {
                 put_derivatives(r, &t->found[r->end[lane]], lane);
                 if (taken == t->ended) {
-                    r->active[lane] = 0;
+                    LANE(r->active, lane) = 0;
                     break;
                 }
                 load(r, t, taken++, lane);
@@ -265,11 +265,11 @@ static void take_back(const struct tape *t, sweep *r)
             return;
         unstep(r);
         for (unsigned done = bits(forgotten(r)); done; done &= done - 1) {
-            int lane = __builtin_ctz(done);
+            int lane = first_of(done);
             for (int state = 0; state < STATES; state++)
-                r->of[state][lane] = 0.0;
+                LANE(r->of[state], lane) = 0.0;
             put_derivatives(r, &t->found[r->end[lane]], lane);
-            r->active[lane] = 0;
+            LANE(r->active, lane) = 0;
         }
     }
 }
@@ -286,14 +286,14 @@ static void in_groups(const queue *q)
         {
             long own = first + (lane < many ? lane : 0);
             for (int k = 0; k < QUANTITIES; k++)
-                given[k][lane] = quantity(q, k, t->ends[own].index);
+                LANE(given[k], lane) = quantity(q, k, t->ends[own].index);
             for (unsigned place = 0; place < sizeof turned/sizeof *turned; place++)
-                turned[place][lane] = ((const double *)(t->found + own))[place];
+                LANE(turned[place], lane) = ((const double *)(t->found + own))[place];
         }
         scale(&f.c, given);
         vec *of = turned, *constant = of + STATES, *events = constant + CONSTANTS, *by_group = events + 3;
         along_constants(&f.c, constant, by_group);
-        meeting contact = {.contact = splat_mask(-1)}, end = {.end = splat_mask(-1)}, edge = {.edge = splat_mask(-1)};
+        meeting contact = {.contact = splat_mask(TRUTH)}, end = {.end = splat_mask(TRUTH)}, edge = {.edge = splat_mask(TRUTH)};
         for (int group = 0; group < GROUPS; group++) {
             by_group[group] += events[0]*target_along(&f, &contact, group) + events[1]*target_along(&f, &end, group) +
                                events[2]*target_along(&f, &edge, group);
@@ -301,7 +301,7 @@ static void in_groups(const queue *q)
             for (int state = 0; state < MODEL_STATES; state++)
                 by_group[group] += of[state]*at[state];
             for (int lane = 0; lane < many; lane++)
-                q->by_group[t->ends[first + lane].index*GROUPS + group] = by_group[group][lane];
+                q->by_group[t->ends[first + lane].index*GROUPS + group] = LANE(by_group[group], lane);
         }
     }
 }

@@ -62,7 +62,7 @@ static mask held_on_approach(const constants *c, const vec *y, const barrier *b,
         return found;
     approach_force(c, y, &outward);
     memcpy(bounds, y, sizeof bounds);
-    for (int part = 0; part < APPROACH_PARTS && bits(sure & ~found); part++) {
+    for (int part = 0; part < APPROACH_PARTS && bits(sure & NOT(found)); part++) {
         vec fastest = next_part(c, bounds), slowed = bounds[NORMAL_VELOCITY];
         sure &= clear_of_glass(c, bounds, fastest, margin);
         found |= sure & (0.5*slowed*slowed + rest + outward*(y[GAP] - bounds[GAP]) < limit);

@@ -24,7 +24,11 @@
 #endif
 #endif /* OWN_EVENTS */
 #if PROOF_BY_FILM
-enum { DEPTHS = ATTRACTION ? ATTRACTED_FILM_DEPTHS : FILM_DEPTHS };
+#if ATTRACTION
+enum { DEPTHS = ATTRACTED_FILM_DEPTHS };
+#else
+enum { DEPTHS = FILM_DEPTHS };
+#endif
 
 /* Loss of normal velocity in the film between two gaps. */
 #if defined(FILM_RESISTANCE_WORK)
@@ -66,7 +70,7 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 #if defined(FILM_CAVITATES)
     mask stopped = splat_mask(0);
 #else
-    mask stopped = ~closing & (y[NORMAL_VELOCITY] - film_takes(c, gap, splat(1.0)) < -margin);
+    mask stopped = NOT(closing) & (y[NORMAL_VELOCITY] - film_takes(c, gap, splat(1.0)) < -margin);
 #endif
     mask clear = closing;
     for (int k = 0; k < DEPTHS; k++) {
@@ -90,12 +94,12 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 #if defined(FILM_CAVITATES)
     mask held = splat_mask(0);
 #else
-    mask held = ~closing & (y[NORMAL_VELOCITY] - film_takes(c, y[GAP], splat(1.0)) < -margin);
+    mask held = NOT(closing) & (y[NORMAL_VELOCITY] - film_takes(c, y[GAP], splat(1.0)) < -margin);
 #endif
     vec start = choose(closing, y[GAP], splat(1.0)); /* an opening doublet may reach x0 before it falls back */
     vec speed = only(closing, -y[NORMAL_VELOCITY]), ratio = ratio_of_depths(start, contact), there[STATES];
     vec surface = capillary_work(c, splat(1.0));
-    mask clear = splat_mask(-1);
+    mask clear = splat_mask(TRUTH);
     memcpy(there, y, sizeof there);
     there[GAP] = start;
     for (int k = 0; k < DEPTHS; k++) {
@@ -118,10 +122,10 @@ static vec pendulum_slack(const constants *c, const vec *y, double margin)
     pendulum_inward(c, y, &outward, &pull);
     mask inward = outward - pull + margin*(outward + pull) < 0.0;
     vec slack = margin*vec_larger(c->stokes, splat(1.0));
-    if (!bits(~inward))
+    if (!bits(NOT(inward)))
         return slack;
     pendulum_impulse(c, y, &impulse);
-    return slack + only(~inward, c->stokes*impulse);
+    return slack + only(NOT(inward), c->stokes*impulse);
 }
 
 /* Pendulum certificate: lanes where the margins of derive/equations/certificates/pendulum.py exceed their error while
@@ -245,15 +249,15 @@ static inline mask proved_sticks(
         proved |= resting & rests_for_good(c, y, tolerance);
 #endif
 #if PROOF_BY_FILM
-    proved |= ~resting & stopped_by_film(c, y, contact, closing, tolerance);
+    proved |= NOT(resting) & stopped_by_film(c, y, contact, closing, tolerance);
 #endif
 #if PENDULUM
     proved |= held_by_strings(c, y, tolerance);
 #endif
 #if OWN_EVENTS
 #if OWN_PROOFS
-    if (bits(proved & ~resting)) /* the film stops a closing doublet before it opens */
-        proved &= resting | own_events_excluded(c, y, whole_energy(c, y)*(1.0 + SAFETY*tolerance), ~closing);
+    if (bits(proved & NOT(resting))) /* the film stops a closing doublet before it opens */
+        proved &= resting | own_events_excluded(c, y, whole_energy(c, y)*(1.0 + SAFETY*tolerance), NOT(closing));
 #else
     proved &= resting;
 #endif
@@ -280,7 +284,7 @@ enum { EARLIEST_PHASE = PROOF_BY_ENERGY ? 4 : 1, EVERY = PROOF_BY_ENERGY ? 64 : 
 
 static inline mask now_and_then(mask fresh, mask phases, mask steps)
 {
-    return (fresh & (phases >= EARLIEST_PHASE)) | ((steps & (EVERY - 1)) == EVERY - 1);
+    return (fresh & (phases >= splat_mask(EARLIEST_PHASE))) | ((steps & (EVERY - 1)) == EVERY - 1);
 }
 
 /* Lanes in which a certificate that is checked at intervals excludes separation. */

@@ -12,13 +12,13 @@ static void in_quantities(const queue *q, long first)
         int many = q->count - first < LANES ? (int)(q->count - first) : LANES;
         vec given[QUANTITIES], slope[GROUPS], row[GROUPS][RESULTS];
         for (int k = 0; k < QUANTITIES; k++)
-            EACH_LANE(lane) given[k][lane] = quantity(q, k, first + (lane < many ? lane : 0));
+            EACH_LANE(lane) LANE(given[k], lane) = quantity(q, k, first + (lane < many ? lane : 0));
         scale(&f.c, given);
         EACH_LANE(lane)
         {
             const double *own = q->by_group + (first + (lane < many ? lane : 0))*GROUPS*RESULTS;
             for (int place = 0; place < GROUPS*RESULTS; place++)
-                row[place/RESULTS][place%RESULTS][lane] = own[place];
+                LANE(row[place/RESULTS][place%RESULTS], lane) = own[place];
         }
         for (int k = 0; k < QUANTITIES; k++) {
             scale_along(&f.c, given, k, slope);
@@ -27,7 +27,7 @@ static void in_quantities(const queue *q, long first)
                 for (int group = 0; group < GROUPS; group++)
                     sum += only(slope[group] != 0.0, slope[group]*row[group][result]);
                 for (int lane = 0; lane < many; lane++)
-                    q->gradients[((first + lane)*QUANTITIES + k)*RESULTS + result] = sum[lane];
+                    q->gradients[((first + lane)*QUANTITIES + k)*RESULTS + result] = LANE(sum, lane);
             }
         }
     }

@@ -30,7 +30,7 @@ static const double DAMPING[9][3] = { /* order: largest z */
     {0.8968664, 0.5590702, 0.1640978}, /* 15: 13.7 */
     {0.9037251, 0.5740561, 0.1728381}, /* 16: 14.0 */
 };
-_Static_assert(ORDER >= 8 && ORDER <= 16, "DAMPING has these orders");
+STATIC_ASSERT(ORDER >= 8 && ORDER <= 16); /* DAMPING has these orders */
 
 static inline double damping(int k)
 {

@@ -41,23 +41,23 @@ static void run(queue *q)
 #endif
     if (!bits(l.alive))
         return;
-    int sound = __builtin_ctz(bits(l.alive)); /* idle lanes repeat a live one: no traps, no slow arithmetic */
-    EACH_LANE(lane) if (!l.alive[lane]) {
+    int live = first_of(bits(l.alive)); /* idle lanes repeat a live one: no traps, no slow arithmetic */
+    EACH_LANE(lane) if (!LANE(l.alive, lane)) {
         for (int field = 0; field < FIXED; field++)
-            ((vec *)&f)[field][lane] = ((vec *)&f)[field][sound];
+            LANE(((vec *)&f)[field], lane) = LANE(((vec *)&f)[field], live);
         for (int state = 0; state < STATES; state++)
-            l.y[state][lane] = l.y[state][sound];
+            LANE(l.y[state], lane) = LANE(l.y[state], live);
     }
-    vec(*a)[TERMS] = (void *)&s;
+    vec (*a)[TERMS] = (vec (*)[TERMS])&s;
     for (;;) {
         if (q->parks && (q->parks >= LANES || !bits(l.alive))) {
             crawl(q);
-            EACH_LANE(lane) if (!l.alive[lane]) refill(q, &l, &f, lane);
+            EACH_LANE(lane) if (!LANE(l.alive, lane)) refill(q, &l, &f, lane);
         }
 #if JUMPS
         if (q->turns && (q->turns >= LANES || !bits(l.alive))) {
             jump(q);
-            EACH_LANE(lane) if (!l.alive[lane]) refill(q, &l, &f, lane);
+            EACH_LANE(lane) if (!LANE(l.alive, lane)) refill(q, &l, &f, lane);
         }
 #endif
         if (!bits(l.alive))
@@ -68,11 +68,11 @@ static void run(queue *q)
         sticks &= provable(q, l.closing);
 #endif
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
-            finish(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
+            finish(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
 #if SPACE && PROOF_BY_ENERGY
         mask late = l.alive & ((l.steps & (EVERY - 1)) == EVERY - 1);
         for (unsigned held = bits(late) ? bits(late & tumbles(&f.c, l.y, &f.b, q->rtol)) : 0; held; held &= held - 1)
-            finish(q, &l, &f, __builtin_ctz(held), DECIDED, STICK, 0);
+            finish(q, &l, &f, first_of(held), DECIDED, STICK, 0);
 #endif
         criteria_met(q, &l, &f);
 #if FRICTION && TURNS
@@ -84,11 +84,11 @@ static void run(queue *q)
 #if OWN_EVENTS
         mask happens = splat_mask(0), due = own_events_due(&l, &f, &happens);
         for (unsigned left = bits(due); left; left &= left - 1) {
-            int lane = __builtin_ctz(left);
+            int lane = first_of(left);
 #if WITH_TRAJECTORY
-            act_for_purpose(q, &l, &f, lane, (int)happens[lane]);
+            act_for_purpose(q, &l, &f, lane, (int)LANE(happens, lane));
 #else
-            act(q, &l, &f, lane, (int)happens[lane]);
+            act(q, &l, &f, lane, (int)LANE(happens, lane));
 #endif
         }
         if (bits(due))
@@ -96,7 +96,7 @@ static void run(queue *q)
 #endif /* OWN_EVENTS */
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
-        expand(&s, &f.c, acting(&l), l.shear, ~l.resting);
+        expand(&s, &f.c, acting(&l), l.shear, NOT(l.resting));
         mask creeps;
 #if GRADIENTS && !BACKWARD
         if (q->asked)
@@ -104,7 +104,7 @@ static void run(queue *q)
         expand_along(&t, &l, &f, &s, &d, q->asked);
         vec h = only(l.alive, step_size(&s, &f, &creeps, &t));
         for (unsigned left = bits(creeps) ? t.asked : 0; left; left &= left - 1)
-            damp(t.t[__builtin_ctz(left)], creeps);
+            damp(t.t[first_of(left)], creeps);
 #else
         vec h = only(l.alive, step_size(&s, &f, &creeps));
 #endif
@@ -149,22 +149,24 @@ static void run(queue *q)
         l.time += h;
         l.smallest = vec_min(l.smallest, l.y[GAP]);
         l.steps += 1; /* before a lane may take another collision, which must not depend on this one */
-        l.crept = (l.crept + 1) & creeps;
+        l.crept = only_whole(creeps, l.crept + 1);
         l.stride = h;
-        mask lost = l.alive & ~((vec_abs(l.y[GAP]) < INFINITY) & (vec_abs(l.y[NORMAL_VELOCITY]) < INFINITY));
-        for (unsigned event = bits(falls & ~lost); event; event &= event - 1) {
-            int lane = __builtin_ctz(event);
+        mask sound = vec_abs(l.y[GAP]) < INFINITY;
+        sound &= vec_abs(l.y[NORMAL_VELOCITY]) < INFINITY;
+        mask lost = l.alive & NOT(sound);
+        for (unsigned event = bits(falls & NOT(lost)); event; event &= event - 1) {
+            int lane = first_of(event);
 #if WITH_TRAJECTORY
-            act_for_purpose(q, &l, &f, lane, (int)found.event[lane]);
+            act_for_purpose(q, &l, &f, lane, (int)LANE(found.event, lane));
 #else
-            act(q, &l, &f, lane, (int)found.event[lane]);
+            act(q, &l, &f, lane, (int)LANE(found.event, lane));
 #endif
         }
 #if JUMPS
-        park_turned(q, &l, &f, falls & ~lost & (found.event == AT_TURNING) & l.alive & ~l.closing);
+        park_turned(q, &l, &f, falls & NOT(lost) & (found.event == splat_mask(AT_TURNING)) & l.alive & NOT(l.closing));
 #endif
         mask spent = l.alive & (lost | (l.steps > q->budget));
-        unsigned slow_ones = bits(l.alive & ~falls & ~spent & (l.crept > PATIENCE));
+        unsigned slow_ones = bits(l.alive & NOT(falls) & NOT(spent) & (l.crept > splat_mask(PATIENCE)));
 #if BACKWARD
         spent |= only_if_full(q, l.alive);
         slow_ones = 0;
@@ -176,10 +178,10 @@ static void run(queue *q)
         slow_ones = q->step_room || q->t->purpose != WHOLE ? 0 : slow_ones;
 #endif
         for (; slow_ones; slow_ones &= slow_ones - 1)
-            park(q, &l, &f, __builtin_ctz(slow_ones));
+            park(q, &l, &f, first_of(slow_ones));
         for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
-            int lane = __builtin_ctz(failed);
-            int status = lost[lane] ? NOT_FINITE : l.phases[lane] > CHATTER_PHASES ? CHATTER : NO_BUDGET;
+            int lane = first_of(failed);
+            int status = LANE(lost, lane) ? NOT_FINITE : LANE(l.phases, lane) > CHATTER_PHASES ? CHATTER : NO_BUDGET;
             finish(q, &l, &f, lane, status, STICK, 0);
         }
     }

@@ -38,8 +38,8 @@ static vec integral(
     vec whole = high - low, panels; /* each lane has its own panels, so that results do not depend on neighbours */
     int most = 0;
     EACH_LANE(lane) {
-        int own = 2 + (int)(2.0*fmax(0.0, fabs(whole[lane])));
-        panels[lane] = own;
+        int own = 2 + (int)(2.0*fmax(0.0, fabs(LANE(whole, lane))));
+        LANE(panels, lane) = own;
         most = own > most ? own : most;
     }
     vec half = whole*(0.5/panels), sum = splat(0.0);
@@ -122,7 +122,7 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
         vec high = k < INNER ? low*ratio : k == INNER ? splat(1.0) : k < INNER + OUTER ? low + width : end;
         vec next = slope_at(c, y, high);
         mask top = (slope > 0.0) & (next <= 0.0);
-        mask own = top & ~first;
+        mask own = top & NOT(first);
         lower[0] = choose(own, low, lower[0]);
         upper[0] = choose(own, high, upper[0]);
         mask other = top & first; /* the last one found is kept */
@@ -151,7 +151,7 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
         found->far_gap = choose(higher, end, found->far_gap);
         found->far_height = choose(higher, height, found->far_height);
     }
-    mask hidden = ~(found->near_height > found->far_height);
+    mask hidden = NOT(found->near_height > found->far_height);
     found->near_gap = choose(hidden, found->far_gap, found->near_gap);
     found->near_height = choose(hidden, found->far_height, found->near_height);
 #if SURFACE_ARM
@@ -233,7 +233,7 @@ static inline mask below(const constants *c, const vec *y, const barrier *b, vec
 #if FRICTION /* impulses that reverse the slip again and again */
     deviation *= (1.0 + c->contact_tangential_restitution)/(1.0 - c->contact_tangential_restitution);
 #endif
-    vec change = deviation + only(~rests, risen);
+    vec change = deviation + only(NOT(rests), risen);
     vec lost = change*c->aspect*reach/(4.0 + c->aspect*reach);
     memset(one, 0, sizeof one);
     one[GAP] = y[GAP];

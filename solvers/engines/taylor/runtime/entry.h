@@ -68,12 +68,12 @@ const char *collide(task *t)
     queue q;
     memset(&q, 0, sizeof q);
     q.t = t;
-    q.columns = t->quantities.at;
+    q.columns = (const buffer *)t->quantities.at;
     q.rtol = t->rtol;
-    q.answers = t->answers.at;
+    q.answers = (answer *)t->answers.at;
     q.count = t->count;
     q.budget = (int)t->budget;
-    q.log = t->log.at;
+    q.log = (happening *)t->log.at;
     q.log_room = t->log.bytes/(t->count*(long)sizeof(happening));
 #if WITH_LEDGER
     q.books = t->books.at;

@@ -32,11 +32,11 @@ static inline vec reach(const vec *a, vec h)
  */
 static inline vec least_of(const vec *a, vec h)
 {
-    mask sign = (mask)a[0] & splat_mask(INT64_MIN);
+    word sign = pattern(a[0]) & SIGN;
     vec rest = vec_abs(a[ORDER]);
     for (int k = ORDER - 1; k > 2; k--)
         rest = rest*h + vec_abs(a[k]);
-    vec start = vec_abs(a[0]), slope = (vec)((mask)a[1] ^ sign)*h, bend = (vec)((mask)a[2] ^ sign)*h*h;
+    vec start = vec_abs(a[0]), slope = from_pattern(pattern(a[1]) ^ sign)*h, bend = from_pattern(pattern(a[2]) ^ sign)*h*h;
     vec end = start + slope + bend;
     mask dips = (slope < 0.0) & (-slope < 2.0*bend);
     vec lowest = choose(dips, start - 0.25*slope*slope/choose(dips, bend, splat(1.0)), vec_min(start, end));
@@ -57,7 +57,7 @@ static inline vec sum_at(const vec *a, vec t)
  * With one change of sign there is one root, found by bracketed Newton iteration. With more, the lane's first root is
  * isolated.
  */
-static __attribute__((noinline)) void look(
+OUTLINE void look(
     first_event *found, mask close, const vec *a, vec target, vec sign, vec h, mask event)
 {
     vec g[TERMS + 1], b[TERMS + 1], power = sign;
@@ -73,18 +73,20 @@ static __attribute__((noinline)) void look(
         g[ORDER] = choose(zero, splat(0.0), g[ORDER]);
     }
     for (int k = 0; k <= ORDER; k++)
-        b[k] = g[k]*INVERSE_BINOMIAL[ORDER][k];
+        b[k] = g[k]*INVERSE_BINOMIAL[k];
     for (int k = 1; k <= ORDER; k++)
         for (int j = ORDER; j >= k; j--)
             b[j] += b[j - 1];
     mask falls = g[0] <= 0.0, below = b[0] < 0.0, changes = splat_mask(0);
     for (int k = 1; k <= ORDER; k++) {
         mask here = b[k] < 0.0;
-        changes += below ^ here; /* masks are -1 */
+        changes += below ^ here; /* counts in units of TRUTH */
         below = here;
     }
     vec time = choose(falls, splat(0.0), splat(NO_ROOT));
-    mask one = close & ~falls & (changes == -1), many = close & ~falls & (changes < -1);
+    const mask once = splat_mask(TRUTH);
+    mask one = close & NOT(falls) & (changes == once);
+    mask many = close & NOT(falls) & (changes != 0) & (changes != once);
     if (bits(one)) {
         vec from = b[0], to = b[ORDER], place = splat(0.0); /* initial guess: the sign change of the control polygon */
         for (int k = 1; k <= ORDER; k++) {
@@ -110,27 +112,27 @@ static __attribute__((noinline)) void look(
             /* Newton converges quadratically: after a step of 1e-9 the error is about 1e-17 */
             mask arrived = (inside & (vec_abs(next - t) <= 1e-9*next)) | (high - low <= 4e-16*high);
             t = choose(moves, next, t);
-            moves &= ~arrived;
+            moves &= NOT(arrived);
         }
         time = choose(one, t, time);
     }
     for (unsigned left = bits(many); left; left &= left - 1) {
-        int lane = __builtin_ctz(left);
+        int lane = first_of(left);
         double own[TERMS + 1], bernstein[TERMS + 1];
         for (int k = 0; k <= ORDER; k++) {
-            own[k] = g[k][lane];
-            bernstein[k] = b[k][lane];
+            own[k] = LANE(g[k], lane);
+            bernstein[k] = LANE(b[k], lane);
         }
-        time[lane] = isolated(own, ORDER, bernstein, 0.0, 1.0, 0);
+        LANE(time, lane) = isolated(own, ORDER, bernstein, 0.0, 1.0, 0);
     }
     mask first = close & (time <= 1.0) & (time < found->time);
     found->time = choose(first, time, found->time);
-    found->event = (first & event) | (~first & found->event);
+    found->event = choose_whole(first, event, found->event);
 }
 
 #if OWN_EVENTS
 /* The first declared event of a step that comes before those found already. */
-static __attribute__((noinline)) void find_own_events(
+OUTLINE void find_own_events(
     const series *s, const lanes *l, const fixed *f, vec h, mask moves, first_event *found)
 {
     own_series own;
@@ -143,7 +145,7 @@ static __attribute__((noinline)) void find_own_events(
             for (int k = 0; k <= ORDER; k++)
                 own_coefficients(&own, s, &f->c, k);
         made = 1;
-        close &= ~((own.guard[which][0] > 0.0) & (least_of(own.guard[which], h) > 0.0));
+        close &= NOT((own.guard[which][0] > 0.0) & (least_of(own.guard[which], h) > 0.0));
         if (bits(close))
             look(found, close, own.guard[which], splat(0.0), splat(1.0), h, splat_mask(OWN[which].event));
     }
@@ -154,13 +156,13 @@ static void find_events(const series *s, const lanes *l, const fixed *f, vec h, 
     const vec zero = splat(0.0), one = splat(1.0);
     found->time = splat(NO_ROOT);
     found->event = splat_mask(0);
-    mask closing = l->closing, moves = l->alive & ~l->resting, close;
+    mask closing = l->closing, moves = l->alive & NOT(l->resting), close;
     vec away = choose(closing, one, -one); /* the sign with which event functions of the gap increase */
     /* The turning point comes first: up to there the gap is monotonic, and extremal at the end. Under a constant force
      * steps are unlimited, and all events before the turning point lie in a tiny part of the step.
      */
     vec part = one;
-    mask turns = moves & ~(least_of(s->normal_velocity, h) > 0.0);
+    mask turns = moves & NOT(least_of(s->normal_velocity, h) > 0.0);
     if (bits(turns)) {
         look(found, turns, s->normal_velocity, zero, -away, h, splat_mask(AT_TURNING));
         mask turned = (found->time <= 1.0) & (found->time > 0.0);
@@ -171,41 +173,41 @@ static void find_events(const series *s, const lanes *l, const fixed *f, vec h, 
     found->gap = sum_at(s->gap, h);
     vec to = found->gap;
     if (bits(moves & closing)) {
-        close = moves & closing & ~((s->glass.result[0] > 0.0) & (least_of(s->glass.result, h) > 0.0));
+        close = moves & closing & NOT((s->glass.result[0] > 0.0) & (least_of(s->glass.result, h) > 0.0));
         if (bits(close))
             look(found, close, s->glass.result, zero, one, h, splat_mask(AT_GLASS));
     }
     /* the next gap with an event: contact, or the film edge from outside; film edge or rupture while opening */
 #if BRIDGE && !SPREAD
     mask inside = l->film != 0.0, edge = closing ^ inside; /* closing from outside, or opening from inside */
-    edge &= ~(closing & (f->contact >= 1.0)); /* soft solids touch outside the film */
+    edge &= NOT(closing & (f->contact >= 1.0)); /* soft solids touch outside the film */
     vec target = choose(edge, one, choose(closing, f->contact, f->end));
-    mask event = (edge & splat_mask(AT_FILM_EDGE)) |
-                 (~edge & ((closing & splat_mask(AT_CONTACT)) | (~closing & splat_mask(AT_RUPTURE))));
+    mask event = choose_whole(closing, splat_mask(AT_CONTACT), splat_mask(AT_RUPTURE));
+    event = choose_whole(edge, splat_mask(AT_FILM_EDGE), event);
 #else
     vec target = choose(closing, f->contact, f->end);
-    mask event = (closing & splat_mask(AT_CONTACT)) | (~closing & splat_mask(AT_RUPTURE));
+    mask event = choose_whole(closing, splat_mask(AT_CONTACT), splat_mask(AT_RUPTURE));
 #endif
-    close = moves & ~(away*(to - target) > 0.0);
+    close = moves & NOT(away*(to - target) > 0.0);
     if (bits(close))
         look(found, close, s->gap, target, away, h, event);
 #if OBLIQUE
     mask own = moves & (f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, one));
-    close = own & (closing ^ (l->shear != 0.0)) & ~(away*(to - f->edge) > 0.0);
+    close = own & (closing ^ (l->shear != 0.0)) & NOT(away*(to - f->edge) > 0.0);
     if (bits(close))
         look(found, close, s->gap, f->edge, away, h, splat_mask(AT_TANGENTIAL_EDGE));
 #endif
     close = l->alive & l->resting;
     if (bits(close)) {
-        close &= ~(-s->acceleration[0] > reach(s->acceleration, h));
+        close &= NOT(-s->acceleration[0] > reach(s->acceleration, h));
         if (bits(close))
             look(found, close, s->acceleration, zero, -one, h, splat_mask(AT_RELEASE));
     }
 #if OBLIQUE && STRINGS
-    close = l->alive & ~(s->rotation[0] + reach(s->rotation, h) < M_PI);
+    close = l->alive & NOT(s->rotation[0] + reach(s->rotation, h) < PI);
     if (bits(close))
-        look(found, close, s->rotation, splat(M_PI), -one, h, splat_mask(AT_HALF_TURN));
-    close = l->alive & ~(s->orbital_momentum[0] > reach(s->orbital_momentum, h));
+        look(found, close, s->rotation, splat(PI), -one, h, splat_mask(AT_HALF_TURN));
+    close = l->alive & NOT(s->orbital_momentum[0] > reach(s->orbital_momentum, h));
     if (bits(close))
         look(found, close, s->orbital_momentum, zero, one, h, splat_mask(AT_UNWINDING));
 #endif

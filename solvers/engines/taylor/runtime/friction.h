@@ -20,9 +20,11 @@ static touch touched(const constants *c, const vec *y, int lane, int kind)
 {
     vec found[IMPULSES];
     dry_slip(c, y, found);
-    touch o = {.sticking = found[STICKING][lane]};
+    touch o;
+    memset(&o, 0, sizeof o);
+    o.sticking = LANE(found[STICKING], lane);
     if (kind != KIND_GLASS || FRICTION_ON_GLASS) {
-        o.most = found[MOST][lane];
+        o.most = LANE(found[MOST], lane);
         o.slides = o.sticking < 0.0 ? -1.0 : 1.0;
     }
     o.sticks = fabs(o.sticking) < o.most;
@@ -36,7 +38,7 @@ static void friction_along(const constants *v, const vec *y, const vec *t, int g
 {
     vec found[IMPULSES];
     dry_slip_along(v, y, t, group, found);
-    double moved = o->sticks ? found[STICKING][lane] : o->slides*found[MOST][lane];
+    double moved = o->sticks ? LANE(found[STICKING], lane) : o->slides*LANE(found[MOST], lane);
     rubbed_along(v, y, t, group, splat(o->impulse), splat(moved), after);
 }
 #endif

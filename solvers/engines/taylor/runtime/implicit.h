@@ -32,9 +32,9 @@ typedef struct {
     mask moving;
 } slow;
 
-static __attribute__((noinline)) void rates_at(slow *w, const vec *y, vec *rate)
+OUTLINE void rates_at(slow *w, const vec *y, vec *rate)
 {
-    vec(*a)[TERMS] = (void *)&w->s;
+    vec (*a)[TERMS] = (vec (*)[TERMS])&w->s;
     for (int state = 0; state < STATES; state++)
         a[state][0] = y[state];
     coefficients(&w->s, w->c, w->film, w->shear, w->moving, 0);
@@ -105,7 +105,7 @@ static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const
 {
     const vec zero = splat(0.0);
     mask opens = from[NORMAL_VELOCITY] > 0.0;
-    mask clear = ((opens & (to[NORMAL_VELOCITY] > 0.0)) | (~opens & (to[NORMAL_VELOCITY] < 0.0))) & (opens ^ l->closing);
+    mask clear = ((opens & (to[NORMAL_VELOCITY] > 0.0)) | (NOT(opens) & (to[NORMAL_VELOCITY] < 0.0))) & (opens ^ l->closing);
     vec away = choose(opens, splat(-1.0), splat(1.0));
 #if BRIDGE && !SPREAD
     mask inside = l->film != 0.0, edge = l->closing ^ inside;
@@ -114,13 +114,13 @@ static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const
     vec target = choose(l->closing, f->contact, f->end);
 #endif
     clear &= 2.0*away*(to[GAP] - target) > away*(from[GAP] - target);
-    clear &= ~l->closing | (2.0*glass_clearance(w->c, to) > vec_max(glass_clearance(w->c, from), zero));
+    clear &= NOT(l->closing) | (2.0*glass_clearance(w->c, to) > vec_max(glass_clearance(w->c, from), zero));
 #if OBLIQUE
     vec first = away*(from[GAP] - f->edge);
     clear &= (first <= 0.0) | (2.0*away*(to[GAP] - f->edge) > first);
 #endif
 #if OBLIQUE && STRINGS
-    clear &= 2.0*(M_PI - to[ROTATION]) > M_PI - from[ROTATION];
+    clear &= 2.0*(PI - to[ROTATION]) > PI - from[ROTATION];
     clear &= 2.0*to[ORBITAL_MOMENTUM] > from[ORBITAL_MOMENTUM];
 #endif
 #if OWN_EVENTS
@@ -128,7 +128,7 @@ static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const
     own_guards(w->c, from, before);
     own_guards(w->c, to, after);
     for (int which = 0; which < OWN_EVENTS; which++)
-        clear &= ~own_watched(from, which, l->closing, l->film) | (2.0*after[which] > before[which]);
+        clear &= NOT(own_watched(from, which, l->closing, l->film)) | (2.0*after[which] > before[which]);
 #endif /* OWN_EVENTS */
     return clear;
 }
@@ -137,7 +137,7 @@ static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const
 static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate, vec h, vec *change, mask *clear)
 {
     vec table[COLUMNS][STATES], y[STATES], now[STATES], d[STATES], error = splat(0.0), carried = error;
-    *clear = splat_mask(-1);
+    *clear = splat_mask(TRUTH);
     for (int row = 0; row < COLUMNS; row++) {
         int parts = row + 1;
         vec part = h*(1.0/parts), sum[STATES], last[STATES];
@@ -185,7 +185,7 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
 }
 
 /* Continues parked lanes until they no longer creep: certified, or returned to the queue with their new state. */
-static __attribute__((noinline)) void crawl(queue *q)
+OUTLINE void crawl(queue *q)
 {
     lanes l;
     fixed f;
@@ -197,17 +197,17 @@ static __attribute__((noinline)) void crawl(queue *q)
         unpack(q->parked[q->parks + (lane < many ? lane : 0)], &l, &f, lane);
     mask busy = splat_mask(0);
     for (int lane = 0; lane < many; lane++)
-        busy[lane] = -1;
+        LANE(busy, lane) = TRUTH;
     w.c = &f.c;
     w.film = acting(&l);
     w.shear = l.shear;
-    w.moving = ~l.resting;
+    w.moving = NOT(l.resting);
     vec least_step = WORTH*l.stride, h = 4.0*least_step;
     for (int count = 0; count < TRIES && bits(busy); count++) {
         mask sticks = proved_underway(&l, &f, q->rtol) | held_sticks(&f.c, l.y, busy, q->rtol);
         for (unsigned proved = bits(busy & sticks); proved; proved &= proved - 1)
-            settle(q, &l, &f, __builtin_ctz(proved), DECIDED, STICK, 1);
-        busy &= ~sticks;
+            settle(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
+        busy &= NOT(sticks);
         vec rate[STATES], change[STATES];
         mask clear;
         rates_at(&w, l.y, rate);
@@ -221,14 +221,14 @@ static __attribute__((noinline)) void crawl(queue *q)
         l.steps += 1;
         vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/COLUMNS));
         h *= choose(clear, vec_min(better, splat(4.0)), splat(0.25));
-        mask leaves = busy & ~(h > least_step);
+        mask leaves = busy & NOT(h > least_step);
         for (unsigned left = bits(leaves); left; left &= left - 1) {
-            int lane = __builtin_ctz(left);
-            l.crept[lane] = taken[lane] ? 0 : -10*PATIENCE; /* without success: not again for a while */
+            int lane = first_of(left);
+            LANE(l.crept, lane) = LANE(taken, lane) ? 0 : -10*PATIENCE; /* without success: not again for a while */
             pack(q->resumed[q->resumes++], &l, &f, lane);
         }
-        busy &= ~leaves;
+        busy &= NOT(leaves);
     }
     for (unsigned left = bits(busy); left; left &= left - 1)
-        pack(q->resumed[q->resumes++], &l, &f, __builtin_ctz(left));
+        pack(q->resumed[q->resumes++], &l, &f, first_of(left));
 }

@@ -28,7 +28,7 @@ static vec attraction_in_logarithm(const constants *c, const vec *y, vec gap)
 #endif
 
 /* The parked lanes jump where they may, and all return to the queue. */
-static __attribute__((noinline)) void jump(queue *q)
+OUTLINE void jump(queue *q)
 {
     lanes l;
     fixed f;
@@ -41,7 +41,7 @@ static __attribute__((noinline)) void jump(queue *q)
     place here;
     look_at(&s, &f.c, l.y[GAP], &here);
     from.lag = vec_abs(l.y[ORBITAL_MOMENTUM] - here.rigid);
-    mask waits = ~l.closing;
+    mask waits = NOT(l.closing);
 #if LEAPS
     if (bits(l.closing)) {
         waits |= l.closing & descends(&s, &f, l.y, &falls);
@@ -74,9 +74,9 @@ static __attribute__((noinline)) void jump(queue *q)
         l.y[GAP] = choose(jumps, to, l.y[GAP]);
         l.y[NORMAL_VELOCITY] = choose(jumps, reached[0], l.y[NORMAL_VELOCITY]);
         l.y[ORBITAL_MOMENTUM] = choose(jumps, reached[1], l.y[ORBITAL_MOMENTUM]);
-        l.closing &= ~jumps;
-        l.crept &= ~jumps;
-        waits &= ~jumps;
+        l.closing &= NOT(jumps);
+        l.crept = only_whole(NOT(jumps), l.crept);
+        waits &= NOT(jumps);
     }
     for (int lane = 0; lane < count; lane++)
         pack(q->resumed[q->resumes++], &l, &f, lane);

@@ -12,21 +12,21 @@
 /* Books the loss of a rebound from this state. */
 static void book_rebound(ledger *book, const constants *c, const vec *y, int lane)
 {
-    book->dry += rebound_loss(c, y)[lane];
+    book->dry += in_lane(rebound_loss(c, y), lane);
 }
 
 #if FRICTION
 /* Books what a tangential impulse costs in this state. */
 static void book_friction(ledger *book, const constants *c, const vec *y, double impulse, int lane)
 {
-    book->friction += friction_loss(c, y, splat(impulse))[lane];
+    book->friction += in_lane(friction_loss(c, y, splat(impulse)), lane);
 }
 #endif
 
 /* Books the remaining kinetic energy of a rebound that rests as dry contact. */
 static void book_rest(ledger *book, const vec *y, int lane)
 {
-    book->dry += 0.5*y[NORMAL_VELOCITY][lane]*y[NORMAL_VELOCITY][lane];
+    book->dry += 0.5*LANE(y[NORMAL_VELOCITY], lane)*LANE(y[NORMAL_VELOCITY], lane);
 }
 
 /* Closes the ledger with the final state of a lane's trajectory. */
@@ -36,19 +36,19 @@ static void close_book(ledger *book, const constants *c, const vec *y, int lane)
     start(c, first);
     energies(c, first, stored[0]);
     energies(c, y, stored[1]);
-    book->initial = stored[0][0][lane];
-    book->final = stored[1][0][lane];
-    book->lifted = ENERGIES > 1 ? stored[1][ENERGIES - 1][lane] - stored[0][ENERGIES - 1][lane] : 0.0;
-    book->normal = y[NORMAL_LOSS][lane];
+    book->initial = LANE(stored[0][0], lane);
+    book->final = LANE(stored[1][0], lane);
+    book->lifted = ENERGIES > 1 ? LANE(stored[1][ENERGIES - 1], lane) - LANE(stored[0][ENERGIES - 1], lane) : 0.0;
+    book->normal = LANE(y[NORMAL_LOSS], lane);
 #if defined(TANGENTIAL)
-    book->tangential = y[TANGENTIAL_LOSS][lane];
+    book->tangential = LANE(y[TANGENTIAL_LOSS], lane);
 #endif
 #if ATTRACTION
-    book->attraction = y[ATTRACTION_WORK][lane];
+    book->attraction = LANE(y[ATTRACTION_WORK], lane);
 #endif
 #if CAPILLARY_STATE
-    book->capillary = y[CAPILLARY_WORK][lane] - book->attraction; /* the state includes all attractions */
+    book->capillary = LANE(y[CAPILLARY_WORK], lane) - book->attraction; /* the state includes all attractions */
 #endif
-    book->momentum = booked_momentum(c, y)[lane];
+    book->momentum = in_lane(booked_momentum(c, y), lane);
 }
 #endif

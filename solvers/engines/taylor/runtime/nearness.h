@@ -27,9 +27,9 @@ static inline vec polynomial_at(const vec *a, int order, vec t)
 /* The least relative clearance of the glass criterion within a step: the lowest of some samples, refined by Newton's
  * iteration to the minimum.
  */
-static __attribute__((noinline)) vec least_pressure_margin(const fixed *f, const series *s, vec h)
+OUTLINE vec least_pressure_margin(const fixed *f, const series *s, vec h)
 {
-    const vec(*a)[TERMS] = (const void *)s;
+    const vec (*a)[TERMS] = (const vec (*)[TERMS])s;
     const vec *clearance = s->glass.result;
     vec slope[TERMS], bend[TERMS], lowest = splat(INFINITY), place = splat(0.0);
     for (int k = 0; k < ORDER; k++)
@@ -62,24 +62,24 @@ static double flatness(const fixed *f, const series *s, const vec *at, double h,
     double slope = 0.0, bend = 0.0;
     vec still[STATES];
     for (int k = ORDER; k > 0; k--)
-        slope = slope*h + k*s->glass.result[k][lane];
+        slope = slope*h + k*LANE(s->glass.result[k], lane);
     for (int k = ORDER; k > 1; k--)
-        bend = bend*h + (double)k*(k - 1)*s->glass.result[k][lane];
+        bend = bend*h + (double)k*(k - 1)*LANE(s->glass.result[k], lane);
     memcpy(still, at, sizeof still);
     still[NORMAL_VELOCITY] = splat(0.0);
-    return bend > 0.0 ? slope*slope/(2.0*bend*glass_clearance(&f->c, still)[lane]) : INFINITY;
+    return bend > 0.0 ? slope*slope/(2.0*bend*in_lane(glass_clearance(&f->c, still), lane)) : INFINITY;
 }
 
 #if PROOF_BY_ENERGY
 /* Squared relative distance of a turning point from the nearest saddle; `saddle` is 0 if no barrier but the rim exists. */
 static double near_saddle(const fixed *f, double gap, int lane, int *saddle)
 {
-    double gaps[2] = {f->b.near_gap[lane], f->b.far_gap[lane]};
-    double heights[2] = {f->b.near_height[lane], f->b.far_height[lane]};
+    double gaps[2] = {LANE(f->b.near_gap, lane), LANE(f->b.far_gap, lane)};
+    double heights[2] = {LANE(f->b.near_height, lane), LANE(f->b.far_height, lane)};
     double least = INFINITY;
     *saddle = 0;
     for (int k = 0; k < 2; k++)
-        if (heights[k] > -INFINITY && gaps[k] < f->end[lane]*(1.0 - 1e-12)) {
+        if (heights[k] > -INFINITY && gaps[k] < LANE(f->end, lane)*(1.0 - 1e-12)) {
             double off = gap/gaps[k] - 1.0;
             *saddle = 1;
             least = fmin(least, off*off);
@@ -90,11 +90,11 @@ static double near_saddle(const fixed *f, double gap, int lane, int *saddle)
 /* The least squared normal velocity within a step. */
 static double slowest(const series *s, double h, int lane)
 {
-    double low = 0.0, high = h, sign = s->normal_velocity[1][lane] < 0.0 ? -1.0 : 1.0;
+    double low = 0.0, high = h, sign = LANE(s->normal_velocity[1], lane) < 0.0 ? -1.0 : 1.0;
     for (int count = 0; count < 40; count++) {
         double t = 0.5*(low + high), rate = 0.0;
         for (int k = ORDER; k > 0; k--)
-            rate = rate*t + k*s->normal_velocity[k][lane];
+            rate = rate*t + k*LANE(s->normal_velocity[k], lane);
         if (rate*sign > 0.0)
             low = t;
         else
@@ -102,7 +102,7 @@ static double slowest(const series *s, double h, int lane)
     }
     double t = 0.5*(low + high), speed = 0.0;
     for (int k = ORDER; k >= 0; k--)
-        speed = speed*t + s->normal_velocity[k][lane];
+        speed = speed*t + LANE(s->normal_velocity[k], lane);
     return speed*speed;
 }
 #endif
@@ -110,18 +110,18 @@ static double slowest(const series *s, double h, int lane)
 static void measure_event(carried *a, const lanes *l, const fixed *f, const series *s, const vec *at, double h,
     int event, int lane)
 {
-    double gap = at[GAP][lane], normal_velocity = at[NORMAL_VELOCITY][lane], contact = f->contact[lane];
-    int closing = l->closing[lane] != 0;
+    double gap = LANE(at[GAP], lane), normal_velocity = LANE(at[NORMAL_VELOCITY], lane), contact = LANE(f->contact, lane);
+    int closing = LANE(l->closing, lane) != 0;
     if (event == AT_GLASS && h == 0.0)
-        along_near(a, lane, fabs(log(1.0 - pressure_margin(&f->c, at)[lane])), TOUCH);
+        along_near(a, lane, fabs(log(1.0 - in_lane(pressure_margin(&f->c, at), lane))), TOUCH);
     else if (event == AT_GLASS)
         along_near(a, lane, flatness(f, s, at, h, lane), GLASS_GRAZE);
     if (contact > 0.0 && (event == AT_GLASS || (event == AT_TURNING && closing)))
         along_near(a, lane, fabs(log(gap/contact)), CONTACT_GRAZE);
     if (event == AT_CONTACT) {
-        double slowing = s->normal_velocity[1][lane];
+        double slowing = LANE(s->normal_velocity[1], lane);
         for (int k = 2; k <= ORDER; k++)
-            slowing += k*s->normal_velocity[k][lane]*pow(h, k - 1);
+            slowing += k*LANE(s->normal_velocity[k], lane)*pow(h, k - 1);
         double smaller = second_gap(&f->c, lane);
         if (slowing > 0.0)
             along_near(a, lane, normal_velocity*normal_velocity/(2.0*slowing*contact), CONTACT_GRAZE);
@@ -140,36 +140,36 @@ static void measure_event(carried *a, const lanes *l, const fixed *f, const seri
         along_near(a, lane, normal_velocity, RIM);
 #if OBLIQUE && STRINGS
     if (event == AT_RUPTURE) {
-        double first = 4.0 + f->c.aspect[lane];
-        along_near(a, lane, 1.0 - at[ROTATION][lane]/M_PI, HALF_TURNED);
-        along_near(a, lane, at[ORBITAL_MOMENTUM][lane]/(first*first), UNWOUND);
+        double first = 4.0 + LANE(f->c.aspect, lane);
+        along_near(a, lane, 1.0 - LANE(at[ROTATION], lane)/PI, HALF_TURNED);
+        along_near(a, lane, LANE(at[ORBITAL_MOMENTUM], lane)/(first*first), UNWOUND);
     }
 #endif
 }
 
 static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls, mask event)
 {
-    const vec(*a)[TERMS] = (const void *)s;
+    const vec (*a)[TERMS] = (const vec (*)[TERMS])s;
     carried *along = &l->along;
-    mask moves = l->alive & ~l->resting;
-    mask close = moves & l->closing & ~(falls & (event == AT_GLASS));
+    mask moves = l->alive & NOT(l->resting);
+    mask close = moves & l->closing & NOT(falls & (event == AT_GLASS));
     if (bits(close)) { /* the clearance without motion falls with the gap: test at the start first */
         vec start[STATES];
         memcpy(start, l->y, sizeof start);
         start[NORMAL_VELOCITY] = splat(0.0);
-        close &= ~(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, start));
+        close &= NOT(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, start));
     }
     if (bits(close)) {
         vec end[STATES];
         for (int state = 0; state < STATES; state++)
             end[state] = sum_at(a[state], h);
         end[NORMAL_VELOCITY] = splat(0.0);
-        close &= ~(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, end));
+        close &= NOT(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, end));
     }
     if (bits(close)) {
         vec least = vec_abs(vec_log(1.0 - least_pressure_margin(f, s, h)));
         for (unsigned left = bits(close); left; left &= left - 1)
-            along_near(along, __builtin_ctz(left), least[__builtin_ctz(left)], GLASS_GRAZE);
+            along_near(along, first_of(left), LANE(least, first_of(left)), GLASS_GRAZE);
     }
 #if PROOF_BY_ENERGY
     mask dips = moves & (choose(l->closing, -s->normal_velocity[1], s->normal_velocity[1]) < 0.0) & (vec_abs(s->normal_velocity[0]) < 0.3);
@@ -180,10 +180,10 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
         dips &= choose(l->closing, -rate, rate) > 0.0; /* the speed decreases first and increases last */
     }
     for (unsigned left = bits(dips); left; left &= left - 1) {
-        int lane = __builtin_ctz(left), saddle;
+        int lane = first_of(left), saddle;
         near_saddle(f, 1.0, lane, &saddle);
         if (saddle)
-            along_near(along, lane, slowest(s, h[lane], lane), PASSAGE);
+            along_near(along, lane, slowest(s, LANE(h, lane), lane), PASSAGE);
     }
 #endif
     falls &= (event == AT_GLASS) | (event == AT_CONTACT) | (event == AT_TURNING) | (event == AT_RUPTURE);
@@ -193,8 +193,8 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
     for (int state = 0; state < STATES; state++)
         at[state] = sum_at(a[state], h);
     for (unsigned left = bits(falls); left; left &= left - 1) {
-        int lane = __builtin_ctz(left);
-        measure_event(along, l, f, s, at, h[lane], (int)event[lane], lane);
+        int lane = first_of(left);
+        measure_event(along, l, f, s, at, LANE(h, lane), (int)LANE(event, lane), lane);
     }
 }
 #endif

@@ -17,7 +17,7 @@ static inline mask own_watched(const vec *y, int which, mask closing, vec film)
     int motion = OWN[which].motion, part = OWN[which].film;
     mask wanted = y[OWN[which].mark] > 0.5;
     if (motion)
-        wanted &= motion < 0 ? closing : ~closing;
+        wanted &= motion < 0 ? closing : NOT(closing);
     if (part >= 0)
         wanted &= film == (double)part;
     return wanted;
@@ -63,13 +63,13 @@ static mask own_events_excluded(const constants *c, const vec *y, vec energy, ma
     vec contact = contact_gap(c), start = vec_min(vec_max(contact, splat(1e-6)), splat(0.5));
     vec there[STATES], guard[OWN_EVENTS], last = start, height = height_at(c, y, start);
     vec rotating = energy_at(c, y, start), attracted = height - rotating;
-    mask excluded = splat_mask(-1);
+    mask excluded = splat_mask(TRUTH);
     for (int which = 0; which < OWN_EVENTS; which++) {
         if (OWN[which].harmless)
             continue;
         mask over = y[OWN[which].mark] < 0.5;
         if (OWN[which].motion > 0)
-            over |= ~opens;
+            over |= NOT(opens);
         if (!OWN[which].known)
             excluded &= over;
         else if (OWN[which].film != 0) /* below the least gap of the parts nothing is shown */
@@ -96,8 +96,8 @@ static mask own_events_excluded(const constants *c, const vec *y, vec energy, ma
                 own_guards(c, there, guard);
                 mask over = y[OWN[which].mark] < 0.5;
                 if (way > 0)
-                    over |= ~opens;
-                excluded &= over | ~reached | (guard[which] > 0.0);
+                    over |= NOT(opens);
+                excluded &= over | NOT(reached) | (guard[which] > 0.0);
             }
         }
         last = next;
@@ -128,7 +128,7 @@ static mask held_beside_events(const constants *c, const vec *y, mask asked, dou
     vec margin = SAFETY*tolerance*(vec_max(stored_energy(c, first), vec_abs(energy)) + vec_abs(height));
     asked &= energy < height - margin;
     if (bits(asked))
-        asked &= own_events_excluded(c, y, energy + margin, splat_mask(-1));
+        asked &= own_events_excluded(c, y, energy + margin, splat_mask(TRUTH));
     return asked;
 #endif
 #else

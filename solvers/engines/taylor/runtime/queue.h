@@ -26,7 +26,7 @@ static void fill_queue(queue *q)
         q->next += many;
         vec given[QUANTITIES];
         for (int k = 0; k < QUANTITIES; k++)
-            EACH_LANE(lane) given[k][lane] = quantity(q, k, first + (lane < many ? lane : 0));
+            EACH_LANE(lane) LANE(given[k], lane) = quantity(q, k, first + (lane < many ? lane : 0));
         scale(&f.c, given);
         prepare(&f.c);
 #if GRADIENTS
@@ -61,7 +61,7 @@ static void fill_queue(queue *q)
         f.b.touch = splat(0.0);
 #endif
 #endif
-        mask all = splat_mask(-1), none = splat_mask(0);
+        mask all = splat_mask(TRUTH), none = splat_mask(0);
         unsigned proved = bits(proved_sticks(&f.c, y, &f.b, f.contact, all, none, q->rtol)) |
                           bits(held_sticks(&f.c, y, all, q->rtol));
 #if APPROACH_BOUNDS && STRINGS
@@ -72,7 +72,7 @@ static void fill_queue(queue *q)
             proved |= bits(held_on_approach(&f.c, y, &f.b, f.contact, q->rtol));
 #endif
 #if WITH_TRAJECTORY
-        proved &= bits(provable(q, splat_mask(-1)));
+        proved &= bits(provable(q, splat_mask(TRUTH)));
 #endif
 #if LEAPS
         unsigned leaps = q->t->jumps > 1 ? bits(may_leap(&f.c, f.edge, q->rtol)) : 0;
@@ -91,9 +91,9 @@ static void fill_queue(queue *q)
             }
             q->waiting[q->queued] = first + lane;
             for (int field = 0; field < FIXED; field++)
-                q->rows[q->queued][field] = ((vec *)&f)[field][lane];
+                q->rows[q->queued][field] = LANE(((vec *)&f)[field], lane);
             for (int state = 0; state < STATES; state++)
-                q->starts[q->queued][state] = y[state][lane];
+                q->starts[q->queued][state] = LANE(y[state], lane);
 #if LEAPS
             q->leaps[q->queued] = leaps >> lane & 1;
 #endif
@@ -106,18 +106,18 @@ static void fill_queue(queue *q)
 static void begin(queue *q, lanes *l, fixed *f, int lane, long row)
 {
     for (int field = 0; field < FIXED; field++)
-        ((double *)&((vec *)f)[field])[lane] = q->rows[row][field];
+        LANE(((vec *)f)[field], lane) = q->rows[row][field];
     for (int state = 0; state < STATES; state++)
-        l->y[state][lane] = q->starts[row][state];
-    l->index[lane] = q->waiting[row];
-    l->time[lane] = 0.0;
-    l->smallest[lane] = 1.0;
-    l->film[lane] = 1.0;
-    l->shear[lane] = f->edge[lane] >= 1.0;
-    l->alive[lane] = l->closing[lane] = l->fresh[lane] = -1;
-    l->resting[lane] = 0;
-    l->steps[lane] = l->phases[lane] = l->crept[lane] = 0;
-    l->reversal[lane] = -1;
+        LANE(l->y[state], lane) = q->starts[row][state];
+    LANE(l->index, lane) = q->waiting[row];
+    LANE(l->time, lane) = 0.0;
+    LANE(l->smallest, lane) = 1.0;
+    LANE(l->film, lane) = 1.0;
+    LANE(l->shear, lane) = LANE(f->edge, lane) >= 1.0;
+    LANE(l->alive, lane) = LANE(l->closing, lane) = LANE(l->fresh, lane) = TRUTH;
+    LANE(l->resting, lane) = 0;
+    LANE(l->steps, lane) = LANE(l->phases, lane) = LANE(l->crept, lane) = 0;
+    LANE(l->reversal, lane) = -1;
 #if BACKWARD
     along_start(&l->along, lane);
     begin_on_tape(q, lane);
@@ -137,7 +137,7 @@ static void refill(queue *q, lanes *l, fixed *f, int lane)
         if (q->taken == q->queued)
             fill_queue(q);
         if (q->taken == q->queued) {
-            l->alive[lane] = 0;
+            LANE(l->alive, lane) = 0;
             return;
         }
         long row = q->taken++;
@@ -168,59 +168,59 @@ static void park_turned(queue *q, lanes *l, fixed *f, mask turned)
     unsigned left = q->t->jumps ? bits(turned) : 0;
     if (left)
         for (left &= bits(may_jump(l, f, q->rtol)); left; left &= left - 1) {
-            int lane = __builtin_ctz(left);
+            int lane = first_of(left);
             pack(q->turned[q->turns++], l, f, lane);
             refill(q, l, f, lane);
         }
 }
 #endif
 
-_Static_assert(MODEL_STATES - NORMAL_VELOCITY <= sizeof ((answer *)0)->shown/sizeof(double), "shown");
+STATIC_ASSERT(MODEL_STATES - NORMAL_VELOCITY <= sizeof ((answer *)0)->shown/sizeof(double)); /* shown */
 
 /* Writes the answer of a trajectory. */
 static void settle(queue *q, const lanes *l, const fixed *f, int lane, int status, int outcome, int certified)
 {
-    answer *a = &q->answers[l->index[lane]];
-    put(q, l->index[lane], status, outcome, certified);
-    a->time = l->time[lane];
-    a->smallest_gap = l->smallest[lane];
-    a->final_gap = l->y[GAP][lane];
-    a->steps = l->steps[lane];
-    a->reversal = l->reversal[lane];
+    answer *a = &q->answers[LANE(l->index, lane)];
+    put(q, LANE(l->index, lane), status, outcome, certified);
+    a->time = LANE(l->time, lane);
+    a->smallest_gap = LANE(l->smallest, lane);
+    a->final_gap = LANE(l->y[GAP], lane);
+    a->steps = LANE(l->steps, lane);
+    a->reversal = LANE(l->reversal, lane);
 #if TURNING_STATE
-    a->turned = l->y[TURNED][lane];
+    a->turned = LANE(l->y[TURNED], lane);
 #elif OBLIQUE && STRINGS
-    a->turned = l->y[ROTATION][lane];
+    a->turned = LANE(l->y[ROTATION], lane);
 #endif
     if (status > PROVED_AT_TOUCH) /* handed over: the state reached */
         for (int state = NORMAL_VELOCITY; state < MODEL_STATES; state++)
-            a->shown[state - NORMAL_VELOCITY] = l->y[state][lane];
+            a->shown[state - NORMAL_VELOCITY] = LANE(l->y[state], lane);
     if (status == DECIDED && (SPACE || outcome != STICK)) {
         vec shown[OUTPUTS];
         outputs(&f->c, l->y, shown);
         for (int k = 0; k < OUTPUTS; k++)
-            a->shown[k] = shown[k][lane];
+            a->shown[k] = LANE(shown[k], lane);
 #if OBLIQUE
         vec first[STATES];
         start(&f->c, first);
-        double slip = surface_slip(&f->c, first)[lane];
-        a->slip = fabs(slip) < LEAST_SLIP ? NAN : surface_slip(&f->c, l->y)[lane]/slip;
+        double slip = in_lane(surface_slip(&f->c, first), lane);
+        a->slip = fabs(slip) < LEAST_SLIP ? NAN : in_lane(surface_slip(&f->c, l->y), lane)/slip;
 #endif
 #if GRADIENTS
-        nearness *near = q->near + l->index[lane];
-        near->least = l->along.near[lane];
-        near->boundary = l->along.boundary[lane];
-        near->hint = l->along.hint[lane];
+        nearness *near = q->near + LANE(l->index, lane);
+        near->least = LANE(l->along.near, lane);
+        near->boundary = LANE(l->along.boundary, lane);
+        near->hint = LANE(l->along.hint, lane);
 #if BACKWARD
-        end_on_tape(q, l->index[lane], lane, l->y, f);
+        end_on_tape(q, LANE(l->index, lane), lane, l->y, f);
 #else
         if (outcome != STICK)
-            along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + l->index[lane]*GROUPS*RESULTS));
+            along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + LANE(l->index, lane)*GROUPS*RESULTS));
 #endif
 #endif
     }
 #if WITH_LEDGER
-    close_book(q->books + l->index[lane], &f->c, l->y, lane);
+    close_book(q->books + LANE(l->index, lane), &f->c, l->y, lane);
 #endif
 }
 

@@ -12,20 +12,6 @@
 enum { DEEPEST = 48 };
 static const double NO_ROOT = 2.0;
 
-/* 1/C(order, k): from powers to Bernstein coefficients on [0, 1]. */
-static double INVERSE_BINOMIAL[TERMS][TERMS];
-
-__attribute__((constructor)) static void fill_binomials(void)
-{
-    for (int order = 0; order < TERMS; order++) {
-        double binomial = 1.0;
-        for (int k = 0; k <= order; k++) {
-            INVERSE_BINOMIAL[order][k] = 1.0/binomial;
-            binomial = binomial*(order - k)/(k + 1);
-        }
-    }
-}
-
 /* The single root in [low, high]; the polynomial has opposite signs at the ends. */
 static double refined(const double *a, int order, double low, double high, int low_positive)
 {

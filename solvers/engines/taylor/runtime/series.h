@@ -6,9 +6,6 @@
 
 #include "vector.h"
 
-#define INLINE static inline __attribute__((always_inline))
-#define UNROLL _Pragma("GCC unroll 32")
-
 /* sum of a_j b_(k-j), j = from..to, from the middle outwards in two sums: the newest coefficients are used last, so
  * that the processor can start before they are available.
  */
@@ -144,4 +141,4 @@ INLINE vec power(const vec *a, const vec *q, vec r, vec *over, int k)
 /* Unrolled over k as a constant, so that sums have no loops and coefficients can stay in registers. */
 #define EVERY(term) term(0) term(1) term(2) term(3) term(4) term(5) term(6) term(7) term(8) term(9) term(10) \
     term(11) term(12) term(13) term(14) term(15) term(16)
-_Static_assert(ORDER <= 16, "EVERY names all orders");
+STATIC_ASSERT(ORDER <= 16); /* EVERY names all orders */

@@ -17,7 +17,7 @@ enum {
     BISECTIONS = 5,           /* to find one */
     DEPTHS = 10, STAGES = 6,  /* bisections for the lowest gap of an approach, and panels down to it */
 };
-_Static_assert(SWEEPS <= ORDER, "series are long enough");
+STATIC_ASSERT(SWEEPS <= ORDER); /* series are long enough */
 static const double FORGOTTEN = 20.0;  /* contraction beyond the tolerance, as a logarithm */
 static const double PANEL = 1.3;       /* largest ratio of the gaps at the ends of a panel */
 static const double LATER = 1.05;      /* the same beyond the gap of a jump */
@@ -38,8 +38,13 @@ static inline void look_at(slow_series *s, const constants *c, vec gap, place *f
 {
     s->gap[0] = gap;
     slow_coefficients(s, c, 0);
-    *found = (place){
-        gap, s->distance[0], s->slowing[0], s->relaxation[0], s->rigid[0], s->centrifugal[0], s->attractions[0]};
+    found->gap = gap;
+    found->distance = s->distance[0];
+    found->slowing = s->slowing[0];
+    found->relaxation = s->relaxation[0];
+    found->rigid = s->rigid[0];
+    found->centrifugal = s->centrifugal[0];
+    found->attractions = s->attractions[0];
 }
 
 /* Decay times of the faster motions while the film's slowing falls by a factor e, on the slow manifold to leading order;
@@ -234,7 +239,7 @@ static mask descends(slow_series *s, const fixed *f, const vec *y, opening *o)
         low = choose(stopped, middle, low);
         high = choose(stopped, high, middle);
     }
-    mask sound = (y[NORMAL_VELOCITY] < 0.0) & (low > f->contact), closes = splat_mask(-1);
+    mask sound = (y[NORMAL_VELOCITY] < 0.0) & (low > f->contact), closes = splat_mask(TRUTH);
     place at[2];
     look_at(s, c, y[GAP], &at[0]);
     vec off = (y[ORBITAL_MOMENTUM] - at[0].rigid)*choose(at[0].rigid < 0.0, splat(-1.0), splat(1.0));

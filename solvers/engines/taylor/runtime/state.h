@@ -22,7 +22,7 @@
 
 static const double SLOW = 0.1; /* in v0: least scale of the error of the normal velocity, which decays in a film */
 
-_Static_assert(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double), "all outputs are shown");
+STATIC_ASSERT(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double)); /* all outputs are shown */
 
 /* Magnitude of a state, one of `stride` numbers each. That of the first component of a vector is the vector's length, and
  * EACH_SIZE passes over the others, so that error norms distinguish no direction.
@@ -119,7 +119,7 @@ typedef struct {
 static mask provable(const queue *q, mask closing)
 {
     long purpose = q->t->purpose;
-    return purpose == WHOLE ? splat_mask(-1) : purpose == ESCAPE ? closing : splat_mask(0);
+    return purpose == WHOLE ? splat_mask(TRUTH) : purpose == ESCAPE ? closing : splat_mask(0);
 }
 #endif
 
@@ -143,8 +143,11 @@ static void put(queue *q, long index, int status, int outcome, int certified)
 static void note(queue *q, long index, int kind, double time)
 {
     answer *a = &q->answers[index];
-    if (a->events < q->log_room)
-        q->log[index*q->log_room + a->events] = (happening){kind, time};
+    if (a->events < q->log_room) {
+        happening *row = q->log + index*q->log_room + a->events;
+        row->kind = kind;
+        row->time = time;
+    }
     a->events++;
 }
 

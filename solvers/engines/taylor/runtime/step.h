@@ -13,7 +13,7 @@ static const int64_t ONE = 0x3ff0000000000000;
 static inline vec power_of(vec logarithm)
 {
     logarithm = vec_min(logarithm, splat(60.0*4503599627370496.0));
-    return (vec)(__builtin_convertvector(logarithm, mask) + ONE);
+    return from_pattern((word)(to_whole(logarithm) + ONE));
 }
 
 /* Least ratio, as a logarithm, of a state's scale to `share` times its coefficient k; `least_room` if that is smaller.
@@ -21,7 +21,7 @@ static inline vec power_of(vec logarithm)
 static inline mask room_of(const mask *scale, const vec (*a)[TERMS], int k, double share, mask least_room)
 {
     EACH_SIZE(state)
-        least_room = least(scale[state] - (mask)(share*size_of(&a[0][k], TERMS, state)), least_room);
+        least_room = least(scale[state] - (mask)pattern(share*size_of(&a[0][k], TERMS, state)), least_room);
     return least_room;
 }
 
@@ -31,28 +31,28 @@ static inline vec room(const mask *scale, const vec (*a)[TERMS], int k, double s
 {
     mask found = room_of(scale, a, k, share, splat_mask(INT64_MAX));
     for (unsigned left = along->asked; left; left &= left - 1) {
-        int group = __builtin_ctz(left);
-        found = room_of(along->scale[group], (const void *)along->t[group], k, share, found);
+        int group = first_of(left);
+        found = room_of(along->scale[group], (const vec (*)[TERMS])along->t[group], k, share, found);
     }
-    return __builtin_convertvector(found, vec);
+    return to_vec(found);
 }
 #define ROOM(k, share) room(scale, a, k, share, along)
 #else
 #define ALONG
-#define ROOM(k, share) __builtin_convertvector(room_of(scale, a, k, share, splat_mask(INT64_MAX)), vec)
+#define ROOM(k, share) to_vec(room_of(scale, a, k, share, splat_mask(INT64_MAX)))
 #endif
 
 /* The step for which the last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2). Lanes limited by
  * a decaying mode are returned in `creeps`, with the step of the damped sum. */
 static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
 {
-    const vec(*a)[TERMS] = (const void *)s;
+    const vec (*a)[TERMS] = (const vec (*)[TERMS])s;
     mask scale[STATES];
     EACH_SIZE(state) {
         vec size = size_of(a[0], TERMS, state);
-        scale[state] = (mask)(state == NORMAL_VELOCITY ? size + f->rest : state == GAP ? size : size + 1e-3);
+        scale[state] = (mask)pattern(state == NORMAL_VELOCITY ? size + f->rest : state == GAP ? size : size + 1e-3);
     }
-    vec allowed = __builtin_convertvector((mask)f->tolerance - ONE, vec);
+    vec allowed = to_vec((mask)pattern(f->tolerance) - ONE);
     vec last = ROOM(ORDER, 1.0), before = ROOM(ORDER - 1, 1.0);
     vec step = vec_min((allowed + last)*(1.0/ORDER), (allowed + before)*(1.0/(ORDER - 1)));
     /* for a mode exp(-z), z is ORDER times the ratio of the last two terms */
@@ -71,13 +71,13 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
 #define TERM(k) if (k < ORDER) coefficients(s, c, film, shear, moving, k);
 #define GLASS_TERM(k) if (k <= ORDER) glass_coefficients(s, c, k);
 
-static __attribute__((noinline)) void expand(series *s, const constants *c, vec film, vec shear, mask moving)
+OUTLINE void expand(series *s, const constants *c, vec film, vec shear, mask moving)
 {
     EVERY(TERM)
     s->acceleration[ORDER] = splat(0.0); /* not computed at this order */
 }
 
-static __attribute__((noinline)) void expand_glass(series *s, const constants *c)
+OUTLINE void expand_glass(series *s, const constants *c)
 {
     EVERY(GLASS_TERM)
 }

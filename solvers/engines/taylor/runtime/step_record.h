@@ -29,20 +29,20 @@ const int row_turned = -1;
 static void keep_steps(queue *q, const lanes *l, const vec (*a)[TERMS], vec length)
 {
     for (unsigned left = bits(l->alive); left; left &= left - 1) {
-        int lane = __builtin_ctz(left);
+        int lane = first_of(left);
         if (q->t->steps++ >= q->step_room)
             continue;
         step_row *row = q->written + q->t->steps - 1;
-        row->time = l->time[lane];
-        row->length = length[lane];
-        row->collision = l->index[lane];
-        row->phase = (int32_t)l->phases[lane];
-        row->closing = l->closing[lane] != 0;
-        row->resting = l->resting[lane] != 0;
-        row->film = l->film[lane] != 0.0;
+        row->time = LANE(l->time, lane);
+        row->length = LANE(length, lane);
+        row->collision = LANE(l->index, lane);
+        row->phase = (int32_t)LANE(l->phases, lane);
+        row->closing = LANE(l->closing, lane) != 0;
+        row->resting = LANE(l->resting, lane) != 0;
+        row->film = LANE(l->film, lane) != 0.0;
         for (int state = 0; state < STATES; state++)
             for (int k = 0; k < TERMS; k++)
-                row->series[state][k] = a[state][k][lane];
+                row->series[state][k] = LANE(a[state][k], lane);
     }
 }
 
@@ -52,7 +52,7 @@ enum { LOOKS = 8 };
 /* Largest margin of the glass criterion within a step: twice the logarithm of the gap at which the present speed would
  * meet it, over the present gap; ln(pressure/limit) for the literal criterion.
  */
-static __attribute__((noinline)) void note_peaks(const queue *q, const lanes *l, const fixed *f, const series *s, vec h)
+OUTLINE void note_peaks(const queue *q, const lanes *l, const fixed *f, const series *s, vec h)
 {
     vec largest = splat(0.0);
     for (int k = 0; k <= LOOKS; k++) {
@@ -61,9 +61,9 @@ static __attribute__((noinline)) void note_peaks(const queue *q, const lanes *l,
         largest = vec_max(largest, reach/sum_at(s->gap, t));
     }
     for (unsigned left = bits(l->alive & l->closing); left; left &= left - 1) {
-        int lane = __builtin_ctz(left);
-        double *peak = q->peaks + l->index[lane];
-        *peak = fmax(*peak, 2.0*log(largest[lane]));
+        int lane = first_of(left);
+        double *peak = q->peaks + LANE(l->index, lane);
+        *peak = fmax(*peak, 2.0*log(LANE(largest, lane)));
     }
 }
 #endif
@@ -71,13 +71,13 @@ static __attribute__((noinline)) void note_peaks(const queue *q, const lanes *l,
 /* The effect of an event; ends the trajectory if its purpose is fulfilled. */
 static void act_for_purpose(queue *q, lanes *l, fixed *f, int lane, int event)
 {
-    long purpose = q->t->purpose, index = l->index[lane];
-    int closing = l->closing[lane] != 0;
+    long purpose = q->t->purpose, index = LANE(l->index, lane);
+    int closing = LANE(l->closing, lane) != 0;
     act(q, l, f, lane, event);
-    if (purpose == WHOLE || !l->alive[lane] || l->index[lane] != index)
+    if (purpose == WHOLE || !LANE(l->alive, lane) || LANE(l->index, lane) != index)
         return;
-    int closes = l->closing[lane] != 0;
-    if (purpose == APPROACH ? closing && !closes : l->resting[lane] || (!closing && closes))
+    int closes = LANE(l->closing, lane) != 0;
+    if (purpose == APPROACH ? closing && !closes : LANE(l->resting, lane) || (!closing && closes))
         finish(q, l, f, lane, DECIDED, STICK, 0);
 }
 #endif

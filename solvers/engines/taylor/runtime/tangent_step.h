@@ -10,7 +10,7 @@
 #if GRADIENTS && !BACKWARD
 #define TANGENT_TERM(k) if (k < ORDER) tangent_coefficients(t, d, c, s, v, film, shear, source, k);
 
-static __attribute__((noinline)) void expand_tangent(vec (*t)[TERMS], const slopes *d, const slope_constants *c,
+OUTLINE void expand_tangent(vec (*t)[TERMS], const slopes *d, const slope_constants *c,
     const series *s, const constants *v, vec film, vec shear, const vec *const *source)
 {
     EVERY(TANGENT_TERM)
@@ -38,7 +38,7 @@ static void expand_along(tangents *all, const lanes *l, const fixed *f, const se
             t[state][0] = l->along.t[group][state];
         }
         EACH_SIZE(state)
-            all->scale[group][state] = (mask)(DERIVATIVES*size_of(t[0], TERMS, state) + f->one[group]*own[state]);
+            all->scale[group][state] = (mask)pattern(DERIVATIVES*size_of(t[0], TERMS, state) + f->one[group]*own[state]);
         sources(d, s, group, source);
         expand_tangent(t, d, &f->slopes, s, &f->c, acting(l), l->shear, source);
     }
@@ -53,7 +53,7 @@ static void carry(lanes *l, const fixed *f, const series *s, const tangents *all
     falls &= h > 0.0; /* a criterion met on entry (h = 0) does not cross its surface */
     int meets = bits(falls) != 0;
     if (meets)
-        m = met(f, (const void *)s, h, falls, event);
+        m = met(f, (const vec (*)[TERMS])s, h, falls, event);
     for (int group = 0; group < GROUPS; group++) {
         if (!(asked >> group & 1))
             continue;
@@ -71,7 +71,7 @@ static void carry(lanes *l, const fixed *f, const series *s, const tangents *all
         for (int state = 0; state < STATES; state++)
             here[state] += only(falls, m.rate[state]*later);
         here[GAP] = choose(m.gap, target, here[GAP]);
-        here[NORMAL_VELOCITY] = only(~m.turned, here[NORMAL_VELOCITY]);
+        here[NORMAL_VELOCITY] = only(NOT(m.turned), here[NORMAL_VELOCITY]);
         a->time[group] += later;
         a->there[group] |= falls & (later != 0.0);
         a->smallest[group] = choose(falls & (m.at[GAP] < a->least), here[GAP], a->smallest[group]);

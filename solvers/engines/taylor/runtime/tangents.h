@@ -12,7 +12,7 @@
 /* Columns of a collision's derivatives: the outputs, then these; the adjoint sweep computes those of the restitution
  * only. */
 enum { BY_TIME = SHOWN, BY_SMALLEST, BY_TURNED };
-_Static_assert(BACKWARD || RESULTS == BY_TURNED + 1, "a column each");
+STATIC_ASSERT(BACKWARD || RESULTS == BY_TURNED + 1); /* a column each */
 
 /* Boundaries between outcomes, by the measures of distance to them (solvers/sensitivity/boundary_distance.py).
  */
@@ -42,19 +42,19 @@ typedef struct {
 static void along_near(carried *a, int lane, double measure, int boundary)
 {
     measure = measure == measure ? measure : 0.0; /* NaN counts as zero distance */
-    if (measure < a->near[lane]) {
-        a->near[lane] = measure;
-        a->boundary[lane] = boundary;
+    if (measure < LANE(a->near, lane)) {
+        LANE(a->near, lane) = measure;
+        LANE(a->boundary, lane) = boundary;
     }
     if (boundary < TIE || boundary == UNWOUND)
-        a->hint[lane] = fmin(a->hint[lane], measure);
+        LANE(a->hint, lane) = fmin(LANE(a->hint, lane), measure);
 }
 
 #if BACKWARD
 static void along_start(carried *a, int lane)
 {
-    a->near[lane] = a->hint[lane] = INFINITY;
-    a->boundary[lane] = FAR;
+    LANE(a->near, lane) = LANE(a->hint, lane) = INFINITY;
+    LANE(a->boundary, lane) = FAR;
 }
 #else
 /* Series of a step for each requested group, and the scales of their errors. */
@@ -72,16 +72,16 @@ static void along_start(carried *a, const constants *v, int lane)
     for (int group = 0; group < GROUPS; group++) {
         memset(at, 0, sizeof at);
         start_along(v, group, at);
-        a->there[group][lane] = FLOWS[group] ? -1 : 0;
+        LANE(a->there[group], lane) = FLOWS[group] ? TRUTH : 0;
         for (int state = 0; state < STATES; state++) {
-            a->t[group][state][lane] = at[state][lane];
-            a->there[group][lane] |= at[state][lane] != 0.0 ? -1 : 0;
+            LANE(a->t[group][state], lane) = LANE(at[state], lane);
+            LANE(a->there[group], lane) |= LANE(at[state], lane) != 0.0 ? TRUTH : 0;
         }
-        a->time[group][lane] = a->smallest[group][lane] = 0.0;
+        LANE(a->time[group], lane) = LANE(a->smallest[group], lane) = 0.0;
     }
-    a->least[lane] = 1.0;
-    a->near[lane] = a->hint[lane] = INFINITY;
-    a->boundary[lane] = FAR;
+    LANE(a->least, lane) = 1.0;
+    LANE(a->near, lane) = LANE(a->hint, lane) = INFINITY;
+    LANE(a->boundary, lane) = FAR;
 }
 
 #if FRICTION
@@ -93,8 +93,8 @@ static void along_friction(carried *a, const constants *v, const vec *y, const t
         memcpy(after, a->t[group], sizeof after);
         friction_along(v, y, a->t[group], group, o, lane, after);
         for (int state = 0; state < MODEL_STATES; state++) {
-            a->t[group][state][lane] = after[state][lane];
-            a->there[group][lane] |= after[state][lane] != 0.0 ? -1 : 0;
+            LANE(a->t[group][state], lane) = LANE(after[state], lane);
+            LANE(a->there[group], lane) |= LANE(after[state], lane) != 0.0 ? TRUTH : 0;
         }
     }
 }
@@ -108,8 +108,8 @@ static void along_rebound(carried *a, const constants *v, const vec *y, int lane
         memcpy(after, a->t[group], sizeof after);
         rebound_along(v, y, a->t[group], group, after);
         for (int state = 0; state < STATES; state++) {
-            a->t[group][state][lane] = after[state][lane];
-            a->there[group][lane] |= after[state][lane] != 0.0 ? -1 : 0;
+            LANE(a->t[group][state], lane) = LANE(after[state], lane);
+            LANE(a->there[group], lane) |= LANE(after[state], lane) != 0.0 ? TRUTH : 0;
         }
     }
 }
@@ -121,13 +121,13 @@ static void along_finished(const carried *a, const constants *v, const vec *y, i
         vec shown[RESULTS];
         outputs_along(v, y, a->t[group], group, shown);
         for (int k = 0; k < OUTPUTS; k++)
-            rows[group][k] = shown[k][lane];
-        rows[group][BY_TIME] = a->time[group][lane];
-        rows[group][BY_SMALLEST] = a->smallest[group][lane];
+            rows[group][k] = LANE(shown[k], lane);
+        rows[group][BY_TIME] = LANE(a->time[group], lane);
+        rows[group][BY_SMALLEST] = LANE(a->smallest[group], lane);
 #if TURNING_STATE
-        rows[group][BY_TURNED] = a->t[group][TURNED][lane];
+        rows[group][BY_TURNED] = LANE(a->t[group][TURNED], lane);
 #elif OBLIQUE && STRINGS
-        rows[group][BY_TURNED] = a->t[group][ROTATION][lane];
+        rows[group][BY_TURNED] = LANE(a->t[group][ROTATION], lane);
 #endif
     }
 }

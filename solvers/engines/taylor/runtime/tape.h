@@ -63,8 +63,9 @@ static void keep_on_tape(const queue *q, const lanes *l, vec h, mask creeps, mas
     memcpy(step->y, l->y, sizeof step->y);
     step->h = h;
     falls &= h > 0.0; /* a criterion met on entry (h = 0) does not cross its surface */
-    step->flags = ((acting(l) != 0.0) & ACTS) | ((l->shear != 0.0) & SHEARS) | (~l->resting & MOVES) |
-                  (creeps & CREEPS) | (falls & FALLS) | event << EVENT;
+    step->flags = only_whole(acting(l) != 0.0, splat_mask(ACTS)) | only_whole(l->shear != 0.0, splat_mask(SHEARS)) |
+                  only_whole(NOT(l->resting), splat_mask(MOVES)) | only_whole(creeps, splat_mask(CREEPS)) |
+                  only_whole(falls, splat_mask(FALLS)) | event << EVENT;
 }
 
 static void begin_on_tape(const queue *q, int lane)
@@ -86,7 +87,7 @@ static void rebound_on_tape(const queue *q, int lane, const vec *y, int kind)
     own->kind = kind;
     t->rebound[lane] = t->rebounded++;
     for (int state = 0; state < STATES; state++)
-        own->y[state] = y[state][lane];
+        own->y[state] = LANE(y[state], lane);
 }
 
 static void end_on_tape(const queue *q, long index, int lane, const vec *y, const fixed *f)
@@ -96,9 +97,9 @@ static void end_on_tape(const queue *q, long index, int lane, const vec *y, cons
     taped_end *own = &t->ends[t->ended++];
     *own = (taped_end){index, t->begun[lane], t->stepped, t->rebound[lane], lane, {0}};
     for (int state = 0; state < STATES; state++)
-        own->y[state] = y[state][lane];
+        own->y[state] = LANE(y[state], lane);
     for (int field = 0; field < FIXED; field++)
-        row[field] = ((const vec *)f)[field][lane];
+        row[field] = LANE(((const vec *)f)[field], lane);
 }
 
 /* Without room on the tape, trajectories end without an answer. */

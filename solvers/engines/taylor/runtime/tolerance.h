@@ -27,11 +27,11 @@ static unsigned set_tolerance(const queue *q, fixed *f)
 #endif
     EACH_LANE(lane)
     {
-        double of = centrifugal[lane];
+        double of = LANE(centrifugal, lane);
         if (!BRIDGE && !STRINGS && of > 0.0 && of < 1e-6)
-            f->rest[lane] = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
-        if (net[lane] > 1.0)
-            f->tolerance[lane] = fmax(rtol*pow(10.0, -ceil(log10(net[lane]))), fmin(rtol, TIGHTEST));
+            LANE(f->rest, lane) = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
+        if (LANE(net, lane) > 1.0)
+            LANE(f->tolerance, lane) = fmax(rtol*pow(10.0, -ceil(log10(LANE(net, lane)))), fmin(rtol, TIGHTEST));
         if (of > MOST_OBLIQUE)
             beyond |= 1u << lane;
     }

@@ -12,26 +12,26 @@
 
 static void separated(queue *q, lanes *l, fixed *f, int lane)
 {
-    note(q, l->index[lane], KIND_RUPTURE, l->time[lane]);
-    finish(q, l, f, lane, DECIDED, l->reversal[lane] >= 0 ? BOUNCE : ROTATE, 0);
+    note(q, LANE(l->index, lane), KIND_RUPTURE, LANE(l->time, lane));
+    finish(q, l, f, lane, DECIDED, LANE(l->reversal, lane) >= 0 ? BOUNCE : ROTATE, 0);
 }
 
 /* Begins an opening phase; on an edge, the phase is beyond that edge. */
 static void opens(lanes *l, const fixed *f, int lane)
 {
-    l->closing[lane] = 0;
-    l->resting[lane] = 0;
-    if (!SPREAD && l->y[GAP][lane] == 1.0)
-        l->film[lane] = 0.0;
-    if (l->y[GAP][lane] == f->edge[lane])
-        l->shear[lane] = 0.0;
+    LANE(l->closing, lane) = 0;
+    LANE(l->resting, lane) = 0;
+    if (!SPREAD && LANE(l->y[GAP], lane) == 1.0)
+        LANE(l->film, lane) = 0.0;
+    if (LANE(l->y[GAP], lane) == LANE(f->edge, lane))
+        LANE(l->shear, lane) = 0.0;
 }
 
 /* Begins a new phase; the rebound criteria are checked on its entry. */
 static void new_phase(lanes *l, int lane)
 {
-    l->phases[lane]++;
-    l->fresh[lane] = -1;
+    LANE(l->phases, lane)++;
+    LANE(l->fresh, lane) = TRUTH;
 }
 
 #if FRICTION
@@ -50,11 +50,11 @@ static void rub(queue *q, lanes *l, fixed *f, int lane, int kind)
 #endif
 #endif
 #if WITH_LEDGER
-    book_friction(q->books + l->index[lane], &f->c, l->y, o.impulse, lane);
+    book_friction(q->books + LANE(l->index, lane), &f->c, l->y, o.impulse, lane);
 #endif
     (void)q;
     for (int state = 0; state < MODEL_STATES; state++)
-        l->y[state][lane] = after[state][lane];
+        LANE(l->y[state], lane) = LANE(after[state], lane);
 }
 #endif
 
@@ -63,7 +63,7 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 {
     vec after[STATES];
 #if WITH_LEDGER
-    book_rebound(q->books + l->index[lane], &f->c, l->y, lane);
+    book_rebound(q->books + LANE(l->index, lane), &f->c, l->y, lane);
 #endif
 #if BACKWARD
     rebound_on_tape(q, lane, l->y, kind);
@@ -76,33 +76,33 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 #if GRADIENTS && !BACKWARD
     along_rebound(&l->along, &f->c, l->y, lane);
 #endif
-    l->y[NORMAL_VELOCITY][lane] = after[NORMAL_VELOCITY][lane];
-    if (l->reversal[lane] < 0)
-        l->reversal[lane] = kind;
+    LANE(l->y[NORMAL_VELOCITY], lane) = LANE(after[NORMAL_VELOCITY], lane);
+    if (LANE(l->reversal, lane) < 0)
+        LANE(l->reversal, lane) = kind;
     new_phase(l, lane);
-    note(q, l->index[lane], kind, l->time[lane]);
-    if (l->y[GAP][lane] >= f->end[lane]) { /* the gap of separation */
+    note(q, LANE(l->index, lane), kind, LANE(l->time, lane));
+    if (LANE(l->y[GAP], lane) >= LANE(f->end, lane)) { /* the gap of separation */
         separated(q, l, f, lane);
         return;
     }
-    double left = l->y[NORMAL_VELOCITY][lane], inward = inward_force(&f->c, l->y)[lane];
-    double allowed = q->rtol*l->y[GAP][lane];
+    double left = LANE(l->y[NORMAL_VELOCITY], lane), inward = in_lane(inward_force(&f->c, l->y), lane);
+    double allowed = q->rtol*LANE(l->y[GAP], lane);
     if (!TURNS && left == 0.0 && inward == 0.0) { /* equilibrium */
         finish(q, l, f, lane, DECIDED, STICK, 1);
         return;
     }
     if (inward > 0.0 && (left < REST_SPEED || left*left/(2.0*inward) < allowed)) {
-        note(q, l->index[lane], KIND_RESTS, l->time[lane]);
+        note(q, LANE(l->index, lane), KIND_RESTS, LANE(l->time, lane));
 #if GRADIENTS
         along_near(&l->along, lane, 0.0, CHATTERS);
 #endif
 #if WITH_LEDGER
-        book_rest(q->books + l->index[lane], l->y, lane);
+        book_rest(q->books + LANE(l->index, lane), l->y, lane);
 #endif
-        l->y[NORMAL_VELOCITY][lane] = 0.0;
-        l->resting[lane] = -1;
-        l->closing[lane] = 0;
-        if (!TURNS || (PROOF_BY_ENERGY && !FRICTION && l->shear[lane] == 0.0)) /* the forces no longer change */
+        LANE(l->y[NORMAL_VELOCITY], lane) = 0.0;
+        LANE(l->resting, lane) = TRUTH;
+        LANE(l->closing, lane) = 0;
+        if (!TURNS || (PROOF_BY_ENERGY && !FRICTION && LANE(l->shear, lane) == 0.0)) /* the forces no longer change */
             finish(q, l, f, lane, DECIDED, STICK, 1);
     } else
         opens(l, f, lane);
@@ -118,25 +118,25 @@ static int own_event_jumps(queue *q, lanes *l, fixed *f, int lane, int event)
         which++;
     memcpy(after, l->y, sizeof after);
     own_jump(&f->c, l->y, which, after, &released);
-    double before = stored_energy(&f->c, l->y)[lane], left = stored_energy(&f->c, after)[lane];
-    if (!(left - before <= released[lane] + SAFETY*q->rtol*before)) {
+    double before = in_lane(stored_energy(&f->c, l->y), lane), left = in_lane(stored_energy(&f->c, after), lane);
+    if (!(left - before <= LANE(released, lane) + SAFETY*q->rtol*before)) {
         finish(q, l, f, lane, NOT_FINITE, STICK, 0);
         return 0;
     }
 #if WITH_LEDGER
-    q->books[l->index[lane]].own_events += before - left;
+    q->books[LANE(l->index, lane)].own_events += before - left;
 #endif
     for (int state = 0; state < STATES; state++)
-        l->y[state][lane] = after[state][lane];
+        LANE(l->y[state], lane) = LANE(after[state], lane);
     return 1;
 }
 
 /* The phase that follows a declared event: in the direction of the velocity, from rest in that of the forces. */
 static void goes_on(lanes *l, const fixed *f, int lane)
 {
-    double velocity = l->y[NORMAL_VELOCITY][lane];
-    double pull = velocity == 0.0 ? inward_force(&f->c, l->y)[lane] : -velocity;
-    l->closing[lane] = pull > 0.0 ? -1 : 0;
+    double velocity = LANE(l->y[NORMAL_VELOCITY], lane);
+    double pull = velocity == 0.0 ? in_lane(inward_force(&f->c, l->y), lane) : -velocity;
+    LANE(l->closing, lane) = pull > 0.0 ? TRUTH : 0;
     new_phase(l, lane);
 }
 
@@ -147,8 +147,8 @@ static mask own_events_due(const lanes *l, const fixed *f, mask *event)
     mask due = splat_mask(0);
     own_guards(&f->c, l->y, guard);
     for (int which = OWN_EVENTS - 1; which >= 0; which--) {
-        mask now = l->alive & ~l->resting & own_watched(l->y, which, l->closing, l->film) & (guard[which] <= 0.0);
-        *event = (now & splat_mask(OWN[which].event)) | (~now & *event);
+        mask now = l->alive & NOT(l->resting) & own_watched(l->y, which, l->closing, l->film) & (guard[which] <= 0.0);
+        *event = choose_whole(now, splat_mask(OWN[which].event), *event);
         due |= now;
     }
     return due;
@@ -167,12 +167,12 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
     if (glass) {
         vec met = vec_abs(vec_log(1.0 - pressure_margin(&f->c, l->y)));
         for (unsigned left = glass; left; left &= left - 1)
-            along_near(&l->along, __builtin_ctz(left), met[__builtin_ctz(left)], TOUCH);
+            along_near(&l->along, first_of(left), LANE(met, first_of(left)), TOUCH);
     }
 #endif
     EACH_LANE(lane)
         if (any >> lane & 1)
-            rebounds(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, l->y[GAP][lane], lane));
+            rebounds(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, LANE(l->y[GAP], lane), lane));
 }
 
 #if FRICTION && TURNS
@@ -188,7 +188,7 @@ static int rests_ended(queue *q, lanes *l, fixed *f)
     proved &= provable(q, l->closing);
 #endif
     for (unsigned left = bits(rests); left; left &= left - 1) {
-        int lane = __builtin_ctz(left), sure = proved[lane] != 0;
+        int lane = first_of(left), sure = LANE(proved, lane) != 0;
         finish(q, l, f, lane, sure ? DECIDED : RESTS_IN_FRICTION, STICK, sure);
     }
     return 1;
@@ -201,11 +201,11 @@ static int rests_ended(queue *q, lanes *l, fixed *f)
  */
 static void criteria_met(queue *q, lanes *l, fixed *f)
 {
-    mask asked = l->fresh & l->alive & l->closing & ~l->resting;
+    mask asked = l->fresh & l->alive & l->closing & NOT(l->resting);
     l->fresh = splat_mask(0);
     while (bits(asked)) {
         criteria_met_by(q, l, f, asked);
-        asked = l->fresh & l->alive & l->closing & ~l->resting;
-        l->fresh &= ~asked;
+        asked = l->fresh & l->alive & l->closing & NOT(l->resting);
+        l->fresh &= NOT(asked);
     }
 }

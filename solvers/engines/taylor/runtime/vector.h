@@ -1,7 +1,8 @@
 /* Lanes: several doubles side by side, with the functions that recurrences start from.
  *
- * Vector extensions of gcc and clang; LANES is 8, 4, 2 or 1. Compiled without -ffast-math: comparisons with NaN are
- * false, infinities are respected, and loops treat a comparison that is not true as a case to examine.
+ * LANES is 8, 4 or 2 with the vector extensions of gcc and clang; 1 is plain C99 (and C++). Compiled without -ffast-math:
+ * comparisons with NaN are false, infinities are respected, and loops treat a comparison that is not true as a case to
+ * examine.
  */
 #pragma once
 
@@ -11,39 +12,157 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#if defined(__AVX2__)
+#if LANES > 1 && defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline))
+#define OUTLINE static __attribute__((noinline))
+#define UNROLL _Pragma("GCC unroll 32")
+#else
+#define INLINE static inline
+#define OUTLINE static
+#define UNROLL
+#endif
+/* True or no program; C99 has no static assertions. */
+#define STATIC_ASSERT(condition) extern char static_assertion[(condition) ? 1 : -1]
+
+/* A lane of a vec or mask; a mask's lane is TRUTH or 0. `pattern` has the bits of doubles, `to_vec` converts. */
+#if LANES > 1
 typedef double vec __attribute__((vector_size(8*LANES)));
 typedef int64_t mask __attribute__((vector_size(8*LANES)));
 typedef uint64_t word __attribute__((vector_size(8*LANES))); /* bits of a double, with defined overflow */
 
-#define EACH_LANE(lane) for (int lane = 0; lane < LANES; lane++)
+#define LANE(x, lane) ((x)[lane])
+#define NOT(m) (~(m))
+enum { TRUTH = -1 };
 
-static inline vec splat(double x)
+INLINE vec splat(double x)
 {
-    return x - (vec){0};
+    const vec zero = {0.0};
+    return x - zero;
 }
 
-static inline mask splat_mask(int64_t x)
+INLINE mask splat_mask(int64_t x)
 {
-    return x - (mask){0};
+    const mask zero = {0};
+    return x - zero;
 }
 
-static inline vec only(mask m, vec x)
+INLINE word pattern(vec x)
+{
+    return (word)x;
+}
+
+INLINE vec from_pattern(word x)
+{
+    return (vec)x;
+}
+
+INLINE vec only(mask m, vec x)
 {
     return (vec)((mask)x & m);
 }
 
-static inline vec choose(mask m, vec a, vec b)
+INLINE vec choose(mask m, vec a, vec b)
 {
     return (vec)(((mask)a & m) | ((mask)b & ~m));
 }
 
+/* The same for lanes with integers. */
+INLINE mask only_whole(mask m, mask x)
+{
+    return x & m;
+}
+
+INLINE mask choose_whole(mask m, mask a, mask b)
+{
+    return (a & m) | (b & ~m);
+}
+
+INLINE vec to_vec(mask x)
+{
+    return __builtin_convertvector(x, vec);
+}
+
+INLINE mask to_whole(vec x)
+{
+    return __builtin_convertvector(x, mask);
+}
+#else
+typedef double vec;
+typedef int64_t mask;
+typedef uint64_t word;
+
+#define LANE(x, lane) (*((void)(lane), &(x)))
+#define NOT(m) (!(m))
+enum { TRUTH = 1 };
+
+INLINE vec splat(double x)
+{
+    return x;
+}
+
+INLINE mask splat_mask(int64_t x)
+{
+    return x;
+}
+
+INLINE word pattern(vec x)
+{
+    word found;
+    memcpy(&found, &x, sizeof found);
+    return found;
+}
+
+INLINE vec from_pattern(word x)
+{
+    vec found;
+    memcpy(&found, &x, sizeof found);
+    return found;
+}
+
+INLINE vec only(mask m, vec x)
+{
+    return m ? x : 0.0;
+}
+
+INLINE vec choose(mask m, vec a, vec b)
+{
+    return m ? a : b;
+}
+
+/* The same for lanes with integers. */
+INLINE mask only_whole(mask m, mask x)
+{
+    return m ? x : 0;
+}
+
+INLINE mask choose_whole(mask m, mask a, mask b)
+{
+    return m ? a : b;
+}
+
+INLINE vec to_vec(mask x)
+{
+    return (double)x;
+}
+
+INLINE mask to_whole(vec x)
+{
+    return (int64_t)x;
+}
+#endif
+
+#define EACH_LANE(lane) for (int lane = 0; lane < LANES; lane++)
+
+static const uint64_t SIGN = 0x8000000000000000; /* of a double */
+static const double PI = 3.14159265358979323846;
+
 static inline vec vec_abs(vec x)
 {
-    return (vec)((mask)x & splat_mask(INT64_MAX));
+    return from_pattern(pattern(x) & ~SIGN);
 }
 
 static inline vec vec_max(vec a, vec b)
@@ -70,7 +189,7 @@ static inline vec vec_smaller(vec a, vec b)
 static inline mask least(mask a, mask b)
 {
     mask less = a < b;
-    return (a & less) | (b & ~less);
+    return choose_whole(less, a, b);
 }
 
 /* The lanes of a mask as bits. */
@@ -86,15 +205,33 @@ static inline unsigned bits(mask m)
     return (unsigned)_mm256_movemask_pd((__m256d)m);
 #else
     unsigned found = 0;
-    EACH_LANE(lane) found |= (unsigned)(m[lane] != 0) << lane;
+    EACH_LANE(lane) found |= (unsigned)(LANE(m, lane) != 0) << lane;
     return found;
+#endif
+}
+
+static inline double in_lane(vec x, int lane)
+{
+    return LANE(x, lane);
+}
+
+/* The first lane of some, as bits. */
+static inline int first_of(unsigned lanes)
+{
+#if defined(__GNUC__)
+    return __builtin_ctz(lanes);
+#else
+    int lane = 0;
+    while (!(lanes >> lane & 1))
+        lane++;
+    return lane;
 #endif
 }
 
 static inline vec vec_sqrt(vec x)
 {
     vec root;
-    EACH_LANE(lane) root[lane] = sqrt(x[lane]);
+    EACH_LANE(lane) LANE(root, lane) = sqrt(LANE(x, lane));
     return root;
 }
 
@@ -122,8 +259,8 @@ static inline vec vec_exp(vec x)
     p = p*r + 1.0/6.0;
     p = p*r + 0.5;
     p = p*r*r + r;
-    word power = ((word)shifted - (word)magic + 1023) << 52;
-    return only(~dead, p*(vec)power + (vec)power);
+    vec power = from_pattern((pattern(shifted) - pattern(magic) + 1023) << 52);
+    return only(NOT(dead), p*power + power);
 }
 
 /* log: x = 2^n (1 + f), after fdlibm's e_log.c; below one unit in the last place. NaN unless x > 0 and finite. */
@@ -132,9 +269,9 @@ static inline vec vec_log(vec x)
     mask sound = (x > 0.0) & (x < INFINITY);
     mask small = x < 2.2250738585072014e-308;
     x = choose(small, x*18014398509481984.0, x);
-    mask high = (mask)((word)x + (0x3ff0000000000000 - 0x3fe6a09e667f3bcd));
+    mask high = (mask)(pattern(x) + (0x3ff0000000000000 - 0x3fe6a09e667f3bcd));
     mask n = (high >> 52) - 1023;
-    vec m = (vec)((high & 0x000fffffffffffff) + 0x3fe6a09e667f3bcd);
+    vec m = from_pattern((word)((high & 0x000fffffffffffff) + 0x3fe6a09e667f3bcd));
     vec f = m - 1.0;
     vec s = f/(2.0 + f);
     vec z = s*s;
@@ -147,7 +284,7 @@ static inline vec vec_log(vec x)
     r = r*z + 6.666666666666735130e-01;
     r = r*z;
     vec half = 0.5*f*f;
-    vec exponent = __builtin_convertvector(n, vec) - only(small, splat(54.0));
+    vec exponent = to_vec(n) - only(small, splat(54.0));
     vec result = exponent*6.93147180369123816490e-01 - ((half - (s*(half + r) + exponent*1.90821492927058770002e-10)) - f);
     return choose(sound, result, splat(NAN));
 }
@@ -158,7 +295,7 @@ static inline void vec_sin_cos(vec x, vec *sine, vec *cosine)
     const vec magic = splat(6755399441055744.0);
     vec shifted = x*0.63661977236758134308 + magic;
     vec n = shifted - magic;
-    word quarter = (word)shifted - (word)magic;
+    word quarter = pattern(shifted) - pattern(magic);
     vec r = ((x - n*1.57079632673412561417) - n*6.07710050630396597660e-11) - n*2.02226624879595063154e-21;
     vec z = r*r;
     vec s = splat(1.58969099521155010221e-10);
@@ -177,8 +314,8 @@ static inline void vec_sin_cos(vec x, vec *sine, vec *cosine)
     c = 1.0 - (0.5*z - z*z*c);
     mask odd = (quarter & 1) != 0;
     vec a = choose(odd, c, s), b = choose(odd, s, c);
-    *sine = (vec)((word)a ^ ((quarter & 2) << 62));
-    *cosine = (vec)((word)b ^ (((quarter + 1) & 2) << 62));
+    *sine = from_pattern(pattern(a) ^ ((quarter & 2) << 62));
+    *cosine = from_pattern(pattern(b) ^ (((quarter + 1) & 2) << 62));
 }
 
 static inline vec vec_sin(vec x)

@@ -33,9 +33,9 @@ int reported(unsigned wanted, int closing, int inside, int sheared, int resting,
     memset(&s, 0, sizeof s);
     memset(&l, 0, sizeof l);
     memset(&f, 0, sizeof f);
-    l.alive = splat_mask(-1);
-    l.closing = splat_mask(closing ? -1 : 0);
-    l.resting = splat_mask(resting ? -1 : 0);
+    l.alive = splat_mask(TRUTH);
+    l.closing = splat_mask(closing ? TRUTH : 0);
+    l.resting = splat_mask(resting ? TRUTH : 0);
     l.film = splat(inside), l.shear = splat(sheared);
     f.contact = splat(0.25), f.edge = splat(2.0), f.end = splat(4.0);
     LINE(s.gap, gap - 0.25*towards, 0.5*towards, by_gap);
@@ -46,7 +46,7 @@ int reported(unsigned wanted, int closing, int inside, int sheared, int resting,
     LINE(s.orbital_momentum, 1.0, -2.0, AT_UNWINDING);
     first_event found;
     find_events(&s, &l, &f, splat(1.0), &found);
-    return found.time[0] == 0.5 ? (int)found.event[0] : -1;
+    return LANE(found.time, 0) == 0.5 ? (int)LANE(found.event, 0) : -1;
 }
 """
 NUMBER = {event.name: number for number, event in enumerate(EVENTS)}

@@ -37,8 +37,8 @@ void recur(int which, const double *a, const double *b, double *f, double *g)
         if (which == 6) w[k] = logarithm(u, w, slope, &over, k);
         if (which == 7) circular(u, slope, w, z, k);
         if (which == 8) w[k] = power(u, w, splat(b[0]), &over, k);
-        f[k] = w[k][LANES - 1];
-        g[k] = which == 7 ? z[k][LANES - 1] : 0.0;
+        f[k] = LANE(w[k], LANES - 1);
+        g[k] = which == 7 ? LANE(z[k], LANES - 1) : 0.0;
     }
 }
 
@@ -48,13 +48,13 @@ void whole(const double *a, const double *b, double *f)
     vec u[TERMS], v[TERMS], w[TERMS];
     for (int k = 0; k < TERMS; k++) u[k] = splat(a[k]), v[k] = splat(b[k]);
     EACH_TERM(w[k] = product(u, v, k);)
-    for (int k = 0; k < ORDER; k++) f[k] = w[k][LANES - 1];
+    for (int k = 0; k < ORDER; k++) f[k] = LANE(w[k], LANES - 1);
 }
 
 double first(const double *a, int order)
 {
-    double b[TERMS + 1];
-    for (int k = 0; k <= order; k++) b[k] = a[k]*INVERSE_BINOMIAL[order][k];
+    double b[TERMS + 1], binomial = 1.0;
+    for (int k = 0; k <= order; binomial = binomial*(order - k)/(k + 1), k++) b[k] = a[k]/binomial;
     for (int k = 1; k <= order; k++)
         for (int j = order; j >= k; j--) b[j] += b[j - 1];
     return isolated(a, order, b, 0.0, 1.0, 0);
