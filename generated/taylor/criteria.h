@@ -29,7 +29,8 @@ static inline int kind_at_gap(const constants *c, double gap, int lane)
 /* The second largest of the gaps; 0 if there is none. */
 static inline double second_gap(const constants *c, int lane)
 {
-    double gaps[] = {LANE(c->elastic_gap, lane), LANE(c->rough_gap, lane)}, largest = 0.0, second = 0.0;
+    double gaps[] = {LANE(c->elastic_gap, lane), LANE(c->rough_gap, lane)};
+    double largest = 0.0, second = 0.0;
     for (int k = 0; k < 2; k++)
         if (gaps[k] > largest) {
             second = largest;

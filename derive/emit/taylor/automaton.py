@@ -99,7 +99,8 @@ def criteria_header(provenance: str) -> str:
     lines += function(
         "static inline double second_gap(const constants *c, int lane)",
         [
-            f"double gaps[] = {{{', '.join(f'LANE({group}, lane)' for group in groups)}}}, largest = 0.0, second = 0.0;",
+            f"double gaps[] = {{{', '.join(f'LANE({group}, lane)' for group in groups)}}};",
+            "double largest = 0.0, second = 0.0;",
             f"for (int k = 0; k < {len(groups)}; k++)",
             "    if (gaps[k] > largest) {",
             "        second = largest;",
