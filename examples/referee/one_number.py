@@ -47,11 +47,13 @@ def liggghts(ratio: Any, most: float) -> Any:
 @cache
 def _table() -> Any:
     logs, tops = np.linspace(math.log(1e-3), math.log(3), 40), np.array([0.3, 0.6, 0.8, 0.9, 0.95, 0.98, 0.99, 1.0])
-    e = [[_rebound(math.exp(log), float(top)) for top in tops] for log in logs]
+    e = [[rebound(math.exp(log), float(top)) for top in tops] for log in logs]
     return logs, tops, RegularGridInterpolator((logs, tops), e)
 
 
-def _rebound(ratio: float, most: float) -> float:
+def rebound(ratio: float, most: float) -> float:
+    """The equation of `liggghts`, solved."""
+
     def motion(_: float, y: Any) -> list[float]:
         log = math.log(most) - (ratio / y[1] if y[1] else math.inf)
         return [y[1], -y[0] - 2 * (abs(log) / math.hypot(log, math.pi) if math.isfinite(log) else 1.0) * y[1]]

@@ -162,7 +162,7 @@ def lammps_lubricate(scene: Scene, gap: float | None, speed: float) -> Translati
         {"particles.roughness": regular},
         _dry_film(scene, scene.particles.dry_restitution),
         "the layer below the least gap, the host's second term 9/40 ln 1/h, its surface lever arm",
-        missing + _no_bridge(scene) + _no_glass(scene),
+        missing + _no_friction(scene) + _no_bridge(scene) + _no_glass(scene),
     )
 
 
@@ -195,7 +195,7 @@ def lammps_cohesive(model: str) -> Callable[[Scene, float | None, float], Transl
                 ("bridge", {"bridge": None}),
             ],
             "cohesion of the solids, damping that depends on speed",
-            missing + _no_glass(scene),
+            missing + _no_friction(scene) + _no_glass(scene),
         )
 
     return translated
@@ -240,7 +240,7 @@ def liggghts_easo(scene: Scene, gap: float | None, speed: float) -> Translation:
         {"particles.roughness": regular} if below else None,
         [("viscosity", viscosity)],
         "the host's viscosity (from contact on, constant below the least gap) and bridge",
-        [words for words in missing if words] + _no_glass(scene),
+        [words for words in missing if words] + _no_friction(scene) + _no_glass(scene),
     )
 
 
@@ -343,6 +343,10 @@ def _without_glass(scene: Scene) -> Changes:
 
 def _no_glass(scene: Scene) -> list[str]:
     return ["glass_transition_pressure: no law of the host has it"] if _without_glass(scene) else []
+
+
+def _no_friction(scene: Scene) -> list[str]:
+    return ["friction: switched off in this host"] if scene.particles.friction else []
 
 
 def _no_bridge(scene: Scene) -> list[str]:
