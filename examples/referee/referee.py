@@ -23,8 +23,8 @@ import translate
 from matplotlib.lines import Line2D
 from wetdoublet import Scene
 
-LETTERS = {"stick": "S", "stick-rotate-separate": "SRS", "bounce": "B", "not a number": "NaN"}
-MARKS = {"stick": "s", "stick-rotate-separate": "^", "bounce": "o", "not a number": "x"}
+LETTERS = {"stick": "S", "stick-rotate-separate": "SRS", "bounce": "B", "no contact": "-", "not a number": "NaN"}
+MARKS = {"stick": "s", "stick-rotate-separate": "^", "bounce": "o", "no contact": "x", "not a number": "*"}
 
 
 def values(text: str) -> list[float]:
@@ -64,6 +64,8 @@ def draw(found: split.Referee, path: Path) -> None:
         rows = [row for row in found.rows if row["angle_deg"] == angle]
         St = np.array([row["stokes"] for row in rows])
         above, below = column
+        below.margins(y=0.08)
+        below.use_sticky_edges = False  # bars keep off the frame
         above.plot(St, [row["e_n_ours"] for row in rows], "k-", lw=1.2, label="wetdoublet")
         above.plot(St, [row["e_n_limit"] for row in rows], "-", color="tab:red", lw=0.8, label=r"host, $dt \to 0$")
         for outcome, mark in MARKS.items():
@@ -95,7 +97,10 @@ def draw(found: split.Referee, path: Path) -> None:
         below.set(xlabel="Stokes number")
     axes[0, 0].set_ylabel("normal restitution")
     axes[1, 0].set_ylabel("parts of the difference")
-    outcomes = [Line2D([], [], marker=m, ls="", color="0.4", label=LETTERS[o]) for o, m in list(MARKS.items())[:3]]
+    outcomes = [
+        Line2D([], [], marker=m, ls="", color="0.4", label="no contact" if o == "no contact" else LETTERS[o])
+        for o, m in list(MARKS.items())[:4]
+    ]
     lines = [*axes[0, 0].get_lines()[:2], *outcomes]
     figure.legend(handles=lines, loc="outside right upper", frameon=False, fontsize=8)
     handles, labels = axes[1, 0].get_legend_handles_labels()

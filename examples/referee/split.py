@@ -103,7 +103,7 @@ def referee(
         job = {"law": law, "parameters": words.parameters, "start": film, "end": words.end, "longest": longest}
         answer = hosts.run(host, job | {"collisions": collisions})
         version = answer["version"]
-        coarse, finer, finest = (_host(each, words.end, impact) for each in answer["found"])
+        coarse, finer, finest = (_host(each, words, impact) for each in answer["found"])
         limit = _limit(law, job, scene.reduced_mass, impact) if exactly else _extrapolated(finer, finest)
         row: dict[str, Any] = {"stokes": St, "angle_deg": math.degrees(angle), "speed": speed}
         row |= {"outcome_ours": ours[0].outcome, "outcome_host": coarse.outcome, "outcome_finest": finest.outcome}
@@ -142,16 +142,16 @@ def _ours(found: dict[str, Any], i: int, impact: Impact) -> Result:
     return Result(OUTCOMES[outcome], *impact.restitutions(u, w, found["end"]))
 
 
-def _host(found: dict[str, Any], end: float, impact: Impact) -> Result:
+def _host(found: dict[str, Any], words: translate.Translation, impact: Impact) -> Result:
     """Of the host's last state; a pair that has not separated in time counts as stuck."""
     apart, moving = np.array(found["position"]), np.array(found["velocity"])
     if not (np.isfinite(apart).all() and np.isfinite(moving).all()):
         return Result("not a number", math.nan, math.nan)
     r = float(np.linalg.norm(apart))
-    if r - 2 * impact.radius < end:
+    if r - 2 * impact.radius < words.end:
         return STUCK
     u, w = float(apart @ moving) / r, float(apart[0] * moving[1] - apart[1] * moving[0]) / r
-    outcome = OUTCOMES[2 if found["touched"] else 1]
+    outcome = OUTCOMES[2] if found["touched"] else OUTCOMES[1] if words.at_distance else "no contact"
     return Result(outcome, *impact.restitutions(u, w, r - 2 * impact.radius))
 
 

@@ -39,6 +39,7 @@ class Translation:
         gap: changes that give our model the host's regularised gap; None where the law has none.
         physics: changes that take from our model, one after the other, what the host's law lacks: (name, changes).
         rest: what then still differs.
+        at_distance: whether the law acts before the solids touch; if not, an oblique pair may pass without contact.
         missing: what has no counterpart, or is assumed, in words.
     """
 
@@ -49,6 +50,7 @@ class Translation:
     physics: list[tuple[str, Changes]]
     rest: str
     missing: list[str] = field(default_factory=list)
+    at_distance: bool = True
 
 
 def check(scene: Scene) -> None:
@@ -130,6 +132,7 @@ def yade_capillary(scene: Scene, gap: float | None, _speed: float) -> Translatio
         [("viscosity", {"liquid.viscosity": scene.liquid.viscosity * 1e-6, **_without_glass(scene)})],
         "bridge formed at dry contact, its law and rupture, duration of the contact",
         missing + _no_glass(scene),
+        at_distance=False,
     )
 
 
@@ -196,6 +199,7 @@ def lammps_cohesive(model: str) -> Callable[[Scene, float | None, float], Transl
             ],
             "cohesion of the solids, damping that depends on speed",
             missing + _no_friction(scene) + _no_glass(scene),
+            at_distance=False,
         )
 
     return translated
@@ -241,6 +245,7 @@ def liggghts_easo(scene: Scene, gap: float | None, speed: float) -> Translation:
         [("viscosity", viscosity)],
         "the host's viscosity (from contact on, constant below the least gap) and bridge",
         [words for words in missing if words] + _no_friction(scene) + _no_glass(scene),
+        at_distance=False,
     )
 
 
