@@ -191,7 +191,11 @@ def test_files_that_are_named_exist() -> None:
     """Every `name.py` and `name.h` in back-quotes in documentation, docstrings and comments is a file of the tree."""
     texts = [*(ROOT / "docs").rglob("*.md"), *(ROOT / "derive").rglob("*.py"), *(ROOT / "solvers").rglob("*.py")]
     texts += [*(ROOT / "solvers").rglob("*.h"), ROOT / "README.md"]
-    there = {path.name for top in ("derive", "examples", "generated", "solvers", "tests") for path in (ROOT / top).rglob("*.*")}
+    there = {
+        path.name
+        for top in ("derive", "examples", "generated", "solvers", "tests")
+        for path in (ROOT / top).rglob("*.*")
+    }
     named = {
         (path.name, found.rpartition("/")[2])
         for path in texts
