@@ -12,13 +12,15 @@ RTOL = 1e-9  # default
 STEPS = 100_000
 CALL = 25  # least number of steps that an integrator call counts for; bounds chatter, which makes many short calls
 FEW = 100  # up to this many collisions, compiling the kernel does not pay
-_TOLERANCE = Field("rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", lambda v: 1e-13 <= v <= 1e-3))
+TOLERANCE = Field(
+    "rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", 1e-13, 1e-3, low_open=False, high_open=False)
+)
 UNTIL = Field("until", "a time after initial contact", '"5 ms"', unit="s")  # to which a stick is followed on
 
 
 def check_rtol(rtol: object, label: str = "rtol") -> float:
     """Return the relative tolerance; InputError naming `label` unless it is 1e-13 to 1e-3."""
-    return _TOLERANCE.number(rtol, label=label)
+    return TOLERANCE.number(rtol, label=label)
 
 
 def check_engine(engine: object, label: str = "engine") -> str | None:

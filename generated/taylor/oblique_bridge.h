@@ -162,6 +162,12 @@ static inline void scale(constants *c, const vec *q)
 #endif
 }
 
+/* Omega, the unit of angular velocities, in rad/s. */
+static inline vec rate_scale(const constants *c, const vec *q)
+{
+    return 0.25*c->obliquity*q[SI_SPEED]/q[SI_REDUCED_RADIUS];
+}
+
 /* Constants computed once per collision from its groups. */
 static inline void prepare(constants *c)
 {

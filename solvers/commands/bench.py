@@ -12,7 +12,7 @@ from . import options
 
 _PRESET = "granulation"
 _ERROR = 1e-6
-_WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 and below 1", lambda v: 0 < v < 1))
+_WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 and below 1", 0.0, 1.0))
 
 
 @click.command("bench", short_help="Run time against error of the engines for a scene, and a recommendation.")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Real
@@ -30,20 +29,29 @@ FILM_LAWS = ("finite", "infinite", "cavitating", "constant-volume")
 
 @dataclass(frozen=True)
 class Range:
-    """The interval of accepted numbers, in words (for messages) and as a test (SI)."""
+    """The interval of accepted numbers (SI), and how messages say it. An end that is `open` does not belong to it."""
 
     text: str
-    holds: Callable[[float], bool]
+    low: float = -math.inf
+    high: float = math.inf
+    low_open: bool = True
+    high_open: bool = True
+
+    def holds(self, value: float) -> bool:
+        """Whether a number lies in the interval; never for NaN."""
+        above = value > self.low if self.low_open else value >= self.low
+        below = value < self.high if self.high_open else value <= self.high
+        return above and below
 
 
-POSITIVE = Range("> 0", lambda v: v > 0)
-NOT_NEGATIVE = Range(">= 0", lambda v: v >= 0)
-PART = Range("> 0 and at most 1", lambda v: 0 < v <= 1)
-FRACTION = Range("from 0 to 1", lambda v: 0 <= v <= 1)
-POISSON = Range("> -1 and <= 0.5", lambda v: -1 < v <= 0.5)
-ANY = Range("of either sign", lambda v: math.isfinite(v))
-IMPACT_ANGLE = Range(">= 0 deg and < 90 deg", lambda v: 0 <= v < math.pi / 2)
-WETTING_ANGLE = Range("from 0 deg to 90 deg", lambda v: 0 <= v <= math.pi / 2)
+POSITIVE = Range("> 0", 0.0)
+NOT_NEGATIVE = Range(">= 0", 0.0, low_open=False)
+PART = Range("> 0 and at most 1", 0.0, 1.0, high_open=False)
+FRACTION = Range("from 0 to 1", 0.0, 1.0, low_open=False, high_open=False)
+POISSON = Range("> -1 and <= 0.5", -1.0, 0.5, high_open=False)
+ANY = Range("of either sign")
+IMPACT_ANGLE = Range(">= 0 deg and < 90 deg", 0.0, math.pi / 2, low_open=False)
+WETTING_ANGLE = Range("from 0 deg to 90 deg", 0.0, math.pi / 2, low_open=False, high_open=False)
 
 
 @dataclass(frozen=True)

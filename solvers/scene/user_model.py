@@ -342,19 +342,14 @@ def _field(one: Mapping[str, Any]) -> Field:
     bounds = one["bounds"]
     low = -math.inf if bounds["low"] is None else bounds["low"]
     high = math.inf if bounds["high"] is None else bounds["high"]
-
-    def holds(value: float) -> bool:
-        above = value > low if bounds["low_open"] else value >= low
-        below = value < high if bounds["high_open"] else value <= high
-        return above and below
-
+    interval = Range(bounds["text"], low, high, bounds["low_open"], bounds["high_open"])
     unit = None if one["unit"] == "1" else one["unit"]
     default = one["default"]
     example = f'"{default}"' if isinstance(default, str) else "1" if default is None else str(default)
     if unit and default is None:
         example = f'"1 {unit}"'
     what = f"the {one['meaning']}" if unit else f"a number ({one['meaning']})"
-    return Field(f"{TABLE}.{one['name']}", what, example, Range(bounds["text"], holds), unit=unit)
+    return Field(f"{TABLE}.{one['name']}", what, example, interval, unit=unit)
 
 
 def fields(package: Package | None) -> Mapping[str, Field]:

@@ -11,7 +11,7 @@ from ..engines.choice import casadi_gradient_engine, gradient_engine
 from ..errors import ComputationError, InputError, did_you_mean
 from ..host.arguments import check_mapping
 from ..scene.scene import Scene
-from ..scene.schema import Field, Range
+from ..scene.schema import ANY, Field
 from ..settings import check_engine, check_rtol
 from . import by_kernel as kernel
 from .parameters import check_wrt, hold_of
@@ -20,7 +20,7 @@ from .result import Sensitivities
 from .results import SPENT, check_quantities, computed
 
 METHODS = ("forward", "adjoint")
-_PART = Field("hessian", "a number (SI)", "1.0", Range("of either sign", lambda _: True))
+_PART = Field("hessian", "a number (SI)", "1.0", ANY)
 
 
 def check_method(method: object, label: str = "method") -> str:

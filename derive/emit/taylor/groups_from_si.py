@@ -8,8 +8,19 @@ import sympy as sp
 
 from ...equations.model import Model
 from ...physics.laws.base import slot_call
-from ...physics.scaling import group_definitions, impact_groups
-from ...vocabulary.quantities import VOCABULARY, R, contact_angle, obliquity, rupture_gap, volume, x0
+from ...physics.scaling import group_definitions, impact_groups, scale_definitions
+from ...vocabulary.quantities import (
+    VOCABULARY,
+    R,
+    contact_angle,
+    obliquity,
+    rate_scale,
+    rate_scale_pair,
+    rate_scale_wall,
+    rupture_gap,
+    volume,
+    x0,
+)
 from .c_text import Text
 from .layout import comment, function
 
@@ -33,7 +44,20 @@ def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     if rupture_gap in expressions:
         body += ["#if OWN_RUPTURE", f"c->rupture_gap = {text.vector(_OWN_RUPTURE)};", "#endif"]
     doc = "The groups of a collision from its quantities in SI."
-    return [*lines, *comment(doc), *function("static inline void scale(constants *c, const vec *q)", body), ""]
+    lines += [*comment(doc), *function("static inline void scale(constants *c, const vec *q)", body), ""]
+    return lines + (_rate_scale(model, text) if obliquity in expressions else [])
+
+
+def _rate_scale(model: Model, text: Text) -> list[str]:
+    """What a unit of the angular velocities is in SI."""
+    scales = {"": rate_scale, "wall": rate_scale_wall, "pair": rate_scale_pair, "space": rate_scale_pair}
+    value = scale_definitions()[scales[model.structure.partner]]
+    head = "static inline vec rate_scale(const constants *c, const vec *q)"
+    return [
+        *comment("Omega, the unit of angular velocities, in rad/s."),
+        *function(head, [f"return {text(value)};"]),
+        "",
+    ]
 
 
 def _expressions(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:

@@ -280,11 +280,11 @@ static mask tumbles(const constants *c, const vec *y, const barrier *b, double t
 /* Lanes in which the attraction certificate is checked: at the start of a phase, and after a number of steps. With an
  * energy certificate, which covers most sticks earlier, only in long trajectories.
  */
-enum { EARLIEST_PHASE = PROOF_BY_ENERGY ? 4 : 1, EVERY = PROOF_BY_ENERGY ? 64 : 16 };
+enum { EARLIEST_PHASE = PROOF_BY_ENERGY ? 4 : 1, INTERVAL = PROOF_BY_ENERGY ? 64 : 16 };
 
 static inline mask now_and_then(mask fresh, mask phases, mask steps)
 {
-    return (fresh & (phases >= splat_mask(EARLIEST_PHASE))) | ((steps & (EVERY - 1)) == EVERY - 1);
+    return (fresh & (phases >= splat_mask(EARLIEST_PHASE))) | ((steps & (INTERVAL - 1)) == INTERVAL - 1);
 }
 
 /* Lanes in which a certificate that is checked at intervals excludes separation. */

@@ -70,7 +70,7 @@ static void run(queue *q)
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
 #if SPACE && PROOF_BY_ENERGY
-        mask late = l.alive & ((l.steps & (EVERY - 1)) == EVERY - 1);
+        mask late = l.alive & ((l.steps & (INTERVAL - 1)) == INTERVAL - 1);
         for (unsigned held = bits(late) ? bits(late & tumbles(&f.c, l.y, &f.b, q->rtol)) : 0; held; held &= held - 1)
             finish(q, &l, &f, first_of(held), DECIDED, STICK, 0);
 #endif

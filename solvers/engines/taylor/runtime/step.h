@@ -18,39 +18,41 @@ static inline vec power_of(vec logarithm)
 
 /* Least ratio, as a logarithm, of a state's scale to `share` times its coefficient k; `least_room` if that is smaller.
  * */
-static inline mask room_of(const mask *scale, const vec (*a)[TERMS], int k, double share, mask least_room)
+static inline mask room_of(const mask *magnitude, const vec (*a)[TERMS], int k, double share, mask least_room)
 {
     EACH_SIZE(state)
-        least_room = least(scale[state] - (mask)pattern(share*size_of(&a[0][k], TERMS, state)), least_room);
+        least_room = least(magnitude[state] - (mask)pattern(share*size_of(&a[0][k], TERMS, state)), least_room);
     return least_room;
 }
 
 #if GRADIENTS && !BACKWARD
-#define ALONG , const tangents *along
-static inline vec room(const mask *scale, const vec (*a)[TERMS], int k, double share ALONG)
+static inline vec room(const mask *magnitude, const vec (*a)[TERMS], int k, double share, const tangents *along)
 {
-    mask found = room_of(scale, a, k, share, splat_mask(INT64_MAX));
+    mask found = room_of(magnitude, a, k, share, splat_mask(INT64_MAX));
     for (unsigned left = along->asked; left; left &= left - 1) {
         int group = first_of(left);
         found = room_of(along->scale[group], (const vec (*)[TERMS])along->t[group], k, share, found);
     }
     return to_vec(found);
 }
-#define ROOM(k, share) room(scale, a, k, share, along)
+#define ROOM(k, share) room(magnitude, a, k, share, along)
 #else
-#define ALONG
-#define ROOM(k, share) to_vec(room_of(scale, a, k, share, splat_mask(INT64_MAX)))
+#define ROOM(k, share) to_vec(room_of(magnitude, a, k, share, splat_mask(INT64_MAX)))
 #endif
 
 /* The step for which the last two coefficients are below the tolerance (Jorba & Zou 2005, section 3.2). Lanes limited by
  * a decaying mode are returned in `creeps`, with the step of the damped sum. */
-static inline vec step_size(const series *s, const fixed *f, mask *creeps ALONG)
+#if GRADIENTS && !BACKWARD
+static inline vec step_size(const series *s, const fixed *f, mask *creeps, const tangents *along)
+#else
+static inline vec step_size(const series *s, const fixed *f, mask *creeps)
+#endif
 {
     const vec (*a)[TERMS] = (const vec (*)[TERMS])s;
-    mask scale[STATES];
+    mask magnitude[STATES];
     EACH_SIZE(state) {
         vec size = size_of(a[0], TERMS, state);
-        scale[state] = (mask)pattern(state == NORMAL_VELOCITY ? size + f->rest : state == GAP ? size : size + 1e-3);
+        magnitude[state] = (mask)pattern(state == NORMAL_VELOCITY ? size + f->rest : state == GAP ? size : size + 1e-3);
     }
     vec allowed = to_vec((mask)pattern(f->tolerance) - ONE);
     vec last = ROOM(ORDER, 1.0), before = ROOM(ORDER - 1, 1.0);

@@ -230,7 +230,7 @@ static inline int first_of(unsigned lanes)
 
 static inline vec vec_sqrt(vec x)
 {
-    vec root;
+    vec root = x;
     EACH_LANE(lane) LANE(root, lane) = sqrt(LANE(x, lane));
     return root;
 }

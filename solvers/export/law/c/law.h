@@ -1,0 +1,41 @@
+/* What a host calls: a block for each kernel is filled, and run when it is full. */
+#pragma once
+
+long law_collide_many(
+    const law_material *material, const law_impact *impacts, long count, double rtol, law_collision *found)
+{
+    block plane, head_on;
+    long failed = 0;
+    int wrong = check_material(material);
+    if (wrong == LAW_OK)
+        wrong = check_rtol(rtol);
+    plane.count = head_on.count = 0;
+    for (long k = 0; k < count; k++) {
+        const law_impact *impact = impacts + k;
+        int status = wrong == LAW_OK ? check_impact(impact) : wrong;
+        if (status != LAW_OK)
+            set_unknown(found + k, status);
+        else if (impact->angle > 0.0 || impact->spin != 0.0 || impact->partner_spin != 0.0)
+            add_impact(&plane, impact, k);
+        else
+            add_impact(&head_on, impact, k);
+        int last = k == count - 1;
+        if (plane.count == BLOCK || (last && plane.count > 0)) {
+            plane_run_block(material, &plane, rtol, found);
+            plane.count = 0;
+        }
+        if (head_on.count == BLOCK || (last && head_on.count > 0)) {
+            head_on_run_block(material, &head_on, rtol, found);
+            head_on.count = 0;
+        }
+    }
+    for (long k = 0; k < count; k++)
+        failed += found[k].status != LAW_OK;
+    return failed;
+}
+
+int law_collide(const law_material *material, const law_impact *impact, double rtol, law_collision *found)
+{
+    law_collide_many(material, impact, 1, rtol, found);
+    return found->status;
+}

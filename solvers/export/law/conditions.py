@@ -1,0 +1,192 @@
+"""Conditional parts of C text: those decided when a law is exported are resolved, those of the compiler are kept."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...errors import CheckFailed
+
+OPEN = ("LANES", "__GNUC__", "__AVX2__", "__AVX512DQ__", "__cplusplus")
+"""Macros that are known when the exported file is compiled."""
+_DIRECTIVE = re.compile(r"^\s*#\s*(if|ifdef|ifndef|elif|else|endif|define|undef|pragma)\b\s*(.*)$")
+_TOKEN = re.compile(r"\s*(\d+|\w+|&&|\|\||[=!<>]=|[()!<>+*/%?:-])")
+_LEVELS = (("||",), ("&&",), ("==", "!="), ("<", ">", "<=", ">="), ("+", "-"), ("*", "/", "%"))
+
+
+class Conditions:
+    """A partial preprocessor: resolves `#if` as far as macros that the text has defined decide it.
+
+    Texts are passed in the order in which they are included; a definition holds for all texts after it.
+
+    Examples:
+        >>> Conditions().resolved("#define WALL 0\\n#if WALL\\nint a;\\n#else\\nint b;\\n#endif\\n")
+        '#define WALL 0\\nint b;\\n'
+    """
+
+    def __init__(self) -> None:
+        self._macros: dict[str, str] = {}
+
+    def resolved(self, text: str) -> str:
+        """The text without the parts that are left out, and without the conditions that are decided."""
+        return "".join(self._lines(text))
+
+    def value(self, expression: str) -> int | None:
+        """The value of an integer constant expression of C; None if only a compiler knows it."""
+        if self._is_open(expression):
+            return None
+        return _Expression(self._plain(expression, 0)).value()
+
+    def _lines(self, text: str) -> Iterator[str]:
+        stack: list[_Part] = []  # of nested conditions
+        for line in _logical(text):
+            found = _DIRECTIVE.match(line)
+            word, rest = (found[1], _without_comment(found[2])) if found else ("", "")
+            outside = all(part.kept for part in stack[:-1])
+            if word in ("if", "ifdef", "ifndef"):
+                test = rest if word == "if" else f"{'' if word == 'ifdef' else '!'}defined({rest})"
+                here = all(part.kept for part in stack)
+                stack.append(_Part(self.value(test) if here else 0))
+                if here and stack[-1].open:
+                    yield line
+            elif word in ("elif", "else", "endif"):
+                part = stack[-1]
+                if part.open and outside:
+                    yield line
+                elif word == "elif":
+                    part.follow(self.value(rest) if outside and not part.done else 0)
+                elif word == "else":
+                    part.follow(1)
+                if word == "endif":
+                    stack.pop()
+            elif all(part.kept for part in stack):
+                if word == "pragma":
+                    continue
+                self._note(word, rest)
+                yield line
+
+    def _note(self, word: str, rest: str) -> None:
+        name = re.match(r"\w+", rest)
+        if word == "undef" and name:
+            self._macros.pop(name[0], None)
+        elif word == "define" and name:
+            self._macros[name[0]] = rest[name.end() :].strip()
+
+    def _is_open(self, expression: str, depth: int = 0) -> bool:
+        words = set(re.findall(r"[A-Za-z_]\w*", expression))
+        if depth > 20:
+            raise CheckFailed(f"a macro refers to itself: {expression}")
+        return any(word in OPEN or self._is_open(self._macros.get(word, ""), depth + 1) for word in words)
+
+    def _plain(self, expression: str, depth: int) -> str:
+        """The expression without names: `defined` is answered, macros are replaced."""
+
+        def answered(found: re.Match[str]) -> str:
+            return str(int((found[1] or found[2]) in self._macros))
+
+        def replaced(found: re.Match[str]) -> str:
+            name = found[0]
+            return f"({self._plain(self._macros[name], depth + 1)})" if self._macros.get(name) else "0"
+
+        expression = re.sub(r"\bdefined\s*(?:\(\s*(\w+)\s*\)|(\w+))", answered, expression)
+        return re.sub(r"\b[A-Za-z_]\w*\b", replaced, expression)
+
+
+class _Part:
+    """A part of a conditional: whether its lines are kept, an earlier part was, or the compiler decides."""
+
+    def __init__(self, value: int | None) -> None:
+        self.open = value is None
+        self.kept = value is None or bool(value)
+        self.done = self.kept
+
+    def follow(self, value: int | None) -> None:
+        if value is None:
+            raise CheckFailed("a condition that the compiler decides follows one that is decided")
+        self.kept = bool(value) and not self.done
+        self.done = self.done or self.kept
+
+
+class _Expression:
+    """An integer constant expression without names, read from left to right."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._tokens = _TOKEN.findall(text)
+        self._at = 0
+        if "".join(self._tokens) != re.sub(r"\s+", "", text):
+            raise CheckFailed(f"a condition that is not understood: {text}")
+
+    def value(self) -> int:
+        found = self._choice()
+        if self._at != len(self._tokens):
+            raise CheckFailed(f"a condition that is not understood: {self._text}")
+        return found
+
+    def _next(self, *accepted: str) -> str:
+        if self._at < len(self._tokens) and (not accepted or self._tokens[self._at] in accepted):
+            self._at += 1
+            return str(self._tokens[self._at - 1])
+        return ""
+
+    def _choice(self) -> int:
+        test = self._binary(0)
+        if not self._next("?"):
+            return test
+        yes = self._choice()
+        self._next(":")
+        no = self._choice()
+        return yes if test else no
+
+    def _binary(self, level: int) -> int:
+        if level == len(_LEVELS):
+            return self._unary()
+        left = self._binary(level + 1)
+        while sign := self._next(*_LEVELS[level]):
+            right = self._binary(level + 1)
+            left = _OPERATIONS[sign](left, right)
+        return left
+
+    def _unary(self) -> int:
+        if self._next("!"):
+            return int(not self._unary())
+        if self._next("-"):
+            return -self._unary()
+        if self._next("("):
+            inner = self._choice()
+            self._next(")")
+            return inner
+        return int(self._next())
+
+
+_OPERATIONS = {
+    "||": lambda a, b: int(bool(a) or bool(b)),
+    "&&": lambda a, b: int(bool(a) and bool(b)),
+    "==": lambda a, b: int(a == b),
+    "!=": lambda a, b: int(a != b),
+    "<": lambda a, b: int(a < b),
+    ">": lambda a, b: int(a > b),
+    "<=": lambda a, b: int(a <= b),
+    ">=": lambda a, b: int(a >= b),
+    "+": lambda a, b: a + b,
+    "-": lambda a, b: a - b,
+    "*": lambda a, b: a * b,
+    "/": lambda a, b: int(a / b),
+    "%": lambda a, b: a % b,
+}
+
+
+def _logical(text: str) -> Iterator[str]:
+    """Lines, those that end with a backslash joined with the next."""
+    held = ""
+    for line in text.splitlines(keepends=True):
+        held += line
+        if not line.endswith("\\\n"):
+            yield held
+            held = ""
+    if held:
+        yield held
+
+
+def _without_comment(text: str) -> str:
+    return re.sub(r"/\*.*?\*/", "", text.replace("\\\n", " "), flags=re.DOTALL).strip()

@@ -1,0 +1,147 @@
+"""NAME.h: the law as a host sees it."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable, Sequence
+
+from ....generated.automaton import CRITERIA, KINDS, OUTCOMES
+from ...scene.scene import Scene
+from .material import LARGEST, Number, Result
+
+_WIDTH = 100
+_OUTCOMES = ("STICK", "STICK_ROTATE_SEPARATE", "BOUNCE")
+_RESULTS = (
+    ("int", "status", "LAW_OK, or why there is no answer"),
+    ("int", "outcome", "LAW_STICK, LAW_STICK_ROTATE_SEPARATE, LAW_BOUNCE; LAW_UNDECIDED without an answer"),
+    ("int", "certified", "1 where a stick is proved, else 0"),
+    ("int", "rebound", "the first rebound criterion that was met, LAW_NO_REBOUND if none"),
+    ("double", "restitution", "normal velocity at separation over the approach speed; 0 of a stick; it may exceed 1"),
+    ("double", "tangential_restitution", "r omega at separation over its value at initial contact; NaN at angle 0"),
+    ("double", "slip_restitution", "velocity of the surfaces at the contact over its value at initial contact"),
+    ("double", "contact_time", "s, from initial contact to separation"),
+    ("double", "rotation", "rad, angle that the line of centres has turned at separation"),
+    ("double", "smallest_gap", "m"),
+    ("double", "final_gap", "m, at separation"),
+    ("double", "final_spin", "rad/s, of the sphere at separation"),
+    ("double", "final_partner_spin", "rad/s, of the partner at separation"),
+    ("double", "final_rotation_rate", "rad/s, of the line of centres at separation"),
+)
+
+
+def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Number], said: Sequence[Result]) -> str:
+    """The text of NAME.h, with `law_` and `LAW_` in the place of the law's prefix."""
+    lines = ["#ifndef LAW_H", "#define LAW_H", "", "#ifdef __cplusplus", 'extern "C" {', "#endif", ""]
+    lines += [
+        *_comment(
+            "What collides, in SI units. Each number is zero or between "
+            f"{1 / LARGEST:g} and {LARGEST:g} in magnitude, within the range said here; others are refused. "
+            "law_default_material() has the scene's."
+        ),
+        *_structure("law_material", of_material),
+        "law_material law_default_material(void);",
+        "",
+        *_comment(_frame(scene)),
+        *_structure("law_impact", of_impact),
+        *_comment("Outcomes."),
+        *_enumeration(
+            [("UNDECIDED", -1, "there is no answer; `status` says why")]
+            + [(name, k, _said(name)) for k, name in enumerate(_OUTCOMES[: len(OUTCOMES)])]
+        ),
+        *_comment("Rebound criteria."),
+        *_enumeration(
+            [("NO_REBOUND", -1, "none was met")]
+            + [(word.upper(), KINDS.index(word), row.name) for word, row in CRITERIA.items()]
+        ),
+        *_comment("Statuses: LAW_OK; UNDECIDED_...: no answer to this impact; from 100 on: bad input."),
+        *_enumeration([(one.name, one.number, one.message) for one in said]),
+        *_comment("A status in words. The text is never null, and must not be freed."),
+        "const char *law_message(int status);",
+        "",
+        *_comment(
+            "What a collision comes to. Without an answer, and for a stick (but for `outcome`, `certified`, `rebound` "
+            "and `restitution`), numbers are NaN."
+        ),
+        "typedef struct {",
+        *(f"    {kind} {name}; /* {what} */" for kind, name, what in _RESULTS),
+        "} law_collision;",
+        "",
+        *_comment(
+            "One collision. `rtol` is the relative tolerance of the integration, 1e-13 to 1e-3; at most 1e-6 is used. "
+            "Returns found->status. Reentrant: nothing is allocated, and no data is shared between calls."
+        ),
+        "int law_collide(const law_material *material, const law_impact *impact, double rtol, law_collision *found);",
+        "",
+        *_comment(
+            "`count` collisions of one material, side by side where the processor has vectors. Returns how many have "
+            "another status than LAW_OK. The results are those of single calls, up to the last digits."
+        ),
+        "long law_collide_many(",
+        "    const law_material *material, const law_impact *impacts, long count, double rtol, law_collision *found);",
+        "",
+        "#ifdef __cplusplus",
+        "}",
+        "#endif",
+        "",
+        "#endif",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def message_function(said: Sequence[Result]) -> str:
+    """The C function with a text for every status."""
+    lines = ["const char *law_message(int status)", "{", "    switch (status) {"]
+    for one in said:
+        lines += [f"    case LAW_{one.name}:", f'        return "{one.message}";']
+    return "\n".join([*lines, "    }", '    return "no such status";', "}", ""])
+
+
+def default_material(of_material: Sequence[Number]) -> str:
+    """The C function that returns the scene's numbers."""
+    values = [f"    m.{number.name} = {number.value!r};" for number in of_material]
+    return "\n".join(
+        ["law_material law_default_material(void)", "{", "    law_material m;", *values, "    return m;", "}", ""]
+    )
+
+
+def _frame(scene: Scene) -> str:
+    """How an impact is described, for the geometry of the scene."""
+    if scene.wall:
+        return (
+            "An impact on a wall at rest: the sphere comes down with `speed` and moves along the wall with "
+            "speed tan(angle). It rolls without slip where spin times its radius is that velocity along the wall."
+        )
+    return (
+        "An impact, seen from the partner's centre when the films touch. n points from the sphere's centre to the "
+        "partner's, v is the sphere's velocity relative to the partner: speed = v.n, and what is perpendicular to n "
+        "has the size speed tan(angle) and defines t. The line of centres begins to turn in the sense from n to -t "
+        "of the partner's motion; spins about n x t with that sense are positive."
+    )
+
+
+def _said(name: str) -> str:
+    return {
+        "STICK": "no separation",
+        "STICK_ROTATE_SEPARATE": "separated, and no rebound criterion was met",
+        "BOUNCE": "separated after a rebound",
+    }[name]
+
+
+def _structure(name: str, numbers: Iterable[Number]) -> list[str]:
+    fields = [
+        f"    double {each.name}; /* {'' if each.unit == '1' else each.unit + ', '}{each.said}: {each.meaning} */"
+        for each in numbers
+    ]
+    return ["typedef struct {", *fields, f"}} {name};", ""]
+
+
+def _enumeration(rows: Iterable[tuple[str, int, str]]) -> list[str]:
+    return ["enum {", *(f"    LAW_{name} = {number}, /* {what} */" for name, number, what in rows), "};", ""]
+
+
+def _comment(text: str) -> list[str]:
+    lines = textwrap.wrap(text, _WIDTH - 6)
+    if len(lines) == 1:
+        return [f"/* {lines[0]} */"]
+    return [f"/* {lines[0]}", *(f" * {line}" for line in lines[1:]), " */"]

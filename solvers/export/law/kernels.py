@@ -1,0 +1,122 @@
+"""The kernels of an exported law: which structures they are of, and their texts."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import cached_property
+
+from ...engines.taylor.build import Variant, files
+from ...engines.taylor.call import variant
+from ...engines.taylor.headers import headers
+from ...errors import CheckFailed, InputError
+from ...model.model import ModelKey, load, select_model
+from ...scene.scene import Scene
+from .amalgam import Source
+
+HEAD_ON, PLANE = "head_on", "plane"
+IMPACT = {"speed": "speed", "angle": "angle", "impact_spin": "spin", "impact_partner_spin": "partner_spin"}
+"""Quantities of an impact, and their names in it."""
+_SHOWN = {
+    "restitution": "c->restitution = {};",
+    "tangential_restitution": "c->tangential_restitution = {};",
+    "final_rotation_rate": "c->final_rotation_rate = {}*rate;",
+    "final_spin": "c->final_spin = {}*rate;",
+    "final_spin_partner": "c->final_partner_spin = {}*rate;",
+}
+"""Outputs of a structure, and where they go."""
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A kernel of the law: its prefix, and its variant of the model."""
+
+    prefix: str
+    variant: Variant
+    scene: Scene
+
+    @property
+    def choice(self) -> ModelKey:
+        """The key of its model."""
+        return self.variant.choice
+
+    @cached_property
+    def made(self) -> dict[str, str]:
+        """Texts of its files that are not in the runtime's folder, by name."""
+        emitted = headers(self.choice)
+        if emitted is None:
+            accepted = "laws whose recurrences are known (docs/reference/models.md)"
+            raise InputError("--to", "c", accepted, "needs a law that has no recurrence")
+        made = files(self.variant, emitted)
+        # how many lanes there are is decided by the compiler, and numpy has no part in it
+        made["settings.h"] = re.sub(r"^#define LANES .*\n", "", made["settings.h"], flags=re.MULTILINE)
+        return made | {"in_si.h": self._in_si()}
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Names of the quantities in SI that it takes, in order."""
+        found = re.search(r"const char quantity_names\[\] =(.*?);", self.made["model.h"], re.DOTALL)
+        if found is None:
+            raise CheckFailed("a kernel without quantities")
+        return tuple(re.findall(r'"(\w+) ?"', found[1]))
+
+    def source(self, roots: tuple[str, ...]) -> Source:
+        """The kernel before it is merged with others."""
+        return Source(self.prefix, self.made, roots)
+
+    def _in_si(self) -> str:
+        return "\n".join(
+            [
+                "/* Where the kernel's quantities come from, and where its outputs go. */",
+                "#pragma once",
+                "",
+                '#include "block.h"',
+                '#include "state.h"',
+                "",
+                *self._columns(),
+                *self._show(),
+            ]
+        )
+
+    def _columns(self) -> list[str]:
+        lines = ["static void set_columns(buffer *columns, const law_material *m, const block *b)", "{"]
+        lines += ["    for (int k = 0; k < QUANTITIES; k++)", "        columns[k].bytes = sizeof(double);"]
+        found = re.search(r"const char quantity_names\[\] =(.*?);", "\n".join(headers(self.choice) or ()), re.DOTALL)
+        assert found is not None
+        for name in re.findall(r'"(\w+) ?"', found[1]):
+            if name in IMPACT:
+                lines.append(f"    columns[SI_{name.upper()}].at = (void *)b->{IMPACT[name]};")
+                lines.append(f"    columns[SI_{name.upper()}].bytes = sizeof b->{IMPACT[name]};")
+            else:
+                lines.append(f"    columns[SI_{name.upper()}].at = (void *)&m->{name};")
+        return [*lines, "}", ""]
+
+    def _show(self) -> list[str]:
+        names = load(self.choice).names("outputs")
+        lines = ["/* `rate`: the unit of angular velocities, rad/s. */"]
+        lines += ["static void show(const answer *a, double rate, law_collision *c)", "{"]
+        lines += [f"    {_SHOWN[name].format(f'a->shown[{k}]')}" for k, name in enumerate(names) if name in _SHOWN]
+        if self.prefix == HEAD_ON:
+            lines += ["    c->final_spin = c->final_partner_spin = c->final_rotation_rate = 0.0;", "    (void)rate;"]
+        else:
+            lines.append("    c->slip_restitution = a->slip;")
+            if self.scene.wall:
+                lines.append("    c->final_partner_spin = 0.0;")
+            elif "final_spin_partner" not in names:
+                lines.append("    c->final_partner_spin = c->final_spin;")
+        return [*lines, "}", ""]
+
+
+def kernels(scene: Scene, rtol: float) -> tuple[Kernel, ...]:
+    """The kernels of a scene's law: along the line of centres, and in a plane.
+
+    Each of two spheres has its own spin; only on strings they share one.
+    """
+    own = scene
+    if not scene.wall and scene.pendulum is None:
+        own = scene.with_entries({"impact.partner_spin": 0.0})
+    found = []
+    for prefix, oblique in ((HEAD_ON, False), (PLANE, True)):
+        choice = select_model(own, oblique)
+        found.append(Kernel(prefix, variant(scene, choice, rtol, rotation=True), own))
+    return tuple(found)

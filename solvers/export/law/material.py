@@ -1,0 +1,185 @@
+"""The numbers that a law takes: their names, units and ranges, and the C that refuses others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ....generated.automaton import Status
+from ...errors import CheckFailed
+from ...scene import user_model
+from ...scene.contact import NEVER_MET
+from ...scene.entry_rules import FARTHEST
+from ...scene.groups import si_values
+from ...scene.quantities import NO_GLASS
+from ...scene.scene import Scene
+from ...scene.schema import FIELDS, Range
+from ...settings import TOLERANCE
+from .kernels import IMPACT, Kernel
+
+LARGEST = 1e30
+"""Largest magnitude of a number, and the inverse of the smallest: beyond it groups may leave a double's range."""
+_LARGE = {"glass_transition_pressure": NO_GLASS, "youngs_modulus": NEVER_MET["youngs_modulus"]}
+_RATIO = Range(f"from {1 / FARTHEST:g} to {FARTHEST:g}", 1 / FARTHEST, FARTHEST, low_open=False, high_open=False)
+_OK = "OK"
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number that a host gives: name, unit, what it is, its interval in SI, and the scene's value."""
+
+    name: str
+    unit: str
+    meaning: str
+    range: Range
+    value: float
+
+    @property
+    def status(self) -> str:
+        """The enumerator of the status of a number outside its range, without the law's prefix."""
+        return f"BAD_{self.name.upper()}"
+
+    @property
+    def most(self) -> float:
+        """Largest magnitude that is accepted."""
+        return _LARGE.get(self.name, LARGEST)
+
+    @property
+    def said(self) -> str:
+        """The interval in words, in the unit of the number."""
+        if self.unit != "rad":
+            return self.range.text
+        return "from 0 to pi/2" if not self.range.high_open else "at least 0, below pi/2"
+
+
+@dataclass(frozen=True)
+class Result:
+    """A status: its number, its enumerator without the law's prefix, and its message."""
+
+    number: int
+    name: str
+    message: str
+
+
+def material(scene: Scene, kernels: Iterable[Kernel]) -> tuple[Number, ...]:
+    """The numbers of a material, in the order of the vocabulary."""
+    from ....derive.vocabulary.quantities import VOCABULARY
+
+    given = {"poisson_ratio": 0.0, **NEVER_MET, **si_values(scene, None, None)}
+    names = {name for kernel in kernels for name in kernel.quantities if name not in IMPACT}
+    known = [name for name in VOCABULARY if name in names]
+    found = []
+    for name in [*known, *sorted(names - {*known})]:
+        if name in known:
+            unit, meaning = VOCABULARY[name].unit, VOCABULARY[name].meaning
+        else:
+            own = user_model.fields(scene.package)[f"{user_model.TABLE}.{name}"]
+            unit, meaning = own.unit or "1", own.what
+        found.append(Number(name, unit, meaning, _range(name, scene), float(given[name])))
+    return tuple(found)
+
+
+def impact(scene: Scene) -> tuple[Number, ...]:
+    """The numbers of an impact."""
+    still = Range("0", 0.0, 0.0, low_open=False, high_open=False)
+    spins = "angular velocity before the impact about the normal of the plane, positive as the line of centres turns"
+    one, other = ("spin", "partner_spin")
+    meanings = {one: f"the sphere's {spins}", other: f"the partner's {spins}"}
+    ranges = {each: FIELDS[f"impact.{each}"].range for each in meanings}
+    if scene.pendulum is not None:
+        ranges = dict.fromkeys(ranges, still)
+        meanings = dict.fromkeys(meanings, "0: spheres on strings do not spin before the impact")
+    elif scene.wall:
+        ranges[other], meanings[other] = still, "0: a wall does not spin"
+    return (
+        Number("speed", "m/s", "normal approach speed at initial contact", FIELDS["impact.speed"].range, 1.0),
+        Number("angle", "rad", "impact angle, 0 along the line of centres", FIELDS["impact.angle"].range, 0.0),
+        *(Number(name, "rad/s", meanings[name], ranges[name], 0.0) for name in meanings),
+    )
+
+
+def results(numbers: Iterable[Number]) -> tuple[Result, ...]:
+    """Every status."""
+    failed = {
+        Status.NO_BUDGET: "not decided within the largest number of steps",
+        Status.NOT_FINITE: "the state is not finite, or a declared event creates energy",
+        Status.CHATTER: "not decided: the pair goes in and out of contact again and again",
+        Status.TOO_OBLIQUE: "the centrifugal force is too large beside the approach to be resolved",
+        Status.RESTS_IN_FRICTION: "not decided: the spheres rest on each other while friction acts",
+    }
+    found = [Result(0, _OK, "decided")]
+    found += [Result(int(status), f"UNDECIDED_{status.name}", said) for status, said in failed.items()]
+    rules = {
+        "BAD_RTOL": f"rtol must be {TOLERANCE.range.text}",
+        "ROUGHNESS_BEYOND_FILM": "roughness is not below film_thickness",
+        "RUPTURE_WITHIN_FILM": "the bridge ruptures within film_thickness: a larger volume is needed",
+        "STRINGS_TOO_SHORT": "string_length is too short for two spheres to swing around each other",
+        "NOTHING_STOPS": "nothing stops the approach: roughness is 0 and there is no elastic length",
+    }
+    found += [Result(100 + k, name, said) for k, (name, said) in enumerate(rules.items())]
+    for k, number in enumerate(numbers):
+        unit = "" if number.unit == "1" else f" {number.unit}"
+        found.append(Result(200 + k, number.status, f"{number.name} must be {number.said}{unit}"))
+    return tuple(found)
+
+
+def checks(scene: Scene, of_material: Iterable[Number], of_impact: Iterable[Number], kernels: Iterable[Kernel]) -> str:
+    """C functions that refuse a material, an impact and a tolerance."""
+    tolerance = Number("rtol", "1", "", TOLERANCE.range, 1e-9)
+    body = [line for number in of_material for line in _refusal(number, "m->")]
+    stops = " && ".join(_never(name, value) for name, value in NEVER_MET.items())
+    if scene.attraction is not None:
+        stops += " && m->hamaker > 0.0"
+    else:
+        stops += f" && m->glass_transition_pressure >= {NO_GLASS!r}"
+    body += [f"if ({stops})", "    return LAW_NOTHING_STOPS;"]
+    *others, last = (f"{kernel.prefix}_inconsistent(m)" for kernel in kernels)
+    for other in others:
+        body += [f"if ({other} != LAW_OK)", f"    return {other};"]
+    lines = _function("static int check_material(const law_material *m)", [*body, f"return {last};"])
+    refused = [line for number in of_impact for line in _refusal(number, "impact->")]
+    lines += _function("static int check_impact(const law_impact *impact)", [*refused, "return LAW_OK;"])
+    lines += _function("static int check_rtol(double rtol)", [*_refusal(tolerance, ""), "return LAW_OK;"])
+    intro = "/* Numbers outside their ranges, NaN among them, are refused. */\n\n"
+    usual = [
+        "/* Whether a number is zero, or of a size with which the groups stay within a double's range. */",
+        *_function(
+            "static int is_usual(double x, double most)",
+            [f"return x == 0.0 || (fabs(x) >= {1 / LARGEST!r} && fabs(x) <= most);"],
+        ),
+    ]
+    return intro + "\n".join([*usual, *lines])
+
+
+def _never(name: str, value: float) -> str:
+    return f"m->{name} {'>=' if value > 1 else '<='} {value!r}"
+
+
+def _refusal(number: Number, of: str) -> list[str]:
+    interval, name, tests = number.range, f"{of}{number.name}", []
+    if interval.low > -math.inf:
+        tests.append(f"{name} {'>' if interval.low_open else '>='} {interval.low!r}")
+    if interval.high < math.inf:
+        tests.append(f"{name} {'<' if interval.high_open else '<='} {interval.high!r}")
+    return [
+        f"if (!({' && '.join([*tests, f'is_usual({name}, {number.most!r})'])}))",
+        f"    return LAW_{number.status};",
+    ]
+
+
+def _function(head: str, body: Iterable[str]) -> list[str]:
+    return [head, "{", *(f"    {line}" for line in body), "}", ""]
+
+
+def _range(name: str, scene: Scene) -> Range:
+    """The interval of a quantity, as the schema of a scene has it."""
+    if name in ("radius_ratio", "mass_ratio"):
+        return _RATIO
+    found = next((field.range for field in FIELDS.values() if field.quantity == name), None)
+    if found is None:
+        own = user_model.fields(scene.package).get(f"{user_model.TABLE}.{name}")
+        if own is None:
+            raise CheckFailed(f"no range of {name} is known")
+        return own.range
+    return found
