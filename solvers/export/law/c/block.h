@@ -3,7 +3,7 @@
 
 #include "vector.h"
 
-enum { BLOCK = 64 };
+enum { BLOCK = 512 }; /* so many that few lanes idle at its end */
 
 typedef struct {
     double speed[BLOCK], angle[BLOCK], spin[BLOCK], partner_spin[BLOCK];
