@@ -11,7 +11,7 @@ from .material import LARGEST, Number, Result
 
 _WIDTH = 100
 _OUTCOMES = ("STICK", "STICK_ROTATE_SEPARATE", "BOUNCE")
-_RESULTS = (
+RESULTS = (
     ("int", "status", "LAW_OK, or why there is no answer"),
     ("int", "outcome", "LAW_STICK, LAW_STICK_ROTATE_SEPARATE, LAW_BOUNCE; LAW_UNDECIDED without an answer"),
     ("int", "certified", "1 where a stick is proved, else 0"),
@@ -63,7 +63,7 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
             "and `restitution`), numbers are NaN."
         ),
         "typedef struct {",
-        *(f"    {kind} {name}; /* {what} */" for kind, name, what in _RESULTS),
+        *(f"    {kind} {name}; /* {what} */" for kind, name, what in RESULTS),
         "} law_collision;",
         "",
         *_comment(
@@ -106,17 +106,24 @@ def default_material(of_material: Sequence[Number]) -> str:
 
 
 def _frame(scene: Scene) -> str:
-    """How an impact is described, for the geometry of the scene."""
+    """How an impact is described, and what follows from its results, for the geometry of the scene."""
     if scene.wall:
         return (
-            "An impact on a wall at rest: the sphere comes down with `speed` and moves along the wall with "
-            "speed tan(angle). It rolls without slip where spin times its radius is that velocity along the wall."
+            "An impact on a wall, in the wall's frame: the sphere approaches with `speed`, and its centre has the velocity "
+            "speed tan(angle) along the wall. A spin is positive as it rolls along that velocity. After separation the "
+            "velocities are restitution speed, away from the wall, and tangential_restitution speed tan(angle) along it."
+        )
+    if scene.pendulum is not None:
+        return (
+            "An impact of two spheres on strings: `speed` is their relative velocity along the line of centres, and "
+            "speed tan(angle) that across."
         )
     return (
-        "An impact, seen from the partner's centre when the films touch. n points from the sphere's centre to the "
-        "partner's, v is the sphere's velocity relative to the partner: speed = v.n, and what is perpendicular to n "
-        "has the size speed tan(angle) and defines t. The line of centres begins to turn in the sense from n to -t "
-        "of the partner's motion; spins about n x t with that sense are positive."
+        "An impact, from vectors: n is the unit vector from the sphere's centre to the partner's, v the partner's velocity "
+        "relative to the sphere's, t = v - (v.n) n, R the sum of the radii. Then speed = -v.n, tan(angle) = |t| R/(speed (R + "
+        "film_thickness)), and spins are components along w = n x t/|t|, about which the line of centres begins to turn. At "
+        "separation n' = cos(rotation) n + sin(rotation) w x n, and the partner moves relative to the sphere with "
+        "restitution speed n' + final_rotation_rate (R + final_gap) w x n'; the pair's momentum is what it was."
     )
 
 

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from importlib.metadata import version
 
 from ...scene.scene import Scene
 from ...settings import RTOL
+from ...space.pairs import Bodies
 from ..equations import file_name
 from .amalgam import OWN, digests, merged
-from .header import default_material, header, message_function
+from .fortran import interface
+from .header import RESULTS, default_material, header, message_function
 from .items import items
 from .kernels import Kernel, kernels
-from .material import checks, impact, material, results
+from .material import Number, checks, impact, material, results
+from .vectors import table
 
 ROOTS = ("integrate.h",)
 """Files of a kernel whose functions the law calls, with what they include."""
@@ -38,13 +42,57 @@ _LANES = """\
 
 
 def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
-    """Texts of the files by name."""
+    """Texts of the files by name.
+
+    Raises:
+        InputError: a law of the scene has no recurrence.
+        ComputationError: no compiler is found for the test vectors.
+    """
     name = file_name(scene)
     own = kernels(scene, rtol)
-    return {
-        f"{name}.h": _named(name, _head(scene, own) + _header(scene, own)),
-        f"{name}.c": _named(name, _law(scene, own)),
+    found = {
+        f"{name}.h": _head(scene, own) + _header(scene, own),
+        f"{name}.c": _law(scene, own),
+        f"{name}.f90": interface(material(scene, own), impact(scene)).replace("@NAME@", name),
+        "vectors.h": table(scene, own),
     }
+    found |= {shown: _filled(file, scene, own) for shown, file in _files(scene).items()}
+    return {file: _named(name, text) for file, text in found.items()}
+
+
+def _files(scene: Scene) -> dict[str, str]:
+    """The other files by name, and where their texts are."""
+    example = "example-plain.c" if scene.wall or scene.pendulum is not None else "example.c"
+    same = ("Makefile", "README.md", "check.c", "example.py", "example.f90")
+    return {**{name: name for name in same}, "example.c": example}
+
+
+def _filled(file: str, scene: Scene, own: tuple[Kernel, ...]) -> str:
+    """A text with the scene's names and numbers in their places."""
+    doubles = [f'("{name}", ctypes.c_double)' for kind, name, _ in RESULTS if kind == "double"]
+    integers = [f'("{name}", ctypes.c_int)' for kind, name, _ in RESULTS if kind == "int"]
+    speed = 0.1 / scene.stokes_per_speed
+    places = {
+        "NAME": file_name(scene),
+        "MATERIAL": _fields(material(scene, own)),
+        "IMPACT": _fields(impact(scene)),
+        "DOUBLES": ", ".join(doubles),
+        "INTEGERS": ", ".join(integers),
+        "SPEED": f"{speed:.3g}",
+    }
+    if not scene.wall:
+        bodies = Bodies.of(scene)
+        places |= {
+            name: ", ".join(map(repr, each)) for name, each in (("RADII", bodies.radius), ("MASSES", bodies.mass))
+        }
+    text = (OWN / file).read_text()
+    for name, value in places.items():
+        text = text.replace(f"@{name}@", value)
+    return text
+
+
+def _fields(numbers: Iterable[Number]) -> str:
+    return ", ".join(f'("{number.name}", ctypes.c_double)' for number in numbers)
 
 
 def _header(scene: Scene, own: tuple[Kernel, ...]) -> str:

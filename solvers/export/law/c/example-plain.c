@@ -1,0 +1,33 @@
+/* Impacts of many speeds and angles: `make example`, or cc -O2 example.c @NAME@.c -lm. */
+#include "law.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { IMPACTS = 1000 };
+
+int main(void)
+{
+    law_material material = law_default_material();
+    int sticks = 0, bounces = 0, others = 0;
+    for (int k = 0; k < IMPACTS; k++) {
+        law_impact impact;
+        law_collision c;
+        impact.speed = @SPEED@*pow(100.0, k%32/31.0 - 0.5); /* m/s */
+        impact.angle = k/32*0.04;                              /* rad */
+        impact.spin = 0.0;                                     /* rad/s */
+        impact.partner_spin = 0.0;
+        if (law_collide(&material, &impact, 1e-9, &c) != LAW_OK) {
+            printf("impact %d: %s\n", k, law_message(c.status));
+            continue;
+        }
+        if (c.outcome == LAW_STICK)
+            sticks++;
+        else if (c.outcome == LAW_BOUNCE)
+            bounces++; /* their normal velocity: c.restitution*impact.speed */
+        else
+            others++;
+    }
+    printf("%d stick, %d bounce, %d part without a rebound\n", sticks, bounces, others);
+    return 0;
+}

@@ -1,0 +1,184 @@
+"""Test vectors of an exported law: impacts, and what this project's engines say of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ....generated.automaton import LAST_ANSWER
+from ...engines.taylor.build import for_few, kernel
+from ...engines.taylor.call import Impacts, bind_kernel
+from ...engines.taylor.layout import ANSWER
+from ...errors import ComputationError
+from ...host.compiler import compiler
+from ...model.model import load
+from ...scene.groups import rate_scales, si_values
+from ...scene.scene import Scene
+from ...settings import STEPS
+from .kernels import HEAD_ON, IMPACT, Kernel
+
+RTOL = 1e-9
+TOLERANCE = 1000 * RTOL
+"""Relative difference that a check allows: both errors, of the worst-conditioned vectors that are kept."""
+_TIGHTER = 0.01
+_CANDIDATES, _WANTED = 512, 64
+_DIMENSIONS = (0.7548776662466927, 0.5698402909980532, 0.4301597090019468, 0.3247179572447461)
+_RESULTS = (
+    "restitution", "tangential_restitution", "slip_restitution", "contact_time", "rotation", "smallest_gap", "final_gap",
+    "final_spin", "final_partner_spin", "final_rotation_rate",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Vector:
+    """An impact (in the order of `IMPACT`), and its results: whole numbers, then those of `_RESULTS`."""
+
+    impact: tuple[float, ...]
+    whole: tuple[int, int, int, int]
+    numbers: tuple[float, ...]
+
+    @property
+    def outcome(self) -> int:
+        """Number of the outcome."""
+        return self.whole[1]
+
+
+def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
+    """At least fifty impacts, with all outcomes that occur among eight times as many.
+
+    Those next to a boundary are left out: their results depend on the tolerance.
+
+    Raises:
+        ComputationError: there is no C compiler to compile our own kernel with.
+    """
+    if compiler() is None:
+        advice = "install a C compiler; the exported law needs one too"
+        raise ComputationError(
+            "the test vectors are computed by compiled code, and there is no C compiler", advice=advice
+        )
+    found: list[Vector] = []
+    for impacts in _impacts(scene):
+        oblique = bool(impacts["angle"][0] > 0)
+        own = next(one for one in kernels if (one.prefix != HEAD_ON) == oblique)
+        found += _computed(own, impacts)
+    by_outcome = {outcome: [one for one in found if one.outcome == outcome] for outcome in range(3)}
+    present = [group for group in by_outcome.values() if group]
+    share = -(-_WANTED // len(present))
+    chosen = [one for group in present for one in group[:share]]
+    return chosen + [one for one in found if one not in chosen][: max(0, _WANTED - len(chosen))]
+
+
+def table(scene: Scene, kernels: Sequence[Kernel]) -> str:
+    """The text of vectors.h."""
+    rows = [
+        f"    {{{{{_list(one.impact)}}},\n     {{{', '.join(map(str, one.whole))}, {_list(one.numbers)}}}}},"
+        for one in vectors(scene, kernels)
+    ]
+    lines = [
+        "/* Impacts (SI) and what wetdoublet computed for them, in the order of the header's structures. */",
+        "#ifndef VECTORS_H",
+        "#define VECTORS_H",
+        "",
+        '#include "law.h"',
+        "",
+        "#include <math.h>",
+        "",
+        f"#define VECTOR_RTOL {RTOL!r}",
+        f"#define VECTOR_TOLERANCE {TOLERANCE!r} /* relative */",
+        "",
+        "static const struct {",
+        "    law_impact impact;",
+        "    law_collision expected;",
+        "} vectors[] = {",
+        *rows,
+        "};",
+        "",
+        "#endif",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def _list(numbers: Sequence[float]) -> str:
+    return ", ".join("NAN" if np.isnan(each) else repr(float(each)) for each in numbers)
+
+
+def _impacts(scene: Scene) -> list[dict[str, np.ndarray]]:
+    """Candidates along a low-discrepancy sequence: half of them spinning, some along the line of centres."""
+    points = (np.arange(1, _CANDIDATES + 1)[:, None] * np.array(_DIMENSIONS)) % 1.0
+    speed = 10 ** (4 * points[:, 0] - 2.5) / scene.stokes_per_speed
+    angle = 1.5 * points[:, 1]
+    size = 2 * float(scene.material["reduced_radius"])
+    spins = np.where(np.arange(_CANDIDATES)[:, None] % 2, 2 * points[:, 2:] - 1, 0.0) * (speed / size)[:, None]
+    if scene.pendulum is not None:
+        spins[:] = 0.0
+    if scene.wall:
+        spins[:, 1] = 0.0
+    ahead = np.arange(_CANDIDATES) % 16 == 0
+    both = {
+        "speed": speed,
+        "angle": angle,
+        "impact_spin": spins[:, 0].copy(),
+        "impact_partner_spin": spins[:, 1].copy(),
+    }
+    still = {"speed": speed, "angle": 0 * angle, "impact_spin": 0 * angle, "impact_partner_spin": 0 * angle}
+    return [{k: v[~ahead] for k, v in both.items()}, {k: v[ahead] for k, v in still.items()}]
+
+
+def _computed(own: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
+    """The vectors of candidates whose results are the same at a tighter tolerance."""
+    library = kernel(for_few(own.variant))
+    if library is None:
+        raise ComputationError("the kernel for the test vectors cannot be compiled")
+    both = []
+    for rtol in (RTOL, _TIGHTER * RTOL):
+        answers = np.zeros(impacts["speed"].size, ANSWER)
+        others = {name: values for name, values in impacts.items() if name not in ("speed", "angle")}
+        if own.scene.wall:
+            del others["impact_partner_spin"]
+        bind_kernel(library, rtol, STEPS)(Impacts(own.scene, impacts["speed"], impacts["angle"], others), answers)
+        both.append(_in_si(own, impacts, answers))
+    plain, tight = both
+    found = []
+    for k, (one, other) in enumerate(zip(plain, tight, strict=True)):
+        if one is None or other is None or one.whole[1:] != other.whole[1:]:
+            continue
+        a, b = np.array(one.numbers), np.array(other.numbers)
+        if np.all(np.isnan(a) | (np.abs(a - b) <= 0.1 * TOLERANCE * np.abs(b))):
+            found.append(Vector(tuple(float(impacts[name][k]) for name in IMPACT), other.whole, other.numbers))
+    return found
+
+
+def _in_si(own: Kernel, impacts: dict[str, np.ndarray], answers: np.ndarray) -> list[Vector | None]:
+    """Answers of the kernel as vectors in SI, with the impacts left out; None for what it hands over."""
+    scene, oblique = own.scene, own.prefix != HEAD_ON
+    x0, names = scene.liquid.film_thickness, load(own.choice).names("outputs")
+    unit = rate_scales(scene, si_values(scene, None, None) | impacts) if oblique else np.zeros(answers.size)
+    found: list[Vector | None] = []
+    for k, answer in enumerate(answers):
+        if answer["status"] > LAST_ANSWER:
+            found.append(None)
+            continue
+        whole = (0, int(answer["outcome"]), int(answer["certified"]), int(answer["reversal"]))
+        numbers = dict.fromkeys(_RESULTS, np.nan) | {"restitution": 0.0}
+        if answer["outcome"]:
+            shown = dict(zip(names, answer["shown"].tolist(), strict=False))
+            time = x0 / impacts["speed"][k]
+            numbers |= {
+                "restitution": shown["restitution"],
+                "tangential_restitution": shown["tangential_restitution"] if impacts["angle"][k] > 0 else np.nan,
+                "slip_restitution": float(answer["slip"]) if oblique else np.nan,
+                "contact_time": float(answer["time"]) * time,
+                "rotation": float(answer["turned"]),
+                "smallest_gap": float(answer["smallest_gap"]) * x0,
+                "final_gap": float(answer["final_gap"]) * x0,
+            }
+            spin = shown.get("final_spin", 0.0) * unit[k]
+            partner = 0.0 if scene.wall else shown.get("final_spin_partner", np.nan) * unit[k]
+            numbers |= {"final_spin": spin, "final_partner_spin": spin if np.isnan(partner) else partner}
+            turning = shown.get("final_rotation_rate", np.nan) * unit[k]
+            numbers["final_rotation_rate"] = 0.0 if not oblique else turning
+        found.append(Vector((), whole, tuple(float(numbers[name]) for name in _RESULTS)))
+    return found
