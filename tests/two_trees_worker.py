@@ -312,7 +312,7 @@ boundary granulation --angle 55:55:1 --wrt all
 sensitivity granulation
 sensitivity granulation --of restitution,contact_time --plot tornado.png --uncertainty liquid.viscosity=5%
 sensitivity pendulum --wrt liquid.viscosity,impact.angle --method adjoint --json
-export granulation --to c --out exported
+export granulation --to casadi --out exported
 export pendulum --to latex --out exported
 export granulation --to matlab
 diff granulation granulation --set bridge.law=willett

@@ -1,4 +1,4 @@
-"""`wetdoublet export`: the model of a scene as LaTeX or as C."""
+"""`wetdoublet export`: the law of a scene in C, its model as LaTeX, or the model's functions."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from ..errors import InputError, did_you_mean
 from ..host.files import write_all_in
 from . import options
 
-KINDS = ("c", "latex")
+KINDS = ("c", "casadi", "latex")
 
 
-@click.command("export", short_help="The scene's model as LaTeX and Markdown, or as C functions.")
+@click.command("export", short_help="The collision law of the scene in C; its model as LaTeX and Markdown.")
 @options.scene_argument
-@click.option("--to", "kind", metavar="KIND", help="c or latex.")
+@click.option("--to", "kind", metavar="KIND", help="c, casadi or latex.")
 @click.option("--out", metavar="DIR", help="Folder to write into.")
 @options.impact
 @options.changes
@@ -32,13 +32,16 @@ def command(
     changes: Sequence[str],
     model: str | None,
 ) -> None:
-    """Write the model of SCENE, with its laws, into DIR.
+    """Write the law of SCENE, or its model, into DIR.
 
-    latex: NAME.tex and NAME.md, Table 1 of this model. c: NAME.c and NAME.h, its functions, self-contained.
+    c: a folder with the whole collision law as NAME.c and NAME.h, C99 that needs no other library: material and impact
+    in, what happens out. With a check, examples in C, Python and Fortran, and a Makefile. latex: NAME.tex and NAME.md,
+    Table 1 of this model. casadi: NAME.c and NAME.h, the model's functions without an integrator, for CasADi's calling
+    convention.
 
     \b
     Example:
-      wetdoublet export granulation --to c --out build
+      wetdoublet export granulation --to c --out law
     """  # noqa: D301 # click wants the character itself
     if kind is not None and kind not in KINDS:
         raise InputError("--to", kind, ", ".join(KINDS), "is not known" + did_you_mean(kind, KINDS))
@@ -51,7 +54,9 @@ def command(
 
     if kind == "latex":
         from ..export.equations import texts
+    elif kind == "c":
+        from ..export.law.texts import texts
     else:
-        from ..export.c import texts
+        from ..export.functions import texts
     for file in write_all_in(folder, texts(scene)):
         click.echo(str(file))

@@ -1,4 +1,4 @@
-"""One C file of several kernels: what they share is written once, the rest gets a prefix, what nobody calls is left out."""
+"""One C file of several kernels: what they share stands there once, the rest has prefixes, unused parts are left out."""
 
 from __future__ import annotations
 

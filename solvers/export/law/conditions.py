@@ -15,13 +15,13 @@ _LEVELS = (("||",), ("&&",), ("==", "!="), ("<", ">", "<=", ">="), ("+", "-"), (
 
 
 class Conditions:
-    """A partial preprocessor: resolves `#if` as far as macros that the text has defined decide it.
+    r"""A partial preprocessor: resolves `#if` as far as macros that the text has defined decide it.
 
     Texts are passed in the order in which they are included; a definition holds for all texts after it.
 
     Examples:
-        >>> Conditions().resolved("#define WALL 0\\n#if WALL\\nint a;\\n#else\\nint b;\\n#endif\\n")
-        '#define WALL 0\\nint b;\\n'
+        >>> Conditions().resolved("#define WALL 0\n#if WALL\nint a;\n#else\nint b;\n#endif\n")
+        '#define WALL 0\nint b;\n'
     """
 
     def __init__(self) -> None:

@@ -109,9 +109,10 @@ def _frame(scene: Scene) -> str:
     """How an impact is described, and what follows from its results, for the geometry of the scene."""
     if scene.wall:
         return (
-            "An impact on a wall, in the wall's frame: the sphere approaches with `speed`, and its centre has the velocity "
-            "speed tan(angle) along the wall. A spin is positive as it rolls along that velocity. After separation the "
-            "velocities are restitution speed, away from the wall, and tangential_restitution speed tan(angle) along it."
+            "An impact on a wall, in the wall's frame: the sphere approaches with `speed`, and its centre has the "
+            "velocity speed tan(angle) along the wall. A spin is positive as it rolls along that velocity. After "
+            "separation the velocities are restitution speed, away from the wall, and tangential_restitution speed "
+            "tan(angle) along it."
         )
     if scene.pendulum is not None:
         return (
@@ -119,11 +120,12 @@ def _frame(scene: Scene) -> str:
             "speed tan(angle) that across."
         )
     return (
-        "An impact, from vectors: n is the unit vector from the sphere's centre to the partner's, v the partner's velocity "
-        "relative to the sphere's, t = v - (v.n) n, R the sum of the radii. Then speed = -v.n, tan(angle) = |t| R/(speed (R + "
-        "film_thickness)), and spins are components along w = n x t/|t|, about which the line of centres begins to turn. At "
-        "separation n' = cos(rotation) n + sin(rotation) w x n, and the partner moves relative to the sphere with "
-        "restitution speed n' + final_rotation_rate (R + final_gap) w x n'; the pair's momentum is what it was."
+        "An impact, from vectors: n is the unit vector from the sphere's centre to the partner's, v the partner's "
+        "velocity relative to the sphere's, t = v - (v.n) n, R the sum of the radii. Then speed = -v.n, tan(angle) = "
+        "|t| R/(speed (R + film_thickness)), and spins are components along w = n x t/|t|, about which the line of "
+        "centres begins to turn. At separation n' = cos(rotation) n + sin(rotation) w x n, and the partner moves "
+        "relative to the sphere with restitution speed n' + final_rotation_rate (R + final_gap) w x n'; the pair's "
+        "momentum is what it was."
     )
 
 

@@ -63,8 +63,8 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
 def _files(scene: Scene) -> dict[str, str]:
     """The other files by name, and where their texts are."""
     example = "example-plain.c" if scene.wall or scene.pendulum is not None else "example.c"
-    same = ("Makefile", "README.md", "check.c", "example.py", "example.f90")
-    return {**{name: name for name in same}, "example.c": example}
+    same = ("Makefile", "README.md", "check.c", "example.f90")
+    return {**{name: name for name in same}, "example.c": example, "example.py": "example.py.in"}
 
 
 def _filled(file: str, scene: Scene, own: tuple[Kernel, ...]) -> str:

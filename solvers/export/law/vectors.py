@@ -26,8 +26,8 @@ _TIGHTER = 0.01
 _CANDIDATES, _WANTED = 512, 64
 _DIMENSIONS = (0.7548776662466927, 0.5698402909980532, 0.4301597090019468, 0.3247179572447461)
 _RESULTS = (
-    "restitution", "tangential_restitution", "slip_restitution", "contact_time", "rotation", "smallest_gap", "final_gap",
-    "final_spin", "final_partner_spin", "final_rotation_rate",
+    "restitution", "tangential_restitution", "slip_restitution", "contact_time", "rotation", "smallest_gap",
+    "final_gap", "final_spin", "final_partner_spin", "final_rotation_rate",
 )  # fmt: skip
 
 

@@ -16,8 +16,8 @@ from wetdoublet.derive.emit.compare import compare, equations, plain, same, type
 from wetdoublet.derive.emit.read import ReadError, functions
 from wetdoublet.solvers import InputError, Scene
 from wetdoublet.solvers.export import differences
-from wetdoublet.solvers.export.c import functions as exported
-from wetdoublet.solvers.export.c import texts as c_texts
+from wetdoublet.solvers.export.functions import functions as exported
+from wetdoublet.solvers.export.functions import texts as c_texts
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 

@@ -64,7 +64,7 @@ COMMANDS = {
     "out.txt": ["collide", "granulation", "-o"],
     "out.json": ["collide", "granulation", "--json", "-o"],
     "flight.png": ["collide", "granulation", "--plot"],
-    "code": ["export", "granulation", "--to", "c", "--out"],
+    "code": ["export", "granulation", "--to", "casadi", "--out"],
 }
 
 

@@ -1,4 +1,4 @@
-"""Export of a scene's model as self-contained C, by CasADi's code generation."""
+"""The functions of a scene's model as self-contained C, by CasADi's code generation."""
 
 from __future__ import annotations
 
