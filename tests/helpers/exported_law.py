@@ -1,0 +1,105 @@
+"""An exported law as a library: compiled, and called with numpy arrays."""
+
+from __future__ import annotations
+
+import ctypes
+import re
+import shutil
+import subprocess
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.export.equations import file_name
+from wetdoublet.solvers.export.law.texts import texts
+
+COMPILERS = {"gcc": "g++", "clang": "clang++"}
+FOUND = [name for name, other in COMPILERS.items() if shutil.which(name) and shutil.which(other)]
+
+
+def written(scene: Scene, folder: Path) -> Path:
+    """The folder, with the files of the scene's law."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in texts(scene).items():
+        (folder / name).write_text(text)
+    return folder
+
+
+class Law:
+    """The law in a folder, compiled as a library."""
+
+    def __init__(self, scene: Scene, folder: Path, *flags: str, compiler: str = "gcc") -> None:
+        self.name = file_name(scene)
+        self._folder = folder
+        library = folder / f"{self.name}-{len(list(folder.glob('*.so')))}.so"
+        source = str(folder / f"{self.name}.c")
+        command = [compiler, "-std=c99", "-O1", "-fno-math-errno", *flags, "-fPIC", "-shared"]
+        subprocess.run([*command, "-o", str(library), source, "-lm"], check=True)
+        self._library = ctypes.CDLL(str(library))
+
+    @cached_property
+    def header(self) -> str:
+        """The text of its header."""
+        return (self._folder / f"{self.name}.h").read_text()
+
+    def dtype(self, structure: str) -> np.dtype:
+        """The type of "material", "impact" or "collision", read from the header."""
+        body = re.search(rf"typedef struct \{{([^}}]*)\}} {self.name}_{structure};", self.header)
+        assert body is not None
+        fields = re.findall(r"^ *(int|double) (\w+);", body[1], re.MULTILINE)
+        return np.dtype([(name, "i4" if kind == "int" else "f8") for kind, name in fields], align=True)
+
+    def number(self, enumerator: str) -> int:
+        """The value of NAME_ENUMERATOR."""
+        found = re.search(rf"\b{self.name.upper()}_{enumerator} = (-?\d+)", self.header)
+        assert found is not None, enumerator
+        return int(found[1])
+
+    def material(self) -> np.ndarray:
+        """The scene's numbers, as a row of its type."""
+        kind = self.dtype("material")
+        structure = type(
+            "Material", (ctypes.Structure,), {"_fields_": [(name, ctypes.c_double) for name in kind.names]}
+        )
+        function = getattr(self._library, f"{self.name}_default_material")
+        function.restype = structure
+        return np.frombuffer(bytearray(function()), kind).copy()
+
+    def message(self, status: int) -> str:
+        """A status in words."""
+        function = getattr(self._library, f"{self.name}_message")
+        function.restype = ctypes.c_char_p
+        found: bytes = function(status)
+        return found.decode()
+
+    def impacts(self, **columns: np.ndarray | float) -> np.ndarray:
+        """Rows of impacts from columns; zero where nothing is given."""
+        size = max(np.size(column) for column in columns.values())
+        rows = np.zeros(size, self.dtype("impact"))
+        for name, column in columns.items():
+            rows[name] = column
+        return rows
+
+    def collide(self, impacts: np.ndarray, rtol: float = 1e-9, material: np.ndarray | None = None) -> np.ndarray:
+        """The results of impacts, by one call for all."""
+        found = np.zeros(impacts.size, self.dtype("collision"))
+        material = self.material() if material is None else material
+        function = getattr(self._library, f"{self.name}_collide_many")
+        function.restype = ctypes.c_long
+        pointers = (ctypes.c_void_p(each.ctypes.data) for each in (material, impacts))
+        failed = function(
+            *pointers, ctypes.c_long(impacts.size), ctypes.c_double(rtol), ctypes.c_void_p(found.ctypes.data)
+        )
+        assert failed == np.count_nonzero(found["status"])
+        return found
+
+    def one(self, impact: np.ndarray, rtol: float = 1e-9, material: np.ndarray | None = None) -> np.ndarray:
+        """The result of a single impact, by the call for one."""
+        found = np.zeros(1, self.dtype("collision"))
+        material = self.material() if material is None else material
+        function = getattr(self._library, f"{self.name}_collide")
+        pointers = (ctypes.c_void_p(each.ctypes.data) for each in (material, np.ascontiguousarray(impact)))
+        status = function(*pointers, ctypes.c_double(rtol), ctypes.c_void_p(found.ctypes.data))
+        assert status == found["status"][0]
+        return found

@@ -1,0 +1,208 @@
+"""The exported law: it builds everywhere, is our kernel to the last digits, refuses bad input, and shares nothing."""
+
+from __future__ import annotations
+
+import math
+import shutil
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.engines.taylor.build import for_few, kernel
+from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel
+from wetdoublet.solvers.engines.taylor.layout import ANSWER
+from wetdoublet.solvers.export.law.conditions import Conditions
+from wetdoublet.solvers.export.law.items import items
+from wetdoublet.solvers.export.law.kernels import kernels
+from wetdoublet.solvers.settings import STEPS
+
+from ...helpers.exported_law import COMPILERS, FOUND, Law, written
+
+PENDULUM, GRANULATION = Scene.load("pendulum"), Scene.load("granulation")
+NEED = pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
+
+
+@pytest.fixture(scope="module")
+def pendulum(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The exported folder of the pendulum."""
+    return written(PENDULUM, tmp_path_factory.mktemp("law") / "pendulum")
+
+
+@pytest.fixture(scope="module")
+def granulation(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The exported folder of granulation."""
+    return written(GRANULATION, tmp_path_factory.mktemp("law") / "granulation")
+
+
+@pytest.fixture(scope="module")
+def law(granulation: Path) -> Law:
+    """The law of granulation, without contraction of products and sums."""
+    return Law(GRANULATION, granulation, "-march=native", "-ffp-contract=off")
+
+
+def random_impacts(law: Law, count: int) -> np.ndarray:
+    """Impacts of all outcomes, half of them spinning, some along the line of centres."""
+    draw = np.random.default_rng(17)
+    speed = 10 ** draw.uniform(-3, 1, count)
+    spins = np.where(draw.random((count, 1)) < 0.5, draw.normal(size=(count, 2)), 0.0) * (speed / 1e-4)[:, None]
+    angle = np.where(draw.random(count) < 0.2, 0.0, draw.uniform(0, 1.5, count))
+    return law.impacts(speed=speed, angle=angle, spin=spins[:, 0], partner_spin=spins[:, 1])
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+def test_builds_and_checks(compiler: str, pendulum: Path, tmp_path: Path):
+    """As strict C99 and as C++, in plain doubles and in lanes, without a warning; the test vectors agree."""
+    if compiler not in FOUND:
+        pytest.skip(f"{compiler} or {COMPILERS[compiler]} is missing")
+    folder = shutil.copytree(pendulum, tmp_path / "law")
+    strict = "-std=c++11 -O0 -pedantic -Werror -DPENDULUM_LANES=1"
+    flags = ["CFLAGS=-O1 -Werror", f"CXXFLAGS={strict}", f"CC={compiler}", f"CXX={COMPILERS[compiler]}"]
+    done = subprocess.run(
+        ["make", "-s", "check", "check-cpp", *flags], cwd=folder, capture_output=True, text=True, check=False
+    )
+    assert done.stderr == ""
+    assert done.stdout.count("0 of ") == 2
+    assert done.returncode == 0
+    subprocess.run(["make", "-s", "clean"], cwd=folder, check=True)
+    assert {each.name for each in folder.iterdir()} == {each.name for each in pendulum.iterdir()}
+
+
+@NEED
+def test_is_our_kernel(law: Law, monkeypatch: pytest.MonkeyPatch):
+    """The same variant without contraction gives the same numbers to 1e-12, and the same outcomes."""
+    monkeypatch.setenv("WETDOUBLET_CFLAGS", "-ffp-contract=off")
+    kernel.cache_clear()  # of those compiled for the test vectors
+    impacts = random_impacts(law, 400)
+    found = law.collide(impacts)
+    oblique = (impacts["angle"] > 0) | (impacts["spin"] != 0) | (impacts["partner_spin"] != 0)
+    assert set(found["outcome"]) == {0, 1, 2}
+    for own, which in zip(kernels(GRANULATION, 1e-9), (~oblique, oblique), strict=True):
+        library, answers = kernel(for_few(own.variant)), np.zeros(np.count_nonzero(which), ANSWER)
+        assert library is not None
+        these, x0 = impacts[which], GRANULATION.liquid.film_thickness
+        others = {"impact_spin": these["spin"].copy(), "impact_partner_spin": these["partner_spin"].copy()}
+        given = Impacts(own.scene, these["speed"].copy(), these["angle"].copy(), others)
+        bind_kernel(library, 1e-9, STEPS)(given, answers)
+        separated = answers["outcome"] > 0
+        assert np.array_equal(found["outcome"][which], answers["outcome"])
+        assert np.array_equal(found["certified"][which], answers["certified"])
+        for name, expected in (
+            ("restitution", answers["shown"][:, 0]),
+            ("contact_time", answers["time"] * x0 / these["speed"]),
+            ("smallest_gap", answers["smallest_gap"] * x0),
+            ("rotation", answers["turned"]),
+        ):
+            np.testing.assert_allclose(found[name][which][separated], expected[separated], rtol=1e-12, atol=0)
+    kernel.cache_clear()
+
+
+@NEED
+def test_one_by_one_is_the_batch(law: Law):
+    """A single call gives the bits of the batch, and eight threads at once those of one."""
+    impacts = random_impacts(law, 160)
+    whole = law.collide(impacts).tobytes()
+    assert b"".join(law.one(impact[None]).tobytes() for impact in impacts) == whole
+    with ThreadPoolExecutor(8) as pool:
+        assert all(each.tobytes() == whole for each in pool.map(lambda _: law.collide(impacts), range(8)))
+
+
+@NEED
+def test_shares_no_data(pendulum: Path, tmp_path: Path):
+    """The compiled law has no variable outside its functions: any number of threads may call it."""
+    if shutil.which("nm") is None:
+        pytest.skip("nm is missing")
+    subprocess.run(["gcc", "-std=c99", "-O1", "-c", "-o", tmp_path / "law.o", pendulum / "pendulum.c"], check=True)
+    listed = subprocess.run(["nm", tmp_path / "law.o"], check=True, capture_output=True, text=True).stdout
+    kinds = {line.split()[-2]: line.split()[-1] for line in listed.splitlines()}
+    assert {"T", "U"} <= set(kinds) <= {"T", "U", "t", "r"}
+    public = [line.split()[-1] for line in listed.splitlines() if " T " in line]
+    assert all(name.startswith("pendulum_") for name in public)
+    called = {line.split()[-1] for line in listed.splitlines() if " U " in line}
+    assert not called & {"malloc", "calloc", "free", "printf"}
+
+
+@NEED
+def test_under_the_sanitizers(pendulum: Path, tmp_path: Path):
+    """The test vectors, in lanes and without, read and write nothing they should not, and nothing is undefined."""
+    sanitizers = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+    for lanes in (1, 2):
+        command = ["gcc", "-std=c99", "-O1", *sanitizers, f"-DPENDULUM_LANES={lanes}", "-o", str(tmp_path / "check")]
+        made = subprocess.run(
+            [*command, str(pendulum / "check.c"), str(pendulum / "pendulum.c"), "-lm"],
+            check=False,
+            capture_output=True,
+            text=True,
+        )
+        if "cannot find" in made.stderr:
+            pytest.skip("gcc has no sanitizers here")
+        assert made.returncode == 0, made.stderr
+        done = subprocess.run([tmp_path / "check"], check=False, capture_output=True, text=True)
+        assert (done.returncode, done.stderr) == (0, "")
+
+
+@NEED
+def test_bad_numbers_are_refused(law: Law):
+    """Each number that is not finite, or outside its range, has a status that names it, and no answer."""
+    impact = law.impacts(speed=1.0, angle=0.5)
+    for structure, given in (("material", law.material()), ("impact", impact)):
+        for name in given.dtype.names or ():
+            for bad in (math.nan, math.inf, -math.inf, 1e40):
+                wrong = given.copy()
+                wrong[name] = bad
+                if (name, bad) in (("glass_transition_pressure", 1e40), ("youngs_modulus", 1e40)):
+                    continue  # as without such a criterion
+                found = law.one(impact, material=wrong) if structure == "material" else law.one(wrong)
+                assert found["status"][0] == law.number(f"BAD_{name.upper()}")
+                assert name in law.message(int(found["status"][0]))
+                assert found["outcome"][0] == law.number("UNDECIDED")
+                assert math.isnan(found["restitution"][0])
+    for rtol in (0.0, math.nan, 1.0):
+        assert law.one(impact, rtol)["status"][0] == law.number("BAD_RTOL")
+
+
+@NEED
+def test_numbers_that_do_not_fit_are_refused(law: Law):
+    """Roughness above the film, a bridge that ruptures within it, and an approach that nothing stops."""
+    impact = law.impacts(speed=1.0, angle=0.5)
+    for changes, status in (
+        ({"roughness": 8e-6}, "ROUGHNESS_BEYOND_FILM"),
+        ({"volume": 1e-6}, "RUPTURE_WITHIN_FILM"),
+        ({"roughness": 0.0, "youngs_modulus": 1e300, "glass_transition_pressure": 1e60}, "NOTHING_STOPS"),
+    ):
+        material = law.material()
+        for name, value in changes.items():
+            material[name] = value
+        assert law.one(impact, material=material)["status"][0] == law.number(status)
+
+
+def test_conditions_are_decided():
+    """What the text defines is decided, nested and by expressions; what the compiler knows is kept."""
+    text = "#define A 2\n#if A > 1 && !defined(B)\n#if LANES > 1\nint lanes;\n#else\nint one;\n#endif\n#elif A\nint no;\n#endif\n"
+    assert Conditions().resolved(text) == "#define A 2\n#if LANES > 1\nint lanes;\n#else\nint one;\n#endif\n"
+    assert Conditions().value("1 ? 2 + 3*4 : 0") == 14
+
+
+def test_items_know_their_names():
+    """Declarations of every kind, with what they define and what they use."""
+    text = """\
+/* Head. */
+
+#define TWICE(x) (x + x)
+/* A. */
+typedef struct { vec a, b; } pair;
+enum { ONE, TWO = ONE + 1 };
+static vec sum(const pair *p, vec twice)
+{
+    vec b = p->a;
+    return TWICE(b) + p->b + twice;
+}
+"""
+    head, found = items("x.h", text)
+    assert head == "/* Head. */"
+    assert [item.defines for item in found] == [("TWICE",), ("pair",), ("ONE", "TWO"), ("sum",)]
+    assert found[1].comment == "/* A. */\n"
+    assert {"TWICE", "pair", "vec"} <= found[3].uses
+    assert not {"a", "b", "p", "twice"} & found[3].uses
