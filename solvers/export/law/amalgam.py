@@ -1,4 +1,4 @@
-"""One C file of several kernels: what they share stands there once, the rest has prefixes, unused parts are left out."""
+"""One C file of several kernels: what they share once, the rest with prefixes, and nothing that is not called."""
 
 from __future__ import annotations
 
