@@ -35,7 +35,8 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
     lines += [
         *_comment(
             "What collides, in SI units. Each number is zero or between "
-            f"{1 / LARGEST:g} and {LARGEST:g} in magnitude, within the range said here; others are refused. "
+            f"{1 / LARGEST:g} and {LARGEST:g} in magnitude (but for limits that are never met), within the range said "
+            "here; others are refused. "
             "law_default_material() has the scene's."
         ),
         *_structure("law_material", of_material),

@@ -48,8 +48,10 @@ class Number:
     @property
     def said(self) -> str:
         """The interval in words, in the unit of the number."""
+        if self.range.low == -math.inf and self.range.high == math.inf:
+            return "any finite number"
         if self.unit != "rad":
-            return self.range.text
+            return self.range.text + (f" ({self.most:g}: never met)" if self.name in _LARGE else "")
         return "from 0 to pi/2" if not self.range.high_open else "at least 0, below pi/2"
 
 
@@ -119,7 +121,7 @@ def results(numbers: Iterable[Number]) -> tuple[Result, ...]:
     }
     found += [Result(100 + k, name, said) for k, (name, said) in enumerate(rules.items())]
     for k, number in enumerate(numbers):
-        unit = "" if number.unit == "1" else f" {number.unit}"
+        unit = "" if number.unit == "1" else f", {number.unit}"
         found.append(Result(200 + k, number.status, f"{number.name} must be {number.said}{unit}"))
     return tuple(found)
 

@@ -122,7 +122,8 @@ def _head(scene: Scene, own: tuple[Kernel, ...]) -> str:
     for kernel in own:
         laws = ", ".join(f"{slot} {law}" for slot, law in kernel.choice.laws)
         lines.append(f"Kernel {kernel.prefix}: structure {kernel.choice.structure}; laws: {laws}.")
-    lines += [f"Equations sha256 {digest}" for digest in digests(kernel.source(ROOTS) for kernel in own)]
+    found = digests(kernel.source(ROOTS) for kernel in own)
+    lines += ["Digests of what is emitted from the derivation:", *(f"  {digest}" for digest in found)]
     inside = "\n".join(f" * {line}".rstrip() for line in lines).replace("*/", "* /")
     return f"/*\n{inside}\n */\n"
 

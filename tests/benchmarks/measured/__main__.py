@@ -61,6 +61,7 @@ def main() -> None:
         "compile_flags": lambda: script("compile_flags", str(folder)),
         "cvodes_share": lambda: script("cvodes_share", str(folder)),
         "stress": lambda: stress(folder, scenes),
+        "law_in_c": lambda: script("law_in_c", str(folder)),
     }
     if folder == USUAL:
         parts["kernel"] = lambda: script("kernel")

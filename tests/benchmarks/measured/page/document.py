@@ -2,8 +2,8 @@
 
     python -m tests.benchmarks.measured.page.document [FOLDER]
 
-FOLDER (docs/engineering/performance) holds bench.json, compile_flags.json, cvodes_share.json and, if it was run,
-stress.json. With the usual folder also the figures on the front page, README.md, between its marks.
+FOLDER (docs/engineering/performance) holds bench.json, compile_flags.json, cvodes_share.json and, if they were run,
+stress.json and law_in_c.json. With the usual folder also the figures on the front page, README.md, between its marks.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from ...law_in_c import section as exported_law
 from ..cold import cold_table
 from . import beside_heyoka, tables
 from .targets import headline, target_table
@@ -24,7 +25,9 @@ RECORDS = ("bench", "compile_flags", "cvodes_share")
 BEGIN, END = "<!-- measured -->", "<!-- end of measured -->"
 
 
-def page(bench: Record, flags: Record, share: Record, stress: Record | None, folder: str) -> str:
+def page(
+    bench: Record, flags: Record, share: Record, stress: Record | None, folder: str, law: Record | None = None
+) -> str:
     """The page."""
     parts = [
         "# Performance",
@@ -47,6 +50,8 @@ def page(bench: Record, flags: Record, share: Record, stress: Record | None, fol
         title, _, body = part.partition("\n\n")
         drawn = [f"![{title[3:]}]({folder}/{name})" for start, name in pictures.items() if title[3:].startswith(start)]
         parts += [title, *drawn, *([body] if body else [])]
+    if law is not None:
+        parts.append(exported_law(law))
     parts += ["## Cold start", cold_table(bench["cold_start"])]
     if stress is not None:
         parts += ["## Engines against each other", STRESS, f"**{stress['summary']}**"]
@@ -128,7 +133,9 @@ def main() -> None:
     records = [json.loads((folder / f"{name}.json").read_text()) for name in RECORDS]
     stress = folder / "stress.json"
     found = json.loads(stress.read_text()) if stress.is_file() else None
-    folder.with_suffix(".md").write_text(page(*records, found, folder.name), encoding="utf-8")
+    law = folder / "law_in_c.json"
+    exported = json.loads(law.read_text()) if law.is_file() else None
+    folder.with_suffix(".md").write_text(page(*records, found, folder.name, exported), encoding="utf-8")
     if folder.resolve() == README.parent / "docs" / "engineering" / "performance":
         README.write_text(fronted(README.read_text(encoding="utf-8"), records[0]), encoding="utf-8")
 

@@ -1,0 +1,209 @@
+"""The exported law beside our kernel: speed of single calls and of batches, and agreement on 10,000 random pairs.
+
+    python -m tests.benchmarks.law_in_c [FOLDER]     measures, prints, writes law_in_c.json
+    python -m tests.benchmarks.law_in_c --print      only prints
+
+FOLDER is docs/engineering/performance. The law is compiled with its Makefile's flags; single calls are made from a loop
+in C. All take turns in one process, CPU time, the best of several rounds. Agreement is measured twice: without
+contraction, where both are the same arithmetic, and as each is compiled by default.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.engines.taylor.build import kernel
+from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, run_kernel
+from wetdoublet.solvers.engines.taylor.layout import ANSWER
+from wetdoublet.solvers.export.law.kernels import kernels
+from wetdoublet.solvers.host.environment import environment
+from wetdoublet.solvers.settings import STEPS
+
+from ..helpers.exported_law import Law, written
+from .kernel import table
+
+FOLDER = Path(__file__).resolve().parents[2] / "docs" / "engineering" / "performance"
+PRESETS = ("granulation", "pendulum", "granulation-dry-bridge", "lactose-pvp")
+RTOL, ROUNDS, TIMED, COMPARED = 1e-9, 7, 2000, 10_000
+FLAGS = ("-O2", "-march=native", "-fno-math-errno", "-ffp-contract=fast", "-funroll-loops")  # of the Makefile
+BESIDE = 1e-9  # relative change of the speed within which outcomes may differ
+LOOP = """
+#include "{name}.h"
+void one_by_one(const {name}_material *m, const {name}_impact *impacts, long count, {name}_collision *found)
+{{
+    for (long k = 0; k < count; k++)
+        {name}_collide(m, impacts + k, 1e-9, found + k);
+}}
+"""
+
+
+def impacts(law: Law, scene: Scene, count: int, spinning: bool) -> np.ndarray:
+    """Random impacts of a scene: speeds over three decades about the Stokes number 0.1, angles to 85 degrees."""
+    draw = np.random.default_rng(5)
+    speed = 10 ** draw.uniform(-2.5, 1.0, count) / scene.stokes_per_speed
+    spins = draw.normal(size=(2, count)) * speed / (2 * scene.reduced_radius) if spinning else np.zeros((2, count))
+    return law.impacts(speed=speed, angle=draw.uniform(0.02, 1.48, count), spin=spins[0], partner_spin=spins[1])
+
+
+def best(calls: dict[str, Callable[[], object]], count: int) -> dict[str, float]:
+    """Microseconds of each, taking turns."""
+    least = dict.fromkeys(calls, float("inf"))
+    for _ in range(ROUNDS):
+        for name, call in calls.items():
+            start = time.process_time()
+            call()
+            least[name] = min(least[name], time.process_time() - start)
+    return {name: seconds / count * 1e6 for name, seconds in least.items()}
+
+
+def same_kernel(scene: Scene, rows: np.ndarray) -> Callable[[], np.ndarray]:
+    """Our kernel of the law's own variant, in a plane."""
+    own = kernels(scene, RTOL)[-1]
+    library = kernel(own.variant)
+    assert library is not None
+    others = {"impact_spin": rows["spin"].copy(), "impact_partner_spin": rows["partner_spin"].copy()}
+    given, run = (
+        Impacts(own.scene, rows["speed"].copy(), rows["angle"].copy(), others),
+        bind_kernel(library, RTOL, STEPS),
+    )
+
+    def call() -> np.ndarray:
+        found = np.zeros(rows.size, ANSWER)
+        run(given, found)
+        return found
+
+    return call
+
+
+def speed(scene: Scene, law: Law, loops: dict[str, ctypes.CDLL], spinning: bool) -> dict[str, float]:
+    """Microseconds a collision, each way."""
+    rows, found, material = (
+        impacts(law, scene, TIMED, spinning),
+        np.zeros(TIMED, law.dtype("collision")),
+        law.material(),
+    )
+    given = [ctypes.c_void_p(each.ctypes.data) for each in (material, rows)]
+    calls: dict[str, Callable[[], object]] = {
+        name: partial(loop.one_by_one, *given, ctypes.c_long(TIMED), ctypes.c_void_p(found.ctypes.data))
+        for name, loop in loops.items()
+    }
+    calls |= {
+        "batch": lambda: law.collide(rows),
+        "kernel": same_kernel(scene, rows),
+    }
+    if not spinning:
+        plain = Impacts(scene, rows["speed"].copy(), rows["angle"].copy(), {})
+        calls["for maps"] = lambda: run_kernel(plain, RTOL, jumps=2)
+    return best(calls, TIMED)
+
+
+def differences(scene: Scene, law: Law) -> dict[str, float]:
+    """The largest relative difference of e_n from our kernel, and outcomes that differ far from any boundary."""
+    rows = impacts(law, scene, COMPARED, scene.pendulum is None and not scene.wall)
+    found, answers = law.collide(rows), same_kernel(scene, rows)()
+    decided = (found["status"] == 0) & (answers["status"] <= 1)
+    differs = np.flatnonzero(decided & (found["outcome"] != answers["outcome"]))
+    beside = 0
+    for k in differs:
+        near = np.repeat(rows[k : k + 1], 2)
+        near["speed"] *= [1 - BESIDE, 1 + BESIDE]
+        beside += len({*law.collide(near)["outcome"].tolist(), int(found["outcome"][k])}) > 1
+    both = decided & (found["outcome"] == answers["outcome"]) & (found["outcome"] > 0)
+    one, other = found["restitution"][both], answers["shown"][both, 0]
+    return {
+        "e_n": float(np.max(np.abs(one - other) / np.abs(other), initial=0.0)),
+        "undecided": int(np.count_nonzero(found["status"])),
+        "outcomes": len(differs),
+        "beside": int(beside),
+    }
+
+
+def measured(preset: str, folder: Path) -> dict[str, Any]:
+    """The row of a preset."""
+    scene = Scene.load(preset)
+    written(scene, folder)
+    law = Law(scene, folder, *FLAGS)
+    (folder / "loop.c").write_text(LOOP.format(name=law.name))
+    loops = {}
+    for name, more in (("single", ()), ("single, in one lane", (f"-D{law.name.upper()}_LANES=1",))):
+        command = ["gcc", "-std=c99", *FLAGS, *more, "-fPIC", "-shared", "-o", f"{len(more)}.so", "loop.c"]
+        subprocess.run([*command, f"{law.name}.c", "-lm"], cwd=folder, check=True)
+        loops[name] = ctypes.CDLL(str(folder / f"{len(more)}.so"))
+    row: dict[str, Any] = {"preset": preset, "plain": speed(scene, law, loops, spinning=False)}
+    if scene.pendulum is None and not scene.wall:
+        row["spinning"] = speed(scene, law, loops, spinning=True)
+    row["as compiled"] = differences(scene, law)
+    os.environ["WETDOUBLET_CFLAGS"] = "-ffp-contract=off"
+    kernel.cache_clear()
+    row["without contraction"] = differences(scene, Law(scene, folder, *FLAGS, "-ffp-contract=off"))
+    del os.environ["WETDOUBLET_CFLAGS"]
+    kernel.cache_clear()
+    return row
+
+
+def section(record: dict[str, Any]) -> str:
+    """The part of the page."""
+    columns = {
+        "single": "single call",
+        "single, in one lane": "with `-DLAW_LANES=1`",
+        "batch": "batch",
+        "kernel": "our kernel, same variant",
+        "for maps": "for maps",
+    }
+    speeds, pairs = [], []
+    for row in record["rows"]:
+        for kind in ("plain", "spinning"):
+            if kind in row:
+                name = row["preset"] + (", spinning" if kind == "spinning" else "")
+                cells = {title: row[kind].get(one, "-") for one, title in columns.items()}
+                speeds.append({"CPU us a collision": name, **cells})
+        plain, usual = row["without contraction"], row["as compiled"]
+        pairs.append(
+            {
+                "random pairs": row["preset"],
+                "e_n apart, without contraction": plain["e_n"],
+                "as compiled": usual["e_n"],
+                "other outcomes": f"{plain['outcomes']} and {usual['outcomes']}",
+                "of these beside a boundary": f"{plain['beside']} and {usual['beside']}",
+            }
+        )
+    said = (
+        f"`python -m tests.benchmarks.law_in_c`: `export --to c` with the flags of its Makefile, rtol {record['rtol']:g}; random "
+        "impacts over three decades of the speed. The law has a spin for each sphere, rotation and times. The kernel for "
+        "maps has none of these, and jumps along the slow manifold. A single call fills one lane, and is faster where there is only one."
+    )
+    agreed = (
+        f"{COMPARED} pairs each, relative to our kernel of the same variant. Beside a boundary: the outcome changes "
+        f"within {BESIDE:g} of the speed."
+    )
+    return "\n\n".join(["## The exported law", table(speeds), said, table(pairs), agreed])
+
+
+def main() -> None:
+    """Measure all presets."""
+    asked = [each for each in sys.argv[1:] if each != "--print"]
+    rows = []
+    for preset in PRESETS:
+        with tempfile.TemporaryDirectory() as folder:
+            rows.append(measured(preset, Path(folder)))
+    record = {"environment": environment(), "rtol": RTOL, "rows": rows}
+    sys.stdout.write(section(record) + "\n")
+    if "--print" not in sys.argv:
+        target = Path(asked[0]) if asked else FOLDER
+        (target / "law_in_c.json").write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
