@@ -26,7 +26,16 @@ ORDER = (
 )  # fmt: skip
 
 
-MADE_ELSEWHERE = {"mine.py", "MODEL.py", "NAME.py", "model.py", "model.h", "settings.h", "layout.h"}  # by users, builds
+MADE_ELSEWHERE = {
+    "mine.py",
+    "MODEL.py",
+    "NAME.py",
+    "model.py",
+    "model.h",
+    "settings.h",
+    "layout.h",
+    "granulation.h",
+}  # by users, builds
 
 
 @cache
