@@ -182,8 +182,8 @@ def section(record: dict[str, Any]) -> str:
     said = (
         f"`python -m tests.benchmarks.law_in_c`: `export --to c` with the flags of its Makefile, rtol "
         f"{record['rtol']:g}; random impacts over three decades of the speed. The law has a spin for each sphere, "
-        "rotation and times. The kernel for maps has none of these, and jumps along the slow manifold. A single call fills one "
-        "lane, and is faster where there is only one."
+        "rotation and times. The kernel for maps has none of these, and jumps along the slow manifold. A single call "
+        "fills one lane, and is faster where there is only one."
     )
     agreed = (
         f"{COMPARED} pairs each, relative to our kernel of the same variant. Beside a boundary: the outcome changes "

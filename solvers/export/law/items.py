@@ -51,7 +51,7 @@ def own_names(item: Item) -> set[str]:
     """Names that an item declares for itself: parameters and variables of a function, members of a structure."""
     if item.kind == "function":
         return _locals(plain(item.code))
-    found = re.match(r"[^{]*struct[^{]*\{(.*)\}", plain(item.code), re.DOTALL)
+    found = re.match(r"[^{]*struct[^{]*\{(.*?)\}", plain(item.code), re.DOTALL)
     return set(re.findall(r"(\w+)\s*(?:\[[^;]*?\]\s*)*[,;]", found[1])) if found else set()
 
 

@@ -45,8 +45,8 @@ class Kernel:
         """Texts of its files that are not in the runtime's folder, by name."""
         emitted = headers(self.choice)
         if emitted is None:
-            accepted = "laws whose recurrences are known (docs/reference/models.md)"
-            raise InputError("--to", "c", accepted, "needs a law that has no recurrence")
+            accepted = "a model that has one: laws with recurrences, and few events (docs/reference/models.md)"
+            raise InputError("--to", "c", accepted, "cannot be written for this model, which has no Taylor kernel")
         made = files(self.variant, emitted)
         # how many lanes there are is decided by the compiler, and numpy has no part in it
         made["settings.h"] = re.sub(r"^#define LANES .*\n", "", made["settings.h"], flags=re.MULTILINE)

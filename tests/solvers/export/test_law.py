@@ -202,3 +202,7 @@ static vec sum(const pair *p, vec twice)
     assert found[1].comment == "/* A. */\n"
     assert {"TWICE", "pair", "vec"} <= found[3].uses
     assert not {"a", "b", "p", "twice"} & found[3].uses
+    _, [rows] = items("y.h", "static const struct { int event, mark; } OWN[] = {\n    {1, MARK},\n};\n")
+    assert rows.defines == ("OWN",)
+    assert "MARK" in rows.uses
+    assert "mark" not in rows.uses
