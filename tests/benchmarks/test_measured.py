@@ -100,7 +100,8 @@ def test_the_page_is_that_of_its_records() -> None:
     folder = document.README.parent / "docs" / "engineering" / "performance"
     records = [json.loads((folder / f"{name}.json").read_text()) for name in document.RECORDS]
     stress = json.loads((folder / "stress.json").read_text())
-    assert document.page(*records, stress, folder.name) == folder.with_suffix(".md").read_text()
+    law = json.loads((folder / "law_in_c.json").read_text())
+    assert document.page(*records, stress, folder.name, law) == folder.with_suffix(".md").read_text()
     front = document.README.read_text()
     assert document.fronted(front, records[0]) == front
 

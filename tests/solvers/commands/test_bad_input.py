@@ -128,7 +128,7 @@ BAD = [
     ("map granulation --stokes 0.1:0.2:1000000000", "--stokes", "has too many values", "N at most 10000000"),
     ("sensitivity granulation --uncertainty liquid.viscosity=5", "--uncertainty of liquid.viscosity", "no unit", "5 %"),
     ("scenes granulation-dry", "scene", "did you mean granulation-dry-bridge?", "granulation, pendulum"),
-    ("export granulation --to foo", "--to", '"foo"', "c, latex"),
+    ("export granulation --to foo", "--to", '"foo"', "c, casadi, latex"),
     (
         "collide granulation --set particles.reduced_radius=1e-200m",
         "particles.reduced_radius",
