@@ -44,16 +44,19 @@ static void act(queue *q, lanes *l, fixed *f, int lane, int event)
         LANE(l->y[NORMAL_VELOCITY], lane) = RELEASE_SPEED;
         opens(l, f, lane);
         break;
+    #if RUBS
     case AT_SLIPPING:
-        note(q, LANE(l->index, lane), KIND_ROLLS, LANE(l->time, lane));
+        note(q, LANE(l->index, lane), grips(l, f, lane), LANE(l->time, lane));
         new_phase(l, lane);
-        finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);
         break;
+    #endif
+    #if RUBS
     case AT_ROLLING:
         note(q, LANE(l->index, lane), KIND_SLIDES, LANE(l->time, lane));
         new_phase(l, lane);
-        finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);
+        slides(l, f, lane);
         break;
+    #endif
     case AT_HALF_TURN:
         note(q, LANE(l->index, lane), KIND_HALF_TURN, LANE(l->time, lane));
         finish(q, l, f, lane, DECIDED, STICK, 0);

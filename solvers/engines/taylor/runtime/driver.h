@@ -29,6 +29,10 @@ static void run(queue *q)
     memset(&d, 0, sizeof d);
     memset(&t, 0, sizeof t);
 #endif
+#if RUBS
+    rubbing r;
+    memset(&r, 0, sizeof r);
+#endif
     memset(&l, 0, sizeof l);
     memset(&s, 0, sizeof s);
     memset(&f, 0, sizeof f);
@@ -75,7 +79,7 @@ static void run(queue *q)
             finish(q, &l, &f, first_of(held), DECIDED, STICK, 0);
 #endif
         criteria_met(q, &l, &f);
-#if FRICTION && TURNS
+#if FRICTION && TURNS && !RUBS
         if (rests_ended(q, &l, &f)) /* other collisions may have taken these lanes */
             continue;
 #endif
@@ -97,6 +101,10 @@ static void run(queue *q)
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
         expand(&s, &f.c, acting(&l), l.shear, NOT(l.resting));
+#if RUBS
+        if (bits(l.alive & l.resting))
+            expand_rubbing(&r, &s, &f.c, &l);
+#endif
         mask creeps;
 #if GRADIENTS && !BACKWARD
         if (q->asked)
@@ -113,6 +121,10 @@ static void run(queue *q)
 #endif
         if (bits(creeps))
             damp(a, creeps);
+#if RUBS
+        if (bits(creeps & l.alive & l.resting))
+            expand_damped(&r, &s, &f.c, &l);
+#endif
         if (bits(l.alive & l.closing))
             expand_glass(&s, &f.c);
 #if WITH_TRAJECTORY
@@ -123,6 +135,10 @@ static void run(queue *q)
 #endif
         first_event found;
         find_events(&s, &l, &f, h, &found);
+#if RUBS
+        if (bits(l.alive & l.resting))
+            find_rubbing_events(&r, &l, h, &found);
+#endif
         mask falls = l.alive & (found.time <= 1.0);
         h = choose(falls, h*found.time, h);
 #if GRADIENTS

@@ -116,6 +116,9 @@ static void begin(queue *q, lanes *l, fixed *f, int lane, long row)
     LANE(l->shear, lane) = LANE(f->edge, lane) >= 1.0;
     LANE(l->alive, lane) = LANE(l->closing, lane) = LANE(l->fresh, lane) = TRUTH;
     LANE(l->resting, lane) = 0;
+#if RUBS
+    LANE(l->sliding, lane) = LANE(l->rolling, lane) = 0.0;
+#endif
     LANE(l->steps, lane) = LANE(l->phases, lane) = LANE(l->crept, lane) = 0;
     LANE(l->reversal, lane) = -1;
 #if BACKWARD

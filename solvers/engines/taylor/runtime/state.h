@@ -65,6 +65,9 @@ typedef struct {
     vec y[STATES];
     vec time, smallest, film, shear;
     vec stride; /* the last step */
+#if RUBS
+    vec sliding, rolling; /* at rest: the sign of the slip, or 0; 1 without slip, else 0 */
+#endif
     mask alive, closing, resting, fresh;
     mask index, steps, phases, reversal, crept; /* crept: consecutive steps that required the damped sum */
 #if GRADIENTS
