@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 835c8efa0f6b310100f1672485815d2f3ec0a386a4dd955cbfc1e69cf5f8f5f9
+ * Automaton sha256 647ddb50979651f768e2a8678b2bbfb7e8446bd1bf8c7136eadcda68af1b8b31
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

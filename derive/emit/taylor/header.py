@@ -16,7 +16,7 @@ from ...physics.laws.base import is_slot_call
 from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
 from ..text import needed
 from .c_text import Constants, Recurrences
-from .certificates import approach_functions, attraction_functions, pendulum_functions, spin_down_functions
+from .certificates import approach_functions, attraction_functions, pendulum_functions, spin_down_functions, transfer_functions
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
 from .groups_from_si import scale_function
 from .layout import comment, function
@@ -405,6 +405,8 @@ class Header:
             lines += pendulum_functions(model, self.constants, prepared)
         if any(each.name == "attraction_margins" for each in model.functions):
             lines += attraction_functions(model, self.constants, prepared)
+        if any(each.name == "orbital_margins" for each in model.functions):
+            lines += transfer_functions(model, self.constants, prepared)
         if any(each.name == "spin_down_margins" for each in model.functions):
             lines += spin_down_functions(model, self.constants, prepared)
         if self.beside.events:

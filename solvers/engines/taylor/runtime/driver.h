@@ -5,6 +5,7 @@
 #pragma once
 
 #include "certificates.h"
+#include "chatter.h"
 #include "damped_sum.h"
 #include "effects.h"
 #include "events.h"
@@ -73,6 +74,14 @@ static void run(queue *q)
 #endif
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             finish(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
+#if CHATTER_TESTS
+        mask stays = held_in_chatter(&l, &f, q->rtol);
+#if WITH_TRAJECTORY
+        stays &= provable(q, l.closing);
+#endif
+        for (unsigned held = bits(stays); held; held &= held - 1)
+            finish(q, &l, &f, first_of(held), DECIDED, STICK, CHATTER_PROVES);
+#endif
 #if SPACE && PROOF_BY_ENERGY
         mask late = l.alive & ((l.steps & (INTERVAL - 1)) == INTERVAL - 1);
         for (unsigned held = bits(late) ? bits(late & tumbles(&f.c, l.y, &f.b, q->rtol)) : 0; held; held &= held - 1)

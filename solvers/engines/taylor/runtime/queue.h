@@ -116,6 +116,10 @@ static void begin(queue *q, lanes *l, fixed *f, int lane, long row)
     LANE(l->shear, lane) = LANE(f->edge, lane) >= 1.0;
     LANE(l->alive, lane) = LANE(l->closing, lane) = LANE(l->fresh, lane) = TRUTH;
     LANE(l->resting, lane) = 0;
+#if CHATTER_TESTS
+    LANE(l->top, lane) = LANE(l->swing, lane) = 0.0;
+    LANE(l->cycles, lane) = 0;
+#endif
 #if RUBS
     LANE(l->sliding, lane) = LANE(l->rolling, lane) = 0.0;
 #endif

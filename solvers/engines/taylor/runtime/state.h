@@ -65,6 +65,10 @@ typedef struct {
     vec y[STATES];
     vec time, smallest, film, shear;
     vec stride; /* the last step */
+#if CHATTER_TESTS
+    vec top, swing; /* gap and size of the orbital momentum at the last maximum of the gap */
+    mask cycles;    /* successive maxima that did not grow (chatter.h) */
+#endif
 #if RUBS
     vec sliding, rolling; /* at rest: the sign of the slip, or 0; 1 without slip, else 0 */
 #endif
