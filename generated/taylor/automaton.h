@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 647ddb50979651f768e2a8678b2bbfb7e8446bd1bf8c7136eadcda68af1b8b31 */
+ * Automaton sha256 6c8a4632e33fe9268e9440c67f6b559d920d4f1c21e700b93e89edf6de0e4354 */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H
@@ -52,7 +52,8 @@ enum {
     NOT_FINITE, /* the state is not finite */
     CHATTER, /* the budget of steps is exhausted after more than CHATTER_PHASES phases */
     TOO_OBLIQUE, /* the centrifugal force is beyond MOST_OBLIQUE */
-    RESTS_IN_FRICTION, /* resting contact with friction, whose modes the kernel does not integrate */
+    RESTS_IN_FRICTION, /* resting contact with friction, whose modes this kernel does not integrate */
+    ESCAPED, /* a stick that is proved separates when it is followed on: a defect */
 };
 enum { LAST_ANSWER = PROVED_AT_TOUCH };
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 647ddb50979651f768e2a8678b2bbfb7e8446bd1bf8c7136eadcda68af1b8b31
+ * Automaton sha256 6c8a4632e33fe9268e9440c67f6b559d920d4f1c21e700b93e89edf6de0e4354
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

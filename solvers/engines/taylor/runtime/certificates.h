@@ -194,8 +194,10 @@ static inline mask spun_down(const constants *c, const vec *y, mask asked, doubl
 #endif
 
 /* Whether chatter is ended by a test at maxima of the gap (chatter.h). */
-#if SPACE
-#define CHATTER_TESTS ((!BRIDGE || defined(BRIDGE_FORCE_FALLS)) && (!ATTRACTION || defined(ATTRACTION_FORCE_FALLS)) && ATTRACTS)
+#if SPACE && ((BRIDGE && !defined(BRIDGE_FORCE_FALLS)) || (ATTRACTION && !defined(ATTRACTION_FORCE_FALLS)))
+#define CHATTER_TESTS 0
+#elif SPACE
+#define CHATTER_TESTS ATTRACTS
 #else
 #define CHATTER_TESTS (TURNS && ATTRACTS && !OWN_EVENTS && (ORBITAL_MARGINS || !STRINGS))
 #endif

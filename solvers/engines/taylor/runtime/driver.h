@@ -73,19 +73,19 @@ static void run(queue *q)
         sticks &= provable(q, l.closing);
 #endif
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
-            finish(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
+            sticks_for_good(q, &l, &f, first_of(proved), 1);
 #if CHATTER_TESTS
         mask stays = held_in_chatter(&l, &f, q->rtol);
 #if WITH_TRAJECTORY
         stays &= provable(q, l.closing);
 #endif
         for (unsigned held = bits(stays); held; held &= held - 1)
-            finish(q, &l, &f, first_of(held), DECIDED, STICK, CHATTER_PROVES);
+            sticks_for_good(q, &l, &f, first_of(held), CHATTER_PROVES);
 #endif
 #if SPACE && PROOF_BY_ENERGY
         mask late = l.alive & ((l.steps & (INTERVAL - 1)) == INTERVAL - 1);
         for (unsigned held = bits(late) ? bits(late & tumbles(&f.c, l.y, &f.b, q->rtol)) : 0; held; held &= held - 1)
-            finish(q, &l, &f, first_of(held), DECIDED, STICK, 0);
+            sticks_for_good(q, &l, &f, first_of(held), 0);
 #endif
         criteria_met(q, &l, &f);
 #if FRICTION && TURNS && !RUBS
@@ -150,6 +150,10 @@ static void run(queue *q)
 #endif
         mask falls = l.alive & (found.time <= 1.0);
         h = choose(falls, h*found.time, h);
+#if WITH_LIMIT
+        if (reached(q, &l, &f, a, h))
+            break;
+#endif
 #if GRADIENTS
         measure(&l, &f, &s, h, falls, found.event);
 #endif

@@ -219,7 +219,7 @@ static void find_events(const series *s, const lanes *l, const fixed *f, vec h, 
         look(found, close, s->gap, f->edge, away, h, splat_mask(AT_TANGENTIAL_EDGE));
 #endif
     close = l->alive & l->resting;
-    if (bits(close)) {
+    if (OBLIQUE && !WALL && bits(close)) { /* beside a wall and head-on the forces at rest stay as they are */
         close &= NOT(-s->acceleration[0] > reach(s->acceleration, h));
         if (bits(close))
             look(found, close, s->acceleration, zero, -one, h, splat_mask(AT_RELEASE));

@@ -226,6 +226,18 @@ OUTLINE void crawl(queue *q)
     vec least_step = WORTH*l.stride, h = 4.0*least_step;
     for (int count = 0; count < TRIES && bits(busy); count++) {
         mask sticks = proved_underway(&l, &f, q->rtol) | held_sticks(&f.c, l.y, busy, q->rtol);
+#if WITH_LIMIT
+        if (bits(busy & sticks) && goes_on_stuck(q, 1))
+            sticks = splat_mask(0);
+        if (q->contact) {
+            vec left = splat(q->contact->limit) - l.time;
+            h = vec_min(h, left);
+            if (!(LANE(left, 0) > LANE(least_step, 0))) { /* its time lies within a series step */
+                LANE(l.crept, 0) = -10*PATIENCE;
+                break;
+            }
+        }
+#endif
         for (unsigned proved = bits(busy & sticks); proved; proved &= proved - 1)
             settle(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
         busy &= NOT(sticks);

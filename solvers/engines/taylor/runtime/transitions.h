@@ -92,7 +92,9 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
     double left = LANE(l->y[NORMAL_VELOCITY], lane), inward = in_lane(inward_force(&f->c, l->y), lane);
     double allowed = q->rtol*LANE(l->y[GAP], lane);
     if (!TURNS && left == 0.0 && inward == 0.0) { /* equilibrium */
-        finish(q, l, f, lane, DECIDED, STICK, 1);
+        LANE(l->resting, lane) = TRUTH;
+        LANE(l->closing, lane) = 0;
+        sticks_for_good(q, l, f, lane, 1);
         return;
     }
     if (inward > 0.0 && (left < REST_SPEED || left*left/(2.0*inward) < allowed)) {
@@ -111,7 +113,7 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
             note(q, LANE(l->index, lane), KIND_ROLLS, LANE(l->time, lane));
 #endif
         if (!TURNS || (PROOF_BY_ENERGY && !FRICTION && LANE(l->shear, lane) == 0.0)) /* the forces no longer change */
-            finish(q, l, f, lane, DECIDED, STICK, 1);
+            sticks_for_good(q, l, f, lane, 1);
     } else
         opens(l, f, lane);
 }
