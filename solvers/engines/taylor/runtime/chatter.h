@@ -1,7 +1,7 @@
 /* Chatter: a doublet that rebounds again and again, and what shows at a maximum of the gap that it stays.
  *
- * Equal spheres with the library's laws: the orbital-momentum certificate (solvers/certificates/orbital_momentum.py), in
- * long chatter; on strings for cycles whose maxima do not grow. Others without strings: such cycles, confined by an
+ * Equal spheres with the library's laws: the orbital-momentum certificate (solvers/certificates/orbital_momentum.py); on
+ * strings for cycles whose maxima do not grow. Others without strings: such cycles, confined by an
  * attraction (solvers/certificates/chatter.py). In space: rebounds that take more than the rotation gives
  * (solvers/certificates/rebounds.py).
  */
@@ -171,8 +171,8 @@ static mask held_in_chatter(lanes *l, const fixed *f, double tolerance)
 #endif
     l->top = choose(tops, l->y[GAP], l->top);
 #if ORBITAL_MARGINS && !STRINGS
-    mask next = l->cycles + 1; /* the maxima may grow */
-    mask asked = tops & (l->phases > splat_mask(CHATTER_PHASES)) & ((next & 15) == splat_mask(15));
+    mask next = l->cycles + 1; /* they may grow; asked at the first, second, fourth, ... */
+    mask asked = tops & ((next & (next - 1)) == splat_mask(0));
     (void)grows;
 #else
     mask next = only_whole(NOT(grows), l->cycles + 1);

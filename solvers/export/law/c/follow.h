@@ -18,12 +18,12 @@ static void follow(law_contact *c, double t)
     double unit = 0.0;
     block b;
     law_collision shown;
-    const double second = c->impact.speed/c->material.film_thickness; /* in the kernel's units of time */
+    const double unit_of_time = c->material.film_thickness/c->impact.speed;
     memcpy(&h, c->memory, sizeof h);
     b.count = 0;
     add_impact(&b, &c->impact, 0);
     set_columns(columns, &c->material, &b);
-    h.limit = t*second;
+    h.limit = t/unit_of_time;
     integrate(columns, 1, c->rtol, answers, &h);
     memcpy(c->memory, &h, sizeof h);
     c->status = answers[0].status;
@@ -37,10 +37,10 @@ static void follow(law_contact *c, double t)
     c->motion = !h.over ? h.resting ? LAW_RESTING : h.closing ? LAW_CLOSING : LAW_OPENING
                 : answers[0].outcome == STICK ? LAW_CUT_OFF : LAW_APART;
     c->outcome = h.over ? answers[0].outcome : h.stuck ? LAW_STICK : LAW_UNDECIDED;
-    c->certified = h.over ? answers[0].certified : h.certified;
+    c->certified = h.certified; /* only of a stick */
     c->rebound = h.now.reversal;
     c->wet = h.film;
-    c->time = h.over ? h.now.time/second : t;
+    c->time = h.over ? h.now.time*unit_of_time : t;
     c->gap = h.now.final_gap*c->material.film_thickness;
     c->smallest_gap = h.now.smallest_gap*c->material.film_thickness;
 #if OBLIQUE
