@@ -16,7 +16,13 @@ from ...physics.laws.base import is_slot_call
 from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
 from ..text import needed
 from .c_text import Constants, Recurrences
-from .certificates import approach_functions, attraction_functions, pendulum_functions, spin_down_functions, transfer_functions
+from .certificates import (
+    approach_functions,
+    attraction_functions,
+    pendulum_functions,
+    spin_down_functions,
+    transfer_functions,
+)
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
 from .groups_from_si import scale_function
 from .layout import comment, function
@@ -110,9 +116,7 @@ class Header:
         kept, _ = needed(wanted, self.model.definitions)
         for symbol, expression in kept:
             program.define(symbol, expression)
-        found = {
-            key: self._of(program, expression, f"rate_of_{key}") for key, expression in (*rates, *more, *turned)
-        }
+        found = {key: self._of(program, expression, f"rate_of_{key}") for key, expression in (*rates, *more, *turned)}
         return Resting(self.model, program, self.constants, found, found, found[turned[0][0]] if turns else None)
 
     # ---- the complete header
