@@ -58,8 +58,8 @@ def contact_header() -> list[str]:
         "int law_begin(const law_material *material, const law_impact *impact, double rtol, law_contact *contact);",
         "",
         *_comment(
-            "Follows a contact to the time t, s since initial contact, not before contact->time. Where it ends earlier, "
-            "contact->time is when. The pieces are the steps of law_collide: where the host interrupts makes no "
+            "Follows a contact to the time t, s since initial contact, not before contact->time. Where it ends "
+            "earlier, contact->time is when. The steps are those of law_collide: where the host interrupts makes no "
             "difference beyond the tolerance. Returns contact->status, or LAW_BAD_TIME and nothing changes."
         ),
         "int law_advance(law_contact *contact, double t);",
