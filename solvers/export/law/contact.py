@@ -11,7 +11,7 @@ _MOTIONS = (
     ("RESTING", "the gap is held in solid contact; the rotation goes on"),
     ("APART", "separated: this is the state at separation, and the contact is over"),
     ("CUT_OFF", "over as the strings' experiment ends: half a turn, or the rotation reverses"),
-    ("LOST", "there is no answer; `status` says why"),
+    ("LOST", "it cannot be followed further; `status` says why. What is said of a stick stays true"),
 )
 _FIELDS = (
     ("int", "status", "LAW_OK, or why there is no answer"),

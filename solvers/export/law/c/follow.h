@@ -29,8 +29,8 @@ static void follow(law_contact *c, double t)
     c->status = answers[0].status;
     if (c->status > LAST_ANSWER || !h.begun) {
         c->motion = LAW_LOST;
-        c->outcome = LAW_UNDECIDED;
-        c->certified = 0;
+        c->outcome = h.stuck ? LAW_STICK : LAW_UNDECIDED;
+        c->certified = h.certified;
         return;
     }
     c->status = LAW_OK;
