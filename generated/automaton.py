@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 835c8efa0f6b310100f1672485815d2f3ec0a386a4dd955cbfc1e69cf5f8f5f9
+# Automaton sha256 6c8a4632e33fe9268e9440c67f6b559d920d4f1c21e700b93e89edf6de0e4354
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -99,7 +99,8 @@ class Status(IntEnum):
     NOT_FINITE = 3  # the state is not finite
     CHATTER = 4  # the budget of steps is exhausted after more than CHATTER_PHASES phases
     TOO_OBLIQUE = 5  # the centrifugal force is beyond MOST_OBLIQUE
-    RESTS_IN_FRICTION = 6  # resting contact with friction, whose modes the kernel does not integrate
+    RESTS_IN_FRICTION = 6  # resting contact with friction, whose modes this kernel does not integrate
+    ESCAPED = 7  # a stick that is proved separates when it is followed on: a defect
 
 
 LAST_ANSWER = Status.PROVED_AT_TOUCH
@@ -121,6 +122,7 @@ SAFETY = 30.0  # least margin of a certificate in tolerances of the largest ener
 STILL = 1e-09  # in v0: a slower motion is at a turning point
 NO_SLIP = 1e-12  # in units of the tangential velocity: a smaller slip in resting contact is none
 CHATTER_PHASES = 100  # number of phases beyond which a trajectory is treated as chatter
+CYCLES = 20  # successive maxima of the gap, none above the one before, that count as chatter
 FILM_DEPTHS = 16  # gaps in geometric sequence down to contact at which the film certificate bounds the pressure
 ATTRACTED_FILM_DEPTHS = 48  # the same with an attraction, which grows at small gaps
 APPROACH_PARTS = 24  # parts of the film, in geometric sequence, of the approach certificate

@@ -275,7 +275,8 @@ STATUSES = (
     Status("NOT_FINITE", "the state is not finite"),
     Status("CHATTER", "the budget of steps is exhausted after more than CHATTER_PHASES phases"),
     Status("TOO_OBLIQUE", "the centrifugal force is beyond MOST_OBLIQUE"),
-    Status("RESTS_IN_FRICTION", "resting contact with friction, whose modes the kernel does not integrate"),
+    Status("RESTS_IN_FRICTION", "resting contact with friction, whose modes this kernel does not integrate"),
+    Status("ESCAPED", "a stick that is proved separates when it is followed on: a defect"),
 )  # fmt: skip
 
 
@@ -314,6 +315,7 @@ CONSTANTS = (
     Constant("STILL", 1e-9, "in v0: a slower motion is at a turning point"),
     Constant("NO_SLIP", 1e-12, "in units of the tangential velocity: a smaller slip in resting contact is none"),
     Constant("CHATTER_PHASES", 100, "number of phases beyond which a trajectory is treated as chatter"),
+    Constant("CYCLES", 20, "successive maxima of the gap, none above the one before, that count as chatter"),
     Constant("FILM_DEPTHS", 16, "gaps in geometric sequence down to contact at which the film certificate bounds the "
              "pressure"),
     Constant("ATTRACTED_FILM_DEPTHS", 48, "the same with an attraction, which grows at small gaps"),

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 835c8efa0f6b310100f1672485815d2f3ec0a386a4dd955cbfc1e69cf5f8f5f9
+ * Automaton sha256 6c8a4632e33fe9268e9440c67f6b559d920d4f1c21e700b93e89edf6de0e4354
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

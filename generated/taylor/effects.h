@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 835c8efa0f6b310100f1672485815d2f3ec0a386a4dd955cbfc1e69cf5f8f5f9
+ * Automaton sha256 6c8a4632e33fe9268e9440c67f6b559d920d4f1c21e700b93e89edf6de0e4354
  *
  * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
  * known. */
@@ -44,16 +44,19 @@ static void act(queue *q, lanes *l, fixed *f, int lane, int event)
         LANE(l->y[NORMAL_VELOCITY], lane) = RELEASE_SPEED;
         opens(l, f, lane);
         break;
+    #if RUBS
     case AT_SLIPPING:
-        note(q, LANE(l->index, lane), KIND_ROLLS, LANE(l->time, lane));
+        note(q, LANE(l->index, lane), grips(l, f, lane), LANE(l->time, lane));
         new_phase(l, lane);
-        finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);
         break;
+    #endif
+    #if RUBS
     case AT_ROLLING:
         note(q, LANE(l->index, lane), KIND_SLIDES, LANE(l->time, lane));
         new_phase(l, lane);
-        finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);
+        slides(l, f, lane);
         break;
+    #endif
     case AT_HALF_TURN:
         note(q, LANE(l->index, lane), KIND_HALF_TURN, LANE(l->time, lane));
         finish(q, l, f, lane, DECIDED, STICK, 0);

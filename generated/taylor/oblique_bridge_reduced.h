@@ -82,6 +82,7 @@ typedef struct {
     vec nearest;
     vec farthest;
     vec spun_up;
+    vec rotation_energy_unit;
     vec relaxation_per_combination_by_shear_log_factor_law_over_distance;
     vec part_ratio;
     vec bridge_work_factor;
@@ -167,6 +168,7 @@ static inline void prepare(constants *c)
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect*c->rupture_gap + 4.0;
     c->spun_up = (c->farthest*c->farthest)*c->momentum/((c->farthest*c->farthest) + 6.4);
+    c->rotation_energy_unit = 0.0625*(c->obliquity*c->obliquity);
     c->relaxation_per_combination_by_shear_log_factor_law_over_distance =
         0.041666666666666664*c->aspect/c->stokes;
     c->part_ratio = vec_exp(0.041666666666666664*vec_log(vec_larger(vec_larger(splat(0.01), c->elastic_gap),
@@ -415,6 +417,27 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 #else
 #define ATTRACTION_MARGINS 0
 #endif
+
+#define ORBITAL_MARGINS LIBRARY_LAWS
+/* Slip omega - xi at this gap, and the slip energy over m v0^2 that shear can still transfer before it (lever
+ * arm at mid-gap; derive/equations/certificates/orbital_momentum.py). */
+static inline void transferable(const constants *c, const vec *y, vec *slip_margin, vec *midgap)
+{
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
+    vec spin = 0.15625*c->momentum - 0.15625*y[ORBITAL_MOMENTUM];
+    vec slip = orbital_rate - spin;
+    *slip_margin = slip;
+    *midgap = 0.5*c->rotation_energy_unit*(0.15625 +
+        1.0/(distance*distance))*((vec_larger(vec_smaller(splat(0.0), (distance*distance)*(y[ORBITAL_MOMENTUM]
+        + 6.4*spin)/((distance*distance) + 6.4)), vec_smaller(y[ORBITAL_MOMENTUM], vec_larger(splat(0.0),
+        (distance*distance)*(y[ORBITAL_MOMENTUM] + 6.4*spin)/((distance*distance) + 6.4)))) -
+        (distance*distance)*(y[ORBITAL_MOMENTUM] + 6.4*spin)/((distance*distance) +
+        6.4))*(vec_larger(vec_smaller(splat(0.0), (distance*distance)*(y[ORBITAL_MOMENTUM] +
+        6.4*spin)/((distance*distance) + 6.4)), vec_smaller(y[ORBITAL_MOMENTUM], vec_larger(splat(0.0),
+        (distance*distance)*(y[ORBITAL_MOMENTUM] + 6.4*spin)/((distance*distance) + 6.4)))) -
+        (distance*distance)*(y[ORBITAL_MOMENTUM] + 6.4*spin)/((distance*distance) + 6.4)));
+}
 
 #if defined(BRIDGE_FORCE_FALLS) && defined(FILM_RESISTANCE_FALLS) && defined(SHEAR_LOG_FACTOR_FALLS) && !defined(FILM_CAVITATES)
 #define SLOW_MANIFOLD 1

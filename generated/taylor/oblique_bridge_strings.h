@@ -542,6 +542,26 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 #define ATTRACTION_MARGINS 0
 #endif
 
+#define ORBITAL_MARGINS LIBRARY_LAWS
+/* Slip omega - xi at this gap, and the slip energy over m v0^2 that shear can still transfer before it (lever
+ * arm at mid-gap; derive/equations/certificates/orbital_momentum.py). */
+static inline void transferable(const constants *c, const vec *y, vec *slip_margin, vec *midgap)
+{
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
+    vec slip = orbital_rate - y[SPIN];
+    *slip_margin = slip;
+    *midgap = 0.5*c->rotation_energy_unit*(0.15625 +
+        1.0/(distance*distance))*((vec_larger(vec_smaller(splat(0.0), (distance*distance)*(y[ORBITAL_MOMENTUM]
+        + 6.4*y[SPIN])/((distance*distance) + 6.4)), vec_smaller(y[ORBITAL_MOMENTUM], vec_larger(splat(0.0),
+        (distance*distance)*(y[ORBITAL_MOMENTUM] + 6.4*y[SPIN])/((distance*distance) + 6.4)))) -
+        (distance*distance)*(y[ORBITAL_MOMENTUM] + 6.4*y[SPIN])/((distance*distance) +
+        6.4))*(vec_larger(vec_smaller(splat(0.0), (distance*distance)*(y[ORBITAL_MOMENTUM] +
+        6.4*y[SPIN])/((distance*distance) + 6.4)), vec_smaller(y[ORBITAL_MOMENTUM], vec_larger(splat(0.0),
+        (distance*distance)*(y[ORBITAL_MOMENTUM] + 6.4*y[SPIN])/((distance*distance) + 6.4)))) -
+        (distance*distance)*(y[ORBITAL_MOMENTUM] + 6.4*y[SPIN])/((distance*distance) + 6.4)));
+}
+
 #define SLOW_MANIFOLD 0
 
 #if !CAPILLARY_STATE

@@ -6,13 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import SAFETY
+from ...generated.automaton import CYCLES, SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
 from .base import Certainty, Certificate, at_maximum
 from .quadrature import panels
 
-CYCLES = 20  # successive maxima without growth that count as chatter
 _GAPS = 49  # number of gaps ahead at which the margin is evaluated
 
 

@@ -44,11 +44,16 @@ class Law:
         return (self._folder / f"{self.name}.h").read_text()
 
     def dtype(self, structure: str) -> np.dtype:
-        """The type of "material", "impact" or "collision", read from the header."""
+        """The type of "material", "impact", "collision" or "contact", read from the header."""
         body = re.search(rf"typedef struct \{{([^}}]*)\}} {self.name}_{structure};", self.header)
         assert body is not None
-        fields = re.findall(r"^ *(int|double) (\w+);", body[1], re.MULTILINE)
-        return np.dtype([(name, "i4" if kind == "int" else "f8") for kind, name in fields], align=True)
+        fields = re.findall(rf"^ *(int|double|{self.name}_\w+) (\w+)(?:\[(\d+)\])?;", body[1], re.MULTILINE)
+        kinds = {"int": np.dtype("i4"), "double": np.dtype("f8")}
+        found = [
+            (name, kinds.get(kind) or self.dtype(kind.removeprefix(f"{self.name}_")), (int(size),) if size else ())
+            for kind, name, size in fields
+        ]
+        return np.dtype(found, align=True)
 
     def number(self, enumerator: str) -> int:
         """The value of NAME_ENUMERATOR."""
@@ -103,3 +108,17 @@ class Law:
         status = function(*pointers, ctypes.c_double(rtol), ctypes.c_void_p(found.ctypes.data))
         assert status == found["status"][0]
         return found
+
+    def begin(self, impact: np.ndarray, rtol: float = 1e-9) -> np.ndarray:
+        """A contact at its beginning, as a row of its type."""
+        contact, material = np.zeros(1, self.dtype("contact")), self.material()
+        function = getattr(self._library, f"{self.name}_begin")
+        pointers = (ctypes.c_void_p(each.ctypes.data) for each in (material, np.ascontiguousarray(impact)))
+        assert function(*pointers, ctypes.c_double(rtol), ctypes.c_void_p(contact.ctypes.data)) == contact["status"][0]
+        return contact
+
+    def advance(self, contact: np.ndarray, time: float) -> int:
+        """Advance a contact to a time; its status."""
+        function = getattr(self._library, f"{self.name}_advance")
+        status: int = function(ctypes.c_void_p(contact.ctypes.data), ctypes.c_double(time))
+        return status

@@ -25,8 +25,8 @@ _STATEMENTS = {
     ),
     "cross tangential edge": ("LANE(l->shear, lane) = 1.0 - LANE(l->shear, lane);",),
     "open": ("LANE(l->y[NORMAL_VELOCITY], lane) = RELEASE_SPEED;", "opens(l, f, lane);"),
-    "roll or slide": ("finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);",),
-    "slide": ("finish(q, l, f, lane, RESTS_IN_FRICTION, STICK, 0);",),
+    "roll or slide": (),  # by its word
+    "slide": ("slides(l, f, lane);",),
     "separate": ("separated(q, l, f, lane);",),
     "cut off": ("finish(q, l, f, lane, DECIDED, STICK, 0);",),
 }
@@ -133,7 +133,8 @@ def effects_header(provenance: str, own: Sequence[Event] = ()) -> str:
     )
     body = ["switch (event) {"]
     for event in automaton.EVENTS:
-        body += [f"case {event_name(event)}:", *(f"    {line}" for line in _effect(event)), "    break;"]
+        lines_of = [f"case {event_name(event)}:", *(f"    {line}" for line in _effect(event)), "    break;"]
+        body += ["#if RUBS", *lines_of, "#endif"] if dict(event.where).keys() & {"rolling"} else lines_of
     for event in own:
         body += [f"case {event_name(event)}:", *(f"    {line}" for line in _own_effect(event)), "    break;"]
     body.append("}")
@@ -180,6 +181,8 @@ def _chosen(event: Event) -> str:
         return f"LANE(l->closing, lane) ? {names[0]} : {names[1]}"
     if event.chosen_by == "larger gap":
         return "contact_kind(&f->c, lane)"
+    if event.chosen_by == "grip":
+        return "grips(l, f, lane)"
     return names[0]
 
 

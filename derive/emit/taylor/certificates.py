@@ -94,6 +94,19 @@ def spin_down_functions(model: Model, constants: Constants, prepared: dict[tuple
     ]
 
 
+def transfer_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+    """What the orbital-momentum certificate takes from a state with the lever arm at mid-gap; arguments as above."""
+    outputs = {key: value for key, value in model["orbital_margins"].outputs if key in ("slip", "midgap")}
+    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
+    kept, _ = needed(list(outputs.values()), model.definitions)
+    doc = (
+        "Slip omega - xi at this gap, and the slip energy over m v0^2 that shear can still transfer before it (lever "
+        "arm at mid-gap; derive/equations/certificates/orbital_momentum.py)."
+    )
+    made = margin_function("transferable", doc, kept, outputs, moving, constants, prepared)
+    return ["#define ORBITAL_MARGINS LIBRARY_LAWS", *made, ""]
+
+
 def approach_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
     """The functions of the approach certificate, for laws with what it uses; arguments as above."""
     falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]

@@ -9,19 +9,28 @@ from typing import TYPE_CHECKING
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ...equations import friction
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import is_slot_call
 from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
 from ..text import needed
 from .c_text import Constants, Recurrences
-from .certificates import approach_functions, attraction_functions, pendulum_functions, spin_down_functions
+from .certificates import (
+    approach_functions,
+    attraction_functions,
+    pendulum_functions,
+    spin_down_functions,
+    transfer_functions,
+)
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
 from .groups_from_si import scale_function
 from .layout import comment, function
 from .ledger import Ledger
 from .own_events import own_event_functions
 from .program import Program
+from .resting import FLAGS as RUBBING
+from .resting import Resting
 from .slow_manifold import slow_manifold_functions
 
 if TYPE_CHECKING:
@@ -52,7 +61,8 @@ class Header:
 
     def __init__(self, model: Model, beside: Beside) -> None:
         self.model, self.beside = model, beside
-        self.constants = Constants({group: f"c->{group.name}" for group in model.groups}, _FLAGS)
+        flags = (*_FLAGS, *RUBBING) if model.structure.friction else _FLAGS
+        self.constants = Constants({group: f"c->{group.name}" for group in model.groups}, flags)
         self.calls: dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]] = {}
         self.flow = self._program("right_hand_side")
         self.rates = dict(self._outputs)
@@ -70,6 +80,7 @@ class Header:
             self.flow, self.constants, lambda name: f"s->{name}", passing=self.flow.passing(self._work_operations)
         )
         self.ledger = Ledger(model, self.flow, self.made, self.constants)
+        self.resting = self._resting() if model.structure.friction else None
 
     # ---- programs
 
@@ -89,6 +100,24 @@ class Header:
     def _of(program: Program, expression: sp.Expr, name: str) -> str | sp.Expr:
         expression = sp.sympify(expression)
         return program.series(expression, name) if program.moves(expression) else expression
+
+    def _resting(self) -> Resting:
+        """The motion in resting contact with friction."""
+        program, forces = Program(self.model.states), dict(self.model["dry_forces"].outputs)
+        rates = self.model["resting_rates"].outputs
+        more = (
+            ("slip", friction.DRY_SLIP),
+            *((name, forces[name]) for name in ("limit", "holding")),
+            ("reaction", self.model["inward_force"].outputs[0][1]),
+        )
+        turns = self.turning is not None
+        turned = self.model["turning_rate"].outputs if turns else ()
+        wanted = [expression for _, expression in (*rates, *more, *turned)]
+        kept, _ = needed(wanted, self.model.definitions)
+        for symbol, expression in kept:
+            program.define(symbol, expression)
+        found = {key: self._of(program, expression, f"rate_of_{key}") for key, expression in (*rates, *more, *turned)}
+        return Resting(self.model, program, self.constants, found, found, found[turned[0][0]] if turns else None)
 
     # ---- the complete header
 
@@ -191,7 +220,7 @@ class Header:
         lines += self.ledger.series()
         lines += ["    vec acceleration[TERMS]; /* of the gap, also while it is held */"]
         lines += ["    vec approach[TERMS];", "    glass_pressure_clearance_series glass;"]
-        return [*lines, "} series;", ""]
+        return [*lines, "} series;", "", *(self.resting.struct() if self.resting else ())]
 
     def _coefficients(self) -> list[str]:
         made, states = self.made, [state.name for state in self.model.states]
@@ -199,6 +228,11 @@ class Header:
             if operation.kind == "call":
                 assert operation.call is not None
                 self.calls[operation.name] = operation.call
+        if self.resting:
+            for operation in self.resting.made.program.operations:
+                if operation.kind == "call":
+                    assert operation.call is not None
+                    self.calls.setdefault(operation.name, operation.call)
         work = self._work_operations
         body = []
         for operation, line in zip(self.flow.operations, made.lines(), strict=True):
@@ -232,6 +266,7 @@ class Header:
         return [
             *comment(doc), *function(head, [unused, *body]), "",
             *comment("Coefficient k of the clearance of the glass criterion."), *glass, "",
+            *(self.resting.coefficients() if self.resting else ()),
             *function(
                 "static inline vec glass_clearance(const constants *c, const vec *y)",
                 ["return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);"],
@@ -374,6 +409,8 @@ class Header:
             lines += pendulum_functions(model, self.constants, prepared)
         if any(each.name == "attraction_margins" for each in model.functions):
             lines += attraction_functions(model, self.constants, prepared)
+        if any(each.name == "orbital_margins" for each in model.functions):
+            lines += transfer_functions(model, self.constants, prepared)
         if any(each.name == "spin_down_margins" for each in model.functions):
             lines += spin_down_functions(model, self.constants, prepared)
         if self.beside.events:
@@ -400,6 +437,9 @@ class Header:
         lines += self._value(
             "dry_slip", "static inline void dry_slip(const constants *c, const vec *y, vec *found)", found
         )
+        head = "static inline void dry_forces(const constants *c, const vec *y, vec film, vec shear, vec *found)"
+        lines += ["enum { GRIP_LIMIT, HOLDING, DRY_FORCES };"]
+        lines += self._value("dry_forces", head, {"limit": "found[GRIP_LIMIT]", "holding": "found[HOLDING]"})
         for name, kind, result in (("rubbed", "void", ", vec *after"), ("friction_loss", "vec", "")):
             told, head = (
                 model[name],

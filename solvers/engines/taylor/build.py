@@ -68,6 +68,7 @@ class Variant:
         few: for few collisions: compiled faster.
         ledger: with the energy ledger; the structure must keep the spin.
         trajectory: every step is recorded.
+        limit: a collision may be interrupted at a time.
         lanes: collisions side by side, 1, 2, 4 or 8; as many as the processor has room for.
     """
 
@@ -80,6 +81,7 @@ class Variant:
     few: bool = False
     ledger: bool = False
     trajectory: bool = False
+    limit: bool = False
     lanes: int = field(default_factory=lanes)
 
     def __post_init__(self) -> None:
@@ -123,6 +125,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "LIBRARY_LAWS": int(variant.choice.package is None),
         "WITH_LEDGER": int(variant.ledger),
         "WITH_TRAJECTORY": int(variant.trajectory),
+        "WITH_LIMIT": int(variant.limit),
         "SURFACE_ARM": int(slots.get("arm") == "surface"),
         "SHOWN": SHOWN_IN_SPACE if variant.space else SHOWN,
         "RESULTS": 1 if variant.backward else MORE_RESULTS + (SHOWN_IN_SPACE if variant.space else SHOWN),

@@ -20,7 +20,6 @@ from ...scene.groups import si_values, sideways
 from ...scene.scene import Scene
 from ...settings import STEPS
 from .build import Variant, for_few, kernel
-from .endless import decide
 from .layout import ANSWER, Task, names
 from .orders import order_for
 
@@ -131,19 +130,11 @@ def _plain(
     those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, few: bool, jumps: int
 ) -> RunKernel | None:
     """The kernel of these impacts; None if none is available."""
-    scene = those.scene
-    wanted = variant_for_many(scene, oblique, rtol, rotation, fold=not those.others)
+    wanted = variant_for_many(those.scene, oblique, rtol, rotation, fold=not those.others)
     library = kernel(for_few(wanted) if few else wanted)
     if library is None:
         return None
-    choice, run = wanted.choice, bind_kernel(library, rtol, budget, jumps)
-
-    def decided(impacts: Impacts, made: np.ndarray) -> None:
-        run(impacts, made)
-        if not impacts.others:
-            decide(made, scene, impacts.speed, impacts.angle, choice, rtol)
-
-    return decided
+    return bind_kernel(library, rtol, budget, jumps)
 
 
 def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made: np.ndarray, jumps: int = 0) -> Task:

@@ -1,36 +1,14 @@
-"""Chatter that has exhausted the kernel's steps: certificates for its last state, or the limit that it approaches."""
+"""Chatter that has exhausted the kernel's steps: the limit that it approaches."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from ....generated.automaton import OUTCOMES, STICK, Status
+from ....generated.automaton import Status
 from ...certificates import OrbitalMomentumCertificate, limit_of_circling, proof_for
 from ...model.dimensionless import nondimensionalise
 from ...model.model import ModelKey, load
 from ...scene.scene import Scene
-
-
-def decide(
-    answers: np.ndarray, scene: Scene, speed: np.ndarray, angle: np.ndarray, choice: ModelKey, rtol: float
-) -> None:
-    """Decide as sticks the collisions among `answers` whose last state has an orbital-momentum certificate.
-
-    A doublet that circles in and out of its film loses less with every turn, so further steps do not decide more than
-    the last state does. `shown` has that state from the normal velocity on.
-    """
-    for k in np.flatnonzero(answers["status"] == Status.CHATTER).tolist():
-        answer, proof = answers[k], _proof(scene, speed[k], angle[k], choice, rtol)
-        if proof is None:
-            continue
-        y = _state(proof, answer)
-        if proof.holds(y) or proof.settles(y):
-            answer["status"], answer["outcome"], answer["certified"] = (
-                Status.DECIDED,
-                OUTCOMES.index(STICK),
-                proof.proves,
-            )
-            answer["shown"] = 0.0
 
 
 def limits(

@@ -13,7 +13,6 @@ from ...scene.scene import Scene
 from ...settings import STEPS
 from .build import Variant, kernel
 from .call import Impacts, task, variant
-from .endless import decide
 from .headers import has_events
 from .layout import ANSWER, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
 
@@ -128,8 +127,6 @@ def run_recorded(
         if (most <= log_room or not events) and (rows is None or steps <= rows.size):
             break
         log_room, step_room = max(most, log_room), max(steps, step_room)
-    if purpose == Purpose.WHOLE and not impacts.others:
-        decide(answers, impacts.scene, impacts.speed, impacts.angle, wanted.choice, rtol)
     turned = number(library, "row_turned") if trajectory else -1
     kept = None if rows is None else Steps(rows[:steps], None if turned < 0 else turned)
     return Recorded(answers, log, books if ledger else None, kept, margins)

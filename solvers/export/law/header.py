@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from ....generated.automaton import CRITERIA, KINDS, OUTCOMES
 from ...scene.scene import Scene
+from .contact import contact_header
 from .material import LARGEST, Number, Result
 
 _WIDTH = 100
@@ -80,6 +81,7 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
         "long law_collide_many(",
         "    const law_material *material, const law_impact *impacts, long count, double rtol, law_collision *found);",
         "",
+        *contact_header(),
         "#ifdef __cplusplus",
         "}",
         "#endif",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from ...engines.taylor.build import Variant, files
@@ -118,5 +118,5 @@ def kernels(scene: Scene, rtol: float) -> tuple[Kernel, ...]:
     found = []
     for prefix, oblique in ((HEAD_ON, False), (PLANE, True)):
         choice = select_model(own, oblique)
-        found.append(Kernel(prefix, variant(scene, choice, rtol, rotation=True), own))
+        found.append(Kernel(prefix, replace(variant(scene, choice, rtol, rotation=True), limit=True), own))
     return tuple(found)

@@ -108,12 +108,13 @@ def results(numbers: Iterable[Number]) -> tuple[Result, ...]:
         Status.NOT_FINITE: "the state is not finite, or a declared event creates energy",
         Status.CHATTER: "not decided: the pair goes in and out of contact again and again",
         Status.TOO_OBLIQUE: "the centrifugal force is too large beside the approach to be resolved",
-        Status.RESTS_IN_FRICTION: "not decided: the spheres rest on each other while friction acts",
+        Status.ESCAPED: "a pair that was proved to stick has separated: please report it",
     }
     found = [Result(0, _OK, "decided")]
     found += [Result(int(status), f"UNDECIDED_{status.name}", said) for status, said in failed.items()]
     rules = {
         "BAD_RTOL": f"rtol must be {TOLERANCE.range.text}",
+        "BAD_TIME": "a contact is advanced to a finite time that is not before its own",
         "ROUGHNESS_BEYOND_FILM": "roughness is not below film_thickness",
         "RUPTURE_WITHIN_FILM": "the bridge ruptures within film_thickness: a larger volume is needed",
         "STRINGS_TOO_SHORT": "string_length is too short for two spheres to swing around each other",

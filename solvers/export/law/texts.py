@@ -18,9 +18,9 @@ from .kernels import Kernel, kernels
 from .material import Number, checks, impact, material, results
 from .vectors import table
 
-ROOTS = ("integrate.h",)
+ROOTS = ("integrate.h", "follow.h")
 """Files of a kernel whose functions the law calls, with what they include."""
-CALLERS = ("law.h",)
+CALLERS = ("law.h", "contact.h")
 """Files behind the kernels, which call their functions."""
 _LANES = """\
 /* Doubles side by side: as many as a vector register holds, or one in plain C. -DLAW_LANES=1 chooses. */

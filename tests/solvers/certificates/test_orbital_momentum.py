@@ -91,7 +91,7 @@ def test_cycles_on_glassy_liquid_are_held_where_they_first_turn_back() -> None:
     scene = Scene.from_dict(CHATTER).with_impact(stokes=807.994, angle=1.38286)
     found = collide(scene, ledger=False, engine="cvodes")
     assert (found.outcome, found.certified) == ("stick", True)
-    by_kernel = collide(scene, ledger=False, engine="taylor")  # hands such chatter over
+    by_kernel = collide(scene, ledger=False, engine="taylor")
     for each in (found, by_kernel):
         assert [event.kind for event in each.events] == ["glass", "fell back"]
 

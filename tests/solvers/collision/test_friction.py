@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 from wetdoublet.solvers import (
+    Collision,
     ComputationError,
     InputError,
     Scene,
@@ -101,6 +103,16 @@ def test_glass_has_friction_only_if_asked_for() -> None:
     assert losses[0] == 0.0 < (losses[1] or 0.0)
 
 
+def assert_the_kernel_agrees(expected: Collision, scene: Scene, **impact: Any) -> None:
+    """The kernel goes through resting contact with friction itself, to the same events and the same end."""
+    found = collide(scene, engine="taylor", ledger=False, **impact)
+    assert (found.outcome, found.certified, found.engine) == (expected.outcome, expected.certified, "taylor")
+    assert [event.kind for event in found.events] == [event.kind for event in expected.events]
+    times = [[event.time for event in each.events] for each in (found, expected)]
+    assert times[0] == pytest.approx(times[1], rel=1e-6)
+    assert found.restitution == pytest.approx(expected.restitution, rel=1e-7)
+
+
 def test_a_resting_doublet_on_strings_rolls_and_slides() -> None:
     """Both modes are met, by two integrators at the same times, and the ledger closes over them."""
     entries = {
@@ -115,6 +127,7 @@ def test_a_resting_doublet_on_strings_rolls_and_slides() -> None:
         assert abs(found.energy.residual) < 1e-8 * found.energy.largest
     times = [[event.time for event in found.events] for found in both]
     assert times[0] == pytest.approx(times[1], rel=1e-8)
+    assert_the_kernel_agrees(both[0], scene, stokes=20.0, angle="1 deg")
 
 
 def test_a_spinning_doublet_that_slides_at_rest_is_released() -> None:
@@ -123,10 +136,12 @@ def test_a_spinning_doublet_that_slides_at_rest_is_released() -> None:
         **WET, "liquid.viscosity": "0.001 Pa s", "particles.dry_restitution": 0.0, "particles.friction": 0.3,
         "impact.spin": 16000.0,
     }  # fmt: skip
-    found = collide(Scene.load("granulation").with_entries(entries), stokes=20.0, angle=0.0, engine="rosenbrock")
+    scene = Scene.load("granulation").with_entries(entries)
+    found = collide(scene, stokes=20.0, angle=0.0, engine="rosenbrock")
     assert [event.kind for event in found.events][:3] == ["rough", "rests", "released"]
     assert found.energy is not None and abs(found.energy.residual) < 1e-9 * found.energy.initial
     assert found.angular_momentum_drift == pytest.approx(0.0, abs=1e-12)
+    assert_the_kernel_agrees(found, scene, stokes=20.0, angle=0.0)
 
 
 def test_a_doublet_that_rolls_at_rest_while_its_spins_equalise_sticks() -> None:
@@ -144,6 +159,8 @@ def test_a_doublet_that_rolls_at_rest_while_its_spins_equalise_sticks() -> None:
     found = collide(Scene.from_dict(entries), engine="rosenbrock")
     assert found.outcome == "stick" and found.certified
     assert [event.kind for event in found.events][-2:] == ["rests", "rolls"]
+    by_kernel = collide(Scene.from_dict(entries), engine="taylor", ledger=False)
+    assert (by_kernel.outcome, by_kernel.certified, by_kernel.engine) == ("stick", True, "taylor")
     assert found.energy is not None and abs(found.energy.residual) < 1e-8 * found.energy.initial
 
 

@@ -49,13 +49,10 @@ def events(told: Recorded, k: int) -> list[str]:
 
 
 def test_the_kernel_looks_for_every_event() -> None:
-    """Each event of the table is looked for by `find_events` of the kernel, but for those of friction at rest."""
+    """Each event of the table is looked for by the kernel."""
     looked = (RUNTIME / "events.h").read_text()
-    ours = [event for event in EVENTS if "rolling" not in dict(event.where)]
-    assert len(ours) == len(EVENTS) - 2
-    for event in ours:
+    for event in EVENTS:
         assert f"splat_mask(AT_{event.name.upper()})" in looked
-    assert any(status.name == "RESTS_IN_FRICTION" for status in Status)
 
 
 def test_the_reference_knows_every_action() -> None:
@@ -162,10 +159,8 @@ CIRCLES = {
 
 
 @pytest.mark.slow
-def test_more_than_a_hundred_phases_are_chatter_in_both_engines():
-    """A doublet that circles in and out of its film, whose steps the kernel has spent in 100 to 400 phases, is a stick
-    by the momentum of its orbit, as EventLocator finds.
-    """
+def test_a_doublet_that_circles_is_held_where_it_falls_back_in_both_engines():
+    """One that would circle in and out of its film for hundreds of phases is a stick by the momentum of its orbit."""
     scene = Scene.from_dict(CIRCLES)
     speed, angle = 0.0149 / scene.stokes_per_speed, 0.4465
     impacts = Impacts(scene, np.array([speed]), np.array([angle]), {})
@@ -173,6 +168,6 @@ def test_more_than_a_hundred_phases_are_chatter_in_both_engines():
     path = locate(load(select_model(scene, True, fold=False)), nondimensionalise(scene, speed, angle).groups, 1e-9)
     assert told is not None
     (answer,) = told.answers
-    assert 100 < answer["events"] < 400
+    assert answer["events"] == len(path.kinds) < 10
     assert answer["status"] == Status.DECIDED
     assert (OUTCOMES[answer["outcome"]], bool(answer["certified"])) == (path.outcome, path.certified) == ("stick", True)

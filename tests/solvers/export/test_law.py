@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene
+from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.engines.taylor.build import for_few, kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
@@ -107,6 +107,46 @@ def test_one_by_one_is_the_batch(law: Law):
     assert b"".join(law.one(impact[None]).tobytes() for impact in impacts) == whole
     with ThreadPoolExecutor(8) as pool:
         assert all(each.tobytes() == whole for each in pool.map(lambda _: law.collide(impacts), range(8)))
+
+
+@NEED
+def test_in_pieces_a_contact_is_the_collision(law: Law):
+    """Interrupted at random times, it takes the same steps: the numbers at separation are those of one call."""
+    draw, apart = np.random.default_rng(3), law.number("APART")
+    separated = 0
+    for impact in random_impacts(law, 100):
+        whole, contact = law.one(impact[None])[0], law.begin(impact[None])
+        end = whole["contact_time"] if whole["outcome"] > 0 else 3 * 8e-6 / impact["speed"]
+        for time in [*np.sort(draw.uniform(0, end, draw.integers(0, 9))).tolist(), end * (1 + 1e-9)]:
+            assert law.advance(contact, time) == 0
+        assert (contact["motion"][0] == apart) == (whole["outcome"] > 0)
+        if contact["motion"][0] != apart:
+            continue
+        separated += 1
+        assert contact["outcome"][0] == whole["outcome"]
+        opening = contact["normal_velocity"][0] / impact["speed"]
+        assert opening == pytest.approx(whole["restitution"], rel=1e-8)
+        for name, of_whole in (("time", "contact_time"), ("gap", "final_gap"), ("spin", "final_spin")):
+            assert contact[name][0] == pytest.approx(whole[of_whole], rel=1e-8)
+    assert 10 < separated < 90
+
+
+@NEED
+@pytest.mark.parametrize("stokes", [0.02, 0.5])
+def test_a_contact_is_where_the_trajectory_is(law: Law, stokes: float):
+    """At times of a trajectory by CasADi, that of a stick also long after its proof."""
+    speed = GRANULATION.speed_of(stokes)
+    until = 2e-4 if stokes < 0.1 else None
+    path = collide(GRANULATION, stokes=stokes, angle=1.0, engine="rosenbrock", trajectory=True, until=until).trajectory
+    contact = law.begin(law.impacts(speed=speed, angle=1.0))
+    for k in range(1, path.time.size - 1, 7):
+        assert law.advance(contact, float(path.time[k])) == 0
+        assert contact["gap"][0] == pytest.approx(float(path.gap[k]), rel=1e-6)
+        for name, scale in (("normal_velocity", speed), ("rotation_rate", 1e4), ("spin", 1e4), ("rotation", 1.0)):
+            assert contact[name][0] == pytest.approx(float(path[name][k]), abs=1e-6 * scale, rel=1e-6)
+    sticks = stokes < 0.1
+    assert (contact["outcome"][0], contact["certified"][0]) == ((0, 1) if sticks else (law.number("UNDECIDED"), 0))
+    assert law.advance(contact, float(path.time[1])) == law.number("BAD_TIME")
 
 
 @NEED

@@ -193,6 +193,17 @@ static inline mask spun_down(const constants *c, const vec *y, mask asked, doubl
 }
 #endif
 
+/* Whether chatter is ended by a test at maxima of the gap (chatter.h). */
+#if SPACE && ((BRIDGE && !defined(BRIDGE_FORCE_FALLS)) || (ATTRACTION && !defined(ATTRACTION_FORCE_FALLS)))
+#define CHATTER_TESTS 0
+#elif SPACE
+#define CHATTER_TESTS ATTRACTS
+#else
+#define CHATTER_TESTS (TURNS && ATTRACTS && !OWN_EVENTS && (ORBITAL_MARGINS || !STRINGS))
+#endif
+/* Whether that test is a proof. */
+#define CHATTER_PROVES (SPACE || (ORBITAL_MARGINS && !STRINGS))
+
 #define RESTS_FOR_GOOD (TURNS && ATTRACTS && !STRINGS)
 #if RESTS_FOR_GOOD
 #if SPACE

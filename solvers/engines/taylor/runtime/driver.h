@@ -5,6 +5,7 @@
 #pragma once
 
 #include "certificates.h"
+#include "chatter.h"
 #include "damped_sum.h"
 #include "effects.h"
 #include "events.h"
@@ -28,6 +29,10 @@ static void run(queue *q)
     tangents t;
     memset(&d, 0, sizeof d);
     memset(&t, 0, sizeof t);
+#endif
+#if RUBS
+    rubbing r;
+    memset(&r, 0, sizeof r);
 #endif
     memset(&l, 0, sizeof l);
     memset(&s, 0, sizeof s);
@@ -68,14 +73,22 @@ static void run(queue *q)
         sticks &= provable(q, l.closing);
 #endif
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
-            finish(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
+            sticks_for_good(q, &l, &f, first_of(proved), 1);
+#if CHATTER_TESTS
+        mask stays = held_in_chatter(&l, &f, q->rtol);
+#if WITH_TRAJECTORY
+        stays &= provable(q, l.closing);
+#endif
+        for (unsigned held = bits(stays); held; held &= held - 1)
+            sticks_for_good(q, &l, &f, first_of(held), CHATTER_PROVES);
+#endif
 #if SPACE && PROOF_BY_ENERGY
         mask late = l.alive & ((l.steps & (INTERVAL - 1)) == INTERVAL - 1);
         for (unsigned held = bits(late) ? bits(late & tumbles(&f.c, l.y, &f.b, q->rtol)) : 0; held; held &= held - 1)
-            finish(q, &l, &f, first_of(held), DECIDED, STICK, 0);
+            sticks_for_good(q, &l, &f, first_of(held), 0);
 #endif
         criteria_met(q, &l, &f);
-#if FRICTION && TURNS
+#if FRICTION && TURNS && !RUBS
         if (rests_ended(q, &l, &f)) /* other collisions may have taken these lanes */
             continue;
 #endif
@@ -97,6 +110,10 @@ static void run(queue *q)
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
         expand(&s, &f.c, acting(&l), l.shear, NOT(l.resting));
+#if RUBS
+        if (bits(l.alive & l.resting))
+            expand_rubbing(&r, &s, &f.c, &l);
+#endif
         mask creeps;
 #if GRADIENTS && !BACKWARD
         if (q->asked)
@@ -113,6 +130,10 @@ static void run(queue *q)
 #endif
         if (bits(creeps))
             damp(a, creeps);
+#if RUBS
+        if (bits(creeps & l.alive & l.resting))
+            expand_damped(&r, &s, &f.c, &l);
+#endif
         if (bits(l.alive & l.closing))
             expand_glass(&s, &f.c);
 #if WITH_TRAJECTORY
@@ -123,8 +144,16 @@ static void run(queue *q)
 #endif
         first_event found;
         find_events(&s, &l, &f, h, &found);
+#if RUBS
+        if (bits(l.alive & l.resting))
+            find_rubbing_events(&r, &l, h, &found);
+#endif
         mask falls = l.alive & (found.time <= 1.0);
         h = choose(falls, h*found.time, h);
+#if WITH_LIMIT
+        if (reached(q, &l, &f, a, h))
+            break;
+#endif
 #if GRADIENTS
         measure(&l, &f, &s, h, falls, found.event);
 #endif

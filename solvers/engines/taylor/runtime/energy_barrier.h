@@ -13,6 +13,9 @@
 #if !defined(BY_ORBITAL_MOMENTUM) /* the structure does not have the orbital-momentum certificate */
 #define BY_ORBITAL_MOMENTUM 0
 #endif
+#if !defined(ORBITAL_MARGINS)
+#define ORBITAL_MARGINS 0
+#endif
 
 typedef struct {
     vec near_gap, near_height; /* the first maximum not exceeded by any beyond it, and the next such maximum */

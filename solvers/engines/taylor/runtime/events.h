@@ -7,6 +7,7 @@
 
 #include "model.h"
 #include "own_events.h"
+#include "rest_in_friction.h"
 #include "roots.h"
 #include "state.h"
 
@@ -151,6 +152,26 @@ OUTLINE void find_own_events(
     }
 }
 #endif /* OWN_EVENTS */
+#if RUBS
+/* The end of sliding, where the slip vanishes, and of rolling, which needs more than friction gives. */
+OUTLINE void find_rubbing_events(const rubbing *r, const lanes *l, vec h, first_event *found)
+{
+    mask rests = l->alive & l->resting, rolls = rests & (l->rolling != 0.0);
+    mask close = rests & (l->sliding != 0.0);
+    close &= NOT(least_of(r->rest_slip, h) > 0.0);
+    if (bits(close))
+        look(found, close, r->rest_slip, splat(0.0), l->sliding, h, splat_mask(AT_SLIPPING));
+    for (double way = -1.0; bits(rolls) && way <= 1.0; way += 2.0) {
+        vec left[TERMS];
+        for (int k = 0; k <= ORDER; k++)
+            left[k] = r->rest_limit[k] + way*r->rest_holding[k];
+        close = rolls & NOT((left[0] > 0.0) & (least_of(left, h) > 0.0));
+        if (bits(close))
+            look(found, close, left, splat(0.0), splat(1.0), h, splat_mask(AT_ROLLING));
+    }
+}
+#endif
+
 static void find_events(const series *s, const lanes *l, const fixed *f, vec h, first_event *found)
 {
     const vec zero = splat(0.0), one = splat(1.0);
@@ -198,7 +219,7 @@ static void find_events(const series *s, const lanes *l, const fixed *f, vec h, 
         look(found, close, s->gap, f->edge, away, h, splat_mask(AT_TANGENTIAL_EDGE));
 #endif
     close = l->alive & l->resting;
-    if (bits(close)) {
+    if (OBLIQUE && !WALL && bits(close)) { /* beside a wall and head-on the forces at rest stay as they are */
         close &= NOT(-s->acceleration[0] > reach(s->acceleration, h));
         if (bits(close))
             look(found, close, s->acceleration, zero, -one, h, splat_mask(AT_RELEASE));

@@ -8,6 +8,9 @@
 #define FRICTION 0
 #endif
 
+/* Whether resting contact with friction is integrated (rest_in_friction.h). */
+#define RUBS (FRICTION && !GRADIENTS && !WITH_LEDGER)
+
 #if FRICTION
 /* What the dry contact does in a lane: its impulse, whether it sticks, and the sign with which it slides (0: without
  * friction). */

@@ -17,6 +17,7 @@
 #include "model.h"
 #include "own_events.h"
 #include "queue.h"
+#include "rest_in_friction.h"
 #include "state.h"
 
 enum { PATIENCE = 100, COLUMNS = 7, TRIES = 4000 };
@@ -30,6 +31,10 @@ typedef struct {
     const constants *c;
     vec film, shear;
     mask moving;
+#if RUBS
+    rubbing r;
+    const lanes *l;
+#endif
 } slow;
 
 OUTLINE void rates_at(slow *w, const vec *y, vec *rate)
@@ -40,6 +45,10 @@ OUTLINE void rates_at(slow *w, const vec *y, vec *rate)
     coefficients(&w->s, w->c, w->film, w->shear, w->moving, 0);
     for (int state = 0; state < STATES; state++)
         rate[state] = a[state][1];
+#if RUBS
+    if (bits(w->l->resting))
+        rubbing_rates(&w->r, w->c, w->l, y, rate);
+#endif
 }
 
 /* Central differences: extrapolation does not remove an error of the Jacobian from the stiff part. */
@@ -114,6 +123,15 @@ static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const
     vec target = choose(l->closing, f->contact, f->end);
 #endif
     clear &= 2.0*away*(to[GAP] - target) > away*(from[GAP] - target);
+#if TURNS
+    if (bits(l->resting)) {
+        mask stays = 2.0*inward_force(w->c, to) > vec_max(inward_force(w->c, from), zero);
+#if RUBS
+        stays &= keeps_rubbing(w->c, l, from, to);
+#endif
+        clear = choose_whole(l->resting, stays, clear);
+    }
+#endif
     clear &= NOT(l->closing) | (2.0*glass_clearance(w->c, to) > vec_max(glass_clearance(w->c, from), zero));
 #if OBLIQUE
     vec first = away*(from[GAP] - f->edge);
@@ -202,9 +220,24 @@ OUTLINE void crawl(queue *q)
     w.film = acting(&l);
     w.shear = l.shear;
     w.moving = NOT(l.resting);
+#if RUBS
+    w.l = &l;
+#endif
     vec least_step = WORTH*l.stride, h = 4.0*least_step;
     for (int count = 0; count < TRIES && bits(busy); count++) {
         mask sticks = proved_underway(&l, &f, q->rtol) | held_sticks(&f.c, l.y, busy, q->rtol);
+#if WITH_LIMIT
+        if (bits(busy & sticks) && goes_on_stuck(q, 1))
+            sticks = splat_mask(0);
+        if (q->contact) {
+            vec left = splat(q->contact->limit) - l.time;
+            h = vec_min(h, left);
+            if (!(LANE(left, 0) > LANE(least_step, 0))) { /* its time lies within a series step */
+                LANE(l.crept, 0) = -10*PATIENCE;
+                break;
+            }
+        }
+#endif
         for (unsigned proved = bits(busy & sticks); proved; proved &= proved - 1)
             settle(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
         busy &= NOT(sticks);

@@ -7,6 +7,7 @@
 #include "energy_barrier.h"
 #include "jump.h"
 #include "ledger.h"
+#include "limit.h"
 #include "rows.h"
 #include "slow_manifold.h"
 #include "state.h"
@@ -71,6 +72,10 @@ static void fill_queue(queue *q)
         if (~proved & bits(all))
             proved |= bits(held_on_approach(&f.c, y, &f.b, f.contact, q->rtol));
 #endif
+#if WITH_LIMIT
+        if (proved & 1 && goes_on_stuck(q, 1))
+            proved = 0;
+#endif
 #if WITH_TRAJECTORY
         proved &= bits(provable(q, splat_mask(TRUTH)));
 #endif
@@ -116,8 +121,19 @@ static void begin(queue *q, lanes *l, fixed *f, int lane, long row)
     LANE(l->shear, lane) = LANE(f->edge, lane) >= 1.0;
     LANE(l->alive, lane) = LANE(l->closing, lane) = LANE(l->fresh, lane) = TRUTH;
     LANE(l->resting, lane) = 0;
+#if CHATTER_TESTS
+    LANE(l->top, lane) = LANE(l->swing, lane) = 0.0;
+    LANE(l->cycles, lane) = 0;
+#endif
+#if RUBS
+    LANE(l->sliding, lane) = LANE(l->rolling, lane) = 0.0;
+#endif
     LANE(l->steps, lane) = LANE(l->phases, lane) = LANE(l->crept, lane) = 0;
     LANE(l->reversal, lane) = -1;
+#if WITH_LIMIT
+    if (q->contact && q->contact->begun)
+        take_up(q->contact, l, lane);
+#endif
 #if BACKWARD
     along_start(&l->along, lane);
     begin_on_tape(q, lane);
@@ -222,6 +238,10 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
 #if WITH_LEDGER
     close_book(q->books + LANE(l->index, lane), &f->c, l->y, lane);
 #endif
+#if WITH_LIMIT
+    if (q->contact)
+        end_of(q, l, f, lane, a);
+#endif
 }
 
 /* Ends the trajectory of a lane: its answer is written, and the next collision takes the lane. */
@@ -229,4 +249,14 @@ static void finish(queue *q, lanes *l, fixed *f, int lane, int status, int outco
 {
     settle(q, l, f, lane, status, outcome, certified);
     refill(q, l, f, lane);
+}
+
+/* Ends it as a stick; one that a host interrupts goes on. */
+static void sticks_for_good(queue *q, lanes *l, fixed *f, int lane, int certified)
+{
+#if WITH_LIMIT
+    if (goes_on_stuck(q, certified))
+        return;
+#endif
+    finish(q, l, f, lane, DECIDED, STICK, certified);
 }

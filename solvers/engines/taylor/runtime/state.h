@@ -9,7 +9,7 @@
 #include "tangents.h"
 
 /* Whether trajectories may be replaced by the slow manifold (slow_manifold.h). */
-#if SLOW_MANIFOLD && !GRADIENTS && !WITH_TRAJECTORY && !WITH_LEDGER && !TURNING_STATE
+#if SLOW_MANIFOLD && !WITH_LIMIT && !GRADIENTS && !WITH_TRAJECTORY && !WITH_LEDGER && !TURNING_STATE
 #define JUMPS 1
 #else
 #define JUMPS 0
@@ -65,6 +65,13 @@ typedef struct {
     vec y[STATES];
     vec time, smallest, film, shear;
     vec stride; /* the last step */
+#if CHATTER_TESTS
+    vec top, swing; /* gap and size of the orbital momentum at the last maximum of the gap */
+    mask cycles;    /* successive maxima that did not grow (chatter.h) */
+#endif
+#if RUBS
+    vec sliding, rolling; /* at rest: the sign of the slip, or 0; 1 without slip, else 0 */
+#endif
     mask alive, closing, resting, fresh;
     mask index, steps, phases, reversal, crept; /* crept: consecutive steps that required the damped sum */
 #if GRADIENTS
@@ -75,6 +82,9 @@ typedef struct {
 enum { FIXED = sizeof(fixed)/sizeof(vec), LANE_STATE = sizeof(lanes)/sizeof(vec) };
 
 typedef struct {
+#if WITH_LIMIT
+    struct interrupted *contact; /* the only collision, if a host may interrupt it; else null (limit.h) */
+#endif
     task *t; /* the task; its buffers have the sizes it states (solvers/engines/taylor/layout.py) */
     const buffer *columns; /* quantities in SI */
     double rtol;

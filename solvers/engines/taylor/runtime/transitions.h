@@ -6,6 +6,7 @@
 #include "friction.h"
 #include "ledger.h"
 #include "queue.h"
+#include "rest_in_friction.h"
 #include "state.h"
 #include "tangents.h"
 #include "tape.h"
@@ -25,6 +26,9 @@ static void opens(lanes *l, const fixed *f, int lane)
         LANE(l->film, lane) = 0.0;
     if (LANE(l->y[GAP], lane) == LANE(f->edge, lane))
         LANE(l->shear, lane) = 0.0;
+#if RUBS
+    LANE(l->sliding, lane) = LANE(l->rolling, lane) = 0.0;
+#endif
 }
 
 /* Begins a new phase; the rebound criteria are checked on its entry. */
@@ -88,7 +92,9 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
     double left = LANE(l->y[NORMAL_VELOCITY], lane), inward = in_lane(inward_force(&f->c, l->y), lane);
     double allowed = q->rtol*LANE(l->y[GAP], lane);
     if (!TURNS && left == 0.0 && inward == 0.0) { /* equilibrium */
-        finish(q, l, f, lane, DECIDED, STICK, 1);
+        LANE(l->resting, lane) = TRUTH;
+        LANE(l->closing, lane) = 0;
+        sticks_for_good(q, l, f, lane, 1);
         return;
     }
     if (inward > 0.0 && (left < REST_SPEED || left*left/(2.0*inward) < allowed)) {
@@ -102,8 +108,12 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         LANE(l->y[NORMAL_VELOCITY], lane) = 0.0;
         LANE(l->resting, lane) = TRUTH;
         LANE(l->closing, lane) = 0;
+#if RUBS
+        if (rubs(l, f, lane))
+            note(q, LANE(l->index, lane), KIND_ROLLS, LANE(l->time, lane));
+#endif
         if (!TURNS || (PROOF_BY_ENERGY && !FRICTION && LANE(l->shear, lane) == 0.0)) /* the forces no longer change */
-            finish(q, l, f, lane, DECIDED, STICK, 1);
+            sticks_for_good(q, l, f, lane, 1);
     } else
         opens(l, f, lane);
 }
@@ -175,7 +185,7 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
             rebounds(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, LANE(l->y[GAP], lane), lane));
 }
 
-#if FRICTION && TURNS
+#if FRICTION && TURNS && !RUBS
 /* Ends the lanes that rest: as sticks where that is proved; else their sliding and rolling is left to others. Returns
  * whether there were any. */
 static int rests_ended(queue *q, lanes *l, fixed *f)

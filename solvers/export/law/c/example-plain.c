@@ -6,6 +6,18 @@
 
 enum { IMPACTS = 1000 };
 
+/* A contact that is interrupted: where it is at some times. */
+static void follow_one(const law_material *material)
+{
+    const law_impact impact = {@SPEED@, 0.5, 0.0, 0.0};
+    law_contact c;
+    law_begin(material, &impact, 1e-9, &c);
+    for (int k = 1; k <= 4 && c.motion <= LAW_RESTING; k++) {
+        law_advance(&c, k*0.5*material->film_thickness/impact.speed);
+        printf("after %.3e s: gap %.3e m, its rate %.3e m/s\n", c.time, c.gap, c.normal_velocity);
+    }
+}
+
 int main(void)
 {
     law_material material = law_default_material();
@@ -29,5 +41,6 @@ int main(void)
             others++;
     }
     printf("%d stick, %d bounce, %d part without a rebound\n", sticks, bounces, others);
+    follow_one(&material);
     return 0;
 }

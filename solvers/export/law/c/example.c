@@ -68,6 +68,18 @@ static void separate(particle *p, const law_impact *impact, const law_collision 
     p[1].spin = turn*c->final_partner_spin;
 }
 
+/* A contact that is interrupted: where it is at some times. */
+static void follow_one(const law_material *material)
+{
+    const law_impact impact = {@SPEED@, 0.5, 0.0, 0.0};
+    law_contact c;
+    law_begin(material, &impact, 1e-9, &c);
+    for (int k = 1; k <= 4 && c.motion <= LAW_RESTING; k++) {
+        law_advance(&c, k*0.5*material->film_thickness/impact.speed);
+        printf("after %.3e s: gap %.3e m, its rate %.3e m/s\n", c.time, c.gap, c.normal_velocity);
+    }
+}
+
 int main(void)
 {
     law_material material = law_default_material();
@@ -107,5 +119,6 @@ int main(void)
     printf("%d stick, %d bounce, %d stick, rotate and separate\n", sticks, bounces, others);
     if (before > 0.0)
         printf("those that separate keep %.1f %% of their kinetic energy\n", 100.0*after/before);
+    follow_one(&material);
     return 0;
 }

@@ -4,11 +4,15 @@
 #include "block.h"
 #include "driver.h"
 #include "in_si.h"
+#include "limit.h"
 
-enum { MOST_STEPS_TAKEN = 100000 }; /* of a collision */
+enum { MOST_STEPS_TAKEN = 1000000 }; /* of a collision, or of an interrupted one in a call */
 
-/* Integrates `count` collisions, from columns of quantities in SI to answers in the kernel's units. */
-static void integrate(const buffer *columns, long count, double rtol, answer *answers)
+/* Integrates `count` collisions, from columns of quantities in SI to answers in the kernel's units.
+ *
+ * `contact`: of a single collision that may be interrupted, where it is; else null. */
+static void integrate(
+    const buffer *columns, long count, double rtol, answer *answers, struct interrupted *contact)
 {
     queue q; /* large: only what counts at the start is set */
     memset(answers, 0, sizeof *answers*(size_t)count);
@@ -21,7 +25,8 @@ static void integrate(const buffer *columns, long count, double rtol, answer *an
     q.count = count;
     q.next = q.queued = q.taken = 0;
     q.parks = q.resumes = 0;
-    q.budget = MOST_STEPS_TAKEN;
+    q.contact = contact;
+    q.budget = MOST_STEPS_TAKEN + (contact ? contact->now.steps : 0);
     run(&q);
 }
 
@@ -58,7 +63,7 @@ static void run_block(const law_material *m, const block *b, double rtol, law_co
     answer answers[BLOCK];
     double unit[BLOCK];
     set_columns(columns, m, b);
-    integrate(columns, b->count, rtol, answers);
+    integrate(columns, b->count, rtol, answers, NULL);
 #if OBLIQUE
     find_rate_scales(columns, b->count, unit);
 #else

@@ -1,0 +1,185 @@
+/* Chatter: a doublet that rebounds again and again, and what shows at a maximum of the gap that it stays.
+ *
+ * Equal spheres with the library's laws: the orbital-momentum certificate (solvers/certificates/orbital_momentum.py); on
+ * strings for cycles whose maxima do not grow. Others without strings: such cycles, confined by an
+ * attraction (solvers/certificates/chatter.py). In space: rebounds that take more than the rotation gives
+ * (solvers/certificates/rebounds.py).
+ */
+#pragma once
+
+#include "automaton.h"
+#include "certificates.h"
+#include "energy_barrier.h"
+#include "model.h"
+#include "state.h"
+
+#if CHATTER_TESTS
+#if SPACE
+/* Lanes in which every rebound from here ends below the present gap. */
+static mask held_at_top(const constants *c, const vec *y, vec end, double tolerance)
+{
+    vec here[2], deepest[2], below[STATES], contact = contact_gap(c); /* outward, inward */
+    (void)end;
+    memcpy(below, y, sizeof below);
+    below[GAP] = contact;
+    resting_bound(c, y, here);
+    resting_bound(c, below, deepest);
+    vec work = vec_max(splat(0.0), deepest[1])*(y[GAP] - contact);
+    vec centres = (1.0 + c->radius_ratio)*(1.0 + c->radius_ratio)/c->radius_ratio;
+    vec far = centres + c->aspect*y[GAP], near = centres + c->aspect*contact, ratio = (far/near)*(far/near);
+    vec sum = vec_sqrt(here[0]) + vec_sqrt(2.0*work*c->aspect/far);
+    vec left = (1.0 - c->dry_restitution*c->dry_restitution)*here[1]*(1.0 - SAFETY*tolerance);
+    return (contact > 0.0) & (contact < y[GAP]) & (sum*sum*ratio*ratio < left);
+}
+#else
+enum { AHEAD = 48 }; /* gaps ahead at which the margin is evaluated */
+
+/* Works against the inward force from one gap to another, at the present orbital momentum and at none. */
+static void works_ahead(const constants *c, const vec *y, vec low, vec high, vec *pull, vec *attraction)
+{
+    vec there[STATES], half = 0.5*(high - low), middle = 0.5*(high + low), turning = splat(0.0), still = turning;
+    memcpy(there, y, sizeof there);
+    for (int node = 0; node < 12; node++) {
+        double place = node < 6 ? NODES[node] : -NODES[node - 6];
+        there[GAP] = middle + place*half;
+        there[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
+        turning += WEIGHTS[node % 6]*inward_force(c, there);
+        there[ORBITAL_MOMENTUM] = splat(0.0);
+        still += WEIGHTS[node % 6]*inward_force(c, there);
+    }
+    *pull = turning*half;
+    *attraction = still*half;
+}
+
+#if ORBITAL_MARGINS
+/* Slip omega - xi at a gap, and the slip energy that shear can transfer before it. */
+static inline void slip_margins(const constants *c, const vec *there, vec *slip, vec *energy)
+{
+#if SURFACE_ARM
+    vec found[ORBITAL];
+    orbital_margins(c, there, found);
+    *slip = found[SLIP_RATE];
+    *energy = found[SLIP_ENERGY];
+#else
+    transferable(c, there, slip, energy);
+#endif
+}
+
+/* Energy that shear can still take from the spin to the orbit before a gap; beyond the edge of the shear, only until
+ * omega = xi at the edge. With the lever arm at the surface this last is no theorem. */
+static vec exchanged(const constants *c, const vec *there, vec slip, vec energy, vec edge)
+{
+    vec possible = SURFACE_ARM ? only(slip < 0.0, energy) : energy;
+#if STRINGS
+    (void)c; (void)there; (void)edge;
+    return possible;
+#else
+    mask beyond = there[GAP] > edge;
+    if (!bits(beyond))
+        return possible;
+    vec at_edge[STATES], left, rigid;
+    memcpy(at_edge, there, sizeof at_edge);
+    at_edge[GAP] = edge;
+    rigid = rigid_momentum(c, at_edge);
+#if !REDUCED
+    vec settled[STATES];
+    rigid_rotation(c, at_edge, settled);
+    at_edge[SPIN] = settled[SPIN];
+#endif
+    at_edge[GAP] = there[GAP];
+    at_edge[ORBITAL_MOMENTUM] = rigid;
+    slip_margins(c, at_edge, &slip, &left);
+    mask past = choose(rigid < 0.0, -there[ORBITAL_MOMENTUM], there[ORBITAL_MOMENTUM]) >= vec_abs(rigid);
+    return choose(beyond, choose(past, splat(0.0), energy - left), possible);
+#endif
+}
+
+/* Lanes in which some gap ahead can never be reached. */
+static mask held_at_top(const constants *c, const vec *y, vec end, double tolerance)
+{
+    vec from[STATES], slip, energy, inward = splat(0.0), attraction = inward, low = y[GAP], edge = tangential_edge(c);
+    memcpy(from, y, sizeof from);
+#if SURFACE_ARM
+    vec sense = choose(y[ORBITAL_MOMENTUM] < 0.0, splat(-1.0), splat(1.0)); /* the bound is for positive momenta */
+    from[ORBITAL_MOMENTUM] *= sense;
+    from[SPIN] *= sense;
+#endif
+    mask asked = low < end, held = splat_mask(0);
+    vec u = from[NORMAL_VELOCITY], distance = 4.0 + c->aspect*low;
+#if SURFACE_ARM && !STRINGS
+    slip_margins(c, from, &slip, &energy);
+    vec spins = 16.0*(from[ORBITAL_MOMENTUM]/(distance*distance) - slip);
+    asked &= (spins >= 0.0) & (spins <= from[ORBITAL_MOMENTUM]);
+#endif
+    for (int k = 1; k <= AHEAD; k++) {
+        double part = (double)k/AHEAD;
+        vec high = y[GAP] + (end - y[GAP])*(part*part*part), pull, still; /* denser at small distances */
+        works_ahead(c, from, low, high, &pull, &still);
+        inward += pull;
+        attraction += still;
+        vec there[STATES];
+        memcpy(there, from, sizeof there);
+        there[GAP] = low = high;
+        slip_margins(c, there, &slip, &energy);
+        vec gained = exchanged(c, there, slip, energy, edge);
+        slip = vec_abs(slip);
+        distance = 4.0 + c->aspect*high;
+        vec size = vec_abs(from[ORBITAL_MOMENTUM]) + slip*distance*distance;
+        vec turned = c->obliquity*c->obliquity*(1.0/16.0)*size*only(gained > 0.0, slip);
+        vec error = u*u + vec_abs(u) + 2.0*vec_abs(attraction) + vec_abs(inward) + turned;
+        held |= 0.5*u*u - inward + gained < -SAFETY*tolerance*error;
+    }
+    return asked & held;
+}
+#else
+/* Lanes in which no larger orbital momentum is to come, and the inward force allows no higher maximum. */
+static mask held_at_top(const constants *c, const vec *y, vec end, double tolerance)
+{
+    vec there[STATES], pulled = splat(0.0), weight = pulled, low = y[GAP];
+    memcpy(there, y, sizeof there);
+    there[GAP] = end;
+    mask asked = (low < end) & (vec_abs(y[ORBITAL_MOMENTUM]) >= vec_abs(rigid_momentum(c, there))), held = splat_mask(0);
+    for (int k = 1; k <= AHEAD && bits(asked); k++) {
+        double part = (double)k/AHEAD;
+        vec high = y[GAP] + (end - y[GAP])*(part*part*part), pull, still;
+        works_ahead(c, y, low, high, &pull, &still);
+        pulled += pull;
+        weight += vec_abs(still) + vec_abs(still - pull);
+        low = high;
+        held |= pulled > SAFETY*tolerance*weight;
+    }
+    return asked & held;
+}
+#endif
+#endif
+
+/* Lanes at a maximum of the gap from which they stay; their maxima are counted. */
+static mask held_in_chatter(lanes *l, const fixed *f, double tolerance)
+{
+    mask tops = l->alive & l->fresh & l->closing & NOT(l->resting) & (vec_abs(l->y[NORMAL_VELOCITY]) <= STILL);
+    if (!bits(tops))
+        return tops;
+#if SPACE
+    return tops & held_at_top(&f->c, l->y, f->end, tolerance);
+#else
+    double more = 1.0 + SAFETY*tolerance;
+    mask grows = NOT(l->y[GAP] <= l->top*more);
+#if !STRINGS
+    vec swing = vec_abs(l->y[ORBITAL_MOMENTUM]);
+    grows |= NOT(swing <= l->swing*more);
+    l->swing = choose(tops, swing, l->swing);
+#endif
+    l->top = choose(tops, l->y[GAP], l->top);
+#if ORBITAL_MARGINS && !STRINGS
+    mask next = l->cycles + 1; /* they may grow; asked at the first, second, fourth, ... */
+    mask asked = tops & ((next & (next - 1)) == splat_mask(0));
+    (void)grows;
+#else
+    mask next = only_whole(NOT(grows), l->cycles + 1);
+    mask asked = tops & (next >= splat_mask(CYCLES)) & (((next - CYCLES) & 15) == splat_mask(0));
+#endif
+    l->cycles = choose_whole(tops, next, l->cycles);
+    return bits(asked) ? asked & held_at_top(&f->c, l->y, f->end, tolerance) : asked;
+#endif
+}
+#endif
