@@ -25,10 +25,8 @@ static const double LITTLE = 1e-5;     /* relative difference of a state for der
 static const double FLOOR = 5e-14;     /* relative rounding error of a state, as amplified by extrapolation */
 #if SPACE
 static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn along is little beside what turns */
+static const double LEAST_VECTOR = 1e-3;     /* a smaller one counts as this, as in step.h */
 static const double MOST_TURNED = 1e3;       /* rad in a step */
-#define FLOOR_OF(state) ((state) < FIRST_VECTOR || (state) >= MODEL_STATES ? FLOOR : FLOOR_OF_VECTOR)
-#else
-#define FLOOR_OF(state) FLOOR
 #endif
 
 typedef struct {
@@ -223,7 +221,11 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
         d[state] = change[state] - table[COLUMNS - 2][state];
     }
     EACH_SIZE(state) {
-        vec allowed = f->tolerance*size_of(change, 1, state) + FLOOR_OF(state)*size_of(l->y, 1, state);
+        vec size = size_of(l->y, 1, state), allowed = f->tolerance*size_of(change, 1, state) + FLOOR*size;
+#if SPACE
+        if (state >= FIRST_VECTOR && state < MODEL_STATES)
+            allowed += FLOOR_OF_VECTOR*(size + LEAST_VECTOR);
+#endif
         if (state == GAP)
             carried = allowed/l->stride; /* an error of the normal velocity decays within a Taylor step */
         if (state == NORMAL_VELOCITY)
