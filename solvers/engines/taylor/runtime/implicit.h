@@ -28,6 +28,7 @@ static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn a
 static const double LEAST_VECTOR = 1e-3;     /* a smaller one counts as this, as in step.h */
 static const double MOST_TURNED = 1e3;       /* rad in a step */
 #endif
+enum { COST = SPACE ? 50 : 1 }; /* of a step, from the budget: a doublet in balance on its line of centres tumbles forever */
 
 typedef struct {
     vec rates[STATES][MODEL_STATES]; /* derivatives of the states' rates */
@@ -283,7 +284,7 @@ OUTLINE void crawl(queue *q)
 #endif
         l.time += only(taken, h);
         l.smallest = vec_min(l.smallest, l.y[GAP]);
-        l.steps += 1;
+        l.steps += COST;
         vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/COLUMNS));
         h *= choose(clear, vec_min(better, splat(4.0)), splat(0.25));
         mask leaves = busy & NOT(h > least_step);
