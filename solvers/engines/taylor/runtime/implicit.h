@@ -284,7 +284,7 @@ OUTLINE void crawl(queue *q)
 #endif
         l.time += only(taken, h);
         l.smallest = vec_min(l.smallest, l.y[GAP]);
-        l.steps += COST;
+        l.steps += splat_mask(COST);
         vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/COLUMNS));
         h *= choose(clear, vec_min(better, splat(4.0)), splat(0.25));
         mask leaves = busy & NOT(h > least_step);
