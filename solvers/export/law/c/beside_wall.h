@@ -6,7 +6,7 @@
  */
 #pragma once
 
-#include "planar_pairs.h"
+#include "planar_end.h"
 
 /* The two planar collisions: sliding and rolling are as fast as the approach. */
 static void along_wall(const bodies *b, const arrival *a, law_impact *slides, law_impact *both)
@@ -43,8 +43,11 @@ static void find_ends(const law_material *m, const bodies *b, const arrival *row
 {
     law_impact impacts[2*PAIRS];
     law_collision found[2*PAIRS];
-    for (int k = 0; k < count; k++)
+    for (int k = 0; k < count; k++) {
         along_wall(b, rows + those[k], impacts + 2*k, impacts + 2*k + 1);
+        set_unknown(found + 2*k, LAW_OK);
+        set_unknown(found + 2*k + 1, LAW_OK);
+    }
     if (count)
         collide_planar(m, impacts, 2*count, rtol, found);
     for (int k = 0; k < count; k++)

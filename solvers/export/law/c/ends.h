@@ -125,7 +125,7 @@ static void both_after(const bodies *b, const arrival *a, const ending *e, law_p
             sum += largest(vector_of(made->spins[k]));
     }
     if (!(fabs(sum) < INFINITY)) {
-        refuse(LAW_NOT_FINITE, made);
+        refuse(LAW_UNDECIDED_NOT_FINITE, made);
         return;
     }
     made->outcome = e->outcome;

@@ -5,7 +5,7 @@
 #include "driver.h"
 #include "in_si.h"
 
-enum { MOST_STEPS_TAKEN = 100000 }; /* of a collision */
+enum { MOST_STEPS_TAKEN = SPACE ? 300000 : 100000 }; /* of a collision */
 
 /* Integrates `count` collisions, from columns of quantities in SI to answers in the kernel's units. */
 static void integrate(const buffer *columns, long count, double rtol, answer *answers)
@@ -74,13 +74,10 @@ static void run_block(const law_material *m, const block *b, double rtol, law_co
         c->outcome = a->outcome;
         c->certified = a->certified;
         c->rebound = a->reversal;
-        c->restitution = 0.0;
-        if (a->outcome == STICK)
-            continue;
         c->contact_time = a->time*(m->film_thickness/b->speed[k]);
         c->rotation = a->turned;
         c->smallest_gap = a->smallest_gap*m->film_thickness;
-        c->final_gap = a->final_gap*m->film_thickness;
+        c->final_gap = (a->status == PROVED_AT_TOUCH ? 1.0 : a->final_gap)*m->film_thickness;
         show(a, unit[k], c);
         if (b->angle[k] == 0.0)
             c->tangential_restitution = NAN; /* a ratio to nothing */

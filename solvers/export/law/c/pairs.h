@@ -1,7 +1,7 @@
 /* Pairs at initial contact: what is refused, the relative motion, and whether all of it lies in one plane. */
 #pragma once
 
-#include "vectors.h"
+#include "vector3.h"
 
 #include <float.h>
 
@@ -73,19 +73,19 @@ static int arrives(const bodies *b, const law_pair *given, arrival *a)
     }
     fastest = larger(largest(a->velocity[0]), largest(a->velocity[1]));
     if (fastest > 1e150) /* its square is no number */
-        return LAW_PAIR_OUT_OF_RANGE;
+        return LAW_OUT_OF_RANGE;
     vector3 relative = plus(a->velocity[1], -1.0, a->velocity[0]);
     a->speed = -dot(a->normal, relative);
     if (!(a->speed > 0.0))
         return LAW_NOT_APPROACHING;
     double stokes = a->speed*b->stokes_per_speed;
     if (!(stokes >= 1.0/FURTHEST && stokes <= FURTHEST && spinning <= FURTHEST*a->speed))
-        return LAW_PAIR_OUT_OF_RANGE;
+        return LAW_OUT_OF_RANGE;
     a->sliding = plus(relative, a->speed, a->normal);
     if (!(length(a->sliding) > ROUNDING*fastest)) /* a head-on collision is one in every direction */
         a->sliding = times(0.0, a->normal);
     if (!(length(a->sliding) <= FURTHEST*a->speed))
-        return LAW_PAIR_OUT_OF_RANGE;
+        return LAW_OUT_OF_RANGE;
     a->turning = times(1.0/(b->contact + b->film), cross(a->normal, a->sliding));
     return LAW_OK;
 }

@@ -42,9 +42,12 @@ static void find_ends_with_vectors(const law_material *m, const bodies *b, const
     buffer columns[QUANTITIES];
     answer found[PAIRS];
     set_material(columns, m);
-    for (int k = SI_INITIAL_NORMAL_X; k <= SI_IMPACT_PARTNER_SPIN_Z; k++)
-        set_column(columns + k, values[k], count);
-    set_column(columns + SI_SPEED, values[SI_SPEED], count);
+    columns[SI_SPEED].at = values[SI_SPEED];
+    columns[SI_SPEED].bytes = sizeof values[SI_SPEED];
+    for (int k = SI_INITIAL_NORMAL_X; k <= SI_IMPACT_PARTNER_SPIN_Z; k++) {
+        columns[k].at = values[k];
+        columns[k].bytes = sizeof values[k];
+    }
     for (int k = 0; k < count; k++) {
         const arrival *a = rows + those[k];
         values[SI_SPEED][k] = a->speed;
