@@ -87,14 +87,20 @@ def _filled(file: str, scene: Scene, own: tuple[Kernel, ...]) -> str:
         "PAIR": space.ctypes_fields(space.PAIR),
         "AFTER": space.ctypes_fields(space.AFTER),
     }
-    own = (float(scene.material["reduced_radius"]), 0.0), (float(scene.material["reduced_mass"]), 0.0)
-    bodies = Bodies.of(scene)
-    radii, masses = own if scene.wall else (bodies.radius, bodies.mass)
+    radii, masses = _sizes(scene)
     places |= {"RADII": ", ".join(map(repr, radii)), "MASSES": ", ".join(map(repr, masses))}
     text = (OWN / file).read_text()
     for name, value in places.items():
         text = text.replace(f"@{name}@", value)
     return text
+
+
+def _sizes(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Radii and masses, m and kg; zero of a wall."""
+    if not scene.wall:
+        bodies = Bodies.of(scene)
+        return bodies.radius, bodies.mass
+    return (float(scene.material["reduced_radius"]), 0.0), (float(scene.material["reduced_mass"]), 0.0)
 
 
 def _fields(numbers: Iterable[Number]) -> str:

@@ -26,7 +26,7 @@ static void meet(law_particle *first, law_particle *second, double distance)
         n[k] = drawn();
         first->position[k] = 0.0;
         first->velocity[k] = speed*drawn();
-        second->velocity[k] = speed*drawn();
+        second->velocity[k] = MASSES[1] > 0.0 ? speed*drawn() : 0.0; /* a wall rests */
         first->spin[k] = 0.3*speed/RADII[0]*drawn();
         second->spin[k] = 0.3*speed/RADII[0]*drawn();
     }

@@ -7,7 +7,7 @@
 
 enum { PAIRS = 64 }; /* of a batch, that are on the stack together */
 static const double ROUNDING = 16.0*DBL_EPSILON; /* of a component over the largest of its kind */
-static const double FURTHEST = 1e100;            /* products and quotients of several groups stay within a double's range */
+static const double FURTHEST = 1e100;            /* products and quotients of groups stay within a double's range */
 
 /* Two spheres, or a sphere and a wall, whose index is 1. */
 typedef struct {
