@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from ...errors import ComputationError
@@ -19,8 +17,10 @@ _SEED = 17
 def pair_table(scene: Scene, rtol: float, tolerance: float) -> list[str]:
     """Lines of vectors.h: pairs of all outcomes that occur, away from boundaries, one in four of them in a plane."""
     given = _pairs(scene)
-    asked = {**given, "spins": given["spins"][:, :1]} if scene.wall else given
-    found, other = (collide_pair(scene, **asked, rtol=each, engine="taylor") for each in (rtol, rtol / 3))
+    normal, velocities, spins = given["normal"], given["velocities"], given["spins"][:, : 1 if scene.wall else 2]
+    found, other = (
+        collide_pair(scene, normal, velocities, spins, rtol=each, engine="taylor") for each in (rtol, rtol / 3)
+    )
     rows = {name: found[name].values for name in found.data_vars}
     sound = (rows["outcome"] == other.outcome.values) & (rows["outcome"] >= 0)
     for name in ("time", "restitution", "velocities", "spins"):
@@ -65,8 +65,8 @@ def _directions(draw: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray
     return np.asarray(found / np.linalg.norm(found, axis=-1, keepdims=True))
 
 
-def _braced(numbers: np.ndarray | Sequence[float]) -> str:
+def _braced(numbers: np.ndarray) -> str:
     """Numbers of any shape as C's initialisers."""
-    if np.ndim(numbers) == 0:
-        return "NAN" if np.isnan(numbers) else repr(float(np.asarray(numbers)))
-    return f"{{{', '.join(_braced(each) for each in numbers)}}}"
+    if numbers.ndim == 0:
+        return "NAN" if np.isnan(numbers) else repr(float(numbers))
+    return f"{{{', '.join(_braced(np.asarray(each)) for each in numbers)}}}"

@@ -26,7 +26,7 @@ static const double FLOOR = 5e-14;     /* relative rounding error of a state, as
 #if SPACE
 static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn along is little beside what turns */
 static const double LEAST_VECTOR = 1e-3;     /* a smaller one counts as this, as in step.h */
-static const double MOST_TURNED = 1e3;       /* rad in a step */
+static const double MOST_TURNED = 1e9;       /* turns in a step */
 #endif
 enum { COST = SPACE ? 50 : 1 }; /* of a step, from the budget: a doublet in balance on its line of centres tumbles forever */
 
@@ -75,7 +75,9 @@ static vec begin_turning(slow *w, const vec *y)
 static void turn_back(const slow *w, vec rate, vec h, vec *y)
 {
     vec sine, cosine, over = choose(rate > 0.0, 1.0/rate, splat(0.0));
-    vec_sin_cos(rate*h, &sine, &cosine);
+    const vec magic = splat(6755399441055744.0); /* adding it rounds to an integer */
+    vec turns = rate*h*(0.5/PI);
+    vec_sin_cos((turns - ((turns + magic) - magic))*(2.0*PI), &sine, &cosine);
     for (int first = FIRST_VECTOR; first < MODEL_STATES; first += 3) {
         vec v[3], along = splat(0.0);
         for (int k = 0; k < 3; k++) {
