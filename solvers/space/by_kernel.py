@@ -150,6 +150,7 @@ def _in_planes(
     given = dict(si_values(scene, None, None)) | others | {"speed": impacts.speed, "angle": angle}
     rate = rate_scales(scene, given)
     oblique = impacts.oblique
+    ends.slip[~oblique] = np.nan
     shown = {name: answers["shown"][:, k] for k, name in enumerate(load(select_model(scene, True)).names("outputs"))}
     moved = {name: np.where(oblique, values * rate, 0.0) for name, values in shown.items() if name.startswith("final")}
     moved.setdefault("final_spin_partner", moved["final_spin"])

@@ -27,7 +27,7 @@ from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, run_kernel
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
-from wetdoublet.solvers.export.law.kernels import kernels
+from wetdoublet.solvers.export.law.kernels import PLANE, kernels
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.settings import STEPS
 
@@ -70,7 +70,7 @@ def best(calls: dict[str, Callable[[], object]], count: int) -> dict[str, float]
 
 def same_kernel(scene: Scene, rows: np.ndarray) -> Callable[[], np.ndarray]:
     """Our kernel of the law's own variant, in a plane."""
-    own = kernels(scene, RTOL)[-1]
+    own = next(each for each in kernels(scene, RTOL) if each.prefix == PLANE)
     library = kernel(own.variant)
     assert library is not None
     others = {"impact_spin": rows["spin"].copy(), "impact_partner_spin": rows["partner_spin"].copy()}

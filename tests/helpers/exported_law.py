@@ -44,14 +44,18 @@ class Law:
         return (self._folder / f"{self.name}.h").read_text()
 
     def dtype(self, structure: str) -> np.dtype:
-        """The type of "material", "impact", "collision" or "contact", read from the header."""
+        """The type of a structure ("material", "impact", "contact", "pair" ...), read from the header."""
         body = re.search(rf"typedef struct \{{([^}}]*)\}} {self.name}_{structure};", self.header)
         assert body is not None
-        fields = re.findall(rf"^ *(int|double|{self.name}_\w+) (\w+)(?:\[(\d+)\])?;", body[1], re.MULTILINE)
+        fields = re.findall(rf"^ *(int|double|{self.name}_\w+) (\w+)((?:\[\d+\])*);", body[1], re.MULTILINE)
         kinds = {"int": np.dtype("i4"), "double": np.dtype("f8")}
         found = [
-            (name, kinds.get(kind) or self.dtype(kind.removeprefix(f"{self.name}_")), (int(size),) if size else ())
-            for kind, name, size in fields
+            (
+                name,
+                kinds.get(kind) or self.dtype(kind.removeprefix(f"{self.name}_")),
+                tuple(map(int, re.findall(r"\d+", shape))),
+            )
+            for kind, name, shape in fields
         ]
         return np.dtype(found, align=True)
 
@@ -122,3 +126,39 @@ class Law:
         function = getattr(self._library, f"{self.name}_advance")
         status: int = function(ctypes.c_void_p(contact.ctypes.data), ctypes.c_double(time))
         return status
+
+    def pairs(self, normal: object, velocities: np.ndarray, spins: np.ndarray) -> np.ndarray:
+        """Rows of pairs; beside a wall one velocity and one spin suffice."""
+        rows = np.zeros(len(velocities), self.dtype("pair"))
+        rows["normal"] = normal
+        for name, given in (("velocities", velocities), ("spins", spins)):
+            rows[name][:, : np.shape(given)[1]] = given
+        return rows
+
+    def collide_pairs(self, pairs: np.ndarray, rtol: float = 1e-9, material: np.ndarray | None = None) -> np.ndarray:
+        """The results of pairs in space, by one call for all."""
+        found = np.zeros(pairs.size, self.dtype("pair_after"))
+        material = self.material() if material is None else material
+        function = getattr(self._library, f"{self.name}_collide_pair_many")
+        function.restype = ctypes.c_long
+        pointers = (ctypes.c_void_p(each.ctypes.data) for each in (material, pairs))
+        failed = function(
+            *pointers, ctypes.c_long(pairs.size), ctypes.c_double(rtol), ctypes.c_void_p(found.ctypes.data)
+        )
+        assert failed == np.count_nonzero(found["status"])
+        return found
+
+    def collide_particles(self, particles: np.ndarray, rtol: float = 1e-9) -> np.ndarray:
+        """The result of two particles (rows of their type), which are moved in place."""
+        found, material = np.zeros(1, self.dtype("pair_after")), self.material()
+        first, second = (ctypes.c_void_p(particles[k : k + 1].ctypes.data) for k in range(2))
+        function = getattr(self._library, f"{self.name}_collide_particles")
+        rest = ctypes.c_double(rtol), ctypes.c_void_p(found.ctypes.data)
+        assert function(ctypes.c_void_p(material.ctypes.data), first, second, *rest) == found["status"][0]
+        return found
+
+    def contact_distance(self) -> float:
+        """The distance at which a collision begins, m."""
+        function, material = getattr(self._library, f"{self.name}_contact_distance"), self.material()
+        function.restype = ctypes.c_double
+        return float(function(ctypes.c_void_p(material.ctypes.data)))

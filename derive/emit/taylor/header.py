@@ -383,6 +383,11 @@ class Header:
             lines += self._value(
                 "wobble", "static inline vec wobble(const constants *c, const vec *y)", {"wobble": "return"}
             )
+            lines += self._value(
+                "precession",
+                "static inline void precession(const constants *c, const vec *y, vec *found)",
+                {**{f"momentum_{axis}": f"found[{k}]" for k, axis in enumerate("xyz")}, "per_momentum": "found[3]"},
+            )
         elif turning:
             lines += self._value(
                 "rigid_rotation",

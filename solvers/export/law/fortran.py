@@ -4,20 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from ...scene.scene import Scene
 from .header import RESULTS
+from .kernels import only_in_a_plane
 from .material import Number
+from .space import FORTRAN_FUNCTIONS, fortran_types
 
 _KINDS = {"int": "integer(c_int)", "double": "real(c_double)"}
 
 
-def interface(of_material: Iterable[Number], of_impact: Iterable[Number]) -> str:
+def interface(scene: Scene, of_material: Iterable[Number], of_impact: Iterable[Number]) -> str:
     """The Fortran module, with `law_` in the place of the law's prefix."""
+    in_space = not only_in_a_plane(scene)
     lines = ["! The law from Fortran; what everything means stands in the header of the C file.", "module @NAME@"]
     lines += ["  use, intrinsic :: iso_c_binding", "  implicit none", ""]
     for name, fields in (
         ("law_material", [("double", each.name) for each in of_material]),
         ("law_impact", [("double", each.name) for each in of_impact]),
         ("law_collision", [(kind, name) for kind, name, _ in RESULTS]),
+        *(fortran_types() if in_space else []),
     ):
         lines += [f"  type, bind(c) :: {name}", *(f"    {_KINDS[kind]} :: {field}" for kind, field in fields)]
         lines += [f"  end type {name}", ""]
@@ -46,6 +51,7 @@ def interface(of_material: Iterable[Number], of_impact: Iterable[Number]) -> str
         "      type(law_collision), intent(out) :: found(count)",
         "      integer(c_long) :: failed",
         "    end function law_collide_many",
+        *(["", *FORTRAN_FUNCTIONS.splitlines()] if in_space else []),
         "  end interface",
         "end module @NAME@",
         "",

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Iterable, Sequence
 
 from ....generated.automaton import CRITERIA, KINDS, OUTCOMES
 from ...scene.scene import Scene
+from .comments import comment
 from .contact import contact_header
 from .material import LARGEST, Number, Result
+from .space import declarations
 
-_WIDTH = 100
 _OUTCOMES = ("STICK", "STICK_ROTATE_SEPARATE", "BOUNCE")
 RESULTS = (
     ("int", "status", "LAW_OK, or why there is no answer"),
@@ -34,7 +34,7 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
     """The text of NAME.h, with `law_` and `LAW_` in the place of the law's prefix."""
     lines = ["#ifndef LAW_H", "#define LAW_H", "", "#ifdef __cplusplus", 'extern "C" {', "#endif", ""]
     lines += [
-        *_comment(
+        *comment(
             "What collides, in SI units. Each number is zero or between "
             f"{1 / LARGEST:g} and {LARGEST:g} in magnitude (but for limits that are never met), within the range said "
             "here; others are refused. "
@@ -43,24 +43,24 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
         *_structure("law_material", of_material),
         "law_material law_default_material(void);",
         "",
-        *_comment(_frame(scene)),
+        *comment(_frame(scene)),
         *_structure("law_impact", of_impact),
-        *_comment("Outcomes."),
+        *comment("Outcomes."),
         *_enumeration(
             [("UNDECIDED", -1, "there is no answer; `status` says why")]
             + [(name, k, _said(name)) for k, name in enumerate(_OUTCOMES[: len(OUTCOMES)])]
         ),
-        *_comment("Rebound criteria."),
+        *comment("Rebound criteria."),
         *_enumeration(
             [("NO_REBOUND", -1, "none was met")]
             + [(word.upper(), KINDS.index(word), row.name) for word, row in CRITERIA.items()]
         ),
-        *_comment("Statuses: LAW_OK; UNDECIDED_...: no answer to this impact; from 100 on: bad input."),
+        *comment("Statuses: LAW_OK; UNDECIDED_...: no answer to this impact; from 100 on: bad input."),
         *_enumeration([(one.name, one.number, one.message) for one in said]),
-        *_comment("A status in words. The text is never null, and must not be freed."),
+        *comment("A status in words. The text is never null, and must not be freed."),
         "const char *law_message(int status);",
         "",
-        *_comment(
+        *comment(
             "What a collision comes to. Without an answer, and for a stick (but for `outcome`, `certified`, `rebound` "
             "and `restitution`), numbers are NaN."
         ),
@@ -68,13 +68,13 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
         *(f"    {kind} {name}; /* {what} */" for kind, name, what in RESULTS),
         "} law_collision;",
         "",
-        *_comment(
+        *comment(
             "One collision. `rtol` is the relative tolerance of the integration, 1e-13 to 1e-3; at most 1e-6 is used. "
             "Returns found->status. Reentrant: nothing is allocated, and no data is shared between calls."
         ),
         "int law_collide(const law_material *material, const law_impact *impact, double rtol, law_collision *found);",
         "",
-        *_comment(
+        *comment(
             "`count` collisions of one material, side by side where the processor has vectors. Returns how many have "
             "another status than LAW_OK. The results are those of single calls, up to the last digits."
         ),
@@ -82,6 +82,7 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
         "    const law_material *material, const law_impact *impacts, long count, double rtol, law_collision *found);",
         "",
         *contact_header(),
+        *declarations(scene),
         "#ifdef __cplusplus",
         "}",
         "#endif",
@@ -150,10 +151,3 @@ def _structure(name: str, numbers: Iterable[Number]) -> list[str]:
 
 def _enumeration(rows: Iterable[tuple[str, int, str]]) -> list[str]:
     return ["enum {", *(f"    LAW_{name} = {number}, /* {what} */" for name, number, what in rows), "};", ""]
-
-
-def _comment(text: str) -> list[str]:
-    lines = textwrap.wrap(text, _WIDTH - 6)
-    if len(lines) == 1:
-        return [f"/* {lines[0]} */"]
-    return [f"/* {lines[0]}", *(f" * {line}" for line in lines[1:]), " */"]

@@ -9,14 +9,17 @@ from functools import cached_property
 from ...engines.taylor.build import Variant, files
 from ...engines.taylor.call import variant
 from ...engines.taylor.headers import headers
+from ...engines.taylor.in_space import variant_in_space
 from ...errors import CheckFailed, InputError
 from ...model.model import ModelKey, load, select_model
 from ...scene.scene import Scene
+from ...space.collide_pair import check_scene
 from .amalgam import Source
 
-HEAD_ON, PLANE = "head_on", "plane"
+HEAD_ON, PLANE, SPACE = "head_on", "plane", "space"
 IMPACT = {"speed": "speed", "angle": "angle", "impact_spin": "spin", "impact_partner_spin": "partner_spin"}
 """Quantities of an impact, and their names in it."""
+_COMPONENTS = ("_x", "_y", "_z")
 _SHOWN = {
     "restitution": "c->restitution = {};",
     "tangential_restitution": "c->tangential_restitution = {};",
@@ -53,9 +56,14 @@ class Kernel:
         return made | {"in_si.h": self._in_si()}
 
     @property
+    def material(self) -> tuple[str, ...]:
+        """Names of those of its quantities that are the material's."""
+        return tuple(name for name in self.quantities if name not in IMPACT and not name.endswith(_COMPONENTS))
+
+    @property
     def quantities(self) -> tuple[str, ...]:
         """Names of the quantities in SI that it takes, in order."""
-        found = re.search(r"const char quantity_names\[\] =(.*?);", self.made["model.h"], re.DOTALL)
+        found = re.search(r"const char quantity_names\[\] =(.*?);", "\n".join(headers(self.choice) or ()), re.DOTALL)
         if found is None:
             raise CheckFailed("a kernel without quantities")
         return tuple(re.findall(r'"(\w+) ?"', found[1]))
@@ -65,6 +73,7 @@ class Kernel:
         return Source(self.prefix, self.made, roots)
 
     def _in_si(self) -> str:
+        own = self._places() if self.prefix == SPACE else [*self._columns(), *self._show()]
         return "\n".join(
             [
                 "/* Where the kernel's quantities come from, and where its outputs go. */",
@@ -73,17 +82,23 @@ class Kernel:
                 '#include "block.h"',
                 '#include "state.h"',
                 "",
-                *self._columns(),
-                *self._show(),
+                *own,
             ]
         )
+
+    def _places(self) -> list[str]:
+        names = load(self.choice).names("outputs")
+        vectors = [(k, name.removesuffix("_x")) for k, name in enumerate(names) if not name.endswith(("_y", "_z"))]
+        lines = [f"enum {{ {', '.join(f'AT_{name.upper()} = {k}' for k, name in vectors)} }}; /* in `shown` */", ""]
+        lines += ["static void set_material(buffer *columns, const law_material *m)", "{"]
+        lines += ["    for (int k = 0; k < QUANTITIES; k++)", "        columns[k].bytes = sizeof(double);"]
+        lines += [f"    columns[SI_{name.upper()}].at = (void *)&m->{name};" for name in self.material]
+        return [*lines, "}", ""]
 
     def _columns(self) -> list[str]:
         lines = ["static void set_columns(buffer *columns, const law_material *m, const block *b)", "{"]
         lines += ["    for (int k = 0; k < QUANTITIES; k++)", "        columns[k].bytes = sizeof(double);"]
-        found = re.search(r"const char quantity_names\[\] =(.*?);", "\n".join(headers(self.choice) or ()), re.DOTALL)
-        assert found is not None
-        for name in re.findall(r'"(\w+) ?"', found[1]):
+        for name in self.quantities:
             if name in IMPACT:
                 lines.append(f"    columns[SI_{name.upper()}].at = (void *)b->{IMPACT[name]};")
                 lines.append(f"    columns[SI_{name.upper()}].bytes = sizeof b->{IMPACT[name]};")
@@ -108,7 +123,7 @@ class Kernel:
 
 
 def kernels(scene: Scene, rtol: float) -> tuple[Kernel, ...]:
-    """The kernels of a scene's law: along the line of centres, and in a plane.
+    """The kernels of a scene's law: along the line of centres, in a plane, and of two spheres in space.
 
     Each of two spheres has its own spin; only on strings they share one.
     """
@@ -119,4 +134,15 @@ def kernels(scene: Scene, rtol: float) -> tuple[Kernel, ...]:
     for prefix, oblique in ((HEAD_ON, False), (PLANE, True)):
         choice = select_model(own, oblique)
         found.append(Kernel(prefix, replace(variant(scene, choice, rtol, rotation=True), limit=True), own))
+    if not scene.wall and not only_in_a_plane(scene):
+        found.append(Kernel(SPACE, variant_in_space(scene, rtol), own))
     return tuple(found)
+
+
+def only_in_a_plane(scene: Scene) -> str:
+    """Why a scene has no collisions in space; empty if it has."""
+    try:
+        check_scene(scene)
+    except InputError as error:
+        return f"{error.field} {error.problem}"
+    return ""

@@ -16,7 +16,7 @@ from ...scene.quantities import NO_GLASS
 from ...scene.scene import Scene
 from ...scene.schema import FIELDS, Range
 from ...settings import TOLERANCE
-from .kernels import IMPACT, Kernel
+from .kernels import SPACE, Kernel
 
 LARGEST = 1e30
 """Largest magnitude of a number, and the inverse of the smallest: beyond it groups may leave a double's range."""
@@ -69,7 +69,7 @@ def material(scene: Scene, kernels: Iterable[Kernel]) -> tuple[Number, ...]:
     from ....derive.vocabulary.quantities import VOCABULARY
 
     given = {"poisson_ratio": 0.0, **NEVER_MET, **si_values(scene, None, None)}
-    names = {name for kernel in kernels for name in kernel.quantities if name not in IMPACT}
+    names = {name for kernel in kernels for name in kernel.material}
     known = [name for name in VOCABULARY if name in names]
     found = []
     for name in [*known, *sorted(names - {*known})]:
@@ -137,7 +137,7 @@ def checks(scene: Scene, of_material: Iterable[Number], of_impact: Iterable[Numb
     else:
         stops += f" && m->glass_transition_pressure >= {NO_GLASS!r}"
     body += [f"if ({stops})", "    return LAW_NOTHING_STOPS;"]
-    *others, last = (f"{kernel.prefix}_inconsistent(m)" for kernel in kernels)
+    *others, last = (f"{kernel.prefix}_inconsistent(m)" for kernel in kernels if kernel.prefix != SPACE)
     for other in others:
         body += [f"if ({other} != LAW_OK)", f"    return {other};"]
     lines = _function("static int check_material(const law_material *m)", [*body, f"return {last};"])

@@ -10,18 +10,20 @@ from ...scene.scene import Scene
 from ...settings import RTOL
 from ...space.pairs import Bodies
 from ..equations import file_name
-from .amalgam import OWN, digests, merged
+from . import space
+from .amalgam import OWN, Source, digests, merged
 from .fortran import interface
 from .header import RESULTS, default_material, header, message_function
 from .items import items
-from .kernels import Kernel, kernels
-from .material import Number, checks, impact, material, results
+from .kernels import SPACE, Kernel, kernels, only_in_a_plane
+from .material import Number, Result, checks, impact, material, results
 from .vectors import table
 
 ROOTS = ("integrate.h", "follow.h")
 """Files of a kernel whose functions the law calls, with what they include."""
 CALLERS = ("law.h", "contact.h")
 """Files behind the kernels, which call their functions."""
+_LINE = re.compile(r'^#(?:pragma once|include "[^"]+")\n', re.MULTILINE)
 _LANES = """\
 /* Doubles side by side: as many as a vector register holds, or one in plain C. -DLAW_LANES=1 chooses. */
 #if defined(LAW_LANES)
@@ -53,7 +55,7 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
     found = {
         f"{name}.h": _head(scene, own) + _header(scene, own),
         f"{name}.c": _law(scene, own),
-        f"{name}.f90": interface(material(scene, own), impact(scene)).replace("@NAME@", name),
+        f"{name}.f90": interface(scene, material(scene, own), impact(scene)).replace("@NAME@", name),
         "vectors.h": table(scene, own),
     }
     found |= {shown: _filled(file, scene, own) for shown, file in _files(scene).items()}
@@ -62,9 +64,12 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
 
 def _files(scene: Scene) -> dict[str, str]:
     """The other files by name, and where their texts are."""
-    example = "example-plain.c" if scene.wall or scene.pendulum is not None else "example.c"
-    same = ("Makefile", "README.md", "check.c", "example.f90")
-    return {**{name: name for name in same}, "example.c": example, "example.py": "example.py.in"}
+    names = ("Makefile", "README.md", "check.c", "example.f90")
+    found = {**{name: name for name in names}, "example.py": "example.py.in"}
+    if not only_in_a_plane(scene):
+        return {**found, "example.c": "example-space.c", "pairs.py": "pairs.py.in"}
+    plain = scene.wall or scene.pendulum is not None
+    return {**found, "example.c": "example-plain.c" if plain else "example.c"}
 
 
 def _filled(file: str, scene: Scene, own: tuple[Kernel, ...]) -> str:
@@ -79,16 +84,23 @@ def _filled(file: str, scene: Scene, own: tuple[Kernel, ...]) -> str:
         "DOUBLES": ", ".join(doubles),
         "INTEGERS": ", ".join(integers),
         "SPEED": f"{speed:.3g}",
+        "PAIR": space.ctypes_fields(space.PAIR),
+        "AFTER": space.ctypes_fields(space.AFTER),
     }
-    if not scene.wall:
-        bodies = Bodies.of(scene)
-        places |= {
-            name: ", ".join(map(repr, each)) for name, each in (("RADII", bodies.radius), ("MASSES", bodies.mass))
-        }
+    radii, masses = _sizes(scene)
+    places |= {"RADII": ", ".join(map(repr, radii)), "MASSES": ", ".join(map(repr, masses))}
     text = (OWN / file).read_text()
     for name, value in places.items():
         text = text.replace(f"@{name}@", value)
     return text
+
+
+def _sizes(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Radii and masses, m and kg; zero of a wall."""
+    if not scene.wall:
+        bodies = Bodies.of(scene)
+        return bodies.radius, bodies.mass
+    return (float(scene.material["reduced_radius"]), 0.0), (float(scene.material["reduced_mass"]), 0.0)
 
 
 def _fields(numbers: Iterable[Number]) -> str:
@@ -97,22 +109,36 @@ def _fields(numbers: Iterable[Number]) -> str:
 
 def _header(scene: Scene, own: tuple[Kernel, ...]) -> str:
     of_material, of_impact = material(scene, own), impact(scene)
-    return header(scene, of_material, of_impact, results((*of_material, *of_impact)))
+    return header(scene, of_material, of_impact, _results(scene, (*of_material, *of_impact)))
 
 
 def _law(scene: Scene, own: tuple[Kernel, ...]) -> str:
     of_material, of_impact = material(scene, own), impact(scene)
+    called, parts = list(CALLERS), []
+    if not only_in_a_plane(scene):
+        called += space.callers(scene)
+        parts.append(space.bodies(scene))
     behind = "\n".join(
         [
             default_material(of_material),
-            message_function(results((*of_material, *of_impact))),
+            message_function(_results(scene, (*of_material, *of_impact))),
             checks(scene, of_material, of_impact, own),
-            *((OWN / name).read_text().replace("#pragma once\n", "") for name in CALLERS),
+            *parts,
+            *(_LINE.sub("", (OWN / name).read_text()) for name in called),
         ]
     )
-    sources = [kernel.source(ROOTS) for kernel in own]
-    text, includes = merged(sources, items("law", behind)[1])
+    text, includes = merged(_sources(scene, own), items("law", behind)[1])
     return "\n".join([_head(scene, own), '#include "law.h"', "", *includes, "", _LANES, text, behind])
+
+
+def _sources(scene: Scene, own: tuple[Kernel, ...]) -> list[Source]:
+    types = () if only_in_a_plane(scene) else space.TYPES
+    in_plane = (*ROOTS, *types)
+    return [kernel.source(space.ROOTS if kernel.prefix == SPACE else in_plane) for kernel in own]
+
+
+def _results(scene: Scene, numbers: Iterable[Number]) -> tuple[Result, ...]:
+    return (*results(numbers), *(() if only_in_a_plane(scene) else space.RESULTS))
 
 
 def _head(scene: Scene, own: tuple[Kernel, ...]) -> str:
@@ -122,7 +148,7 @@ def _head(scene: Scene, own: tuple[Kernel, ...]) -> str:
     for kernel in own:
         laws = ", ".join(f"{slot} {law}" for slot, law in kernel.choice.laws)
         lines.append(f"Kernel {kernel.prefix}: structure {kernel.choice.structure}; laws: {laws}.")
-    found = digests(kernel.source(ROOTS) for kernel in own)
+    found = digests(_sources(scene, own))
     lines += ["Digests of what is emitted from the derivation:", *(f"  {digest}" for digest in found)]
     inside = "\n".join(f" * {line}".rstrip() for line in lines).replace("*/", "* /")
     return f"/*\n{inside}\n */\n"

@@ -17,7 +17,8 @@ from ...model.model import load
 from ...scene.groups import rate_scales, si_values
 from ...scene.scene import Scene
 from ...settings import STEPS
-from .kernels import HEAD_ON, IMPACT, Kernel
+from .kernels import HEAD_ON, IMPACT, Kernel, only_in_a_plane
+from .pair_vectors import pair_table
 
 RTOL = 1e-9
 TOLERANCE = 1000 * RTOL
@@ -95,6 +96,7 @@ def table(scene: Scene, kernels: Sequence[Kernel]) -> str:
         *rows,
         "};",
         "",
+        *([] if only_in_a_plane(scene) else pair_table(scene, RTOL, TOLERANCE)),
         "#endif",
         "",
     ]

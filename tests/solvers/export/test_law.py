@@ -79,7 +79,7 @@ def test_is_our_kernel(law: Law, monkeypatch: pytest.MonkeyPatch):
     found = law.collide(impacts)
     oblique = (impacts["angle"] > 0) | (impacts["spin"] != 0) | (impacts["partner_spin"] != 0)
     assert set(found["outcome"]) == {0, 1, 2}
-    for own, which in zip(kernels(GRANULATION, 1e-9), (~oblique, oblique), strict=True):
+    for own, which in zip(kernels(GRANULATION, 1e-9)[:2], (~oblique, oblique), strict=True):
         library, answers = kernel(for_few(own.variant)), np.zeros(np.count_nonzero(which), ANSWER)
         assert library is not None
         these, x0 = impacts[which], GRANULATION.liquid.film_thickness

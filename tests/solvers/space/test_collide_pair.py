@@ -140,6 +140,8 @@ def test_head_on_is_head_on_in_every_direction():
     velocities = np.stack([np.zeros_like(normal), -0.5 * normal], axis=1)
     found = collide_pair("granulation-dry-bridge", normal, velocities, np.zeros((2, 3)), engine="taylor")
     assert not found.outcome.values.any() and found.certified.values.all()
+    away = collide_pair("granulation", normal, 100 * velocities, np.zeros((2, 3)), engine="taylor")
+    assert (away.restitution > 0.9).all() and np.isnan(away.slip_restitution).all()  # a ratio to nothing
 
 
 def test_a_common_velocity_is_added(equal):

@@ -5,7 +5,7 @@
  * such steps. Lanes that have crept for PATIENCE steps are parked. When a full vector of such lanes is available, or
  * nothing else remains, they are continued by the extrapolated linearly implicit Euler method (Deuflhard, SIAM Rev.
  * 27, 505 (1985); Hairer & Wanner, Solving ODEs II, IV.9), which is L-stable, so that steps follow the slow mode only.
- * Every lane has its own step.
+ * Every lane has its own step. In space the axes turn along with the doublet, and each step ends in the laboratory's.
  *
  * The error is measured relative to the change over a step, not to the state: the unstable mode grows from nearly
  * zero, and the time of its departure depends on its relative error. A step that could contain an event is rejected,
@@ -24,6 +24,12 @@ enum { PATIENCE = 100, COLUMNS = 7, TRIES = 4000 };
 static const double WORTH = 25.0;      /* least number of Taylor steps replaced by one step, which costs five to ten */
 static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
 static const double FLOOR = 5e-14;     /* relative rounding error of a state, as amplified by extrapolation */
+#if SPACE
+static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn along is little beside what turns */
+static const double LEAST_VECTOR = 1e-3;     /* a smaller one counts as this, as in step.h */
+static const double MOST_TURNED = 1e9;       /* turns in a step */
+#endif
+enum { COST = SPACE ? 50 : 1 }; /* of a step, from the budget: a doublet in balance on its line of centres tumbles forever */
 
 typedef struct {
     vec rates[STATES][MODEL_STATES]; /* derivatives of the states' rates */
@@ -34,6 +40,9 @@ typedef struct {
 #if RUBS
     rubbing r;
     const lanes *l;
+#endif
+#if SPACE
+    vec turning[3]; /* angular velocity of the axes: along the angular momentum, which is constant in them as well */
 #endif
 } slow;
 
@@ -49,7 +58,49 @@ OUTLINE void rates_at(slow *w, const vec *y, vec *rate)
     if (bits(w->l->resting))
         rubbing_rates(&w->r, w->c, w->l, y, rate);
 #endif
+#if SPACE
+    for (int first = FIRST_VECTOR; first < MODEL_STATES; first += 3)
+        for (int k = 0; k < 3; k++) {
+            int next = (k + 1)%3, last = (k + 2)%3;
+            rate[first + k] -= w->turning[next]*y[first + last] - w->turning[last]*y[first + next];
+        }
+#endif
 }
+
+#if SPACE
+/* Axes that turn as a rigid doublet does, in which one that tumbles is nearly at rest; the fastest rate of a lane. */
+static vec begin_turning(slow *w, const vec *y)
+{
+    vec found[4], square = splat(0.0);
+    precession(w->c, y, found);
+    for (int k = 0; k < 3; k++) {
+        w->turning[k] = found[3]*found[k];
+        square += w->turning[k]*w->turning[k];
+    }
+    return vec_sqrt(square);
+}
+
+/* The states after a step, from these axes into the laboratory's. */
+static void turn_back(const slow *w, vec rate, vec h, vec *y)
+{
+    vec sine, cosine, over = choose(rate > 0.0, 1.0/rate, splat(0.0));
+    const vec magic = splat(6755399441055744.0); /* adding it rounds to an integer */
+    vec turns = rate*h*(0.5/PI);
+    vec_sin_cos((turns - ((turns + magic) - magic))*(2.0*PI), &sine, &cosine);
+    for (int first = FIRST_VECTOR; first < MODEL_STATES; first += 3) {
+        vec v[3], along = splat(0.0);
+        for (int k = 0; k < 3; k++) {
+            v[k] = y[first + k];
+            along += over*w->turning[k]*v[k];
+        }
+        for (int k = 0; k < 3; k++) {
+            int next = (k + 1)%3, last = (k + 2)%3;
+            vec crossed = over*(w->turning[next]*v[last] - w->turning[last]*v[next]);
+            y[first + k] = cosine*v[k] + sine*crossed + (1.0 - cosine)*along*over*w->turning[k];
+        }
+    }
+}
+#endif
 
 /* Central differences: extrapolation does not remove an error of the Jacobian from the stiff part. */
 static void find_rates(slow *w, const vec *y)
@@ -191,7 +242,11 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
         d[state] = change[state] - table[COLUMNS - 2][state];
     }
     EACH_SIZE(state) {
-        vec allowed = f->tolerance*size_of(change, 1, state) + FLOOR*size_of(l->y, 1, state);
+        vec size = size_of(l->y, 1, state), allowed = f->tolerance*size_of(change, 1, state) + FLOOR*size;
+#if SPACE
+        if (state >= FIRST_VECTOR && state < MODEL_STATES)
+            allowed += FLOOR_OF_VECTOR*(size + LEAST_VECTOR);
+#endif
         if (state == GAP)
             carried = allowed/l->stride; /* an error of the normal velocity decays within a Taylor step */
         if (state == NORMAL_VELOCITY)
@@ -241,17 +296,30 @@ OUTLINE void crawl(queue *q)
         for (unsigned proved = bits(busy & sticks); proved; proved &= proved - 1)
             settle(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
         busy &= NOT(sticks);
+#if SPACE && PROOF_BY_ENERGY
+        mask held = busy & tumbles(&f.c, l.y, &f.b, q->rtol);
+        for (unsigned left = bits(held); left; left &= left - 1)
+            settle(q, &l, &f, first_of(left), DECIDED, STICK, 0);
+        busy &= NOT(held);
+#endif
         vec rate[STATES], change[STATES];
         mask clear;
+#if SPACE
+        vec turns = begin_turning(&w, l.y);
+        h = vec_min(h, MOST_TURNED/turns);
+#endif
         rates_at(&w, l.y, rate);
         find_rates(&w, l.y);
         vec error = extrapolated(&w, &l, &f, rate, h, change, &clear);
         mask taken = busy & clear & (error <= 1.0);
         for (int state = 0; state < STATES; state++)
             l.y[state] += only(taken, change[state]);
+#if SPACE
+        turn_back(&w, turns, only(taken, h), l.y);
+#endif
         l.time += only(taken, h);
         l.smallest = vec_min(l.smallest, l.y[GAP]);
-        l.steps += 1;
+        l.steps += splat_mask(COST);
         vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/COLUMNS));
         h *= choose(clear, vec_min(better, splat(4.0)), splat(0.25));
         mask leaves = busy & NOT(h > least_step);

@@ -31,3 +31,15 @@ static void set_unknown(law_collision *found, int status)
     found->contact_time = found->rotation = found->smallest_gap = found->final_gap = NAN;
     found->final_spin = found->final_partner_spin = found->final_rotation_rate = NAN;
 }
+
+/* Of a stick only outcome and restitution are defined by the physics. */
+static void hide_stick(law_collision *stick)
+{
+    law_collision shown;
+    set_unknown(&shown, LAW_OK);
+    shown.outcome = stick->outcome;
+    shown.certified = stick->certified;
+    shown.rebound = stick->rebound;
+    shown.restitution = 0.0;
+    *stick = shown;
+}

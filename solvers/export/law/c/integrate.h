@@ -6,7 +6,9 @@
 #include "in_si.h"
 #include "limit.h"
 
-enum { MOST_STEPS_TAKEN = 1000000 }; /* of a collision, or of an interrupted one in a call */
+struct interrupted; /* limit.h; a collision in space is not interrupted */
+
+enum { MOST_STEPS_TAKEN = SPACE ? 300000 : 1000000 }; /* of a collision, or of an interrupted one in a call */
 
 /* Integrates `count` collisions, from columns of quantities in SI to answers in the kernel's units.
  *
@@ -25,8 +27,14 @@ static void integrate(
     q.count = count;
     q.next = q.queued = q.taken = 0;
     q.parks = q.resumes = 0;
+    q.budget = MOST_STEPS_TAKEN;
+#if WITH_LIMIT
     q.contact = contact;
-    q.budget = MOST_STEPS_TAKEN + (contact ? contact->now.steps : 0);
+    if (contact)
+        q.budget += contact->now.steps;
+#else
+    (void)contact;
+#endif
     run(&q);
 }
 
@@ -79,13 +87,10 @@ static void run_block(const law_material *m, const block *b, double rtol, law_co
         c->outcome = a->outcome;
         c->certified = a->certified;
         c->rebound = a->reversal;
-        c->restitution = 0.0;
-        if (a->outcome == STICK)
-            continue;
         c->contact_time = a->time*(m->film_thickness/b->speed[k]);
         c->rotation = a->turned;
         c->smallest_gap = a->smallest_gap*m->film_thickness;
-        c->final_gap = a->final_gap*m->film_thickness;
+        c->final_gap = (a->status == PROVED_AT_TOUCH ? 1.0 : a->final_gap)*m->film_thickness;
         show(a, unit[k], c);
         if (b->angle[k] == 0.0)
             c->tangential_restitution = NAN; /* a ratio to nothing */

@@ -1,20 +1,16 @@
 /* What a host calls: a block for each kernel is filled, and run when it is full. */
 #pragma once
 
-long law_collide_many(
+/* Planar collisions of those that are marked as LAW_OK. Of a stick, numbers are those where its integration stopped. */
+static void collide_planar(
     const law_material *material, const law_impact *impacts, long count, double rtol, law_collision *found)
 {
     block plane, head_on;
-    long failed = 0;
-    int wrong = check_material(material);
-    if (wrong == LAW_OK)
-        wrong = check_rtol(rtol);
     plane.count = head_on.count = 0;
     for (long k = 0; k < count; k++) {
         const law_impact *impact = impacts + k;
-        int status = wrong == LAW_OK ? check_impact(impact) : wrong;
-        if (status != LAW_OK)
-            set_unknown(found + k, status);
+        if (found[k].status != LAW_OK)
+            ;
         else if (impact->angle > 0.0 || impact->spin != 0.0 || impact->partner_spin != 0.0)
             add_impact(&plane, impact, k);
         else
@@ -29,8 +25,23 @@ long law_collide_many(
             head_on.count = 0;
         }
     }
+}
+
+long law_collide_many(
+    const law_material *material, const law_impact *impacts, long count, double rtol, law_collision *found)
+{
+    long failed = 0;
+    int wrong = check_material(material);
+    if (wrong == LAW_OK)
+        wrong = check_rtol(rtol);
     for (long k = 0; k < count; k++)
+        set_unknown(found + k, wrong == LAW_OK ? check_impact(impacts + k) : wrong);
+    collide_planar(material, impacts, count, rtol, found);
+    for (long k = 0; k < count; k++) {
+        if (found[k].outcome == LAW_STICK)
+            hide_stick(found + k);
         failed += found[k].status != LAW_OK;
+    }
     return failed;
 }
 

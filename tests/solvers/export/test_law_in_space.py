@@ -1,0 +1,246 @@
+"""Collisions in space by the exported law: as `collide_pair`, in every frame, with no silent NaN."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Scene, collide_pair
+from wetdoublet.solvers.export.law.space import declarations
+from wetdoublet.solvers.space.pairs import Bodies
+
+from ...helpers.exported_law import FOUND, Law, written
+
+pytestmark = pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
+GRANULATION = Scene.load("granulation")
+OWN = GRANULATION.with_entries(
+    {
+        "particles.reduced_radius": "0.2 mm", "particles.reduced_mass": "3e-5 g", "particles.dry_restitution": 0.8,
+        "liquid.viscosity": 0.3, "partner.radius": "0.3 mm", "partner.mass": "3e-5 g", "bridge.volume": 0.02,
+    }
+)  # fmt: skip
+WALL = GRANULATION.with_entries({"partner.wall": True})
+STRICT = ("-pedantic", "-Wall", "-Wextra", "-Werror", "-march=native")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The exported folder of unequal spheres."""
+    return written(OWN, tmp_path_factory.mktemp("law") / "spheres")
+
+
+@pytest.fixture(scope="module")
+def law(folder: Path) -> Law:
+    """The law of unequal spheres; it compiles as C99 without a warning."""
+    return Law(OWN, folder, *STRICT)
+
+
+@pytest.fixture(scope="module")
+def walled(tmp_path_factory: pytest.TempPathFactory) -> Law:
+    """The law of a sphere and a wall."""
+    return Law(WALL, written(WALL, tmp_path_factory.mktemp("law") / "wall"), *STRICT)
+
+
+def arrivals(scene: Scene, count: int, seed: int = 1) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Normals, velocities and spins of pairs that approach; a third in a plane, some along the line of centres."""
+    draw, a = np.random.default_rng(seed), float(scene.material["reduced_radius"])
+    normal = draw.normal(size=(count, 3))
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    speed = 10 ** draw.uniform(-1.7, 1.5, count)[:, None] / scene.stokes_per_speed
+    velocities = draw.normal(size=(count, 2, 3)) * speed[:, None]
+    opening = np.sum(normal * (velocities[:, 1] - velocities[:, 0]), axis=1, keepdims=True)
+    velocities[:, 1] -= (opening + speed) * normal
+    spins = 0.3 * draw.normal(size=(count, 2, 3)) * (speed / a)[:, None]
+    axis = np.cross(normal, velocities[:, 1] - velocities[:, 0])
+    axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+    spins[::3] = np.sum(spins * axis[:, None], axis=2, keepdims=True)[::3] * axis[::3, None]
+    velocities[::10, 1] = velocities[::10, 0] - (speed * normal)[::10]
+    spins[::10] = 0.0
+    return normal, velocities, spins
+
+
+def close(found: np.ndarray, expected: np.ndarray, scale: np.ndarray, rtol: float = 1e-6) -> None:
+    """Vectors by their length, beside a scale."""
+    apart, size = (np.linalg.norm(np.nan_to_num(each), axis=-1) for each in (found - expected, scale))
+    assert np.array_equal(np.isnan(found), np.isnan(expected))
+    assert np.all(apart <= rtol * size), (apart / size).max()
+
+
+def agree(law: Law, scene: Scene, count: int) -> None:
+    """All that the law says beside `collide_pair`; where the integration of a stick stops is left open."""
+    normal, velocities, spins = arrivals(scene, count)
+    mine = 1 if scene.wall else 2
+    spins = spins[:, :mine]
+    found = law.collide_pairs(law.pairs(3.0 * normal, velocities, spins))
+    expected = collide_pair(scene, normal, velocities, spins, engine="taylor")
+    assert np.array_equal(found["outcome"], expected.outcome.values)
+    assert set(found["outcome"]) >= {0, 2}
+    assert np.array_equal(found["certified"] != 0, expected.certified.values)
+    away = found["outcome"] > 0
+    for name in ("restitution", "time", "gap", "slip_restitution"):
+        np.testing.assert_allclose(found[name][away], expected[name].values[away], rtol=1e-7)
+    for name in ("position", "normal", "velocities", "spins"):
+        scale = {"velocities": velocities, "spins": np.abs(spins).max(axis=1, keepdims=True) + 1.0}
+        given = expected[name].values[away]
+        close(found[name][away], given, scale[name][away] if name in scale else given)
+    close(found["centre_velocity"], expected.centre_velocity.values, velocities[:, 0])
+    close(found["angular_velocity"][away], expected.angular_velocity.values[away], np.ones((away.sum(), 3)))
+
+
+def test_two_spheres_are_those_of_collide_pair(law: Law):
+    """In planes, out of them and along the line of centres, of a material far from the presets."""
+    agree(law, OWN, 120)
+
+
+def test_a_sphere_and_a_wall_are_those_of_collide_pair(walled: Law):
+    """A wall that moves, with sliding, rolling and twist in different directions."""
+    agree(walled, WALL, 60)
+
+
+def test_what_is_conserved(law: Law):
+    """Momentum and angular momentum to rounding, sticks' too; energy is never created."""
+    normal, velocities, spins = arrivals(OWN, 300, seed=2)
+    found, bodies = law.collide_pairs(law.pairs(normal, velocities, spins)), Bodies.of(OWN)
+    mass, inertia = np.array(bodies.mass)[:, None], np.array(bodies.inertia)[:, None]
+    before, after = ((mass * each).sum(axis=1) for each in (velocities, found["velocities"]))
+    close(after, before, (mass * np.abs(velocities)).sum(axis=1), 1e-14)
+
+    def momentum(apart: np.ndarray, moving: np.ndarray, turning: np.ndarray) -> np.ndarray:
+        orbital = bodies.reduced_mass * np.cross(apart, moving[:, 1] - moving[:, 0])
+        return np.asarray(orbital + (inertia * turning).sum(axis=1))
+
+    def energy(moving: np.ndarray, turning: np.ndarray) -> np.ndarray:
+        return np.asarray((mass * moving**2 + inertia * turning**2).sum(axis=(1, 2)))
+
+    first = momentum(law.contact_distance() * normal, velocities, spins)
+    size = np.abs(inertia * spins).sum(axis=1)
+    size += bodies.reduced_mass * law.contact_distance() * np.abs(velocities).sum(axis=1)
+    close(momentum(found["position"], found["velocities"], found["spins"]), first, size, 1e-12)
+    assert np.all(energy(found["velocities"], found["spins"]) <= energy(velocities, spins))
+
+
+def test_a_turned_picture_gives_a_turned_answer(law: Law):
+    """Whichever way the axes point, and however fast the frame moves."""
+    normal, velocities, spins = arrivals(OWN, 60, seed=3)
+    turn, _ = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))
+    turn *= np.sign(np.linalg.det(turn))
+    found = law.collide_pairs(law.pairs(normal, velocities, spins))
+    drift = np.array([1.0, -2.0, 0.5])
+    other = law.collide_pairs(law.pairs(normal @ turn.T, velocities @ turn.T + drift, spins @ turn.T))
+    assert np.array_equal(found["outcome"], other["outcome"])
+    away = found["outcome"] > 0
+    close((other["velocities"] - drift)[away] @ turn, found["velocities"][away], velocities[away] + drift)
+    close(other["spins"][away] @ turn, found["spins"][away], np.abs(spins[away]).max(axis=1, keepdims=True) + 1.0)
+
+
+def test_one_by_one_is_the_batch(law: Law):
+    """A pair's answer does not depend, to the last bit, on those beside it."""
+    rows = law.pairs(*arrivals(OWN, 150, seed=5))
+    whole = law.collide_pairs(rows)
+    assert b"".join(law.collide_pairs(rows[k : k + 1]).tobytes() for k in range(rows.size)) == whole.tobytes()
+
+
+def test_what_cannot_collide_has_a_status(law: Law):
+    """No direction, no number, receding, beyond range: NaN and a reason; sound pairs beside them are computed."""
+    nan, inf, still = math.nan, math.inf, [0.0, 0.0, 0.0]
+    ahead, none = [[0.0, 0.0, 0.5], still], [still, still]
+    wanted = {
+        "NO_DIRECTION": [(still, ahead, none), ([0, nan, 1], ahead, none), ([inf, 0, 0], ahead, none)],
+        "NOT_A_NUMBER": [([0, 0, 1], [[0, 0, nan], still], none), ([0, 0, 1], ahead, [still, [0, inf, 0]])],
+        "NOT_APPROACHING": [([0, 0, -1], ahead, none), ([0, 0, 1], none, none), ([1, 0, 0], ahead, none)],
+        "OUT_OF_RANGE": [
+            ([0, 0, 1], [[0, 0, 1e200], still], none), ([0, 0, 1], [[0, 0, 1e-300], still], none),
+            ([0, 0, 1], ahead, [[1e200, 0, 0], still]),
+        ],
+        "UNDECIDED_TOO_OBLIQUE": [
+            ([0, 0, 1], [[1e9, 0, 1], still], none), ([0, 0, 1], ahead, [[1e14, 1e12, 5], still]),
+        ],
+        "OK": [
+            ([0, 0, 5e-324], ahead, none), ([1e308] * 3, [[0.5] * 3, still], none),
+            ([0, 0, 1], [[0, 0, 80.0], still], [[0, 0, 1e6], [0, 0, -1e6]]),  # twist alone
+            ([0, 0, 1], ahead, [[1e-200, 1e-300, 0], still]),
+        ],
+    }  # fmt: skip
+    names = [name for name, rows in wanted.items() for _ in rows]
+    normal, velocities, spins = (np.array([row[k] for rows in wanted.values() for row in rows]) for k in range(3))
+    found = law.collide_pairs(law.pairs(normal, velocities, spins))
+    assert found["status"].tolist() == [law.number(name) for name in names]
+    sound = found["status"] == 0
+    for name in ("restitution", "time", "position", "normal", "velocities", "spins", "centre_velocity"):
+        numbers = np.isfinite(found[name].reshape(sound.size, -1))
+        assert numbers[sound].all(), name
+        assert not numbers[~sound].any(), name
+    assert np.all(found["outcome"][~sound] == law.number("UNDECIDED"))
+    assert "approach" in law.message(law.number("NOT_APPROACHING"))
+    material = law.material()
+    material["viscosity"] = nan
+    refused = law.collide_pairs(law.pairs(normal, velocities, spins), material=material)
+    assert np.all(refused["status"] == law.number("BAD_VISCOSITY"))
+
+
+def test_particles_are_moved_in_place(law: Law):
+    """Momentum and angular momentum about the origin, and the centre of mass; without an answer nothing moves."""
+    bodies = Bodies.of(OWN)
+    mass, inertia = np.array(bodies.mass)[:, None], np.array(bodies.inertia)[:, None]
+    normal, velocities, spins = arrivals(OWN, 12, seed=6)
+    for k in range(12):
+        both = np.zeros(2, law.dtype("particle"))
+        both["position"] = [[1e-3, -2e-3, 5e-4], np.array([1e-3, -2e-3, 5e-4]) + law.contact_distance() * normal[k]]
+        both["velocity"], both["spin"] = velocities[k], spins[k]
+        before = both.copy()
+        after = law.collide_particles(both)[0]
+        pair = law.collide_pairs(law.pairs(normal[k], velocities[k : k + 1], spins[k : k + 1]))[0]
+        assert after["outcome"] == pair["outcome"]
+        assert np.array_equal(both["velocity"], after["velocities"])
+        assert both["position"][1] - both["position"][0] == pytest.approx(after["position"], abs=1e-15)
+        centres = [np.sum(mass * each["position"], axis=0) / mass.sum() for each in (before, both)]
+        drift = np.sum(mass * before["velocity"], axis=0) / mass.sum()
+        assert centres[1] == pytest.approx(centres[0] + after["time"] * drift, rel=1e-9, abs=1e-12)
+        turning = [
+            np.sum(mass * np.cross(each["position"], each["velocity"]) + inertia * each["spin"], axis=0)
+            for each in (before, both)
+        ]
+        assert turning[1] == pytest.approx(turning[0], abs=1e-9 * np.abs(turning[0]).max())
+    before["velocity"] *= -1
+    both = before.copy()
+    assert law.collide_particles(both)[0]["status"] == law.number("NOT_APPROACHING")
+    assert both.tobytes() == before.tobytes()
+
+
+def test_in_cpp_and_plain_doubles(folder: Path, tmp_path: Path):
+    """The folder's own check, as C++ without vector registers, agrees with the pairs computed when it was exported."""
+    sources = [str(folder / "check.c"), str(folder / "granulation.c")]
+    command = [
+        "g++",
+        "-x",
+        "c++",
+        "-std=c++11",
+        "-O0",
+        *STRICT[:4],
+        "-DGRANULATION_LANES=1",
+        "-o",
+        str(tmp_path / "check"),
+    ]
+    subprocess.run([*command, *sources, "-lm"], check=True)
+    done = subprocess.run([tmp_path / "check"], capture_output=True, text=True, check=False)
+    assert "pairs in space differ" in done.stdout
+    assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize(
+    ("scene", "why"),
+    [
+        (Scene.load("pendulum"), "pendulum hold the spheres in one plane"),
+        (GRANULATION.with_entries({"particles.friction": 0.3}), "particles.friction is in a plane only"),
+        (GRANULATION.with_entries({"model.arm": "surface"}), "model.arm does not conserve the angular momentum"),
+    ],
+)
+def test_the_header_says_why_there_is_none(scene: Scene, why: str):
+    """Scenes whose collisions are in a plane only."""
+    said = " ".join(" ".join(declarations(scene)).replace(" * ", " ").split())
+    assert why in said
+    assert "#define LAW_IN_SPACE 0" in said
+    assert "law_collide_pair(const" not in said
