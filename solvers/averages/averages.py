@@ -199,16 +199,15 @@ def _computed(asked: _Asked, kept: Journal | None, progress: Progress | None) ->
     mirror = np.arange(size).reshape(asked.shape).T.ravel() if asked.symmetric else np.arange(size)
     left = np.flatnonzero(~done & (mirror >= np.arange(size)))
     total = int(np.count_nonzero(mirror >= np.arange(size)))
-    for k in range(0, left.size + 1, _BLOCK):
+    for k in range(0, left.size, _BLOCK):
         if progress is not None:
             progress(total - left.size + k, total)
         where = left[k : k + _BLOCK]
-        if where.size:
-            block = _block(asked, where)
-            if kept is not None:
-                kept.add(where, block)
-            for name, values in block.items():
-                found[name][where] = values
+        block = _block(asked, where)
+        if kept is not None:
+            kept.add(where, block)
+        for name, values in block.items():
+            found[name][where] = values
     if progress is not None:
         progress(total, total)
     return {name: values[np.minimum(mirror, np.arange(size))] for name, values in found.items()}

@@ -1,8 +1,9 @@
 """Collision averages of a matrix of radii: time, estimated errors, and errors against a finer quadrature of a sample.
 
-`python tests/benchmarks/averages.py [--size 64] [--wrt NAME,...] [--sample 24]`
+`python -m tests.benchmarks.averages [--size 64] [--wrt NAME,...] [--sample 24]`
 """
 
+# ruff: noqa: T201 -- a script that prints
 from __future__ import annotations
 
 import argparse
