@@ -89,7 +89,7 @@ def collision_averages(
         >>> from wetdoublet.solvers import collision_averages
         >>> found = collision_averages("granulation", speeds="1.5 m/s", tolerance=1e-4)
         >>> round(float(found.stick_probability), 3)
-        0.351
+        0.355
     """
     loaded, told = Scene.load(scene), check_function(progress, "progress")
     asked = _asked(loaded, speeds, radii, films, tolerance, rtol, wrt)
