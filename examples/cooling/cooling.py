@@ -3,7 +3,7 @@
 python cooling.py [--spheres 5000] [--share 0.02] [--speed 4] [--collisions 100] [--out DIR]
 """
 
-# ruff: noqa: T201 -- a script that prints
+
 from __future__ import annotations
 
 import argparse
