@@ -35,6 +35,7 @@ MOST = 400  # radii
 _BLOCK = 32  # pairs that are computed together
 _OF_GRADIENTS = 100.0  # tolerance of the lines of derivatives, over that of the means
 _TOLERANCE = Field("tolerance", "an error", "1e-6", Range("from 1e-9 to 1e-2", lambda v: 1e-9 <= v <= 1e-2))
+_OF_ONE = ("particles.radius", "particles.density")  # entries of one sphere of a pair, as those of its partner
 Progress = Callable[[int, int], None]
 
 
@@ -127,7 +128,8 @@ class _Asked:
         """True if either sphere may be called the first."""
         spins = self.scene.impact.spin, self.scene.impact.partner_spin
         same = spins[1] is None or spins[0] == spins[1]
-        return len(self.shape) == 2 and self.scene.partner is None and same and not self.wrt
+        own = any(name in _OF_ONE or name.startswith("partner.") for name in self.wrt)
+        return len(self.shape) == 2 and self.scene.partner is None and same and not own
 
     def scene_of(self, index: tuple[int, ...]) -> Scene:
         """The scene of a pair; InputError if it is impossible."""

@@ -36,10 +36,10 @@ def main() -> None:
     wall, cpu = time.perf_counter(), time.process_time()
     found = collision_averages(SCENE, speeds=SPEEDS, radii=radii, wrt=wrt, progress=_tell)
     wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
-    pairs = given.size * (given.size if wrt else (given.size + 1) / 2)
+    pairs = given.size * (given.size + 1) // 2  # entries of one sphere alone need the others too
     load = os.getloadavg()[0]
     print(f"\n{given.size} x {given.size} radii: {wall:.0f} s, {cpu:.0f} s of CPU, load {load:.1f}")
-    print(f"{1e3 * cpu / pairs:.0f} ms of CPU for each of {pairs:.0f} pairs")
+    print(f"{1e3 * cpu / pairs:.0f} ms of CPU for each of {pairs} pairs")
     print(f"failed: {int((found.reason != '').sum())}; largest error estimates:")
     for name in QUANTITIES:
         print(f"  {name:34} {float(found[f'{name}_error'].max()):.1e}")
