@@ -3,7 +3,6 @@
 python cooling.py [--spheres 5000] [--share 0.02] [--speed 4] [--collisions 100] [--out DIR]
 """
 
-
 from __future__ import annotations
 
 import argparse
