@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .averages.averages import collision_averages
     from .boundaries.boundary import Atlas, Boundaries, atlas, boundary
     from .collision.collide import collide
     from .collision.result import Collision
@@ -48,6 +49,7 @@ _HOMES = {
     "compile_kernels": "engines.kernels",
     "collide_many": "many.collide_many",
     "collide_pair": "space.collide_pair",
+    "collision_averages": "averages.averages",
     "gradients_many": "sensitivity.gradients_many",
     "pair_gradients": "sensitivity.pair_gradients",
     "plot": "host.pictures",
@@ -76,6 +78,7 @@ __all__ = [
     "collide",
     "collide_many",
     "collide_pair",
+    "collision_averages",
     "compile_kernels",
     "gradients_many",
     "pair_gradients",

@@ -1,0 +1,245 @@
+"""`collision_averages()`: outcomes and restitution averaged over impact geometry and speeds, for pairs of sizes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..host.arguments import check_function, check_name, check_names
+from ..many.batch import checked_numbers
+from ..many.journal import Journal
+from ..many.journal import journal as checked_journal
+from ..many.stream import software
+from ..model.validity import warn
+from ..scene.scene import Scene
+from ..scene.schema import MEETING, Field, Range
+from ..sensitivity.parameters import known_of_particles
+from ..settings import RTOL, check_rtol
+from .dataset import Columns, dataset
+from .geometry import COLUMNS
+from .gradients import gradients
+from .over_speeds import SHARP_CUT, means
+from .sizes import FILMS, FIXED, Pairs, scene_of_sizes
+from .speeds import Speeds
+
+if TYPE_CHECKING:
+    import xarray
+
+MOST = 400  # radii
+_BLOCK = 32  # pairs that are computed together
+_OF_GRADIENTS = 100.0  # tolerance of the lines of derivatives, over that of the means
+_TOLERANCE = Field("tolerance", "an error", "1e-6", Range("from 1e-9 to 1e-2", lambda v: 1e-9 <= v <= 1e-2))
+_OF_ONE = ("particles.radius", "particles.density")  # entries of one sphere of a pair, as those of its partner
+Progress = Callable[[int, int], None]
+
+
+def collision_averages(
+    scene: Scene | str | Path,
+    *,
+    speeds: Any = None,
+    radii: Any = None,
+    films: str = FIXED,
+    tolerance: float = 1e-6,
+    rtol: float = RTOL,
+    wrt: Sequence[str] | str = (),
+    progress: Progress | None = None,
+    journal: str | Path | Journal | None = None,
+) -> xarray.Dataset:
+    """Sticking probability and mean restitution over all collisions of a gas, for each pair of sizes.
+
+    The direction of the relative velocity is isotropic, so that impact angles have the density sin(2 theta); its
+    magnitude has the distribution `speeds`. The normal speed of a collision is V cos(theta). Spins are the scene's.
+
+    Arguments:
+        scene: a Scene, a path or a preset's name; its [impact] has no influence but for its spins.
+        speeds: relative speeds V of the collisions: one, in m/s or as text; `"maxwell:0.3 m/s"`, those of a gas whose
+            velocities have components of this standard deviation, weighted by their flux; a CSV file with the header
+            `relative_speed,density`, or two arrays. Default the scene's relative speed.
+        radii: radii (m) of the spheres; every pair of them is computed, beside a wall each radius. Default the scene's
+            own pair. Densities are those of the scene.
+        films: "fixed": the film and the roughness are the scene's for every pair; "proportional": both grow with the
+            sum of the radii, a coating with its sphere, a volume in m^3 with the cube of the sum.
+        tolerance: absolute error of the quadrature, of the shares and of the means over all collisions. From 1e-9 to
+            1e-2. Means over those that separate have it divided by their share.
+        rtol: relative tolerance of the collisions, 1e-13..1e-3.
+        wrt: numeric entries of a pair's scene, such as liquid.viscosity, by which the means are differentiated, each
+            alone, at fixed relative speeds.
+        progress: called with (pairs done, pairs in all) after every block.
+        journal: file that keeps finished pairs, so that the same call continues after an interrupt; the caller removes
+            it.
+
+    Returns:
+        Dataset over (radius, partner_radius), over (radius) beside a wall, or without dimensions:
+        stick_probability, rotate_probability, bounce_probability (sum 1); restitution_all and
+        tangential_restitution_all, means over all collisions in which a stick counts as 0; restitution_separated and
+        tangential_restitution_separated, means over the collisions that separate, NaN where none does; of each its
+        error as NAME_error; reason of a failure, else "". With `wrt` also gradient and gradient_error over (quantity,
+        parameter), SI.
+
+    Raises:
+        InputError: an invalid name or value, or a scene with strings. A pair that fails raises nothing; it is marked.
+        ComputationError: there is no compiled kernel of this scene here.
+
+    Example:
+        >>> from wetdoublet.solvers import collision_averages
+        >>> found = collision_averages("granulation", speeds="1.5 m/s", tolerance=1e-4)
+        >>> round(float(found.stick_probability), 3)
+        0.355
+    """
+    loaded, told = Scene.load(scene), check_function(progress, "progress")
+    asked = _asked(loaded, speeds, radii, films, tolerance, rtol, wrt)
+    kept = checked_journal(journal)
+    warn(loaded)
+    if kept is not None:
+        kept.under(asked.identity())
+    with nullcontext() if kept is None else kept.held():
+        return dataset(asked.scene, asked.axes, _computed(asked, kept, told), asked.attributes(), asked.wrt)
+
+
+def check_tolerance(tolerance: object, label: str = "tolerance") -> float:
+    """The tolerance of the quadrature; InputError naming `label` unless it is 1e-9 to 1e-2."""
+    return _TOLERANCE.number(tolerance, label=label)
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """Averages as requested."""
+
+    scene: Scene
+    speeds: Speeds
+    axes: dict[str, np.ndarray]
+    films: str
+    tolerance: float
+    rtol: float
+    wrt: tuple[str, ...]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return tuple(axis.size for axis in self.axes.values())
+
+    @property
+    def symmetric(self) -> bool:
+        """True if either sphere may be called the first."""
+        spins = self.scene.impact.spin, self.scene.impact.partner_spin
+        same = spins[1] is None or spins[0] == spins[1]
+        own = any(name in _OF_ONE or name.startswith("partner.") for name in self.wrt)
+        return len(self.shape) == 2 and self.scene.partner is None and same and not own
+
+    def scene_of(self, index: tuple[int, ...]) -> Scene:
+        """The scene of a pair; InputError if it is impossible."""
+        if not index:
+            given = {name: value for name, value in self.scene.given if name not in MEETING}
+            return Scene(self.scene.name, tuple(given.items()), package=self.scene.package)
+        radius, *other = (float(axis[k]) for axis, k in zip(self.axes.values(), index, strict=True))
+        return scene_of_sizes(self.scene, radius, other[0] if other else None, self.films)
+
+    def attributes(self) -> dict[str, Any]:
+        return {
+            "speeds": self.speeds.text,
+            "films": self.films,
+            "tolerance": self.tolerance,
+            "rtol": self.rtol,
+        }
+
+    def identity(self) -> dict[str, Any]:
+        """Everything that the results depend on, as the journal's request."""
+        distribution = None if self.speeds.density is None else self.speeds.density(self.speeds.knots).tolist()
+        return {
+            "averages": [entry for entry in self.scene.si if entry[0] not in MEETING],
+            "volume": self.scene.ways.volume,
+            "speeds": [self.speeds.text, self.speeds.knots.tolist(), distribution],
+            "axes": {name: axis.tolist() for name, axis in self.axes.items()},
+            "wrt": list(self.wrt),
+            **{name: value for name, value in self.attributes().items() if name != "speeds"},
+            **software(),
+            "model": self.scene.package and self.scene.package.digest,
+        }
+
+
+def _asked(
+    scene: Scene, speeds: Any, radii: Any, films: str, tolerance: float, rtol: float, wrt: Sequence[str] | str
+) -> _Asked:
+    if scene.pendulum is not None:
+        raise InputError("scene", scene.name, "a scene without [pendulum]", "has strings, so that nothing is isotropic")
+    distribution = Speeds.of(scene.impact.relative_speed if speeds is None else speeds)
+    axes: dict[str, np.ndarray] = {}
+    if radii is not None:
+        axis = checked_numbers("particles.radius", radii).reshape(-1)
+        if not 1 <= np.unique(axis).size == axis.size <= MOST:
+            raise InputError("radii", axis, f"1 to {MOST} different radii", f"has {axis.size}")
+        axes = {"radius": axis} if scene.wall else {"radius": axis, "partner_radius": axis.copy()}
+    asked = _Asked(
+        scene, distribution, axes, check_name(films, FILMS, "films"), check_tolerance(tolerance), check_rtol(rtol), ()
+    )
+    first: InputError | None = None
+    for index in np.ndindex(asked.shape):
+        try:
+            known = known_of_particles(asked.scene_of(index))
+        except InputError as error:
+            first = first or error
+        else:
+            names = check_names(wrt, known, "wrt")
+            return _Asked(scene, distribution, axes, films, asked.tolerance, asked.rtol, names)
+    assert first is not None  # there is a pair
+    raise first
+
+
+def _computed(asked: _Asked, kept: Journal | None, progress: Progress | None) -> Columns:
+    size = int(np.prod(asked.shape))
+    found = _blank(size, len(asked.wrt))
+    done = np.zeros(size, bool)
+    for where, block in kept.read() if kept else ():
+        for name, values in block.items():
+            found[name][where] = values
+        done[where] = True
+    mirror = np.arange(size).reshape(asked.shape).T.ravel() if asked.symmetric else np.arange(size)
+    left = np.flatnonzero(~done & (mirror >= np.arange(size)))
+    total = int(np.count_nonzero(mirror >= np.arange(size)))
+    for k in range(0, left.size, _BLOCK):
+        if progress is not None:
+            progress(total - left.size + k, total)
+        where = left[k : k + _BLOCK]
+        block = _block(asked, where)
+        if kept is not None:
+            kept.add(where, block)
+        for name, values in block.items():
+            found[name][where] = values
+    if progress is not None:
+        progress(total, total)
+    return {name: values[np.minimum(mirror, np.arange(size))] for name, values in found.items()}
+
+
+def _blank(size: int, parameters: int) -> Columns:
+    found: Columns = {name: np.full((size, COLUMNS), np.nan) for name in ("mean", "error")}
+    found |= {name: np.full((size, COLUMNS * parameters), np.nan) for name in ("gradient", "gradient_error")}
+    return found | {"reason": np.full(size, "", dtype=object)}
+
+
+def _block(asked: _Asked, where: np.ndarray) -> Columns:
+    """The columns of some pairs."""
+    found = _blank(where.size, len(asked.wrt))
+    scenes: dict[int, Scene] = {}
+    for k, flat in enumerate(where.tolist()):
+        try:
+            scenes[k] = asked.scene_of(tuple(int(each) for each in np.unravel_index(flat, asked.shape)))
+        except InputError as error:
+            found["reason"][k] = str(error)
+    rows = np.array(list(scenes), dtype=int)
+    if not rows.size:
+        return found
+    pairs = Pairs.of(list(scenes.values()))
+    made = means(pairs, asked.speeds, asked.tolerance, asked.rtol)
+    found["mean"][rows], found["error"][rows] = made.mean, made.error
+    found["reason"][rows[np.isnan(made.mean).any(axis=1)]] = "collisions that no engine completes"
+    if asked.wrt:
+        along = means(pairs, asked.speeds, _OF_GRADIENTS * asked.tolerance, asked.rtol, SHARP_CUT)
+        slopes, errors = gradients(pairs, along, asked.wrt, asked.rtol)
+        found["gradient"][rows] = slopes.reshape(rows.size, -1)
+        found["gradient_error"][rows] = errors.reshape(rows.size, -1)
+    return found

@@ -1,0 +1,120 @@
+"""Distributions of the relative speeds of collisions: one speed, a Maxwellian gas, or a table."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError, shown
+from ..scene.schema import FIELDS, Field
+from ..scene.values import array
+
+_SPEED = FIELDS["impact.relative_speed"]
+_GAS = Field("speeds", "the standard deviation of a particle's velocity components", '"0.3 m/s"', unit="m/s")
+_PREFIX = "maxwell:"
+_ACCEPTED = (
+    'a relative speed as "1 m/s", "maxwell:0.3 m/s" with the standard deviation of a particle\'s velocity components, '
+    "or a table of relative speeds (m/s) and their density among collisions: two arrays, or a CSV file with a header"
+)
+_MAXWELL = (0.0, 2.0, 4.0, 10.0)  # panels of a Maxwellian, in standard deviations; 4e-10 of the collisions are faster
+_HEADER = ("relative_speed", "density")
+
+
+@dataclass(frozen=True)
+class Speeds:
+    """A distribution of relative speeds among collisions.
+
+    Attributes:
+        text: what it is, in words.
+        knots: where the density or its slope jumps, ascending, m/s; the first and last bound it. A single speed alone.
+        density: per m/s, integral 1; None for a single speed.
+    """
+
+    text: str
+    knots: np.ndarray
+    density: Callable[[np.ndarray], np.ndarray] | None
+
+    @classmethod
+    def of(cls, given: Any, label: str = "speeds") -> Speeds:
+        """The distribution that is meant.
+
+        Arguments:
+            given: a Speeds; a number in m/s, or text with its unit; text `maxwell:` with a speed; a pair of arrays
+                (speeds, densities); or a CSV file of two columns.
+
+        Raises:
+            InputError: anything else.
+        """
+        if isinstance(given, Speeds):
+            return given
+        if isinstance(given, str) and given.strip().lower().startswith(_PREFIX):
+            return maxwellian(_GAS.number(given.strip()[len(_PREFIX) :], label=label))
+        if isinstance(given, Path) or (isinstance(given, str) and given.strip().lower().endswith(".csv")):
+            return _table(*_columns(Path(given), label), label)
+        if isinstance(given, (tuple, list)) and len(given) == 2 and np.ndim(given[0]) == 1:
+            return _table(array(given[0], _SPEED, label), np.asarray(given[1], dtype=float), label)
+        if given is None or isinstance(given, (tuple, list)):
+            raise InputError(label, given, _ACCEPTED, "missing" if given is None else "is no such pair of arrays")
+        speed = _SPEED.number(given, label=label)
+        return cls(f"relative speed {speed:.6g} m/s", np.array([speed]), None)
+
+
+def maxwellian(deviation: float) -> Speeds:
+    """Relative speeds of the collisions of a gas, V^3 exp(-V^2/(4 s^2))/(8 s^4).
+
+    Each component of the velocities of the particles, of all sizes, has the standard deviation s (m/s), the square root
+    of the granular temperature; a collision is the more frequent the faster it is.
+
+    Example:
+        >>> from wetdoublet.solvers.averages.speeds import maxwellian
+        >>> maxwellian(0.3).text
+        'Maxwellian gas, velocity components of standard deviation 0.3 m/s'
+    """
+
+    def density(speed: np.ndarray) -> np.ndarray:
+        u = (speed / (2 * deviation)) ** 2
+        found: np.ndarray = u * speed / (2 * deviation**2) * np.exp(-u)
+        return found
+
+    text = f"Maxwellian gas, velocity components of standard deviation {deviation:.6g} m/s"
+    return Speeds(text, np.array(_MAXWELL) * deviation, density)
+
+
+def _table(speed: np.ndarray, density: np.ndarray, label: str) -> Speeds:
+    """A density that is linear between the speeds of a table, and zero elsewhere."""
+    if speed.shape != density.shape or speed.ndim != 1 or speed.size < 2:
+        raise InputError(label, None, _ACCEPTED, f"has {speed.size} speeds and {density.size} densities")
+    if not (np.all(np.diff(speed) > 0) and speed[0] >= 0 and np.isfinite(speed[-1])):
+        raise InputError(label, speed, "speeds that ascend from 0 or more", "does not ascend")
+    total = float(np.trapezoid(density, speed))
+    if not (np.isfinite(density).all() and (density >= 0).all() and total > 0):
+        raise InputError(label, density, "densities of 0 or more, not all of them 0", "is no density")
+    return Speeds(
+        f"table of {speed.size} relative speeds from {speed[0]:.6g} to {speed[-1]:.6g} m/s",
+        speed,
+        lambda at: np.interp(at, speed, density / total, left=0.0, right=0.0),
+    )
+
+
+def _columns(path: Path, label: str) -> tuple[np.ndarray, np.ndarray]:
+    accepted = f"a CSV file with the header {','.join(_HEADER)} and a speed in m/s and its density in each row"
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            header, *rows = list(csv.reader(file))
+        if [name.partition("[")[0].strip() for name in header] != list(_HEADER):
+            raise InputError(label, str(path), accepted, f"has the header {shown(','.join(header))}")
+        found = np.array([[float(value) for value in row] for row in rows if row])
+    except OSError as error:
+        raise InputError(label, str(path), accepted, f"cannot be read ({error.strerror or error})") from None
+    except (ValueError, csv.Error) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(label, str(path), accepted, f"is no such table ({error})") from None
+    if found.ndim != 2 or found.shape[1] != 2:
+        raise InputError(label, str(path), accepted, "has rows of another length")
+    return found[:, 0], found[:, 1]

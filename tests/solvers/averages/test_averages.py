@@ -1,0 +1,262 @@
+"""Collision averages against sums over many collisions, and against derivatives that are exact."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from wetdoublet.solvers import (
+    ComputationError,
+    InputError,
+    Scene,
+    boundary_sensitivities,
+    collide_many,
+    collision_averages,
+)
+from wetdoublet.solvers.averages.dataset import QUANTITIES
+from wetdoublet.solvers.averages.sizes import PROPORTIONAL, scene_of_sizes
+from wetdoublet.solvers.averages.speeds import Speeds
+from wetdoublet.solvers.host.compiler import compiler
+
+from ...helpers.command import run
+
+UNEQUAL = Scene.load("granulation").with_entries(
+    {"partner.radius": "170 um", "partner.mass": "5.1e-8 kg", "bridge.volume": 0.02}
+)
+OF = ("outcome", "restitution", "tangential_restitution")
+
+
+def sums(
+    scene: Scene | str, speed: np.ndarray | float, angle: np.ndarray, weight: np.ndarray | None = None
+) -> np.ndarray:
+    """Means of single collisions in the order of the averages."""
+    found = collide_many(scene, relative_speed=speed, angle=angle, of=OF)
+    apart = found.outcome.values > 0
+    shares = [np.average(found.outcome.values == k, weights=weight) for k in range(3)]
+    both = [np.average(np.where(apart, found[name].values, 0.0), weights=weight) for name in OF[1:]]
+    return np.array([*shares, *both, *(each / (1 - shares[0]) for each in both)])
+
+
+def averages(found: xr.Dataset) -> np.ndarray:
+    return np.array([float(found[name]) for name in QUANTITIES])
+
+
+def errors(found: xr.Dataset) -> np.ndarray:
+    return np.array([float(found[f"{name}_error"]) for name in QUANTITIES])
+
+
+def test_one_speed_is_the_mean_over_a_fine_grid_of_angles() -> None:
+    """At a single relative speed the averages are sums over angles of the weight sin(2 theta)."""
+    count = 20_000
+    angle = (np.arange(count) + 0.5) / count * np.pi / 2
+    found = collision_averages("granulation", speeds="1.5 m/s")
+    assert averages(found) == pytest.approx(sums("granulation", 1.5, angle, np.sin(2 * angle)), abs=4 / count)
+    assert 0.1 < float(found.stick_probability) < 0.9
+    assert errors(found)[:5].max() < 1e-6
+
+
+def test_a_gas_of_unequal_spheres_is_what_random_collisions_show() -> None:
+    """Speeds drawn from the Maxwellian of collisions, directions isotropic: within four standard errors."""
+    count, rng = 40_000, np.random.default_rng(5)
+    # V^3 exp(-V^2/(4 s^2)): V^2/(4 s^2) has the gamma distribution of shape 2
+    speed = 2 * 0.8 * np.sqrt(rng.gamma(2.0, size=count))
+    angle = np.arcsin(np.sqrt(rng.uniform(size=count)))
+    found = collision_averages(UNEQUAL, speeds="maxwell:0.8 m/s", tolerance=1e-4)
+    expected = sums(UNEQUAL, speed, angle)
+    assert averages(found) == pytest.approx(expected, abs=4 * 0.7 / np.sqrt(count))
+    assert averages(found)[:3].min() > 0.02
+    assert averages(found)[:3].sum() == pytest.approx(1, abs=1e-8)
+
+
+def test_errors_are_not_larger_than_estimated() -> None:
+    """A coarse quadrature differs from a finer one by less than it says, and by less than its tolerance."""
+    table = ([1.0, 2.0], [1.0, 3.0])
+    coarse, fine = (collision_averages(UNEQUAL, speeds=table, tolerance=to) for to in (1e-3, 1e-6))
+    assert (np.abs(averages(coarse) - averages(fine)) <= errors(coarse) + errors(fine)).all()
+    assert errors(coarse)[:5].max() <= 1.5e-3
+    assert errors(fine)[:5].max() <= 1.5e-6
+
+
+def test_a_table_is_a_density_that_is_linear_between_its_speeds(tmp_path: Path) -> None:
+    """A file, the same arrays, and random speeds of that density agree."""
+    speed, density = [0.5, 1.5, 3.0], [0.0, 2.0, 1.0]
+    table = tmp_path / "speeds.csv"
+    table.write_text("relative_speed,density\n" + "".join(f"{v},{p}\n" for v, p in zip(speed, density)))
+    found = collision_averages("granulation", speeds=table, tolerance=1e-3)
+    assert found.drop_attrs().identical(
+        collision_averages("granulation", speeds=(speed, density), tolerance=1e-3).drop_attrs()
+    )
+    rng = np.random.default_rng(2)
+    at = np.linspace(0.5, 3, 4001)
+    below = np.concatenate([[0], np.cumsum(np.diff(at) * np.interp((at[1:] + at[:-1]) / 2, speed, density))])
+    drawn = np.interp(rng.uniform(size=20_000) * below[-1], below, at)
+    expected = sums("granulation", drawn, np.arcsin(np.sqrt(rng.uniform(size=drawn.size))))
+    assert averages(found) == pytest.approx(expected, abs=4 * 0.7 / np.sqrt(drawn.size))
+
+
+def test_the_probability_moves_with_the_boundary() -> None:
+    """At one speed the derivative of the sticking probability is that of the change's angle, exactly known."""
+    entry, speed = "liquid.viscosity", 1.5
+    found = collision_averages("granulation", speeds=speed, wrt=[entry])
+    scene = Scene.load("granulation")
+    angle = float(np.arcsin(np.sqrt(found.stick_probability)))
+    [[change]] = boundary_sensitivities(scene, angle=angle, stokes=(0.05, 0.09), wrt=[entry, "impact.angle"]).changes
+    assert change.change.stokes == pytest.approx(scene.stokes_of(speed * np.cos(angle)), rel=1e-6)
+    # St*(angle, mu) = K V cos(angle)/mu: the derivative of both sides along the boundary
+    mu, by = float(scene.entries[entry]), change.gradient["stokes"]
+    moved = -(by[entry] + change.change.stokes / mu) / (by["impact.angle"] + change.change.stokes * np.tan(angle))
+    assert float(found.gradient.sel(quantity="stick_probability", parameter=entry)) == pytest.approx(
+        np.sin(2 * angle) * moved, rel=1e-5
+    )
+
+
+def test_derivatives_are_those_of_differences() -> None:
+    """Of every mean of a gas, within the estimated errors and those of the differences."""
+    entry = "liquid.viscosity"
+    speeds: dict[str, Any] = {"speeds": ([1.6, 2.4], [1.0, 1.0])}
+    found = collision_averages(UNEQUAL, **speeds, wrt=entry, tolerance=1e-4)
+    mu, step = float(UNEQUAL.entries[entry]), 0.01
+    low, high = (
+        averages(collision_averages(UNEQUAL.with_si({entry: mu * factor}), **speeds, tolerance=1e-6))
+        for factor in (1 - step, 1 + step)
+    )
+    difference = (high - low) / (2 * step * mu)
+    assert found.gradient.values[:, 0] == pytest.approx(difference, abs=2e-3 * np.abs(difference).max())
+    assert np.count_nonzero(np.abs(difference[:5]) > 1e-3) >= 4
+
+
+def test_a_matrix_has_the_averages_of_its_pairs() -> None:
+    """The pair of 60 and 120 um, either way round, has those of a scene of that pair; densities are the scene's."""
+    radii = [60e-6, 120e-6]
+    found = collision_averages("granulation", speeds="2 m/s", radii=["60 um", "120 um"])
+    assert found.stick_probability.dims == ("radius", "partner_radius")
+    assert found.radius.values == pytest.approx(radii)
+    pair = scene_of_sizes(Scene.load("granulation"), 60e-6, 120e-6, "fixed")
+    assert pair.entries["particles.density"] == pytest.approx(1.04e-8 / (4 / 3 * np.pi * 1e-12))
+    alone = averages(collision_averages(pair, speeds="2 m/s"))
+    for i, j in ((0, 1), (1, 0)):
+        assert averages(found.isel(radius=i, partner_radius=j)) == pytest.approx(alone, abs=1e-7)
+    twice = averages(found.isel(radius=1, partner_radius=1))
+    equal = scene_of_sizes(Scene.load("granulation"), 120e-6, 120e-6, "fixed")
+    assert twice == pytest.approx(averages(collision_averages(equal, speeds="2 m/s")), abs=1e-7)
+
+
+def test_films_are_fixed_or_grow_with_the_radii() -> None:
+    """Proportional: the film and the roughness with the sum of both radii; a coating with its sphere's."""
+    scene = Scene.load("granulation")
+    grown = scene_of_sizes(scene, 200e-6, 400e-6, PROPORTIONAL)
+    assert grown.liquid.film_thickness == pytest.approx(3 * scene.liquid.film_thickness)
+    assert grown.particles.roughness == pytest.approx(3 * scene.particles.roughness)
+    assert scene_of_sizes(scene, 200e-6, 400e-6, "fixed").liquid.film_thickness == scene.liquid.film_thickness
+    entries = {name: value for name, value in scene.given if name != "liquid.film_thickness"}
+    coated = Scene("", (*entries.items(), ("liquid.coating_thickness", "3 um")))
+    grown = scene_of_sizes(coated, 200e-6, 400e-6, PROPORTIONAL)
+    assert grown.entries["liquid.coating_thickness"] == pytest.approx(6e-6)
+    assert grown.entries["partner.coating_thickness"] == pytest.approx(12e-6)
+
+
+def test_beside_a_wall_there_is_one_radius() -> None:
+    """A sphere and a wall: a row of radii, and every share of outcomes adds up."""
+    walled = Scene.load("granulation").with_entries({"partner.wall": True})
+    found = collision_averages(walled, speeds="1 m/s", radii=["50 um", "100 um"], tolerance=1e-4)
+    assert found.stick_probability.dims == ("radius",)
+    total = found.stick_probability + found.rotate_probability + found.bounce_probability
+    assert total.values == pytest.approx([1, 1], abs=1e-8)
+
+
+def test_a_pair_that_is_impossible_is_marked() -> None:
+    """Spheres too small for a bridge across the film have a reason; the others are computed."""
+    found = collision_averages("granulation", speeds="1 m/s", radii=["1 um", "100 um"], tolerance=1e-3)
+    assert np.isnan(found.stick_probability.values).tolist() == [[True, True], [True, False]]
+    assert "bridge.volume" in str(found.reason.values[0, 0])
+
+
+@pytest.mark.parametrize(
+    ("given", "field"),
+    [
+        ({"scene": "pendulum", "speeds": 1.0}, "scene"),
+        ({}, "speeds"),
+        ({"speeds": "1 m"}, "speeds"),
+        ({"speeds": "maxwell:fast"}, "speeds"),
+        ({"speeds": ([1.0, 0.5], [1.0, 1.0])}, "speeds"),
+        ({"speeds": ([0.5, 1.0], [0.0, 0.0])}, "speeds"),
+        ({"speeds": "there-is-none.csv"}, "speeds"),
+        ({"speeds": 1.0, "radii": [1e-4, 1e-4]}, "radii"),
+        ({"speeds": 1.0, "films": "thick"}, "films"),
+        ({"speeds": 1.0, "tolerance": 1.0}, "tolerance"),
+        ({"speeds": 1.0, "wrt": "impact.speed"}, "wrt"),
+    ],
+)
+def test_bad_input_is_named(given: dict[str, object], field: str) -> None:
+    """An InputError names the argument."""
+    with pytest.raises(InputError) as caught:
+        collision_averages(**{"scene": "granulation", **given})  # type: ignore[arg-type]
+    assert caught.value.field == field
+
+
+def test_an_interrupted_matrix_goes_on(tmp_path: Path) -> None:
+    """Finished pairs are read from the journal and not computed again; the result is the same."""
+    radii = np.geomspace(60e-6, 120e-6, 9)
+    journal, seen = tmp_path / "journal", list[int]()
+
+    def interrupt(done: int, total: int) -> None:
+        assert total == 45
+        if done:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        collision_averages("granulation", speeds=2.0, radii=radii, tolerance=1e-3, progress=interrupt, journal=journal)
+    found = collision_averages(
+        "granulation",
+        speeds=2.0,
+        radii=radii,
+        tolerance=1e-3,
+        progress=lambda done, _: seen.append(done),
+        journal=journal,
+    )
+    assert seen == [32, 45]
+    assert found.identical(collision_averages("granulation", speeds=2.0, radii=radii, tolerance=1e-3))
+
+
+def test_the_command_writes_both_formats(tmp_path: Path) -> None:
+    """CSV and NetCDF of the same request hold the same numbers, derivatives included."""
+    wanted = ("averages", "granulation", "--speeds", "1.5 m/s", "--tolerance", "1e-4", "--wrt", "liquid.viscosity")
+    for suffix in ("csv", "nc"):
+        done = run(*wanted, "-o", tmp_path / f"averages.{suffix}")
+        assert done.exit_code == 0, done.output
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["averages.csv", "averages.nc"]
+    with (tmp_path / "averages.csv").open(newline="") as file:
+        [row] = csv.DictReader(file)
+    with xr.open_dataset(tmp_path / "averages.nc", engine="h5netcdf") as data:
+        assert [float(row[name]) for name in QUANTITIES] == averages(data).tolist()
+        slopes = [float(row[f"d({name})/d(liquid.viscosity)"]) for name in QUANTITIES]
+        assert slopes == data.gradient.values[:, 0].tolist()
+    done = run("averages", "granulation", "--speeds", "1 m")
+    assert done.exit_code == 2
+    assert "--speeds" in done.output
+
+
+def test_without_a_compiler_it_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Averages take the compiled kernel; without one the error says what is missing."""
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("WETDOUBLET_NO_COMPILER", "1")
+    compiler.cache_clear()
+    scene = Scene.load("granulation").with_entries({"bridge.law": "lambert", "model.tangential": "film"})
+    try:
+        with pytest.raises(ComputationError, match="compil"):
+            collision_averages(scene, speeds=1.0)
+    finally:
+        compiler.cache_clear()
+
+
+def test_speeds_have_densities_of_integral_one() -> None:
+    """The Maxwellian to the share beyond its last knot; a table exactly."""
+    for given in ("maxwell:0.3 m/s", ([1.0, 2.0], [3.0, 3.0])):
+        speeds = Speeds.of(given)
+        assert speeds.density is not None
+        at = np.linspace(speeds.knots[0], speeds.knots[-1], 200_001)
+        assert np.trapezoid(speeds.density(at), at) == pytest.approx(1, abs=1e-9)
