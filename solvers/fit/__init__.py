@@ -1,0 +1,1 @@
+"""Parameters of a scene from measured collisions: likelihood, estimates with intervals, and what the data cannot tell."""

@@ -1,0 +1,489 @@
+"""The likelihood of measured impacts, and its gradient by the free entries.
+
+Of a row it is the integral over the scatter in speed and angle of [the outcome agrees] times the density of what was
+measured about the results of the collision. Every line through the scatter is split at its changes of outcome. Between
+two changes the results are smooth and are interpolated by Chebyshev polynomials in a variable in which a square root at a
+change is smooth too; the integral over the polynomials costs no collisions.
+
+Derivatives are taken at fixed interpolation variable: the points of a segment move with its ends, and the square roots
+cancel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+from scipy.special import log_ndtr, ndtr
+
+from ..errors import InputError
+from ..settings import RTOL
+from . import changes as boundaries
+from .changes import Changes
+from .law import BoundLaw, Law
+from .lines import REACH, Lines
+from .measurements import Measurements
+
+NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
+_FAR = np.array([6.0, 7.0, 8.5, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0])  # where an outcome not seen nearby is looked for
+_FARTHEST = 30.0
+_RARE = 1e-4  # probability within REACH below which the observed outcome is looked for beyond
+KNEE, TAIL = 12.0, 4.0
+"""A row that lies more than this many units of log-likelihood below the most likely observation (4.9 standard
+deviations) contradicts the model; from there its log-likelihood falls with the logarithm of the distance."""
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """How finely the scatter is integrated.
+
+    Arguments:
+        lines: lines through the scatter of a row.
+        nodes: collisions on a segment; half as many more where it ends at a change.
+        points: of the quadrature over the interpolated results.
+        grid: points of a line at which the outcome is looked at.
+        quick: derivatives of changes beside slow saddles to 1e-4 only.
+        within: error of a probability from the place of a change.
+    """
+
+    lines: int = 3
+    nodes: int = 8
+    points: int = 128
+    grid: int = 15
+    quick: bool = True
+    within: float = boundaries.WITHIN
+
+    def doubled(self) -> Resolution:
+        """The same, twice as fine and with exact derivatives."""
+        return Resolution(2 * self.lines + 1, 2 * self.nodes, 2 * self.points, 2 * self.grid, False, self.within / 100)
+
+
+COARSE = Resolution(1, 4, 64, 11)
+EXACT = Resolution(quick=False, within=1e-10)
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Log-likelihoods of the rows.
+
+    Attributes:
+        rows: (rows,), natural logarithms, relative to a perfect observation's density and limited (`KNEE`).
+        scores: (rows, free entries), derivatives by the free entries' values.
+        plain: (rows,), as `rows` without the limit.
+        probability: (rows,), of the observed outcome.
+        mean, spread: result -> (rows,), mean and standard deviation over the scatter where the outcome agrees.
+    """
+
+    rows: np.ndarray
+    scores: np.ndarray
+    plain: np.ndarray
+    probability: np.ndarray
+    mean: dict[str, np.ndarray]
+    spread: dict[str, np.ndarray]
+
+    @property
+    def value(self) -> float:
+        return float(self.rows.sum())
+
+
+class Likelihood:
+    """The log-likelihood of measurements as a function of the free entries' values.
+
+    Arguments:
+        scene, names, data: scene, free entries and rows.
+        rtol: relative tolerance of the integrations.
+    """
+
+    def __init__(self, scene: object, names: tuple[str, ...], data: Measurements, rtol: float = RTOL) -> None:
+        from ..scene.scene import Scene
+
+        assert isinstance(scene, Scene)
+        self.data, self.names = data, names
+        self.of = tuple(name for name, (values, _) in data.observed.items() if np.isfinite(values).any())
+        self.law = Law(scene, names, data, rtol)
+        self.direction = np.zeros(data.size)
+        density = data.separated
+        self.constant = np.zeros(data.size)  # of the densities' normalisation
+        for name in self.of:
+            values, sd = data.observed[name]
+            seen = density & np.isfinite(values)
+            self.constant[seen] -= np.log(sd[seen] * np.sqrt(2 * np.pi))
+
+    # ---- the frame
+
+    def aim(self, values: np.ndarray) -> None:
+        """Turn the lines of every row to where its results change fastest, for these values.
+
+        Raises:
+            InputError: values that no scene may have.
+        """
+        law = self.bound(values)
+        data = self.data
+        if not ((data.speed_sd > 0) & (data.angle_sd > 0)).any():
+            return
+        nearest = np.full(data.size, np.inf)
+        for across in (0.0, np.pi / 2):
+            lines = Lines.of(data, np.full(data.size, across), np.ones(data.size, int))
+            found = boundaries.locate(law, lines, within=1e-3)
+            if not found.size:
+                continue
+            order = np.argsort(np.abs(found.y))
+            rows, first = np.unique(lines.row[found.line[order]], return_index=True)
+            which = order[first]
+            closer = np.abs(found.y[which]) < nearest[rows]
+            rows, which = rows[closer], which[closer]
+            if not rows.size:
+                continue
+            fine = replace(found, y=found.y.copy())
+            normal = boundaries.normals(law, lines, fine, which, True)
+            turned = self._direction(lines, found.line[which], found.y[which], normal.speed, normal.angle)
+            turned = np.where(np.isfinite(turned), turned, across)
+            nearest[rows], self.direction[rows] = np.abs(found.y[which]), turned
+        for k, name in enumerate(self.of):
+            smooth = np.flatnonzero(data.separated & np.isfinite(data.observed[name][0]))
+            lines = Lines.of(data, self.direction, np.ones(data.size, int))
+            there = law.results(self.of, smooth, *lines.at(smooth, np.zeros(smooth.size)))
+            by = there.speed[k] * data.speed_sd[smooth], there.angle[k] * data.angle_sd[smooth]
+            steep = np.hypot(*by) > data.observed[name][1][smooth]
+            turned = self._direction(lines, smooth, np.zeros(smooth.size), there.speed[k], there.angle[k])
+            steep &= np.isfinite(turned) & (there.outcome > 0)
+            self.direction[smooth] = np.where(steep, turned, self.direction[smooth])
+            if steep.any():
+                break
+
+    def _direction(
+        self, lines: Lines, line: np.ndarray, y: np.ndarray, speed: np.ndarray, angle: np.ndarray
+    ) -> np.ndarray:
+        row = lines.row[line]
+        if self.data.relative:
+            at_speed, at_angle = lines.at(line, y)
+            angle = angle - speed * at_speed * np.tan(at_angle)
+            speed = speed * np.cos(at_angle)
+        with np.errstate(invalid="ignore"):
+            turned = np.arctan2(angle * self.data.angle_sd[row], speed * self.data.speed_sd[row])
+            turned[(angle == 0) & (speed == 0)] = np.nan
+        return turned
+
+    def bound(self, values: np.ndarray) -> BoundLaw:
+        """The law at these values; InputError where no scene may have them."""
+        law = self.law.at(np.asarray(values, dtype=float))
+        if law is None:
+            said = ", ".join(f"{name} = {value:.6g}" for name, value in zip(self.names, values, strict=True))
+            raise InputError("free", said, "values that the scene may have together", "make a scene impossible")
+        return law
+
+    # ---- the integral
+
+    def __call__(self, values: np.ndarray, resolution: Resolution | None = None) -> Evaluation | None:
+        """The log-likelihoods at these values; None where they make the scene impossible."""
+        law = self.law.at(np.asarray(values, dtype=float))
+        return None if law is None else self.evaluate(law, resolution or Resolution())
+
+    def evaluate(self, law: BoundLaw, resolution: Resolution) -> Evaluation:
+        """The log-likelihoods of all rows under a law."""
+        data, size = self.data, self.data.size
+        lines = Lines.of(data, self.direction, np.full(size, resolution.lines))
+        found = boundaries.locate(law, lines, resolution.grid, resolution.within)
+        segments = _Segments.of(lines, found, data.allowed)
+        mass = segments.mass()
+        probability = np.bincount(segments.row, segments.weight * mass, size)
+        dense = data.separated[segments.row]
+        ends = _moving_ends(law, lines, found, segments, dense & (mass > NEGLIGIBLE), resolution.quick)
+        total = _Sum(size, len(self.names))
+        plain = np.flatnonzero(~dense & (mass > 0))
+        total.add(segments.row[plain], np.log(segments.weight[plain] * mass[plain]), segments.mass_slopes(ends)[plain])
+        moments = _Moments(self.of, size)
+        self._densities(law, lines, segments, ends, np.flatnonzero(dense & (mass > NEGLIGIBLE)), resolution, total, moments)
+        rows, scores = total.result()
+        rare = np.flatnonzero(probability < _RARE)
+        if rare.size:
+            self._beyond(law, rare, rows, scores, resolution)
+        limited, factor = limit(rows)
+        return Evaluation(
+            limited + self.constant, scores * factor[:, None], rows + self.constant, np.minimum(probability, 1.0),
+            *moments.result(),
+        )  # fmt: skip
+
+    def _densities(
+        self,
+        law: BoundLaw,
+        lines: Lines,
+        segments: _Segments,
+        ends: tuple[np.ndarray, np.ndarray],
+        which: np.ndarray,
+        resolution: Resolution,
+        total: _Sum,
+        moments: _Moments,
+    ) -> None:
+        """Add the integrals of densities over segments `which`."""
+        free = (segments.from_change[which].astype(int) + 2 * segments.to_change[which]).astype(int)
+        groups = [(kind, which[free == kind]) for kind in range(4)]
+        groups = [(kind, part) for kind, part in groups if part.size]
+        if not groups:
+            return
+        counts = [resolution.nodes * 3 // 2 if kind else resolution.nodes for kind, _ in groups]
+        maps = [_map(kind, count, resolution.points) for (kind, _), count in zip(groups, counts)]
+        places, on = [], []
+        for (_, part), each in zip(groups, maps):
+            low, high = segments.low[part, None], segments.high[part, None]
+            places.append((low + (high - low) * each.at_nodes).ravel())
+            on.append(np.repeat(segments.line[part], each.at_nodes.size))
+        y, line = np.concatenate(places), np.concatenate(on)
+        found = law.results(self.of, lines.row[line], *lines.at(line, y))
+        by_speed, by_angle = lines.slopes(line, y)
+        by_y = found.speed * by_speed + found.angle * by_angle
+        first = 0
+        for (_, part), each in zip(groups, maps):
+            own = slice(first, first + part.size * each.at_nodes.size)
+            first = own.stop
+            shape = part.size, each.at_nodes.size
+            value = found.value[:, own].reshape(-1, *shape)
+            low_p, high_p = ends[0][part], ends[1][part]
+            moves = low_p[:, None] * (1 - each.at_nodes)[:, None] + high_p[:, None] * each.at_nodes[:, None]
+            slope = found.free[:, own].reshape(-1, *shape, len(self.names)) + by_y[:, own].reshape(-1, *shape)[..., None] * moves
+            self._integrate(segments, part, each, value, slope, low_p, high_p, total, moments)
+
+    def _integrate(
+        self,
+        segments: _Segments,
+        part: np.ndarray,
+        mapping: _Map,
+        value: np.ndarray,
+        slope: np.ndarray,
+        low_p: np.ndarray,
+        high_p: np.ndarray,
+        total: _Sum,
+        moments: _Moments,
+    ) -> None:
+        row = segments.row[part]
+        lost = ~np.isfinite(value).all(axis=(0, 2))  # a trajectory on the way was not completed
+        value, slope = np.nan_to_num(value), np.nan_to_num(slope)
+        low, high = segments.low[part, None], segments.high[part, None]
+        length = high - low
+        y = low + length * mapping.at_points
+        scatter = -(y**2) / 2 - np.log(2 * np.pi) / 2 + np.log(length * mapping.rate * mapping.weight)
+        exponent = scatter.copy()
+        pulls = []
+        for k, name in enumerate(self.of):
+            measured, sd = (each[row, None] for each in self.data.observed[name])
+            at = value[k] @ mapping.interpolate.T
+            moments.add(name, row, segments.weight[part], scatter, at)
+            seen = np.isfinite(measured)
+            misfit = np.where(seen, (measured - at) / sd, 0.0)
+            exponent -= misfit**2 / 2
+            pulls.append((k, misfit / sd))
+        exponent[lost] = -np.inf
+        top = np.max(exponent, axis=1, keepdims=True, initial=-1e300)
+        density = np.exp(exponent - top)
+        whole = density.sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = np.where(whole[:, None] > 0, density / whole[:, None], 0.0)
+            logs = np.log(whole) + top[:, 0] + np.log(segments.weight[part])
+        gradient = (high_p - low_p) / length
+        # y moves with the ends: dy = low_p (1 - g) + high_p g
+        mean_y, mean_gy = -(share * y).sum(axis=1), -(share * y * mapping.at_points).sum(axis=1)
+        gradient += low_p * (mean_y - mean_gy)[:, None] + high_p * mean_gy[:, None]
+        for k, pull in pulls:
+            at_nodes = (share * pull) @ mapping.interpolate
+            gradient += np.einsum("sn,snp->sp", at_nodes, slope[k])
+        kept = np.flatnonzero(whole > 0)
+        total.add(row[kept], logs[kept], gradient[kept])
+
+    def _beyond(
+        self, law: BoundLaw, rows: np.ndarray, into: np.ndarray, scores: np.ndarray, resolution: Resolution
+    ) -> None:
+        """Log-probabilities of rows whose outcome is rare within the reach of the integral, from the nearest change.
+
+        The row's likelihood is that of a scatter as far as the change, and falls with the square of the distance also
+        where the integral would be zero.
+        """
+        data = self.data.part(rows)
+        lines = replace(Lines.of(data, self.direction[rows], np.ones(rows.size, int), _FARTHEST), row=rows)
+        inner = np.linspace(-REACH, REACH, resolution.grid)
+        grid = np.concatenate([-_FAR[::-1], inner, _FAR])
+        places = np.clip(grid, lines.low[:, None], lines.high[:, None])
+        found = boundaries.locate(law, lines, places, within=1e-3)
+        allowed = self.data.allowed[rows]
+        near, sign = np.full(rows.size, np.inf), np.zeros(rows.size)
+        which = np.full(rows.size, -1)
+        for k in range(found.size):
+            line, y = int(found.line[k]), float(found.y[k])
+            # the side of the change on which the outcome agrees must be the farther one
+            inward, outward = (found.before[k], found.after[k]) if y > 0 else (found.after[k], found.before[k])
+            if allowed[line, outward] and not allowed[line, inward] and abs(y) < near[line]:
+                near[line], sign[line], which[line] = abs(y), np.sign(y) or 1.0, k
+        there = np.flatnonzero((which >= 0) & (near > REACH / 2))
+        tail = np.full(rows.size, float(log_ndtr(-_FARTHEST)))
+        slope = np.zeros((rows.size, len(self.names)))
+        if there.size:
+            tail[there] = log_ndtr(-near[there])
+            moves = boundaries.slopes(law, lines, found, which[there], True)
+            hazard = np.exp(-near[there] ** 2 / 2 - np.log(2 * np.pi) / 2 - tail[there])
+            slope[there] = -(hazard * sign[there])[:, None] * moves
+        missing = (into[rows] < tail) & ((which < 0) | (near > REACH / 2))
+        into[rows[missing]], scores[rows[missing]] = tail[missing], slope[missing]
+
+
+def limit(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Log-likelihoods with their heavy tail, and the derivative of that by the plain ones."""
+    beyond = np.maximum(-KNEE - rows, 0.0)
+    return np.maximum(rows, -KNEE) - TAIL * np.log1p(beyond / TAIL), 1 / (1 + beyond / TAIL)
+
+
+# ---- segments of lines between changes of outcome
+
+
+@dataclass(frozen=True)
+class _Segments:
+    """Parts of lines where the outcome agrees with the row's.
+
+    Attributes:
+        low, high: the ends, within the errors of the changes so that the outcome is sure.
+        first, last: the changes at their ends; -1 at the end of a line.
+    """
+
+    line: np.ndarray
+    row: np.ndarray
+    weight: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    first: np.ndarray
+    last: np.ndarray
+
+    @classmethod
+    def of(cls, lines: Lines, changes: Changes, allowed: np.ndarray) -> _Segments:
+        every = np.arange(lines.size)
+        line = np.concatenate([every, changes.line])
+        order = np.argsort(line, kind="stable")  # the first segment of a line, then those after its changes
+        first = np.concatenate([np.full(lines.size, -1), np.arange(changes.size)])[order]
+        line = line[order]
+        outcome = np.concatenate([changes.first, changes.after])[order]
+        ends = np.append(line[1:] != line[:-1], True)
+        last = np.where(ends, -1, np.append(first[1:], -1))
+        upper, lower = np.append(changes.y + changes.error, 0.0), np.append(changes.y - changes.error, 0.0)
+        low = np.where(first < 0, lines.low[line], upper[first])
+        high = np.where(last < 0, lines.high[line], lower[last])
+        row = lines.row[line]
+        kept = np.flatnonzero(np.where(outcome >= 0, allowed[row, outcome], False) & (high > low))
+        parts = (line, row, lines.weight[line], low, high, first, last)
+        return cls(*(each[kept] for each in parts))
+
+    @property
+    def from_change(self) -> np.ndarray:
+        return self.first >= 0
+
+    @property
+    def to_change(self) -> np.ndarray:
+        return self.last >= 0
+
+    def _limits(self) -> tuple[np.ndarray, np.ndarray]:
+        """The ends, where the end of a line stands for all that lies beyond."""
+        return np.where(self.first < 0, -np.inf, self.low), np.where(self.last < 0, np.inf, self.high)
+
+    def mass(self) -> np.ndarray:
+        """Probability of the scatter within each."""
+        low, high = self._limits()
+        flip = low > 0  # the difference of two small numbers, not of two near one
+        found: np.ndarray = np.where(flip, ndtr(-low) - ndtr(-high), ndtr(high) - ndtr(low))
+        return found
+
+    def mass_slopes(self, ends: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+        """Derivatives of the logarithm of `mass`."""
+        low, high = self._limits()
+        mass = np.maximum(self.mass(), 1e-300)
+        density = [np.exp(-(each**2) / 2) / np.sqrt(2 * np.pi) / mass for each in (low, high)]
+        found: np.ndarray = density[1][:, None] * ends[1] - density[0][:, None] * ends[0]
+        return found
+
+
+def _moving_ends(
+    law: BoundLaw, lines: Lines, changes: Changes, segments: _Segments, dense: np.ndarray, quick: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """Derivatives of the segments' ends by the free entries, where they matter."""
+    needed = np.zeros(changes.size + 1, bool)
+    for end in (segments.first, segments.last):
+        needed[end[dense]] = True
+        needed[end[~dense & (np.abs(np.append(changes.y, 0.0)[end]) < REACH - 0.5)]] = True
+    needed = np.flatnonzero(needed[:-1])
+    slopes = np.zeros((changes.size + 1, len(law.values)))  # the last for ends that stay
+    if needed.size:
+        slopes[needed] = boundaries.slopes(law, lines, changes, needed, quick)
+    return slopes[segments.first], slopes[segments.last]
+
+
+class _Sum:
+    """Sums of positive terms by row, kept as logarithms, and the derivatives of the sums' logarithms."""
+
+    def __init__(self, rows: int, size: int) -> None:
+        self._rows, self._size = rows, size
+        self._parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
+
+    def add(self, row: np.ndarray, log: np.ndarray, slope: np.ndarray) -> None:
+        """Add terms by their logarithms, with the derivatives of these."""
+        self._parts.append((row, log, slope))
+
+    def result(self) -> tuple[np.ndarray, np.ndarray]:
+        """Logarithms of the sums, -1e300 for an empty one, and their derivatives."""
+        row, log, slope = (np.concatenate(each) for each in zip(*self._parts, strict=True))
+        top = np.full(self._rows, -1e300)
+        np.maximum.at(top, row, log)
+        term = np.exp(log - top[row])
+        whole = np.bincount(row, term, self._rows)
+        found = np.where(whole > 0, top + np.log(np.maximum(whole, 1e-300)), -1e300)
+        slopes = np.zeros((self._rows, self._size))
+        np.add.at(slopes, row, (term / whole[row])[:, None] * slope)
+        return found, slopes
+
+
+class _Moments:
+    """Mean and variance of results over the scatter, by row."""
+
+    def __init__(self, of: tuple[str, ...], rows: int) -> None:
+        self._sums = {name: np.zeros((3, rows)) for name in of}
+
+    def add(self, name: str, row: np.ndarray, weight: np.ndarray, scatter: np.ndarray, at: np.ndarray) -> None:
+        share = np.exp(scatter) * weight[:, None]
+        for power in range(3):
+            np.add.at(self._sums[name][power], row, (share * at**power).sum(axis=1))
+
+    def result(self) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+        mean, spread = {}, {}
+        for name, (mass, first, second) in self._sums.items():
+            with np.errstate(divide="ignore", invalid="ignore"):
+                mean[name] = first / mass
+                spread[name] = np.sqrt(np.maximum(second / mass - mean[name] ** 2, 0.0))
+        return mean, spread
+
+
+# ---- interpolation on a segment
+
+
+@dataclass(frozen=True)
+class _Map:
+    """Place on a segment, from 0 to 1, as a function g of the variable in which results are interpolated.
+
+    Attributes:
+        at_nodes: g at the nodes of the interpolation.
+        at_points, rate, weight: g, g' and weights at the points of the quadrature.
+        interpolate: (points, nodes), from values at the nodes to values at the points.
+    """
+
+    at_nodes: np.ndarray
+    at_points: np.ndarray
+    rate: np.ndarray
+    weight: np.ndarray
+    interpolate: np.ndarray
+
+
+@lru_cache(maxsize=64)
+def _map(kind: int, nodes: int, points: int) -> _Map:
+    """The map of a segment whose lower end (1), upper end (2) or both (3) are changes."""
+    t = (1 - np.cos(np.pi * (np.arange(nodes) + 0.5) / nodes)) / 2
+    x, w = np.polynomial.legendre.leggauss(points)
+    s, w = (x + 1) / 2, w / 2
+    g = (lambda t: t, lambda t: t**2, lambda t: t * (2 - t), lambda t: t**2 * (3 - 2 * t))[kind]
+    rate = (np.ones_like, lambda t: 2 * t, lambda t: 2 - 2 * t, lambda t: 6 * t * (1 - t))[kind]
+    basis = np.polynomial.chebyshev.chebvander(2 * t - 1, nodes - 1)
+    matrix = np.polynomial.chebyshev.chebvander(2 * s - 1, nodes - 1) @ np.linalg.inv(basis)
+    return _Map(g(t), g(s), rate(s), w, matrix)
