@@ -20,12 +20,12 @@ from .law import BoundLaw
 from .lines import Lines
 
 GRID = 15  # points of a line at which the outcome is looked at
-WITHIN = 1e-6  # of the probability on either side of a change
+WITHIN = 1e-5  # of the probability on either side of a change
 _LOOSEST = 0.02  # largest error of the place of a change, in standard deviations
 _QUICK = 1000  # steps of a trajectory with derivatives, where an approximation replaces what takes longer
 _FAR = 2e-6  # distance from a saddle at which that is taken, in standard deviations
-_SHIFT = 2e-3  # step of an entry over that distance, relative
-_BESIDE = 1e-5, 4e-5  # distances at which gradients are taken, in standard deviations
+_SHIFT, _STEP_OF_ENTRY = 0.1, 2e-3  # steps of an impact, and relative ones of an entry, over that distance
+_BESIDE = 1e-5  # least distance at which gradients are taken, in standard deviations; the other is four times that
 _GROWTH = 1.3, 8.0  # of a singular gradient from the farther to the nearer
 _HALVINGS = 32
 _STEP = 1e-5  # relative, of a free entry, where a change has no singular gradient
@@ -129,7 +129,8 @@ def normals(law: BoundLaw, lines: Lines, changes: Changes, which: np.ndarray, qu
     line, y, before, after = (each[which] for each in (changes.line, changes.y, changes.before, changes.after))
     side = np.where(after > before, 1.0, -1.0)
     where = np.tile(line, 2)
-    at = np.concatenate([y + side * distance for distance in _BESIDE])
+    distance = np.maximum(_BESIDE, 3 * changes.error[which])
+    at = np.concatenate([y + side * distance, y + 4 * side * distance])
     near = law.results(
         ("contact_time",), lines.row[where], *lines.at(where, at), forward=True, budget=_QUICK if quick else None
     )
@@ -143,42 +144,55 @@ def normals(law: BoundLaw, lines: Lines, changes: Changes, which: np.ndarray, qu
     free, speed, angle, along = (np.where(sound.reshape(-1, *[1] * (each.ndim - 1)), each, np.nan) for each in parts)
     late = np.flatnonzero((near.outcome.reshape(2, count) < 0).any(axis=0)) if quick else np.zeros(0, int)
     if late.size:
-        free[late], speed[late], angle[late] = _by_times(law, lines, line[late], y[late], side[late])
+        free[late], speed[late], angle[late] = _by_times(
+            law, lines, line[late], y[late], side[late], np.maximum(_FAR, 4 * changes.error[which[late]])
+        )
         by_speed, by_angle = lines.slopes(line[late], y[late])
         along[late] = speed[late] * by_speed + angle[late] * by_angle
     return Normals(free, speed, angle, along)
 
 
 def _by_times(
-    law: BoundLaw, lines: Lines, line: np.ndarray, y: np.ndarray, side: np.ndarray
+    law: BoundLaw, lines: Lines, line: np.ndarray, y: np.ndarray, side: np.ndarray, distance: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Normals beside a saddle, where the contact time is linear in the logarithm of the distance.
+    """Normals beside a saddle, where the contact time is linear in the logarithm of the distance from the boundary.
 
-    A displaced impact or entry changes the distance as the time says; NaN where the times do not rise as they should.
+    Times at three distances give the rate, and how far the boundary is from where it was located. A displaced impact
+    or entry changes the distance as its time says. NaN where the times do not rise towards the boundary.
     """
     row = lines.row[line]
-    speed, angle = lines.at(line, y + side * _FAR)
-    time = law.times(row, speed, angle)
-    rate = np.log(4.0) / (time - law.times(row, *lines.at(line, y + side * 4 * _FAR)))
+    speed, angle = lines.at(line, y + side * distance)
+    time, second, third = (law.times(row, *lines.at(line, y + factor * side * distance)) for factor in (1, 4, 16))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        aside = np.interp((time - second) / (second - third), *_ASIDE)
+        rate = np.log((4 + aside) / (1 + aside)) / (time - second)
     rate[~(rate > 0)] = np.nan
+    true = side * distance * (1 + aside)
 
-    def moved(other: np.ndarray) -> np.ndarray:
-        """Relative change of the distance."""
-        found: np.ndarray = side * np.expm1(-rate * (other - time))
+    def moved(other: BoundLaw, *at: np.ndarray) -> np.ndarray:
+        """Change of the distance."""
+        found: np.ndarray = -true * np.expm1(-rate * (other.times(row, *at) - time))
         return found
 
     by_speed, by_angle = lines.slopes(line, y)
-    size = np.abs(by_speed) + 1e-3 * speed
-    by_speed = moved(law.times(row, speed + _SHIFT * 50 * _FAR * size, angle)) / (_SHIFT * 50 * _FAR * size)
-    tilt = np.abs(by_angle) + 1e-3
-    by_angle = moved(law.times(row, speed, angle + _SHIFT * 50 * _FAR * tilt)) / (_SHIFT * 50 * _FAR * tilt)
+    step_speed = _SHIFT * distance * (np.abs(by_speed) + 1e-3 * speed)
+    step_angle = _SHIFT * distance * (np.abs(by_angle) + 1e-3)
+    normal_speed = -moved(law, speed + step_speed, angle) / step_speed
+    normal_angle = -moved(law, speed, angle + step_angle) / step_angle
     free = np.full((line.size, law.values.size), np.nan)
     for k, value in enumerate(law.values.tolist()):
-        step = _SHIFT * _FAR * value
+        step = _STEP_OF_ENTRY * float(distance.min()) * value
         other = law.displaced(k, value + step)
         if other is not None:
-            free[:, k] = moved(other.times(row, speed, angle)) / step
-    return free, by_speed, by_angle
+            free[:, k] = -moved(other, speed, angle) / step
+    return free, normal_speed, normal_angle
+
+
+_RATIOS = np.linspace(-0.6, 0.6, 241)  # of the error of a place to the distance from it
+_ASIDE = (
+    (np.log((4 + _RATIOS) / (1 + _RATIOS)) / np.log((16 + _RATIOS) / (4 + _RATIOS)))[::-1],
+    _RATIOS[::-1],
+)  # ratio of the differences of times, ascending, and that error
 
 
 def slopes(law: BoundLaw, lines: Lines, changes: Changes, which: np.ndarray, quick: bool = False) -> np.ndarray:
