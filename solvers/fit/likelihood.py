@@ -29,6 +29,8 @@ NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left o
 _FAR = np.array([6.0, 7.0, 8.5, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0])  # where an outcome not seen nearby is looked for
 _FARTHEST = 30.0
 _RARE = 1e-4  # probability within REACH below which the observed outcome is looked for beyond
+FINER = (3, 7)
+"""Factors of the number of lines of rows that need more."""
 KNEE, TAIL = 12.0, 4.0
 """A row that lies more than this many units of log-likelihood below the most likely observation (4.9 standard
 deviations) contradicts the model; from there its log-likelihood falls with the logarithm of the distance."""
@@ -103,6 +105,7 @@ class Likelihood:
         self.of = tuple(name for name, (values, _) in data.observed.items() if np.isfinite(values).any())
         self.law = Law(scene, names, data, rtol)
         self.direction = np.zeros(data.size)
+        self.more = np.ones(data.size, int)  # factor of the lines of each row, odd
         density = data.separated
         self.constant = np.zeros(data.size)  # of the densities' normalisation
         for name in self.of:
@@ -165,6 +168,19 @@ class Likelihood:
             turned[(angle == 0) & (speed == 0)] = np.nan
         return turned
 
+    def refine(self, values: np.ndarray, within: float) -> None:
+        """Give more lines to rows whose log-likelihood at these values is not within an error of what it should be."""
+        self.more[:] = 1
+        law = self.bound(values)
+        for factor in FINER:
+            now = self.evaluate(law, Resolution())
+            kept = self.more.copy()
+            self.more = np.maximum(kept, factor)
+            fine = self.evaluate(law, Resolution())
+            self.more = np.where(np.abs(fine.rows - now.rows) > within, self.more, kept)
+            if (self.more == kept).all():
+                break
+
     def bound(self, values: np.ndarray) -> BoundLaw:
         """The law at these values; InputError where no scene may have them."""
         law = self.law.at(np.asarray(values, dtype=float))
@@ -183,7 +199,7 @@ class Likelihood:
     def evaluate(self, law: BoundLaw, resolution: Resolution) -> Evaluation:
         """The log-likelihoods of all rows under a law."""
         data, size = self.data, self.data.size
-        lines = Lines.of(data, self.direction, np.full(size, resolution.lines))
+        lines = Lines.of(data, self.direction, resolution.lines * (self.more if resolution.lines > 1 else 1) + np.zeros(size, int))
         found = boundaries.locate(law, lines, resolution.grid, resolution.within)
         segments = _Segments.of(lines, found, data.allowed)
         mass = segments.mass()
