@@ -170,15 +170,14 @@ class Likelihood:
 
     def refine(self, values: np.ndarray, within: float) -> None:
         """Give more lines to rows whose log-likelihood at these values is not within an error of what it should be."""
-        self.more[:] = 1
-        law = self.bound(values)
+        law, size = self.bound(values), self.data.size
+        self.more = np.ones(size, int)
+        now, open_ = self.evaluate(law, Resolution()).rows, np.ones(size, bool)
         for factor in FINER:
-            now = self.evaluate(law, Resolution())
-            kept = self.more.copy()
-            self.more = np.maximum(kept, factor)
-            fine = self.evaluate(law, Resolution())
-            self.more = np.where(np.abs(fine.rows - now.rows) > within, self.more, kept)
-            if (self.more == kept).all():
+            fine = self.evaluate(law, Resolution(), np.where(open_, factor, 0)).rows
+            open_ &= np.abs(fine - now) > within
+            self.more[open_], now = factor, fine
+            if not open_.any():
                 break
 
     def bound(self, values: np.ndarray) -> BoundLaw:
@@ -196,10 +195,16 @@ class Likelihood:
         law = self.law.at(np.asarray(values, dtype=float))
         return None if law is None else self.evaluate(law, resolution or Resolution())
 
-    def evaluate(self, law: BoundLaw, resolution: Resolution) -> Evaluation:
-        """The log-likelihoods of all rows under a law."""
+    def evaluate(self, law: BoundLaw, resolution: Resolution, factors: np.ndarray | None = None) -> Evaluation:
+        """The log-likelihoods of all rows under a law.
+
+        Arguments:
+            factors: (rows,), of the number of lines, in place of those found by `refine`; 0 leaves a row out.
+        """
         data, size = self.data, self.data.size
-        lines = Lines.of(data, self.direction, resolution.lines * (self.more if resolution.lines > 1 else 1) + np.zeros(size, int))
+        if factors is None:
+            factors = self.more if resolution.lines > 1 else np.ones(size, int)
+        lines = Lines.of(data, self.direction, resolution.lines * factors)
         found = boundaries.locate(law, lines, resolution.grid, resolution.within)
         segments = _Segments.of(lines, found, data.allowed)
         mass = segments.mass()
@@ -212,7 +217,7 @@ class Likelihood:
         moments = _Moments(self.of, size)
         self._densities(law, lines, segments, ends, np.flatnonzero(dense & (mass > NEGLIGIBLE)), resolution, total, moments)
         rows, scores = total.result()
-        rare = np.flatnonzero(probability < _RARE)
+        rare = np.flatnonzero((probability < _RARE) & (factors > 0))
         if rare.size:
             self._beyond(law, rare, rows, scores, resolution)
         limited, factor = limit(rows)

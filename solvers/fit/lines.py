@@ -50,13 +50,13 @@ class Lines:
 
         Arguments:
             direction: (rows,), angle from the axis of speeds to that of angles, both in standard deviations.
-            counts: (rows,), number of lines of each row; one where a row scatters in speed or angle alone.
+            counts: (rows,), number of lines of each row, 0 to leave it out; one at most where a row scatters in speed or angle alone.
         """
         alone = (data.speed_sd == 0) | (data.angle_sd == 0)
         direction = np.where(data.speed_sd == 0, np.pi / 2, np.where(data.angle_sd == 0, 0.0, direction))
-        counts = np.where(alone, 1, counts)
+        counts = np.where(alone, np.minimum(counts, 1), counts)
         row = np.repeat(np.arange(data.size), counts)
-        nodes, weights = (np.concatenate([hermite(int(n))[k] for n in counts] or [np.zeros(0)]) for k in (0, 1))
+        nodes, weights = (np.concatenate([hermite(int(n))[k] for n in counts if n] or [np.zeros(0)]) for k in (0, 1))
         c, s = np.cos(direction[row]), np.sin(direction[row])
         speed = np.column_stack([data.speed[row] - data.speed_sd[row] * s * nodes, data.speed_sd[row] * c])
         angle = np.column_stack([data.angle[row] + data.angle_sd[row] * c * nodes, data.angle_sd[row] * s])

@@ -6,6 +6,8 @@ squares are maximum likelihood, and Gauss-Newton's matrix is close to the inform
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from .free_entries import FreeEntries
@@ -83,3 +85,23 @@ class Objective:
                 misfits[k], slope = each.prior.misfit(float(values[k]))
                 slopes[k] = slope * rates[k]
         return misfits, slopes
+
+
+def whitening(objective: Objective, inner: np.ndarray) -> np.ndarray:
+    """C with C C' the covariance at a maximum, where the data say nothing that of the range of the search."""
+    free = objective.free
+    information = objective.information(inner) + np.diag((2.0 / (free.high - free.low)) ** 2)
+    values, vectors = np.linalg.eigh(information)
+    found: np.ndarray = vectors / np.sqrt(np.maximum(values, 1e-12))
+    return found
+
+
+
+def walls(free: FreeEntries, at: np.ndarray, white: np.ndarray) -> list[dict[str, Any]]:
+    """The bounds of the entries as constraints on z, at + C z."""
+    low, high = free.low, free.high
+    span = high - low
+    return [
+        {"type": "ineq", "fun": lambda z: (at + white @ z - low) / span, "jac": lambda _z: white / span[:, None]},
+        {"type": "ineq", "fun": lambda z: (high - at - white @ z) / span, "jac": lambda _z: -white / span[:, None]},
+    ]

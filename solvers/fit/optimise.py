@@ -5,21 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.optimize import least_squares, minimize
 from scipy.stats import qmc
 
 from ..errors import ComputationError
 from .free_entries import FreeEntries
 from .likelihood import COARSE, Likelihood, Resolution
-from .objective import Objective
+from .objective import Objective, walls, whitening
 
 _STARTS = 16  # quasi-random points at which the likelihood is looked at
 _FOLLOWED = 3  # of these, the number from which an optimum is sought
 _NEIGHBOURHOOD = np.log(10.0)  # of the scene's value, within which they lie
 _CLOSE = 6.0  # log-likelihood within which a coarse optimum is followed at full resolution
-_SAME = 0.3  # distance, in standard errors, below which two optima are one
+_DIP = 0.1  # of the log-likelihood between two maxima
 _EVALUATIONS = 30
+_TOLERANCE = 1e-3  # of the log-likelihood
 _ROUNDS = 3  # of turning the lines and refining rows
+_FAR_OFF = 1.5  # standard errors that a maximum may be from where the lines were turned
 _ROUGH = Resolution(1, 6, 96, 11)
 _DIRECT = 0.02  # error of a row's log-likelihood that is worth more lines
 
@@ -58,35 +60,59 @@ def optimise(likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, s
     if not found:
         raise ComputationError("no start of the fit has a likelihood", advice="give the scene another first guess")
     found.sort(key=lambda each: -each.value)
-    good = [each for each in found if each.value > found[0].value - _CLOSE]
     distinct: list[Optimum] = []
-    for each in good:
-        if not any(_same(rough, each, other) for other in distinct):
+    for each in found:
+        if each.value > found[0].value - _CLOSE and all(_apart(rough, each, other) for other in distinct):
             distinct.append(each)
     finished = [settled(likelihood, free, each.inner) for each in distinct]
     order = np.argsort([-each.value for each in finished])
     best = finished[order[0]]
     if order[0] != len(finished) - 1:
-        best = settled(likelihood, free, best.inner, rounds=1)  # the lines belong to the last one
+        likelihood.aim(free.values(best.inner))  # the lines are those of the last one
+        likelihood.refine(free.values(best.inner), _DIRECT)
     objective = Objective(likelihood, free, Resolution())
-    others = [finished[k] for k in order[1:] if not _same(objective, finished[k], best)]
+    others = [finished[k] for k in order[1:] if _apart(objective, finished[k], best)]
     return replace(best, others=tuple(others))
 
 
-def settled(likelihood: Likelihood, free: FreeEntries, inner: np.ndarray, rounds: int = _ROUNDS) -> Optimum:
+def settled(likelihood: Likelihood, free: FreeEntries, inner: np.ndarray) -> Optimum:
     """The maximum next to a point, with lines turned and rows refined for it."""
-    objective = Objective(likelihood, free, Resolution())
-    before = np.inf
-    for _ in range(rounds):
+    for _ in range(_ROUNDS):
         likelihood.aim(free.values(inner))
         likelihood.refine(free.values(inner), _DIRECT)
         objective = Objective(likelihood, free, Resolution())
-        inner = climbed(objective, inner, 1e-5)
-        value = objective.value(inner)
-        if abs(value - before) < _DIRECT:
+        before, inner = inner, polished(objective, inner)
+        move = inner - before
+        if float(move @ objective.information(inner) @ move) < _FAR_OFF**2:
             break
-        before = value
     return Optimum(inner, objective.value(inner))
+
+
+def polished(objective: Objective, start: np.ndarray) -> np.ndarray:
+    """The maximum next to a point, in variables in which the information matrix is the unit matrix."""
+    free = objective.free
+    low, high = free.low, free.high
+    start = np.clip(start, low, high)
+    white = whitening(objective, start)
+
+    def inner(z: np.ndarray) -> np.ndarray:
+        return np.clip(start + white @ z, low, high)
+
+    def lack(z: np.ndarray) -> float:
+        value = objective.value(inner(z))
+        return top - value if np.isfinite(value) else 1e3
+
+    def slope(z: np.ndarray) -> np.ndarray:
+        at = inner(z)
+        return -white.T @ objective.gradient(at) if np.isfinite(objective.value(at)) else np.zeros(z.size)
+
+    top = objective.value(start)
+    found = minimize(
+        lack, np.zeros(start.size), jac=slope, constraints=walls(free, start, white), method="SLSQP",
+        options={"maxiter": _EVALUATIONS, "ftol": _TOLERANCE},
+    )  # fmt: skip
+    best: np.ndarray = inner(found.x) if found.fun < 0 else start
+    return best
 
 
 def climbed(objective: Objective, start: np.ndarray, within: float) -> np.ndarray:
@@ -118,7 +144,7 @@ def _screened(likelihood: Likelihood, free: FreeEntries, starts: int, seed: int)
     return [own, *(points[k] for k in order[: _FOLLOWED - 1])]
 
 
-def _same(objective: Objective, one: Optimum, other: Optimum) -> bool:
-    """Whether two maxima are one, in standard errors or along a direction that the data do not tell."""
-    apart = one.inner - other.inner
-    return float(apart @ objective.information(other.inner) @ apart) < _SAME**2 and abs(one.value - other.value) < 0.1
+def _apart(objective: Objective, one: Optimum, other: Optimum) -> bool:
+    """Whether the likelihood is lower between two maxima than at either."""
+    between = objective.value((one.inner + other.inner) / 2)
+    return between < min(one.value, other.value) - _DIP

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq, least_squares, minimize
 
-from .objective import Objective
+from .objective import Objective, walls, whitening
 
 DROP = 1.920729410347062  # half the 95 % quantile of chi-squared with one degree of freedom
 _WIDTH = 1.959963984540054
@@ -34,15 +34,6 @@ class End:
     inner: np.ndarray
     open: bool
     better: np.ndarray | None = None
-
-
-def whitening(objective: Objective, inner: np.ndarray) -> np.ndarray:
-    """C with C C' the covariance at a maximum, where the data say nothing that of the range of the search."""
-    free = objective.free
-    information = objective.information(inner) + np.diag((2.0 / (free.high - free.low)) ** 2)
-    values, vectors = np.linalg.eigh(information)
-    found: np.ndarray = vectors / np.sqrt(np.maximum(values, 1e-12))
-    return found
 
 
 def end(objective: Objective, best: np.ndarray, k: int, sign: float, drop: float = DROP) -> End:
@@ -74,13 +65,9 @@ def end(objective: Objective, best: np.ndarray, k: int, sign: float, drop: float
     with np.errstate(divide="ignore", invalid="ignore"):
         room = np.where(step > 0, (high - best) / step, np.where(step < 0, (low - best) / step, np.inf))
     first = first * min(1.0, 0.98 * float(np.min(room)))
-    walls = [
-        {"type": "ineq", "fun": lambda z: (best + white @ z - low) / span, "jac": lambda _z: white / span[:, None]},
-        {"type": "ineq", "fun": lambda z: (high - best - white @ z) / span, "jac": lambda _z: -white / span[:, None]},
-    ]
     found = minimize(
         lambda z: -sign * scale * float(row @ z) / sigma, first, jac=lambda _z: -sign * scale * row / sigma,
-        constraints=[{"type": "ineq", "fun": excess, "jac": excess_slope}, *walls], method="SLSQP",
+        constraints=[{"type": "ineq", "fun": excess, "jac": excess_slope}, *walls(free, best, white)], method="SLSQP",
         options={"maxiter": _STEPS, "ftol": 2e-3},
     )  # fmt: skip
     at = inner(found.x)
@@ -103,12 +90,14 @@ def _searched(objective: Objective, best: np.ndarray, k: int, sign: float, level
     white = whitening(objective, best)
     step = min(float(np.linalg.norm(white[k])) * _WIDTH, abs(bound - best[k]))
     held: dict[float, np.ndarray] = {float(best[k]): best}
+    heights: dict[float, float] = {float(best[k]): objective.value(best) - level}
 
     def excess(at: float) -> float:
-        nearest = min(held, key=lambda other: abs(other - at))
-        held[at] = profile_point(objective, held[nearest], k, at)
-        value = objective.value(held[at])
-        return max(value - level, -100.0)
+        if at not in held:
+            nearest = min(held, key=lambda other: abs(other - at))
+            held[at] = profile_point(objective, held[nearest], k, at)
+            heights[at] = max(objective.value(held[at]) - level, -100.0)
+        return heights[at]
 
     inside, top = float(best[k]), level + DROP
     while True:
@@ -125,8 +114,8 @@ def _searched(objective: Objective, best: np.ndarray, k: int, sign: float, level
         inside, step = outside, 2 * step
     if excess(inside) <= 0:
         return End(held[inside], False)
-    root = float(brentq(excess, inside, outside, xtol=_WITHIN * 0.2 * abs(outside - inside) + 1e-12, maxiter=12, disp=False))
-    return End(held.get(root, profile_point(objective, held[inside], k, root)), False)
+    brentq(excess, inside, outside, xtol=_WITHIN * 0.1 * abs(outside - inside) + 1e-12, maxiter=12, disp=False)
+    return End(held[min(held, key=lambda at: abs(heights[at]))], False)
 
 
 def profile_point(objective: Objective, start: np.ndarray, k: int, value: float) -> np.ndarray:
