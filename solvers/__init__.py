@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from .collision.result import Collision
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
+    from .fitting.compare import compare_models
+    from .fitting.fit import fit, log_likelihood
+    from .fitting.result import Fit
     from .host.pictures import plot
     from .many.collide_many import collide_many
     from .many.regime_map import regime_map
@@ -35,6 +38,7 @@ _HOMES = {
     "CheckFailed": "errors",
     "Collision": "collision.result",
     "ComputationError": "errors",
+    "Fit": "fitting.result",
     "InputError": "errors",
     "ModelWarning": "errors",
     "Scene": "scene.scene",
@@ -45,10 +49,13 @@ _HOMES = {
     "boundary": "boundaries.boundary",
     "boundary_sensitivities": "sensitivity.boundaries",
     "collide": "collision.collide",
-    "compile_kernels": "engines.kernels",
     "collide_many": "many.collide_many",
     "collide_pair": "space.collide_pair",
+    "compare_models": "fitting.compare",
+    "compile_kernels": "engines.kernels",
+    "fit": "fitting.fit",
     "gradients_many": "sensitivity.gradients_many",
+    "log_likelihood": "fitting.fit",
     "pair_gradients": "sensitivity.pair_gradients",
     "plot": "host.pictures",
     "regime_map": "many.regime_map",
@@ -64,6 +71,7 @@ __all__ = [
     "CheckFailed",
     "Collision",
     "ComputationError",
+    "Fit",
     "InputError",
     "ModelWarning",
     "Scene",
@@ -76,8 +84,11 @@ __all__ = [
     "collide",
     "collide_many",
     "collide_pair",
+    "compare_models",
     "compile_kernels",
+    "fit",
     "gradients_many",
+    "log_likelihood",
     "pair_gradients",
     "plot",
     "regime_map",
