@@ -497,12 +497,20 @@ class _Map:
     interpolate: np.ndarray
 
 
+@lru_cache(maxsize=16)
+def _fejer(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and weights of Fejer's first rule on 0 to 1."""
+    angle = np.pi * (np.arange(count) + 0.5) / count
+    order = np.arange(1, count // 2 + 1)
+    weight = 1 - 2 * (np.cos(2 * np.outer(angle, order)) / (4 * order**2 - 1)).sum(axis=1)
+    return (1 - np.cos(angle)) / 2, weight / count
+
+
 @lru_cache(maxsize=64)
 def _map(kind: int, nodes: int, points: int) -> _Map:
     """The map of a segment whose lower end (1), upper end (2) or both (3) are changes."""
     t = (1 - np.cos(np.pi * (np.arange(nodes) + 0.5) / nodes)) / 2
-    x, w = np.polynomial.legendre.leggauss(points)
-    s, w = (x + 1) / 2, w / 2
+    s, w = _fejer(points)
     g = (lambda t: t, lambda t: t**2, lambda t: t * (2 - t), lambda t: t**2 * (3 - 2 * t))[kind]
     rate = (np.ones_like, lambda t: 2 * t, lambda t: 2 - 2 * t, lambda t: 6 * t * (1 - t))[kind]
     basis = np.polynomial.chebyshev.chebvander(2 * t - 1, nodes - 1)

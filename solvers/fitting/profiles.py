@@ -1,8 +1,7 @@
 """Intervals of the free entries from the profile of the likelihood.
 
 The end of an interval is the farthest value of an entry at which the other entries can still be chosen so that the
-log-likelihood is at most 1.92 below its maximum (95 %, chi-squared with one degree of freedom). It is one constrained
-optimisation, in variables in which the information matrix is the unit matrix.
+log-likelihood is at most 1.92 below its maximum (95 %, chi-squared with one degree of freedom).
 """
 
 from __future__ import annotations
@@ -10,14 +9,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, least_squares, minimize
+from scipy.optimize import least_squares
 
-from .objective import Objective, walls, whitening
+from .objective import Objective, whitening
 
 DROP = 1.920729410347062  # half the 95 % quantile of chi-squared with one degree of freedom
-_WIDTH = 1.959963984540054
-_WITHIN = 0.05  # of DROP, that an end may miss
+_WITHIN = 0.02  # of the root of twice DROP, that an end may miss
+_BETTER = 0.05  # of DROP, by which a point must be more likely to replace the maximum
 _STEPS = 25
+_NARROW = 1e-6  # of the way to the bound, width of a bracket in which the profile jumps
+_FARTHER = 4.0
+_TOLERANCE = 5e-4  # of the sum of squares of a point of the profile
 _AT_BOUND = 1e-3  # of the range of the search
 
 
@@ -37,85 +39,53 @@ class End:
 
 
 def end(objective: Objective, best: np.ndarray, k: int, sign: float, drop: float = DROP) -> End:
-    """The end of the interval of entry k below (-1) or above (1) its estimate."""
+    """The end of the interval of entry k below (-1) or above (1) its estimate.
+
+    The root of twice the drop of the profile is nearly linear in the entry, and is followed by secants within a
+    bracket; the other entries start from where the last points of the profile lead.
+    """
     free, top = objective.free, objective.value(best)
-    low, high = free.low, free.high
-    span = high - low
-    if (best[k] - low[k] if sign < 0 else high[k] - best[k]) < _AT_BOUND * span[k]:
+    bound = free.low[k] if sign < 0 else free.high[k]
+    if abs(bound - best[k]) < _AT_BOUND * (free.high[k] - free.low[k]):
         return End(best, True)
     white = whitening(objective, best)
-    row = white[k]
-    sigma = float(np.linalg.norm(row))
-    scale = np.sqrt(2 * drop)
-
-    def inner(z: np.ndarray) -> np.ndarray:
-        return np.clip(best + white @ z, low, high)
-
-    def excess(z: np.ndarray) -> float:
-        value = objective.value(inner(z))
-        return value - top + drop if np.isfinite(value) else -100.0
-
-    def excess_slope(z: np.ndarray) -> np.ndarray:
-        at = inner(z)
-        return white.T @ objective.gradient(at) if np.isfinite(objective.value(at)) else np.zeros(z.size)
-
-    # the normal of the ellipse predicts the end; the search begins within the bounds
-    first = sign * scale * row / sigma
-    step = white @ first
-    with np.errstate(divide="ignore", invalid="ignore"):
-        room = np.where(step > 0, (high - best) / step, np.where(step < 0, (low - best) / step, np.inf))
-    first = first * min(1.0, 0.98 * float(np.min(room)))
-    found = minimize(
-        lambda z: -sign * scale * float(row @ z) / sigma, first, jac=lambda _z: -sign * scale * row / sigma,
-        constraints=[{"type": "ineq", "fun": excess, "jac": excess_slope}, *walls(free, best, white)], method="SLSQP",
-        options={"maxiter": _STEPS, "ftol": 2e-3},
-    )  # fmt: skip
-    at = inner(found.x)
-    left = excess(found.x)
-    if left > drop * (1 + _WITHIN):
-        return End(at, False, at)
-    bound = low[k] if sign < 0 else high[k]
-    at_bound = abs(at[k] - bound) < _AT_BOUND * span[k]
-    if at_bound and left > -_WITHIN * drop:
-        return End(at, True)
-    if abs(left) < _WITHIN * drop and found.success:
-        return End(at, False)
-    return _searched(objective, best, k, sign, top - drop)
-
-
-def _searched(objective: Objective, best: np.ndarray, k: int, sign: float, level: float) -> End:
-    """The same by the profile itself, step by step: slower, where the constrained optimisation does not end well."""
-    free = objective.free
-    bound = free.low[k] if sign < 0 else free.high[k]
-    white = whitening(objective, best)
-    step = min(float(np.linalg.norm(white[k])) * _WIDTH, abs(bound - best[k]))
-    held: dict[float, np.ndarray] = {float(best[k]): best}
-    heights: dict[float, float] = {float(best[k]): objective.value(best) - level}
-
-    def excess(at: float) -> float:
-        if at not in held:
-            nearest = min(held, key=lambda other: abs(other - at))
-            held[at] = profile_point(objective, held[nearest], k, at)
-            heights[at] = max(objective.value(held[at]) - level, -100.0)
-        return heights[at]
-
-    inside, top = float(best[k]), level + DROP
-    while True:
-        outside = inside + sign * step
-        if (outside - bound) * sign >= 0:
-            outside = float(bound)
-        left = excess(outside)
-        if left > (top - level) * (1 + _WITHIN):
-            return End(held[outside], False, held[outside])
-        if left < 0:
+    covariance = white @ white.T
+    goal, most = np.sqrt(2 * drop), abs(bound - best[k])
+    step = goal * np.sqrt(covariance[k, k])
+    tangent = sign * covariance[:, k] / covariance[k, k]
+    inside, outside = (0.0, 0.0), (np.inf, np.inf)  # distances from the estimate, and roots there
+    at = best
+    for _ in range(_STEPS):
+        step = min(step, most)
+        start = np.clip(at + tangent * (step - abs(at[k] - best[k])), free.low, free.high)
+        point = profile_point(objective, start, k, float(best[k] + sign * step))
+        height = objective.value(point)
+        if height > top + _BETTER * drop:
+            return End(point, False, point)
+        root = np.sqrt(2 * max(top - height, 0.0)) if np.isfinite(height) else 10 * goal
+        if root < goal * (1 + _WITHIN) and step == most:
+            return End(point, True)
+        if abs(root - goal) < _WITHIN * goal:
+            return End(point, False)
+        if root < goal:
+            inside = step, root
+        else:
+            outside = step, root
+        if np.isfinite(height):
+            tangent, at = (point - best) / step, point
+        step = _next(inside, outside, goal)
+        if outside[0] - inside[0] < _NARROW * most:
             break
-        if outside == bound:
-            return End(held[outside], True)
-        inside, step = outside, 2 * step
-    if excess(inside) <= 0:
-        return End(held[inside], False)
-    brentq(excess, inside, outside, xtol=_WITHIN * 0.1 * abs(outside - inside) + 1e-12, maxiter=12, disp=False)
-    return End(held[min(held, key=lambda at: abs(heights[at]))], False)
+    return End(at, False)
+
+
+def _next(inside: tuple[float, float], outside: tuple[float, float], goal: float) -> float:
+    """Where the root reaches the goal, by the line through the bracket; from one side alone at most four times as far."""
+    (low, at_low), (high, at_high) = inside, outside
+    if not np.isfinite(high):
+        return low * float(np.clip(goal / max(at_low, 1e-9), 1.1, _FARTHER))
+    part = (goal - at_low) / (at_high - at_low)
+    return low + float(np.clip(part, 0.05, 0.95)) * (high - low)
 
 
 def profile_point(objective: Objective, start: np.ndarray, k: int, value: float) -> np.ndarray:
@@ -136,7 +106,7 @@ def profile_point(objective: Objective, start: np.ndarray, k: int, value: float)
     inside = np.clip(start[others], low + 1e-9 * (high - low), high - 1e-9 * (high - low))
     found = least_squares(
         lambda part: objective.residuals(full(part)), inside, lambda part: objective.jacobian(full(part))[:, others],
-        (low, high), method="trf", ftol=1e-4, xtol=1e-4, max_nfev=12,
+        (low, high), method="trf", ftol=_TOLERANCE, xtol=1e-4, max_nfev=12,
     )  # fmt: skip
     return full(found.x)
 
