@@ -5,10 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from scipy.stats import chi2
 
 from ...generated.automaton import OUTCOMES
+from ..formatting.ticks import plain
 from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, patch, picture
 from ..many.collide_many import collide_many
 from .objective import whitening
@@ -21,10 +24,11 @@ if TYPE_CHECKING:
     from .result import Fit
 
 _GRID = 56  # points of the map along each axis
-_SAMPLES = 40  # of the estimates, for bands
+_FINE = 160  # of the outcomes of the estimates
+_TRIED = 48  # values of the entries, for bands
+_JOINT = 0.95
 _CURVE = 80  # points of a curve of a result
 _PROFILE = 7  # points of a profile to each side
-_LEVELS = 0.025, 0.975
 _MARKS = dict(zip(OUTCOMES, ("o", "s", "^"), strict=True))
 _LINES = ("#2a6f97", "#c1554a", "#4f772d")
 _LABELS = {
@@ -54,14 +58,19 @@ def draw(found: Fit) -> Figure:
 
 
 def _samples(found: Fit) -> np.ndarray:
-    """Values of the entries drawn from the approximate distribution of the estimates, those first."""
+    """Values of the entries within their joint 95 % region, the estimates first; bands are the range over them."""
     free, objective = found.free, found.objective
     white = whitening(objective, found.best)
-    normal = np.random.default_rng(0).standard_normal((4 * _SAMPLES, free.size))
-    drawn = np.clip(found.best + normal @ white.T, free.low, free.high)
+    ends = [(each.low, each.high) for each in found.estimates.values()]
+    low = [free.low[k] if end[0] is None else free.entries[k].inner(end[0]) for k, end in enumerate(ends)]
+    high = [free.high[k] if end[1] is None else free.entries[k].inner(end[1]) for k, end in enumerate(ends)]
+    radius = np.sqrt(chi2.ppf(_JOINT, free.size))
+    normal = np.random.default_rng(0).standard_normal((_TRIED, free.size))
+    normal *= radius * np.linspace(0.4, 1.0, _TRIED)[:, None] / np.linalg.norm(normal, axis=1)[:, None]
+    least = objective.value(found.best) - radius**2 / 2
     inside = [found.best]
-    for each in drawn:
-        if len(inside) <= _SAMPLES and objective.likelihood.law.at(free.values(each)) is not None:
+    for each in np.clip(found.best + normal @ white.T, low, high):
+        if objective.value(each) >= least:
             inside.append(each)
     return np.array([free.values(each) for each in inside])
 
@@ -80,21 +89,28 @@ def _map(axes: Axes, found: Fit, samples: np.ndarray) -> None:
     data = found.data
     low, high = data.speed.min(), data.speed.max()
     margin = max((high / low) ** 0.06, 1.05)
-    speed = np.geomspace(low / margin, high * margin, _GRID)
     first, last = np.degrees([data.angle.min(), data.angle.max()])
     pad = max(0.06 * (last - first), 1.5)
-    angle = np.radians(np.linspace(max(first - pad, 0.0), min(last + pad, 89.0), _GRID))
-    points = [each.ravel() for each in np.meshgrid(speed, angle, indexing="ij")]
-    codes = _collided(found, samples, *points, ()).outcome.values.reshape(-1, _GRID, _GRID)
-    degrees = np.degrees(angle)
-    fills = [FILLS[name] for name in OUTCOMES]
-    axes.contourf(degrees, speed, codes[0], levels=[-0.5, 0.5, 1.5, 2.5], colors=fills)
-    agree = (codes == codes[0]).mean(axis=0)
-    axes.contourf(degrees, speed, 1 - agree, levels=[_LEVELS[0], 1.01], colors=["#000000"], alpha=0.16)
+    limits = np.radians([max(first - pad, 0.0), min(last + pad, 89.0)])
+
+    def outcomes(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        speed = np.geomspace(low / margin, high * margin, count)
+        angle = np.linspace(*limits, count)
+        points = [each.ravel() for each in np.meshgrid(speed, angle, indexing="ij")]
+        found_ = _collided(found, values, *points, ()).outcome.values.reshape(-1, count, count)
+        return np.degrees(angle), speed, found_
+
+    degrees, speed, codes = outcomes(samples[:1], _FINE)
+    colours = ListedColormap([FILLS[name] for name in OUTCOMES])
+    axes.pcolormesh(degrees, speed, codes[0], cmap=colours, vmin=-0.5, vmax=2.5, shading="nearest", rasterized=True)
     for code in range(len(OUTCOMES)):
         inside = (codes[0] == code).astype(float)
         if 0 < inside.mean() < 1:
             axes.contour(degrees, speed, inside, levels=[0.5], colors=[INK], linewidths=0.9)
+    rough_degrees, rough_speed, several = outcomes(samples, _GRID)
+    differs = (several != several[0]).any(axis=0).astype(float)
+    if differs.any():
+        axes.contourf(rough_degrees, rough_speed, differs, levels=[0.5, 1.5], colors=["#000000"], alpha=0.18)
     handles = []
     for code, name in enumerate(OUTCOMES):
         seen = data.outcome == code
@@ -113,10 +129,11 @@ def _map(axes: Axes, found: Fit, samples: np.ndarray) -> None:
                               label="contradicts the model"))  # fmt: skip
     present = [patch(name) for code, name in enumerate(OUTCOMES) if (codes[0] == code).any()]
     axes.set_yscale("log")
+    plain(axes.yaxis)
     axes.set_xlabel("impact angle (deg)")
     axes.set_ylabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
     axes.legend(handles=present + handles, fontsize=6.5, loc="best", framealpha=0.9)
-    axes.set_title("impacts on the fitted map; shaded: where the boundaries may be (95 %)", fontsize=9)
+    axes.set_title("impacts on the fitted map; shaded: where the outcome is uncertain (95 %)", fontsize=9)
 
 
 def _mark(name: str, label: str) -> Line2D:
@@ -140,12 +157,13 @@ def _results(axes: Axes, found: Fit, samples: np.ndarray) -> None:
         told = np.isfinite(values).mean(axis=0) > 0.5
         low, high = np.full(_CURVE, np.nan), np.full(_CURVE, np.nan)
         if told.any():
-            low[told], high[told] = np.nanquantile(values[:, told], _LEVELS, axis=0)
+            low[told], high[told] = np.nanmin(values[:, told], axis=0), np.nanmax(values[:, told], axis=0)
         axes.fill_between(speed, low, high, color=colour, alpha=0.25, linewidth=0)
         axes.plot(speed, values[0], color=colour, linewidth=1.2, label=f"{np.degrees(angle):.3g}°")
         axes.errorbar(data.speed[own], measured[own], sd[own], data.speed_sd[own], fmt="o", color=colour, markersize=3.5,
                       elinewidth=0.7)  # fmt: skip
     axes.set_xscale("log")
+    plain(axes.xaxis)
     axes.set_xlabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
     axes.set_ylabel(_LABELS[name])
     axes.legend(title="mean angle of the group", fontsize=7, title_fontsize=7)
@@ -208,6 +226,7 @@ def _residuals(axes: Axes, found: Fit) -> None:
         surprise = np.sqrt(np.maximum(-2 * np.log(np.maximum(rows.probability[stuck], 1e-9)), 0.0))
         axes.plot(data.speed[stuck], surprise, "o", color=INK, markerfacecolor="white", markersize=4, label="outcome alone")
     axes.set_xscale("log")
+    plain(axes.xaxis)
     axes.set_xlabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
     axes.set_ylabel("residual (standard deviations)")
     axes.legend(fontsize=6.5)
