@@ -84,7 +84,9 @@ def command(
     if compare is not None:
         from ..fitting.compare import compare_models
 
-        table = compare_models(scene, data, names, over=[name.strip() for name in compare.split(",")], prior=given or None, rtol=tolerance)
+        table = compare_models(
+            scene, data, names, over=[name.strip() for name in compare.split(",")], prior=given or None, rtol=tolerance
+        )
     if as_json:
         object_ = found.to_dict() | ({} if table is None else {"comparison": table.to_dict()})
         text = json.dumps(object_, indent=2, allow_nan=False)

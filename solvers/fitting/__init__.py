@@ -1,1 +1,1 @@
-"""Parameters of a scene from measured collisions: likelihood, estimates with intervals, and what the data cannot tell."""
+"""Entries of a scene from measured impacts: likelihood, estimates, intervals, and what the data cannot tell."""

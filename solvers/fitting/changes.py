@@ -5,9 +5,9 @@ is not that of the far end, another change follows, so that strips narrower than
 different outcomes.
 
 Beside a change the gradient of a result in free entries, speed and angle grows without bound along the normal of the
-boundary (the time near a saddle as 1/d, e_n at a graze or at a continuous start as 1/sqrt(d), d the distance); the rest
-of it is bounded and cancels in the difference of two gradients. Its direction gives the derivative of the change's place
-by the implicit function theorem; the error is of order d.
+boundary (the time near a saddle as 1/d, e_n at a graze or at a continuous start as 1/sqrt(d), d the distance); the
+rest of it is bounded and cancels in the difference of two gradients. Its direction gives the derivative of the
+change's place by the implicit function theorem; the error is of order d.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ GRID = 15  # points of a line at which the outcome is looked at
 WITHIN = 1e-5  # of the probability on either side of a change
 _LOOSEST = 0.02  # largest error of the place of a change, in standard deviations
 _QUICK = 1000  # steps of a trajectory with derivatives, where an approximation replaces what takes longer
+_CLOSE = 1e-8  # the same for derivatives that are exact
 _FAR = 2e-6  # distance from a saddle at which that is taken, in standard deviations
 _SHIFT, _STEP_OF_ENTRY = 0.1, 2e-3  # steps of an impact, and relative ones of an entry, over that distance
 _BESIDE = 1e-5  # least distance at which gradients are taken, in standard deviations; the other is four times that
@@ -129,7 +130,7 @@ def normals(law: BoundLaw, lines: Lines, changes: Changes, which: np.ndarray, qu
     line, y, before, after = (each[which] for each in (changes.line, changes.y, changes.before, changes.after))
     side = np.where(after > before, 1.0, -1.0)
     where = np.tile(line, 2)
-    distance = np.maximum(_BESIDE, 3 * changes.error[which])
+    distance = np.maximum(_BESIDE if quick else _CLOSE, 3 * changes.error[which])
     at = np.concatenate([y + side * distance, y + 4 * side * distance])
     near = law.results(
         ("contact_time",), lines.row[where], *lines.at(where, at), forward=True, budget=_QUICK if quick else None

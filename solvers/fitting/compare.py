@@ -1,4 +1,4 @@
-"""Laws, films and criteria compared on the same data: AIC, and what each predicts of impacts that it was not fitted to."""
+"""Laws, films and criteria compared on the same data: AIC, and what each predicts of impacts left out of its fit."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from ..host.arguments import check_names
 from ..scene.scene import Scene
 from ..settings import check_rtol
 from .data import read_data
-from .free_entries import FreeEntries, free_entries
 from .fit import RTOL
+from .free_entries import FreeEntries, free_entries
 from .likelihood import Likelihood, Resolution
 from .measurements import Measurements
 from .objective import Objective
@@ -80,7 +80,9 @@ class Comparison:
     def __str__(self) -> str:
         head, cells = self.rows()
         widths = [max(len(row[k]) for row in (head, *cells)) for k in range(len(head))]
-        return "\n".join("  ".join(cell.ljust(size) for cell, size in zip(row, widths)).rstrip() for row in (head, *cells))
+        return "\n".join(
+            "  ".join(cell.ljust(size) for cell, size in zip(row, widths)).rstrip() for row in (head, *cells)
+        )
 
 
 def compare_models(
@@ -125,7 +127,9 @@ def compare_models(
         try:
             if isinstance(scene_, InputError):
                 raise scene_
-            candidates.append(_candidate(name, scene_, table, free, prior, min(folds, table.size), check_rtol(rtol), seed))
+            candidates.append(
+                _candidate(name, scene_, table, free, prior, min(folds, table.size), check_rtol(rtol), seed)
+            )
         except (InputError, ComputationError) as error:
             if not candidates:
                 raise  # the scene itself

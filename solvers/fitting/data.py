@@ -76,7 +76,7 @@ def read_data(source: Any, scene: Scene, label: str = "data") -> Measurements:
 
 
 def _columns(source: Any, label: str) -> tuple[list[_Column], list[int]]:
-    if isinstance(source, Mapping):
+    if isinstance(source, Mapping) and not hasattr(source, "data_vars"):
         made = {str(name): _listed(values, f"{label}, column {name}") for name, values in source.items()}
         return _named(made, {}, label)
     if hasattr(source, "data_vars"):  # xarray
@@ -172,11 +172,17 @@ class _Table:
         if column.name not in known:
             simple = ", ".join((*_IMPACT, *_SPREAD, "outcome", *OBSERVED, *(f"{name}_sd" for name in OBSERVED)))
             accepted = f"{simple}, and entries of the scene by dotted name"
-            raise InputError(f"{self.label}, header", column.name, accepted, "is unknown" + did_you_mean(column.name, known))
+            raise InputError(
+                f"{self.label}, header", column.name, accepted, "is unknown" + did_you_mean(column.name, known)
+            )
         if column.name in self.by_name:
             raise InputError(f"{self.label}, header", column.name, "each column once", "is given twice")
-        if column.name in entries and column.name.partition(".")[0] not in {n.partition(".")[0] for n, _ in self.scene.si}:
-            raise InputError(f"{self.label}, header", column.name, "entries of the scene's tables", "has no table there")
+        if column.name in entries and column.name.partition(".")[0] not in {
+            n.partition(".")[0] for n, _ in self.scene.si
+        }:
+            raise InputError(
+                f"{self.label}, header", column.name, "entries of the scene's tables", "has no table there"
+            )
 
     def _where(self, row: int, name: str) -> str:
         line = f" (line {self.lines[row]})" if self.lines[row] != row + 1 else ""
@@ -189,9 +195,17 @@ class _Table:
         unit = "" if parts or column.unit is None else column.unit
         text_source = any(isinstance(cell, str) for cell in column.cells)
         if si and column.unit is None and text_source:
-            raise InputError(f"{self.label}, header", name, f"the unit in brackets, such as {name} [{_shown(si)}]", "has no unit")
+            raise InputError(
+                f"{self.label}, header", name, f"the unit in brackets, such as {name} [{_shown(si)}]", "has no unit"
+            )
         field = f"{self.label}, header"
-        factor = 0.01 if parts else units.factor(unit, si or None, field, f"{name} in {_shown(si)}", f"{name} [{unit}]") if (unit or si) and column.unit is not None else 1.0
+        factor = (
+            0.01
+            if parts
+            else units.factor(unit, si or None, field, f"{name} in {_shown(si)}", f"{name} [{unit}]")
+            if (unit or si) and column.unit is not None
+            else 1.0
+        )
         found = np.full(self.size, np.nan)
         for row, cell in enumerate(column.cells):
             value = self._cell(cell, row, name, words)
@@ -307,7 +321,9 @@ class _Table:
             speed_sd = np.where(np.isnan(speed_sd), SPEED_SD * speed, speed_sd)
         angle_sd = np.full(self.size, np.nan)
         if "angle_sd" in self.by_name:
-            angle_sd = self._numbers("angle_sd", "rad", lambda v: 0 <= v < 0.5, "a standard deviation from 0 to 0.5 rad")
+            angle_sd = self._numbers(
+                "angle_sd", "rad", lambda v: 0 <= v < 0.5, "a standard deviation from 0 to 0.5 rad"
+            )
         if np.isnan(angle_sd).any():
             self.remarks.append(f"Scatter of the angle, where it is not given: {math.degrees(ANGLE_SD):.3g} deg.")
             angle_sd = np.where(np.isnan(angle_sd), ANGLE_SD, angle_sd)
@@ -332,7 +348,9 @@ class _Table:
                 code = int(cell) if cell in range(len(OUTCOMES)) else None
             if code is None:
                 accepted = f"{STICK}, {ROTATE}, {BOUNCE}, or an empty cell"
-                raise InputError(self._where(row, "outcome"), cell, accepted, "is not known" + did_you_mean(cell, _WORDS))
+                raise InputError(
+                    self._where(row, "outcome"), cell, accepted, "is not known" + did_you_mean(cell, _WORDS)
+                )
             found[row] = code
         return found
 
@@ -341,7 +359,9 @@ class _Table:
         for name in OBSERVED:
             if name not in self.by_name:
                 if f"{name}_sd" in self.by_name:
-                    raise InputError(f"{self.label}, header", f"{name}_sd", f"a column {name} beside it", "stands alone")
+                    raise InputError(
+                        f"{self.label}, header", f"{name}_sd", f"a column {name} beside it", "stands alone"
+                    )
                 continue
             signed = name in ("tangential_restitution", "rotation")
             words = "a number" if signed else "a number >= 0"

@@ -126,9 +126,7 @@ class LogLikelihood:
         return log_density(self.objective, by_name)
 
 
-def _intervals(
-    likelihood: Likelihood, free: FreeEntries, best: Optimum
-) -> tuple[Optimum, list[tuple[End, End]]]:
+def _intervals(likelihood: Likelihood, free: FreeEntries, best: Optimum) -> tuple[Optimum, list[tuple[End, End]]]:
     """The maximum, and the ends of all intervals; a more likely point that is met on the way becomes the maximum."""
     for _ in range(_RESTARTS):
         objective = Objective(likelihood, free, Resolution())
@@ -200,9 +198,12 @@ def _remarks(data: Measurements, rows: Rows, error: float, others: tuple[Any, ..
     said = []
     codes = set(data.outcome.tolist())
     if codes == {OUTCOMES.index(STICK)}:
-        said.append("All impacts stick: they bound the entries from one side at most.")
+        said.append("All impacts stick: they tell bounds of the entries, and no value within.")
     elif len(codes) == 1 and -1 not in codes and not data.separated.any():
-        said.append(f"All impacts have the outcome {OUTCOMES[codes.pop()]}: they bound the entries from one side at most.")
+        said.append(
+            f"All impacts have the outcome {OUTCOMES[codes.pop()]}: they tell bounds of the entries, "
+            "and no value within."
+        )
     odd = rows.contradicting
     if odd.size:
         names = ", ".join(data.label(k) for k in odd[:8].tolist()) + (" ..." if odd.size > 8 else "")
@@ -216,15 +217,16 @@ def _remarks(data: Measurements, rows: Rows, error: float, others: tuple[Any, ..
         if known.size and chi2.sf(float((known**2).sum()), known.size) < _ODD:
             rms = float(np.sqrt((known**2).mean()))
             said.append(
-                f"Residuals of {name} are {rms:.2g} times what scatter and noise allow: the model does not fit, or they are "
-                "larger than given. The intervals are then too narrow."
+                f"Residuals of {name} are {rms:.2g} times what scatter and noise allow: the model does not fit, or "
+                "they are larger than given. The intervals are then too narrow."
             )
     if not abs(error) < _COARSE:
-        said.append(f"The integrals over the scatter are uncertain: the log-likelihood changes by {error:.2g} with finer ones.")
+        said.append(
+            f"The integrals over the scatter are uncertain: the log-likelihood changes by {error:.2g} with finer ones."
+        )
     if others:
         said.append(
-            f"The likelihood has {len(others) + 1} separate maxima; the next is {others[0][1]:.3f} "
-            "(see `others`)."
+            f"The likelihood has {len(others) + 1} separate maxima; the next is {others[0][1]:.3f} (see `others`)."
         )
     return said
 

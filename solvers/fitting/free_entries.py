@@ -1,6 +1,6 @@
 """Free entries of a fit: the scale on which each is varied, its bounds, and what was known of it before.
 
-An entry that is positive by its meaning varies in its logarithm; fractions and angles vary as they are, over their range.
+An entry that is positive by its meaning varies in its logarithm; fractions and angles vary as they are.
 """
 
 from __future__ import annotations

@@ -76,7 +76,7 @@ class Law:
                 advice="install a C compiler, or leave out laws that have no derivative",
             )
         own: dict[str, Any] = {name: value for name, value in scene.si if name not in MEETING}
-        self._own = own | {name: values for name, values in data.columns.items()}
+        self._own = own | dict(data.columns)
         entries = [*names, *data.columns]
         column = SX.sym("entries", len(entries))
         by_name = {name: column[k] for k, name in enumerate(entries)}

@@ -2,8 +2,8 @@
 
 Of a row it is the integral over the scatter in speed and angle of [the outcome agrees] times the density of what was
 measured about the results of the collision. Every line through the scatter is split at its changes of outcome. Between
-two changes the results are smooth and are interpolated by Chebyshev polynomials in a variable in which a square root at a
-change is smooth too; the integral over the polynomials costs no collisions.
+two changes the results are smooth and are interpolated by Chebyshev polynomials in a variable in which a square root at
+a change is smooth too; the integral over the polynomials costs no collisions.
 
 Derivatives are taken at fixed interpolation variable: the points of a segment move with its ends, and the square roots
 cancel.
@@ -215,7 +215,9 @@ class Likelihood:
         plain = np.flatnonzero(~dense & (mass > 0))
         total.add(segments.row[plain], np.log(segments.weight[plain] * mass[plain]), segments.mass_slopes(ends)[plain])
         moments = _Moments(self.of, size)
-        self._densities(law, lines, segments, ends, np.flatnonzero(dense & (mass > NEGLIGIBLE)), resolution, total, moments)
+        self._densities(
+            law, lines, segments, ends, np.flatnonzero(dense & (mass > NEGLIGIBLE)), resolution, total, moments
+        )
         rows, scores = total.result()
         rare = np.flatnonzero((probability < _RARE) & (factors > 0))
         if rare.size:
@@ -262,7 +264,10 @@ class Likelihood:
             value = found.value[:, own].reshape(-1, *shape)
             low_p, high_p = ends[0][part], ends[1][part]
             moves = low_p[:, None] * (1 - each.at_nodes)[:, None] + high_p[:, None] * each.at_nodes[:, None]
-            slope = found.free[:, own].reshape(-1, *shape, len(self.names)) + by_y[:, own].reshape(-1, *shape)[..., None] * moves
+            slope = (
+                found.free[:, own].reshape(-1, *shape, len(self.names))
+                + by_y[:, own].reshape(-1, *shape)[..., None] * moves
+            )
             self._integrate(segments, part, each, value, slope, low_p, high_p, total, moments)
 
     def _integrate(
@@ -340,7 +345,7 @@ class Likelihood:
         if there.size:
             tail[there] = log_ndtr(-near[there])
             moves = boundaries.slopes(law, lines, found, which[there], True)
-            hazard = np.exp(-near[there] ** 2 / 2 - np.log(2 * np.pi) / 2 - tail[there])
+            hazard = np.exp(-(near[there] ** 2) / 2 - np.log(2 * np.pi) / 2 - tail[there])
             slope[there] = -(hazard * sign[there])[:, None] * moves
         missing = (into[rows] < tail) & ((which < 0) | (near > REACH / 2))
         into[rows[missing]], scores[rows[missing]] = tail[missing], slope[missing]

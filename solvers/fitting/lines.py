@@ -50,7 +50,8 @@ class Lines:
 
         Arguments:
             direction: (rows,), angle from the axis of speeds to that of angles, both in standard deviations.
-            counts: (rows,), number of lines of each row, 0 to leave it out; one at most where a row scatters in speed or angle alone.
+            counts: (rows,), number of lines of each row, 0 to leave it out; one at most where a row scatters in speed
+                or angle alone.
         """
         alone = (data.speed_sd == 0) | (data.angle_sd == 0)
         direction = np.where(data.speed_sd == 0, np.pi / 2, np.where(data.angle_sd == 0, 0.0, direction))

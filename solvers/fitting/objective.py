@@ -96,7 +96,6 @@ def whitening(objective: Objective, inner: np.ndarray) -> np.ndarray:
     return found
 
 
-
 def walls(free: FreeEntries, at: np.ndarray, white: np.ndarray) -> list[dict[str, Any]]:
     """The bounds of the entries as constraints on z, at + C z."""
     low, high = free.low, free.high

@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 from scipy.stats import chi2
 
 from ...generated.automaton import OUTCOMES
-from ..formatting.ticks import plain
 from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, patch, picture
+from ..formatting.ticks import plain
 from ..many.collide_many import collide_many
 from .objective import whitening
 from .profiles import DROP, profile_point
@@ -69,9 +69,8 @@ def _samples(found: Fit) -> np.ndarray:
     normal *= radius * np.linspace(0.4, 1.0, _TRIED)[:, None] / np.linalg.norm(normal, axis=1)[:, None]
     least = objective.value(found.best) - radius**2 / 2
     inside = [found.best]
-    for each in np.clip(found.best + normal @ white.T, low, high):
-        if objective.value(each) >= least:
-            inside.append(each)
+    tried = np.clip(found.best + normal @ white.T, low, high)
+    inside += [each for each in tried if objective.value(each) >= least]
     return np.array([free.values(each) for each in inside])
 
 
@@ -124,7 +123,9 @@ def _map(axes: Axes, found: Fit, samples: np.ndarray) -> None:
         handles.append(Line2D([], [], linestyle="", marker="x", color=INK, label="outcome not recorded"))
     odd = found.rows.contradicting
     if odd.size:
-        axes.plot(np.degrees(data.angle[odd]), data.speed[odd], "o", color="#b00020", markerfacecolor="none", markersize=11)
+        axes.plot(
+            np.degrees(data.angle[odd]), data.speed[odd], "o", color="#b00020", markerfacecolor="none", markersize=11
+        )
         handles.append(Line2D([], [], linestyle="", marker="o", color="#b00020", markerfacecolor="none", markersize=9,
                               label="contradicts the model"))  # fmt: skip
     present = [patch(name) for code, name in enumerate(OUTCOMES) if (codes[0] == code).any()]
@@ -160,8 +161,8 @@ def _results(axes: Axes, found: Fit, samples: np.ndarray) -> None:
             low[told], high[told] = np.nanmin(values[:, told], axis=0), np.nanmax(values[:, told], axis=0)
         axes.fill_between(speed, low, high, color=colour, alpha=0.25, linewidth=0)
         axes.plot(speed, values[0], color=colour, linewidth=1.2, label=f"{np.degrees(angle):.3g}°")
-        axes.errorbar(data.speed[own], measured[own], sd[own], data.speed_sd[own], fmt="o", color=colour, markersize=3.5,
-                      elinewidth=0.7)  # fmt: skip
+        axes.errorbar(data.speed[own], measured[own], sd[own], data.speed_sd[own], fmt="o", color=colour,
+                      markersize=3.5, elinewidth=0.7)  # fmt: skip
     axes.set_xscale("log")
     plain(axes.xaxis)
     axes.set_xlabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
@@ -224,7 +225,9 @@ def _residuals(axes: Axes, found: Fit) -> None:
     stuck = ~data.separated
     if stuck.any():
         surprise = np.sqrt(np.maximum(-2 * np.log(np.maximum(rows.probability[stuck], 1e-9)), 0.0))
-        axes.plot(data.speed[stuck], surprise, "o", color=INK, markerfacecolor="white", markersize=4, label="outcome alone")
+        axes.plot(
+            data.speed[stuck], surprise, "o", color=INK, markerfacecolor="white", markersize=4, label="outcome alone"
+        )
     axes.set_xscale("log")
     plain(axes.xaxis)
     axes.set_xlabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")

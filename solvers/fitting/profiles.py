@@ -19,7 +19,8 @@ _BETTER = 0.05  # of DROP, by which a point must be more likely to replace the m
 _STEPS = 25
 _NARROW = 1e-6  # of the way to the bound, width of a bracket in which the profile jumps
 _FARTHER = 4.0
-_TOLERANCE = 5e-4  # of the sum of squares of a point of the profile
+_FIRST = 0.6  # of the way that the information matrix gives; far outside an optimisation takes longer
+_TOLERANCE = 1e-3  # of the sum of squares of a point of the profile
 _AT_BOUND = 1e-3  # of the range of the search
 
 
@@ -51,11 +52,11 @@ def end(objective: Objective, best: np.ndarray, k: int, sign: float, drop: float
     white = whitening(objective, best)
     covariance = white @ white.T
     goal, most = np.sqrt(2 * drop), abs(bound - best[k])
-    step = goal * np.sqrt(covariance[k, k])
+    step = _FIRST * goal * np.sqrt(covariance[k, k])
     tangent = sign * covariance[:, k] / covariance[k, k]
     inside, outside = (0.0, 0.0), (np.inf, np.inf)  # distances from the estimate, and roots there
     at = best
-    for _ in range(_STEPS):
+    for tried in range(_STEPS):
         step = min(step, most)
         start = np.clip(at + tangent * (step - abs(at[k] - best[k])), free.low, free.high)
         point = profile_point(objective, start, k, float(best[k] + sign * step))
@@ -73,19 +74,19 @@ def end(objective: Objective, best: np.ndarray, k: int, sign: float, drop: float
             outside = step, root
         if np.isfinite(height):
             tangent, at = (point - best) / step, point
-        step = _next(inside, outside, goal)
+        step = _next(inside, outside, goal, tried % 3 == 2)
         if outside[0] - inside[0] < _NARROW * most:
             break
     return End(at, False)
 
 
-def _next(inside: tuple[float, float], outside: tuple[float, float], goal: float) -> float:
-    """Where the root reaches the goal, by the line through the bracket; from one side alone at most four times as far."""
+def _next(inside: tuple[float, float], outside: tuple[float, float], goal: float, halve: bool) -> float:
+    """Where the root reaches the goal, by the line through the bracket, or its middle; outwards without a bracket."""
     (low, at_low), (high, at_high) = inside, outside
     if not np.isfinite(high):
         return low * float(np.clip(goal / max(at_low, 1e-9), 1.1, _FARTHER))
-    part = (goal - at_low) / (at_high - at_low)
-    return low + float(np.clip(part, 0.05, 0.95)) * (high - low)
+    part = 0.5 if halve else float(np.clip((goal - at_low) / (at_high - at_low), 0.08, 0.92))
+    return low + part * (high - low)
 
 
 def profile_point(objective: Objective, start: np.ndarray, k: int, value: float) -> np.ndarray:

@@ -34,8 +34,7 @@ def write_report(found: Fit, folder: str | Path) -> list[Path]:
     title = f"Fit of {found.points} impacts" + (f" to {found.first.name}" if found.first.name else "")
     parts: list[tuple[str, Table | list[str]]] = [
         ("Estimates", _estimates(found)),
-        ("", [*found.combinations, f"Log-likelihood {found.log_likelihood:.4f}; "
-              f"with twice as fine integrals it changes by {found.quadrature:.2g}."]),
+        ("", [*found.combinations, _height(found)]),
         ("Correlation", _correlation(found)),
         ("Remarks", list(found.remarks)),
         ("Impacts that pull most", _rows(found)),
@@ -58,6 +57,11 @@ def write_report(found: Fit, folder: str | Path) -> list[Path]:
     files.write(into / "report.md", "\n\n".join(markdown) + "\n")
     files.write(into / "report.html", f"{head}<style>{_STYLE}</style><body>{''.join(page)}</body></html>\n")
     return [into / name for name in ("report.md", "report.html", "fit.png")]
+
+
+def _height(found: Fit) -> str:
+    change = f"with twice as fine integrals it changes by {found.quadrature:.2g}"
+    return f"Log-likelihood {found.log_likelihood:.4f}; {change}."
 
 
 def _estimates(found: Fit) -> Table:

@@ -128,17 +128,25 @@ class Fit:
         """The JSON object of `wetdoublet fit --json`."""
         names = list(self.estimates)
         residuals = {name: [_number(value) for value in values] for name, values in self.rows.residual.items()}
-        return {
-            "estimates": {name: each.to_dict() for name, each in self.estimates.items()},
-            "log_likelihood": self.log_likelihood,
-            "points": self.points,
-            "correlation": {name: dict(zip(names, row)) for name, row in zip(names, self.correlation.tolist())},
-            "combinations": list(self.combinations),
-            "remarks": list(self.remarks),
-            "residuals": {"probability": self.rows.probability.tolist(), **residuals, "pull": self.rows.pull.tolist()},
-            "quadrature": self.quadrature,
-            "others": [{"values": dict(values), "log_likelihood": height} for values, height in self.others],
-        } | origin(self.first) | {"units": {name: self.first.fields[name].unit or "1" for name in names}}
+        return (
+            {
+                "estimates": {name: each.to_dict() for name, each in self.estimates.items()},
+                "log_likelihood": self.log_likelihood,
+                "points": self.points,
+                "correlation": {name: dict(zip(names, row)) for name, row in zip(names, self.correlation.tolist())},
+                "combinations": list(self.combinations),
+                "remarks": list(self.remarks),
+                "residuals": {
+                    "probability": self.rows.probability.tolist(),
+                    **residuals,
+                    "pull": self.rows.pull.tolist(),
+                },
+                "quadrature": self.quadrature,
+                "others": [{"values": dict(values), "log_likelihood": height} for values, height in self.others],
+            }
+            | origin(self.first)
+            | {"units": {name: self.first.fields[name].unit or "1" for name in names}}
+        )
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each impact: what was observed, and what the fitted scene says of it."""
@@ -161,7 +169,9 @@ class Fit:
             (name, in_unit(self.first, name, each.value), interval(self.first, name, each.low, each.high), each.verdict)
             for name, each in self.estimates.items()
         ]
-        widths = [max(len(row[k]) for row in (*rows, ("entry", "estimate", "95 % interval", "verdict"))) for k in range(4)]
+        widths = [
+            max(len(row[k]) for row in (*rows, ("entry", "estimate", "95 % interval", "verdict"))) for k in range(4)
+        ]
         widths[0] = max(width, widths[0])
         head = ("entry", "estimate", "95 % interval", "verdict")
         lines = [f"{self.points} impacts, log-likelihood {self.log_likelihood:.3f}", ""]

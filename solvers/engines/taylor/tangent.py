@@ -102,9 +102,7 @@ def order_backward(rtol: float) -> int:
     return order_for(rtol / 30)
 
 
-def _library(
-    scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool, fold: bool
-) -> ctypes.CDLL | None:
+def _library(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool, fold: bool) -> ctypes.CDLL | None:
     variant = variant_of(scene, oblique, order, rotation, backward, fold)
     return kernel(variant) if differentiates(scene, (oblique,)) else None
 
