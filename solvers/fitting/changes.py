@@ -63,12 +63,13 @@ def locate(law: BoundLaw, lines: Lines, grid: np.ndarray | int = GRID, within: f
         within: error of the probability on either side of a change, relative to that of a change at y = 0.
     """
     if isinstance(grid, int):
-        parts = np.linspace(0, 1, grid)
-        grid = lines.low[:, None] + (lines.high - lines.low)[:, None] * parts
-    line = np.repeat(np.arange(lines.size), grid.shape[1])
-    outcome = _outcomes(law, lines, line, grid.ravel()).reshape(grid.shape)
+        places = lines.low[:, None] + (lines.high - lines.low)[:, None] * np.linspace(0, 1, grid)
+    else:
+        places = grid
+    line = np.repeat(np.arange(lines.size), places.shape[1])
+    outcome = _outcomes(law, lines, line, places.ravel()).reshape(places.shape)
     line, k = np.nonzero(outcome[:, 1:] != outcome[:, :-1])
-    low, high = grid[line, k], grid[line, k + 1]
+    low, high = places[line, k], places[line, k + 1]
     before, after = outcome[line, k], outcome[line, k + 1]
     found: list[tuple[np.ndarray, ...]] = [(np.zeros(0, int), np.zeros(0), before[:0], after[:0], np.zeros(0))]
     while line.size:

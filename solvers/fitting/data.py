@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
-import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from pathlib import Path
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,16 +12,13 @@ import numpy as np
 from ...generated import scaling
 from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..errors import InputError, did_you_mean
-from ..host import bounded
 from ..scene import units
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
+from .columns import Column, columns_of
 from .measurements import OBSERVED, UNKNOWN, Measurements
 
-_LARGEST = 20_000_000  # bytes of a file
-_MOST_ROWS = 100_000
-_HEADER = re.compile(r"\s*([^\[\]]+?)\s*(?:\[\s*([^\[\]]*?)\s*\])?\s*")
 _MISSING = ("", "-", "na", "n/a", "nan", "null", "none")
 _WORDS = {
     STICK: OUTCOMES.index(STICK), "sticks": OUTCOMES.index(STICK), "s": OUTCOMES.index(STICK),
@@ -43,15 +36,6 @@ RESULT_SD = {"restitution": 0.02, "tangential_restitution": 0.02, "contact_time"
 _WIDEST = 1 / 3  # relative scatter of a speed
 
 
-@dataclass(frozen=True)
-class _Column:
-    """Cells of a column; `unit` is None where none is written, "%" for parts of the value that they belong to."""
-
-    name: str
-    unit: str | None
-    cells: list[Any]
-
-
 def read_data(source: Any, scene: Scene, label: str = "data") -> Measurements:
     """Measured impacts, checked.
 
@@ -67,106 +51,24 @@ def read_data(source: Any, scene: Scene, label: str = "data") -> Measurements:
     Raises:
         InputError: an unknown column or unit, or a bad cell, named by row and column.
     """
-    columns, lines = _columns(source, label)
+    columns, lines = columns_of(source, label)
     table = _Table(columns, lines, scene, label)
     return table.measurements()
 
 
-# ---- columns of any kind of source
-
-
-def _columns(source: Any, label: str) -> tuple[list[_Column], list[int]]:
-    if isinstance(source, Mapping) and not hasattr(source, "data_vars"):
-        made = {str(name): _listed(values, f"{label}, column {name}") for name, values in source.items()}
-        return _named(made, {}, label)
-    if hasattr(source, "data_vars"):  # xarray
-        frame = source.to_dataframe().reset_index()
-        given = {str(name): source[name].attrs.get("units") for name in (*source.data_vars, *source.coords)}
-        kept = {str(name): frame[name].tolist() for name in frame.columns if name in source.data_vars or name in given}
-        return _named(kept, {name: unit for name, unit in given.items() if isinstance(unit, str)}, label)
-    if hasattr(source, "columns") and hasattr(source, "iloc"):  # pandas
-        return _named({str(name): source[name].tolist() for name in source.columns}, {}, label)
-    if isinstance(source, (str, Path)):
-        return _from_csv(source, label)
-    accepted = "a CSV file, a DataFrame, a Dataset, or a mapping of columns"
-    raise InputError(label, type(source).__name__, accepted, "is none of these")
-
-
-def _listed(values: Any, label: str) -> list[Any]:
-    found = values.tolist() if hasattr(values, "tolist") else values
-    if isinstance(found, (list, tuple)):
-        return list(found)
-    raise InputError(label, values, "a list or a 1-D array", "is not a column")
-
-
-def _named(cells: Mapping[str, list[Any]], given: Mapping[str, str], label: str) -> tuple[list[_Column], list[int]]:
-    lengths = {name: len(values) for name, values in cells.items()}
-    if len(set(lengths.values())) > 1:
-        name, length = max(lengths.items(), key=lambda item: item[1])
-        raise InputError(f"{label}, column {name}", f"{length} values", "columns of one length", "differs in length")
-    columns = []
-    for name, values in cells.items():
-        known, unit = _header(name, label)
-        columns.append(_Column(known, given.get(name, unit), values))
-    return columns, list(range(1, max(lengths.values(), default=0) + 1))
-
-
-def _from_csv(source: str | Path, label: str) -> tuple[list[_Column], list[int]]:
-    accepted = "a CSV file whose first line names the columns, such as speed [m/s],angle [deg],restitution,outcome"
-    try:
-        text = bounded.read(Path(source), _LARGEST).decode("utf-8-sig")
-    except FileNotFoundError:
-        raise InputError(label, str(source), accepted, "is no file") from None
-    except bounded.NotRead as reason:
-        raise InputError(label, str(source), accepted, str(reason)) from None
-    except UnicodeDecodeError:
-        raise InputError(label, str(source), accepted, "is not UTF-8 text") from None
-    kept = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip(" \t,;") and line.lstrip()[0] != "#"]
-    if not kept:
-        raise InputError(label, str(source), accepted, "has no line with names of columns")
-    first = kept[0][1]
-    separator = max(",;\t", key=first.count)
-    head, *rows = csv.reader(io.StringIO("\n".join(line for _, line in kept)), delimiter=separator)
-    lines = [k for k, _ in kept[1:]]
-    if len(rows) != len(lines):
-        raise InputError(label, str(source), accepted, "has a quoted cell that does not end on its line")
-    if len(rows) > _MOST_ROWS:
-        raise InputError(label, str(source), f"at most {_MOST_ROWS} rows", f"has {len(rows)} rows")
-    columns = [_Column(*_header(name, f"{label} {source}"), []) for name in head]
-    for k, (row, line) in enumerate(zip(rows, lines, strict=True), 1):
-        cells = [cell.split("#")[0] if j == len(row) - 1 else cell for j, cell in enumerate(row)]
-        if any(cell.strip() for cell in cells[len(head) :]):
-            extra = f"row {k} (line {line})"
-            raise InputError(f"{label} {source}, {extra}", len(row), f"{len(head)} cells", "cells are too many")
-        cells += [""] * (len(head) - len(cells))
-        for column, cell in zip(columns, cells):
-            column.cells.append(cell)
-    return columns, lines
-
-
-def _header(text: str, label: str) -> tuple[str, str | None]:
-    match = _HEADER.fullmatch(text)
-    if match is None:
-        raise InputError(label, text, "names of columns, with their unit in brackets", "is no name of a column")
-    return match[1].strip().removeprefix("impact.") if match[1].strip() in MEETING else match[1].strip(), match[2]
-
-
-# ---- the table
-
-
 class _Table:
-    def __init__(self, columns: list[_Column], lines: list[int], scene: Scene, label: str) -> None:
+    def __init__(self, columns: list[Column], lines: list[int], scene: Scene, label: str) -> None:
         self.scene, self.label, self.lines = scene, label, lines
         self.size = len(lines)
         if not self.size:
             raise InputError(label, None, "at least one row", "has no rows")
-        self.by_name: dict[str, _Column] = {}
+        self.by_name: dict[str, Column] = {}
         for column in columns:
             self._check_name(column)
             self.by_name[column.name] = column
         self.remarks: list[str] = []
 
-    def _check_name(self, column: _Column) -> None:
+    def _check_name(self, column: Column) -> None:
         entries = [name for name in self.scene.fields if name not in MEETING and not self.scene.fields[name].choices]
         known = (*_IMPACT, *_SPREAD, "outcome", *OBSERVED, *(f"{name}_sd" for name in OBSERVED), *entries)
         if column.name not in known:
@@ -257,8 +159,6 @@ class _Table:
             left = ", ".join(labels[k] for k in np.flatnonzero(~told)[:8])
             self.remarks.append(f"Left out, for neither outcome nor result is given: {left}.")
             made = made.part(np.flatnonzero(told))
-        from dataclasses import replace
-
         return replace(made, remarks=tuple(self.remarks))
 
     def _angle(self) -> np.ndarray:
@@ -365,7 +265,7 @@ class _Table:
                 continue
             signed = name in ("tangential_restitution", "rotation")
             words = "a number" if signed else "a number >= 0"
-            values = self._numbers(name, _UNITS[name], lambda v, signed=signed: signed or v >= 0, words)
+            values = self._numbers(name, _UNITS[name], _any if signed else _not_negative, words)
             sd = np.full(self.size, np.nan)
             if f"{name}_sd" in self.by_name:
                 sd = self._numbers(f"{name}_sd", _UNITS[name], lambda v: v > 0, "a standard deviation > 0")
@@ -382,6 +282,14 @@ class _Table:
                 raise InputError(self._where(row, f"{name}_sd"), float(sd[row]), "a standard deviation > 0")
             found[name] = values, np.where(sd > 0, sd, RESULT_SD[name])
         return found
+
+
+def _any(value: float) -> bool:
+    return math.isfinite(value)
+
+
+def _not_negative(value: float) -> bool:
+    return value >= 0
 
 
 def _shown(si: str) -> str:

@@ -16,13 +16,14 @@ from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import check_rtol
 from .data import read_data
+from .estimates import Estimate, Rows
 from .free_entries import FreeEntries, free_entries
 from .likelihood import Likelihood, Resolution
 from .measurements import Measurements
 from .objective import Objective, whitening
 from .optimise import Optimum, optimise, settled
 from .profiles import DROP, End, end
-from .result import Estimate, Fit, Rows, log_density
+from .result import Fit, log_density
 from .verdicts import combinations, judged
 
 RTOL = 1e-8

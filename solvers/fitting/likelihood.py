@@ -12,18 +12,19 @@ cancel.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
-from scipy.special import log_ndtr, ndtr
+from scipy.special import log_ndtr
 
 from ..errors import InputError
 from ..settings import RTOL
 from . import changes as boundaries
-from .changes import Changes
+from .interpolation import SegmentMap, segment_map
 from .law import BoundLaw, Law
 from .lines import REACH, Lines
 from .measurements import Measurements
+from .segments import Segments, moving_ends
+from .sums import Moments, RowSums
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
 _FAR = np.array([6.0, 7.0, 8.5, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0])  # where an outcome not seen nearby is looked for
@@ -164,7 +165,7 @@ class Likelihood:
             angle = angle - speed * at_speed * np.tan(at_angle)
             speed = speed * np.cos(at_angle)
         with np.errstate(invalid="ignore"):
-            turned = np.arctan2(angle * self.data.angle_sd[row], speed * self.data.speed_sd[row])
+            turned: np.ndarray = np.arctan2(angle * self.data.angle_sd[row], speed * self.data.speed_sd[row])
             turned[(angle == 0) & (speed == 0)] = np.nan
         return turned
 
@@ -206,15 +207,15 @@ class Likelihood:
             factors = self.more if resolution.lines > 1 else np.ones(size, int)
         lines = Lines.of(data, self.direction, resolution.lines * factors)
         found = boundaries.locate(law, lines, resolution.grid, resolution.within)
-        segments = _Segments.of(lines, found, data.allowed)
+        segments = Segments.of(lines, found, data.allowed)
         mass = segments.mass()
         probability = np.bincount(segments.row, segments.weight * mass, size)
         dense = data.separated[segments.row]
-        ends = _moving_ends(law, lines, found, segments, dense & (mass > NEGLIGIBLE), resolution.quick)
-        total = _Sum(size, len(self.names))
+        ends = moving_ends(law, lines, found, segments, dense & (mass > NEGLIGIBLE), resolution.quick)
+        total = RowSums(size, len(self.names))
         plain = np.flatnonzero(~dense & (mass > 0))
         total.add(segments.row[plain], np.log(segments.weight[plain] * mass[plain]), segments.mass_slopes(ends)[plain])
-        moments = _Moments(self.of, size)
+        moments = Moments(self.of, size)
         self._densities(
             law, lines, segments, ends, np.flatnonzero(dense & (mass > NEGLIGIBLE)), resolution, total, moments
         )
@@ -232,12 +233,12 @@ class Likelihood:
         self,
         law: BoundLaw,
         lines: Lines,
-        segments: _Segments,
+        segments: Segments,
         ends: tuple[np.ndarray, np.ndarray],
         which: np.ndarray,
         resolution: Resolution,
-        total: _Sum,
-        moments: _Moments,
+        total: RowSums,
+        moments: Moments,
     ) -> None:
         """Add the integrals of densities over segments `which`."""
         free = (segments.from_change[which].astype(int) + 2 * segments.to_change[which]).astype(int)
@@ -246,7 +247,7 @@ class Likelihood:
         if not groups:
             return
         counts = [resolution.nodes * 3 // 2 if kind else resolution.nodes for kind, _ in groups]
-        maps = [_map(kind, count, resolution.points) for (kind, _), count in zip(groups, counts)]
+        maps = [segment_map(kind, count, resolution.points) for (kind, _), count in zip(groups, counts)]
         places, on = [], []
         for (_, part), each in zip(groups, maps):
             low, high = segments.low[part, None], segments.high[part, None]
@@ -272,15 +273,15 @@ class Likelihood:
 
     def _integrate(
         self,
-        segments: _Segments,
+        segments: Segments,
         part: np.ndarray,
-        mapping: _Map,
+        mapping: SegmentMap,
         value: np.ndarray,
         slope: np.ndarray,
         low_p: np.ndarray,
         high_p: np.ndarray,
-        total: _Sum,
-        moments: _Moments,
+        total: RowSums,
+        moments: Moments,
     ) -> None:
         row = segments.row[part]
         lost = ~np.isfinite(value).all(axis=(0, 2))  # a trajectory on the way was not completed
@@ -355,169 +356,3 @@ def limit(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Log-likelihoods with their heavy tail, and the derivative of that by the plain ones."""
     beyond = np.maximum(-KNEE - rows, 0.0)
     return np.maximum(rows, -KNEE) - TAIL * np.log1p(beyond / TAIL), 1 / (1 + beyond / TAIL)
-
-
-# ---- segments of lines between changes of outcome
-
-
-@dataclass(frozen=True)
-class _Segments:
-    """Parts of lines where the outcome agrees with the row's.
-
-    Attributes:
-        low, high: the ends, within the errors of the changes so that the outcome is sure.
-        first, last: the changes at their ends; -1 at the end of a line.
-    """
-
-    line: np.ndarray
-    row: np.ndarray
-    weight: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
-    first: np.ndarray
-    last: np.ndarray
-
-    @classmethod
-    def of(cls, lines: Lines, changes: Changes, allowed: np.ndarray) -> _Segments:
-        every = np.arange(lines.size)
-        line = np.concatenate([every, changes.line])
-        order = np.argsort(line, kind="stable")  # the first segment of a line, then those after its changes
-        first = np.concatenate([np.full(lines.size, -1), np.arange(changes.size)])[order]
-        line = line[order]
-        outcome = np.concatenate([changes.first, changes.after])[order]
-        ends = np.append(line[1:] != line[:-1], True)
-        last = np.where(ends, -1, np.append(first[1:], -1))
-        upper, lower = np.append(changes.y + changes.error, 0.0), np.append(changes.y - changes.error, 0.0)
-        low = np.where(first < 0, lines.low[line], upper[first])
-        high = np.where(last < 0, lines.high[line], lower[last])
-        row = lines.row[line]
-        kept = np.flatnonzero(np.where(outcome >= 0, allowed[row, outcome], False) & (high > low))
-        parts = (line, row, lines.weight[line], low, high, first, last)
-        return cls(*(each[kept] for each in parts))
-
-    @property
-    def from_change(self) -> np.ndarray:
-        return self.first >= 0
-
-    @property
-    def to_change(self) -> np.ndarray:
-        return self.last >= 0
-
-    def _limits(self) -> tuple[np.ndarray, np.ndarray]:
-        """The ends, where the end of a line stands for all that lies beyond."""
-        return np.where(self.first < 0, -np.inf, self.low), np.where(self.last < 0, np.inf, self.high)
-
-    def mass(self) -> np.ndarray:
-        """Probability of the scatter within each."""
-        low, high = self._limits()
-        flip = low > 0  # the difference of two small numbers, not of two near one
-        found: np.ndarray = np.where(flip, ndtr(-low) - ndtr(-high), ndtr(high) - ndtr(low))
-        return found
-
-    def mass_slopes(self, ends: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-        """Derivatives of the logarithm of `mass`."""
-        low, high = self._limits()
-        mass = np.maximum(self.mass(), 1e-300)
-        density = [np.exp(-(each**2) / 2) / np.sqrt(2 * np.pi) / mass for each in (low, high)]
-        found: np.ndarray = density[1][:, None] * ends[1] - density[0][:, None] * ends[0]
-        return found
-
-
-def _moving_ends(
-    law: BoundLaw, lines: Lines, changes: Changes, segments: _Segments, dense: np.ndarray, quick: bool
-) -> tuple[np.ndarray, np.ndarray]:
-    """Derivatives of the segments' ends by the free entries, where they matter."""
-    needed = np.zeros(changes.size + 1, bool)
-    for end in (segments.first, segments.last):
-        needed[end[dense]] = True
-        needed[end[~dense & (np.abs(np.append(changes.y, 0.0)[end]) < REACH - 0.5)]] = True
-    needed = np.flatnonzero(needed[:-1])
-    slopes = np.zeros((changes.size + 1, len(law.values)))  # the last for ends that stay
-    if needed.size:
-        slopes[needed] = boundaries.slopes(law, lines, changes, needed, quick)
-    return slopes[segments.first], slopes[segments.last]
-
-
-class _Sum:
-    """Sums of positive terms by row, kept as logarithms, and the derivatives of the sums' logarithms."""
-
-    def __init__(self, rows: int, size: int) -> None:
-        self._rows, self._size = rows, size
-        self._parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
-
-    def add(self, row: np.ndarray, log: np.ndarray, slope: np.ndarray) -> None:
-        """Add terms by their logarithms, with the derivatives of these."""
-        self._parts.append((row, log, slope))
-
-    def result(self) -> tuple[np.ndarray, np.ndarray]:
-        """Logarithms of the sums, -1e300 for an empty one, and their derivatives."""
-        row, log, slope = (np.concatenate(each) for each in zip(*self._parts, strict=True))
-        top = np.full(self._rows, -1e300)
-        np.maximum.at(top, row, log)
-        term = np.exp(log - top[row])
-        whole = np.bincount(row, term, self._rows)
-        found = np.where(whole > 0, top + np.log(np.maximum(whole, 1e-300)), -1e300)
-        slopes = np.zeros((self._rows, self._size))
-        np.add.at(slopes, row, (term / whole[row])[:, None] * slope)
-        return found, slopes
-
-
-class _Moments:
-    """Mean and variance of results over the scatter, by row."""
-
-    def __init__(self, of: tuple[str, ...], rows: int) -> None:
-        self._sums = {name: np.zeros((3, rows)) for name in of}
-
-    def add(self, name: str, row: np.ndarray, weight: np.ndarray, scatter: np.ndarray, at: np.ndarray) -> None:
-        share = np.exp(scatter) * weight[:, None]
-        for power in range(3):
-            np.add.at(self._sums[name][power], row, (share * at**power).sum(axis=1))
-
-    def result(self) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-        mean, spread = {}, {}
-        for name, (mass, first, second) in self._sums.items():
-            with np.errstate(divide="ignore", invalid="ignore"):
-                mean[name] = first / mass
-                spread[name] = np.sqrt(np.maximum(second / mass - mean[name] ** 2, 0.0))
-        return mean, spread
-
-
-# ---- interpolation on a segment
-
-
-@dataclass(frozen=True)
-class _Map:
-    """Place on a segment, from 0 to 1, as a function g of the variable in which results are interpolated.
-
-    Attributes:
-        at_nodes: g at the nodes of the interpolation.
-        at_points, rate, weight: g, g' and weights at the points of the quadrature.
-        interpolate: (points, nodes), from values at the nodes to values at the points.
-    """
-
-    at_nodes: np.ndarray
-    at_points: np.ndarray
-    rate: np.ndarray
-    weight: np.ndarray
-    interpolate: np.ndarray
-
-
-@lru_cache(maxsize=16)
-def _fejer(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes and weights of Fejer's first rule on 0 to 1."""
-    angle = np.pi * (np.arange(count) + 0.5) / count
-    order = np.arange(1, count // 2 + 1)
-    weight = 1 - 2 * (np.cos(2 * np.outer(angle, order)) / (4 * order**2 - 1)).sum(axis=1)
-    return (1 - np.cos(angle)) / 2, weight / count
-
-
-@lru_cache(maxsize=64)
-def _map(kind: int, nodes: int, points: int) -> _Map:
-    """The map of a segment whose lower end (1), upper end (2) or both (3) are changes."""
-    t = (1 - np.cos(np.pi * (np.arange(nodes) + 0.5) / nodes)) / 2
-    s, w = _fejer(points)
-    g = (lambda t: t, lambda t: t**2, lambda t: t * (2 - t), lambda t: t**2 * (3 - 2 * t))[kind]
-    rate = (np.ones_like, lambda t: 2 * t, lambda t: 2 - 2 * t, lambda t: 6 * t * (1 - t))[kind]
-    basis = np.polynomial.chebyshev.chebvander(2 * t - 1, nodes - 1)
-    matrix = np.polynomial.chebyshev.chebvander(2 * s - 1, nodes - 1) @ np.linalg.inv(basis)
-    return _Map(g(t), g(s), rate(s), w, matrix)

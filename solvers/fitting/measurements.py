@@ -51,12 +51,13 @@ class Measurements:
         seen = np.zeros(self.size, bool)
         for values, _ in self.observed.values():
             seen |= np.isfinite(values)
-        return seen & (self.outcome != _CODES[STICK])
+        found: np.ndarray = seen & (self.outcome != _CODES[STICK])
+        return found
 
     @property
     def allowed(self) -> np.ndarray:
         """Mask (rows, outcomes) of the outcomes that agree with a row."""
-        found = self.outcome[:, None] == np.arange(len(OUTCOMES))
+        found: np.ndarray = self.outcome[:, None] == np.arange(len(OUTCOMES))
         unknown = self.outcome == UNKNOWN
         found[unknown] = np.arange(len(OUTCOMES)) != _CODES[STICK]
         return found

@@ -66,7 +66,7 @@ def optimise(likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, s
             distinct.append(each)
     finished = [settled(likelihood, free, each.inner) for each in distinct]
     order = np.argsort([-each.value for each in finished])
-    best = finished[order[0]]
+    best: Optimum = finished[order[0]]
     if order[0] != len(finished) - 1:
         likelihood.aim(free.values(best.inner))  # the lines are those of the last one
         likelihood.refine(free.values(best.inner), _DIRECT)
@@ -77,6 +77,7 @@ def optimise(likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, s
 
 def settled(likelihood: Likelihood, free: FreeEntries, inner: np.ndarray) -> Optimum:
     """The maximum next to a point, with lines turned and rows refined for it."""
+    objective = Objective(likelihood, free, Resolution())
     for _ in range(_ROUNDS):
         likelihood.aim(free.values(inner))
         likelihood.refine(free.values(inner), _DIRECT)
@@ -96,7 +97,8 @@ def polished(objective: Objective, start: np.ndarray) -> np.ndarray:
     white = whitening(objective, start)
 
     def inner(z: np.ndarray) -> np.ndarray:
-        return np.clip(start + white @ z, low, high)
+        at: np.ndarray = np.clip(start + white @ z, low, high)
+        return at
 
     def lack(z: np.ndarray) -> float:
         value = objective.value(inner(z))
@@ -104,7 +106,9 @@ def polished(objective: Objective, start: np.ndarray) -> np.ndarray:
 
     def slope(z: np.ndarray) -> np.ndarray:
         at = inner(z)
-        return -white.T @ objective.gradient(at) if np.isfinite(objective.value(at)) else np.zeros(z.size)
+        possible = np.isfinite(objective.value(at))
+        down: np.ndarray = -white.T @ objective.gradient(at) if possible else np.zeros(z.size)
+        return down
 
     top = objective.value(start)
     found = minimize(

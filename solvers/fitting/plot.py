@@ -14,6 +14,7 @@ from ...generated.automaton import OUTCOMES
 from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, patch, picture
 from ..formatting.ticks import plain
 from ..many.collide_many import collide_many
+from .estimates import Fitted
 from .objective import whitening
 from .profiles import DROP, profile_point
 from .shown import unit_shown
@@ -21,14 +22,13 @@ from .shown import unit_shown
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from .result import Fit
 
-_GRID = 56  # points of the map along each axis
-_FINE = 160  # of the outcomes of the estimates
-_TRIED = 48  # values of the entries, for bands
+_GRID = 40  # points of the map along each axis
+_FINE = 120  # of the outcomes of the estimates
+_TRIED = 32  # values of the entries, for bands
 _JOINT = 0.95
 _CURVE = 80  # points of a curve of a result
-_PROFILE = 7  # points of a profile to each side
+_PROFILE = 5  # points of a profile to each side
 _MARKS = dict(zip(OUTCOMES, ("o", "s", "^"), strict=True))
 _LINES = ("#2a6f97", "#c1554a", "#4f772d")
 _LABELS = {
@@ -40,11 +40,12 @@ _LABELS = {
 
 
 @picture
-def draw(found: Fit) -> Figure:
+def draw(found: Fitted) -> Figure:
     """The four kinds of pictures of a fit in one figure."""
     free = found.free
     figure = Figure(figsize=(11.0, 7.6), layout="constrained")
-    top, bottom = figure.subfigures(2, 1, height_ratios=(1.25, 1.0))
+    parts: Any = figure.subfigures(2, 1, height_ratios=(1.25, 1.0))
+    top, bottom = parts
     left, right = top.subplots(1, 2)
     samples = _samples(found)
     _map(left, found, samples)
@@ -57,7 +58,7 @@ def draw(found: Fit) -> Figure:
     return figure
 
 
-def _samples(found: Fit) -> np.ndarray:
+def _samples(found: Fitted) -> np.ndarray:
     """Values of the entries within their joint 95 % region, the estimates first; bands are the range over them."""
     free, objective = found.free, found.objective
     white = whitening(objective, found.best)
@@ -74,29 +75,31 @@ def _samples(found: Fit) -> np.ndarray:
     return np.array([free.values(each) for each in inside])
 
 
-def _collided(found: Fit, values: np.ndarray, speed: np.ndarray, angle: np.ndarray, of: tuple[str, ...]) -> Any:
+def _collided(found: Fitted, values: np.ndarray, speed: np.ndarray, angle: np.ndarray, of: tuple[str, ...] = ()) -> Any:
     """Collisions at all points with each of several values of the entries, (values, points)."""
     count, size = values.shape[0], speed.size
     vary = {}
     for k, name in enumerate(found.free.names):
         vary[name] = found.first.as_given(name, np.repeat(values[:, k], size))
-    kind = {"relative_speed": np.tile(speed, count)} if found.data.relative else {"speed": np.tile(speed, count)}
+    kind: dict[str, Any] = {"relative_speed" if found.data.relative else "speed": np.tile(speed, count)}
+        {"relative_speed": np.tile(speed, count)} if found.data.relative else {"speed": np.tile(speed, count)}
+    )
     return collide_many(found.first, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
 
 
-def _map(axes: Axes, found: Fit, samples: np.ndarray) -> None:
+def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
     data = found.data
     low, high = data.speed.min(), data.speed.max()
     margin = max((high / low) ** 0.06, 1.05)
     first, last = np.degrees([data.angle.min(), data.angle.max()])
     pad = max(0.06 * (last - first), 1.5)
-    limits = np.radians([max(first - pad, 0.0), min(last + pad, 89.0)])
+    limits = np.radians(max(first - pad, 0.0)), np.radians(min(last + pad, 89.0))
 
     def outcomes(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         speed = np.geomspace(low / margin, high * margin, count)
-        angle = np.linspace(*limits, count)
+        angle = np.linspace(limits[0], limits[1], count)
         points = [each.ravel() for each in np.meshgrid(speed, angle, indexing="ij")]
-        found_ = _collided(found, values, *points, ()).outcome.values.reshape(-1, count, count)
+        found_ = _collided(found, values, points[0], points[1]).outcome.values.reshape(-1, count, count)
         return np.degrees(angle), speed, found_
 
     degrees, speed, codes = outcomes(samples[:1], _FINE)
@@ -141,7 +144,7 @@ def _mark(name: str, label: str) -> Line2D:
     return Line2D([], [], linestyle="", marker=_MARKS[name], color=INK, markerfacecolor="white", label=label)
 
 
-def _results(axes: Axes, found: Fit, samples: np.ndarray) -> None:
+def _results(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
     data = found.data
     name = next(iter(found.rows.expected), "")
     if not name:
@@ -178,7 +181,7 @@ def _by_angle(angle: np.ndarray) -> list[np.ndarray]:
     return [part for part in np.array_split(order, groups) if part.size]
 
 
-def _profile(axes: Axes, found: Fit, k: int) -> None:
+def _profile(axes: Axes, found: Fitted, k: int) -> None:
     free, objective, best = found.free, found.objective, found.best
     entry = free.entries[k]
     estimate = found.estimates[entry.name]
@@ -211,7 +214,7 @@ def _profile(axes: Axes, found: Fit, k: int) -> None:
     axes.set_title(estimate.verdict, fontsize=8)
 
 
-def _residuals(axes: Axes, found: Fit) -> None:
+def _residuals(axes: Axes, found: Fitted) -> None:
     data, rows = found.data, found.rows
     axes.axhspan(-2, 2, color=NOTE, alpha=0.12, linewidth=0)
     axes.axhline(0, color=NOTE, linewidth=0.8)

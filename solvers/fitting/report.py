@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,10 +12,8 @@ from ...generated.automaton import OUTCOMES
 from ..formatting.markdown import table
 from ..host import files
 from ..host.outputs import check_folder
+from .estimates import Fitted
 from .shown import in_unit, interval
-
-if TYPE_CHECKING:
-    from .result import Fit
 
 Table = tuple[list[str], list[list[str]]]
 _MOST = 12  # rows of the data that are shown: those that pull most
@@ -26,7 +23,7 @@ _STYLE = (
 )
 
 
-def write_report(found: Fit, folder: str | Path) -> list[Path]:
+def write_report(found: Fitted, folder: str | Path) -> list[Path]:
     """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths."""
     into = check_folder(folder, "report")
     into.mkdir(parents=True, exist_ok=True)
@@ -59,12 +56,12 @@ def write_report(found: Fit, folder: str | Path) -> list[Path]:
     return [into / name for name in ("report.md", "report.html", "fit.png")]
 
 
-def _height(found: Fit) -> str:
+def _height(found: Fitted) -> str:
     change = f"with twice as fine integrals it changes by {found.quadrature:.2g}"
     return f"Log-likelihood {found.log_likelihood:.4f}; {change}."
 
 
-def _estimates(found: Fit) -> Table:
+def _estimates(found: Fitted) -> Table:
     rows = [
         [name, in_unit(found.first, name, each.value), interval(found.first, name, each.low, each.high), each.verdict]
         for name, each in found.estimates.items()
@@ -72,7 +69,7 @@ def _estimates(found: Fit) -> Table:
     return ["entry", "estimate", "95 % interval", "verdict"], rows
 
 
-def _correlation(found: Fit) -> Table | list[str]:
+def _correlation(found: Fitted) -> Table | list[str]:
     names = list(found.estimates)
     if len(names) < 2:
         return []
@@ -80,7 +77,7 @@ def _correlation(found: Fit) -> Table | list[str]:
     return ["", *names], rows
 
 
-def _rows(found: Fit) -> Table:
+def _rows(found: Fitted) -> Table:
     data, rows = found.data, found.rows
     names = list(rows.expected)
     head = ["impact", "speed (m/s)", "angle (deg)", "outcome", "probability"]

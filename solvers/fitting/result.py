@@ -13,52 +13,15 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..scene.origin import origin
 from ..scene.scene import Scene
+from .estimates import Estimate, Rows
 from .free_entries import FreeEntries
-from .likelihood import KNEE, Evaluation
+from .likelihood import Evaluation
 from .measurements import Measurements
 from .objective import Objective
 from .shown import in_unit, interval, unit_shown
 
 if TYPE_CHECKING:
     import pandas as pd
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """An entry: the most likely value, its 95 % interval (None: an open end), SI, and the verdict."""
-
-    value: float
-    low: float | None
-    high: float | None
-    verdict: str
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of an estimate."""
-        return {"value": self.value, "low": self.low, "high": self.high, "verdict": self.verdict}
-
-
-@dataclass(frozen=True)
-class Rows:
-    """The rows of the data under the estimates; arrays of one length, NaN where a row has no such number.
-
-    Attributes:
-        probability: of the observed outcome.
-        expected: result -> its mean over the scatter, where the outcome is the observed one.
-        residual: result -> what was measured less that, over the standard deviation of both.
-        log_likelihood: of the row, relative to a perfect observation.
-        pull: how far the estimates would move without the row, in standard errors, to first order.
-    """
-
-    probability: np.ndarray
-    expected: Mapping[str, np.ndarray]
-    residual: Mapping[str, np.ndarray]
-    log_likelihood: np.ndarray
-    pull: np.ndarray
-
-    @property
-    def contradicting(self) -> np.ndarray:
-        """Indices of the rows that lie beyond what the scatter allows."""
-        return np.flatnonzero(self.log_likelihood < -KNEE)
 
 
 @dataclass(frozen=True)
