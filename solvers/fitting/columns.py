@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..errors import InputError
 from ..host import bounded
 from ..scene.schema import MEETING
@@ -36,6 +38,9 @@ def columns_of(source: Any, label: str) -> tuple[list[Column], list[int]]:
     if hasattr(source, "data_vars"):  # xarray
         frame = source.to_dataframe().reset_index()
         given = {str(name): source[name].attrs.get("units") for name in (*source.data_vars, *source.coords)}
+        for name in source.dims:
+            if name in source.coords and np.array_equal(source[name].values, np.arange(source.sizes[name])):
+                del given[str(name)]  # it numbers the rows
         kept = {str(name): frame[name].tolist() for name in frame.columns if str(name) in given}
         return _named(kept, {name: unit for name, unit in given.items() if isinstance(unit, str)}, label)
     if hasattr(source, "columns") and hasattr(source, "iloc"):  # pandas

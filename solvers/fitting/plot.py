@@ -82,8 +82,6 @@ def _collided(found: Fitted, values: np.ndarray, speed: np.ndarray, angle: np.nd
     for k, name in enumerate(found.free.names):
         vary[name] = found.first.as_given(name, np.repeat(values[:, k], size))
     kind: dict[str, Any] = {"relative_speed" if found.data.relative else "speed": np.tile(speed, count)}
-        {"relative_speed": np.tile(speed, count)} if found.data.relative else {"speed": np.tile(speed, count)}
-    )
     return collide_many(found.first, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
 
 
