@@ -38,6 +38,13 @@ class Fit:
         remarks: sentences on defaults, contradictions, and what the data lack.
         quadrature: change of the log-likelihood with twice as fine integrals.
         others: values of less likely separate maxima, with their log-likelihoods.
+
+    Example:
+        >>> from wetdoublet.solvers import fit
+        >>> seen = {"stokes": [0.08, 0.1, 0.13, 0.16], "angle": [0.0] * 4, "outcome": ["S", "S", "B", "B"]}
+        >>> found = fit("granulation", seen, "liquid.glass_transition_pressure")
+        >>> sorted(found.to_dict()["estimates"]["liquid.glass_transition_pressure"])
+        ['high', 'low', 'value', 'verdict']
     """
 
     scene: Scene
