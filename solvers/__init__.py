@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from .collision.result import Collision
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
+    from .fitting.compare import compare_models
+    from .fitting.fit import fit, log_likelihood
+    from .fitting.result import Fit
     from .host.pictures import plot
     from .many.collide_many import collide_many
     from .many.regime_map import regime_map
@@ -36,6 +39,7 @@ _HOMES = {
     "CheckFailed": "errors",
     "Collision": "collision.result",
     "ComputationError": "errors",
+    "Fit": "fitting.result",
     "InputError": "errors",
     "ModelWarning": "errors",
     "Scene": "scene.scene",
@@ -46,11 +50,14 @@ _HOMES = {
     "boundary": "boundaries.boundary",
     "boundary_sensitivities": "sensitivity.boundaries",
     "collide": "collision.collide",
-    "compile_kernels": "engines.kernels",
     "collide_many": "many.collide_many",
     "collide_pair": "space.collide_pair",
     "collision_averages": "averages.averages",
+    "compare_models": "fitting.compare",
+    "compile_kernels": "engines.kernels",
+    "fit": "fitting.fit",
     "gradients_many": "sensitivity.gradients_many",
+    "log_likelihood": "fitting.fit",
     "pair_gradients": "sensitivity.pair_gradients",
     "plot": "host.pictures",
     "regime_map": "many.regime_map",
@@ -66,6 +73,7 @@ __all__ = [
     "CheckFailed",
     "Collision",
     "ComputationError",
+    "Fit",
     "InputError",
     "ModelWarning",
     "Scene",
@@ -79,8 +87,11 @@ __all__ = [
     "collide_many",
     "collide_pair",
     "collision_averages",
+    "compare_models",
     "compile_kernels",
+    "fit",
     "gradients_many",
+    "log_likelihood",
     "pair_gradients",
     "plot",
     "regime_map",

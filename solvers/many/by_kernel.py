@@ -92,7 +92,7 @@ def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
     with np.errstate(all="ignore"):  # overflow and NaN are excluded by the mask
         if request.vary:
             values = varied_columns(request)
-            sound = _sound(scene, values)
+            sound = admissible(scene, values)
             unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
         else:
             sound, unit = np.ones(request.size, bool), scene.stokes_per_speed
@@ -112,7 +112,7 @@ def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
     return usual
 
 
-def _sound(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
+def admissible(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     """Mask of collisions that satisfy `scene.entry_rules` with a margin; the scene itself validates the others."""
     film = values["film_thickness"]
     sound = np.ones(film.shape, bool)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from wetdoublet.solvers import CheckFailed as CheckFailed
     from wetdoublet.solvers import Collision as Collision
     from wetdoublet.solvers import ComputationError as ComputationError
+    from wetdoublet.solvers import Fit as Fit
     from wetdoublet.solvers import InputError as InputError
     from wetdoublet.solvers import ModelWarning as ModelWarning
     from wetdoublet.solvers import Scene as Scene
@@ -35,8 +36,11 @@ if TYPE_CHECKING:
     from wetdoublet.solvers import collide as collide
     from wetdoublet.solvers import collide_many as collide_many
     from wetdoublet.solvers import collide_pair as collide_pair
+    from wetdoublet.solvers import compare_models as compare_models
     from wetdoublet.solvers import compile_kernels as compile_kernels
+    from wetdoublet.solvers import fit as fit
     from wetdoublet.solvers import gradients_many as gradients_many
+    from wetdoublet.solvers import log_likelihood as log_likelihood
     from wetdoublet.solvers import pair_gradients as pair_gradients
     from wetdoublet.solvers import plot as plot
     from wetdoublet.solvers import regime_map as regime_map

@@ -63,6 +63,7 @@ def run_tangent(
     order: int | None = None,
     budget: int = STEPS,
     backward: bool = False,
+    fold: bool = True,
 ) -> Carried | None:
     """Derivatives of impacts that are all oblique, or all head-on; None if no kernel is available.
 
@@ -71,9 +72,10 @@ def run_tangent(
         order: of the series; None: that of the tolerance.
         backward: of the restitution alone, taken back along the trajectory: for the price of one direction.
             Trajectories of more than some hundred steps are handed over.
+        fold: no quantity varies, so that a partner equal to the sphere stays so.
     """
     order = order or (order_backward if backward else order_for)(min(rtol, LOOSEST))
-    library = _library(impacts.scene, oblique, order, rotation, backward)
+    library = _library(impacts.scene, oblique, order, rotation, backward, fold)
     if library is None:
         return None
     if backward:
@@ -100,15 +102,17 @@ def order_backward(rtol: float) -> int:
     return order_for(rtol / 30)
 
 
-def _library(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool) -> ctypes.CDLL | None:
-    variant = variant_of(scene, oblique, order, rotation, backward)
+def _library(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool, fold: bool) -> ctypes.CDLL | None:
+    variant = variant_of(scene, oblique, order, rotation, backward, fold)
     return kernel(variant) if differentiates(scene, (oblique,)) else None
 
 
-def variant_of(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool = False) -> Variant:
+def variant_of(
+    scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool = False, fold: bool = True
+) -> Variant:
     """The variant of the kernel that differentiates a scene's collisions."""
     own = scene.bridge is not None and scene.bridge.rupture == "own"
-    return Variant(select_model(scene, oblique), order, rotation, own, gradients=True, backward=backward)
+    return Variant(select_model(scene, oblique, fold=fold), order, rotation, own, gradients=True, backward=backward)
 
 
 def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:

@@ -1,0 +1,111 @@
+"""`wetdoublet fit`: parameters of a scene from measured impacts."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+import click
+
+from ..errors import InputError
+from ..settings import check_rtol
+from . import options
+
+
+@click.command("fit", short_help="Entries of a scene from measured impacts, with what the data cannot tell.")
+@options.scene_argument
+@click.argument("data", metavar="DATA.csv", required=False)
+@click.option("--free", metavar="NAMES", help="Entries to estimate, as particles.roughness,liquid.viscosity.")
+@click.option(
+    "--prior",
+    "priors",
+    metavar="NAME=PRIOR",
+    multiple=True,
+    help='What is known of an entry, as particles.roughness="2 um +- 20 %"; repeatable.',
+)
+@click.option(
+    "--compare",
+    metavar="NAMES",
+    help="Also fit every other bridge.law, model.film or model.glass, and compare them by AIC and cross-validation.",
+)
+@click.option("--write", "written", metavar="FILE.toml", help="Write the fitted scene, intervals as comments.")
+@click.option("--report", "folder", metavar="DIR", help="Write report.md, report.html and their picture.")
+@options.changes
+@options.model
+@options.rtol
+@options.as_json
+@options.plot
+@options.output
+@options.debug
+def command(
+    source: str | None,
+    data: str | None,
+    free: str | None,
+    priors: Sequence[str],
+    compare: str | None,
+    written: str | None,
+    folder: str | None,
+    changes: Sequence[str],
+    model: str | None,
+    rtol: str | None,
+    as_json: bool,
+    plot: str | None,
+    output: str | None,
+) -> None:
+    r"""Estimate entries of SCENE from the impacts in DATA.csv; the scene's own values are a first guess.
+
+    \b
+    The first line of DATA.csv names its columns:
+      speed [m/s],angle [deg],restitution,restitution_sd,outcome
+    \b
+    Examples:
+      wetdoublet fit granulation impacts.csv --free particles.roughness,liquid.viscosity --plot fit.png
+      wetdoublet fit scene.toml impacts.csv --free liquid.viscosity --prior liquid.viscosity="2 Pa s +- 10 %"
+    """
+    from ..fitting.fit import RTOL, fit
+
+    tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
+    picture = options.check_file(plot, "--plot", options.PICTURES)
+    scene_file = options.check_file(written, "--write", (".toml",))
+    file = options.check_file(output, "-o")
+    for first, one, second, other in ((file, "-o", picture, "--plot"), (file, "-o", scene_file, "--write")):
+        options.check_apart(first, one, second, other)
+    given = _assigned(priors)
+    if free is None:
+        accepted = "entries to estimate, as --free particles.roughness,liquid.viscosity"
+        raise InputError("--free", None, accepted)
+    names = [name.strip() for name in free.split(",") if name.strip()]
+    asked = options.SceneRequest.check(source, changes, model=model)
+    if data is None:
+        raise InputError("DATA.csv", None, "a CSV file with a row for each impact")
+    scene = asked.scene()
+    found = fit(scene, data, names, prior=given or None, rtol=tolerance)
+    table = None
+    if compare is not None:
+        from ..fitting.compare import compare_models
+
+        table = compare_models(
+            scene, data, names, over=[name.strip() for name in compare.split(",")], prior=given or None, rtol=tolerance
+        )
+    if as_json:
+        object_ = found.to_dict() | ({} if table is None else {"comparison": table.to_dict()})
+        text = json.dumps(object_, indent=2, allow_nan=False)
+    else:
+        text = str(found) if table is None else f"{found}\n\n{table}"
+    options.put(text, file)
+    if scene_file is not None:
+        found.write(scene_file)
+    if folder is not None:
+        found.report(folder)
+    if picture is not None:
+        found.plot(picture)
+
+
+def _assigned(given: Sequence[str]) -> dict[str, str]:
+    found = {}
+    for text in given:
+        name, equals, value = text.partition("=")
+        if not equals:
+            raise InputError("--prior", text, 'NAME=PRIOR, such as particles.roughness="2 um +- 20 %"', "has no =")
+        found[name.strip()] = value
+    return found

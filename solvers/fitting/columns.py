@@ -1,0 +1,110 @@
+"""Columns of a table of measurements, from a CSV file, pandas, xarray or a mapping, with the units of their names."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..host import bounded
+from ..scene.schema import MEETING
+
+_LARGEST = 20_000_000  # bytes of a file
+_MOST_ROWS = 100_000
+_HEADER = re.compile(r"\s*([^\[\]]+?)\s*(?:\[\s*([^\[\]]*?)\s*\])?\s*")
+
+
+@dataclass(frozen=True)
+class Column:
+    """Cells of a column; `unit` is None where none is written, "%" for parts of the value that they belong to."""
+
+    name: str
+    unit: str | None
+    cells: list[Any]
+
+
+def columns_of(source: Any, label: str) -> tuple[list[Column], list[int]]:
+    """The columns of a source, and the line of each row where it is a file, else the number of the row."""
+    if isinstance(source, Mapping) and not hasattr(source, "data_vars"):
+        made = {str(name): _listed(values, f"{label}, column {name}") for name, values in source.items()}
+        return _named(made, {}, label)
+    if hasattr(source, "data_vars"):  # xarray
+        frame = source.to_dataframe().reset_index()
+        given = {str(name): source[name].attrs.get("units") for name in (*source.data_vars, *source.coords)}
+        for name in source.dims:
+            if name in source.coords and np.array_equal(source[name].values, np.arange(source.sizes[name])):
+                del given[str(name)]  # it numbers the rows
+        kept = {str(name): frame[name].tolist() for name in frame.columns if str(name) in given}
+        return _named(kept, {name: unit for name, unit in given.items() if isinstance(unit, str)}, label)
+    if hasattr(source, "columns") and hasattr(source, "iloc"):  # pandas
+        return _named({str(name): source[name].tolist() for name in source.columns}, {}, label)
+    if isinstance(source, (str, Path)):
+        return _from_csv(source, label)
+    accepted = "a CSV file, a DataFrame, a Dataset, or a mapping of columns"
+    raise InputError(label, type(source).__name__, accepted, "is none of these")
+
+
+def _listed(values: Any, label: str) -> list[Any]:
+    found = values.tolist() if hasattr(values, "tolist") else values
+    if isinstance(found, (list, tuple)):
+        return list(found)
+    raise InputError(label, values, "a list or a 1-D array", "is not a column")
+
+
+def _named(cells: Mapping[str, list[Any]], given: Mapping[str, str], label: str) -> tuple[list[Column], list[int]]:
+    lengths = {name: len(values) for name, values in cells.items()}
+    if len(set(lengths.values())) > 1:
+        name, length = max(lengths.items(), key=lambda item: item[1])
+        raise InputError(f"{label}, column {name}", f"{length} values", "columns of one length", "differs in length")
+    columns = []
+    for name, values in cells.items():
+        known, unit = _header(name, label)
+        columns.append(Column(known, given.get(name, unit), values))
+    return columns, list(range(1, max(lengths.values(), default=0) + 1))
+
+
+def _from_csv(source: str | Path, label: str) -> tuple[list[Column], list[int]]:
+    accepted = "a CSV file whose first line names the columns, such as speed [m/s],angle [deg],restitution,outcome"
+    try:
+        text = bounded.read(Path(source), _LARGEST).decode("utf-8-sig")
+    except FileNotFoundError:
+        raise InputError(label, str(source), accepted, "is no file") from None
+    except bounded.NotRead as reason:
+        raise InputError(label, str(source), accepted, str(reason)) from None
+    except UnicodeDecodeError:
+        raise InputError(label, str(source), accepted, "is not UTF-8 text") from None
+    kept = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip(" \t,;") and line.lstrip()[0] != "#"]
+    if not kept:
+        raise InputError(label, str(source), accepted, "has no line with names of columns")
+    first = kept[0][1]
+    separator = max(",;\t", key=first.count)
+    head, *rows = csv.reader(io.StringIO("\n".join(line for _, line in kept)), delimiter=separator)
+    lines = [k for k, _ in kept[1:]]
+    if len(rows) != len(lines):
+        raise InputError(label, str(source), accepted, "has a quoted cell that does not end on its line")
+    if len(rows) > _MOST_ROWS:
+        raise InputError(label, str(source), f"at most {_MOST_ROWS} rows", f"has {len(rows)} rows")
+    columns = [Column(*_header(name, f"{label} {source}"), []) for name in head]
+    for k, (row, line) in enumerate(zip(rows, lines, strict=True), 1):
+        cells = [cell.split("#")[0] if j == len(row) - 1 else cell for j, cell in enumerate(row)]
+        if any(cell.strip() for cell in cells[len(head) :]):
+            extra = f"row {k} (line {line})"
+            raise InputError(f"{label} {source}, {extra}", len(row), f"{len(head)} cells", "cells are too many")
+        cells += [""] * (len(head) - len(cells))
+        for column, cell in zip(columns, cells):
+            column.cells.append(cell)
+    return columns, lines
+
+
+def _header(text: str, label: str) -> tuple[str, str | None]:
+    match = _HEADER.fullmatch(text)
+    if match is None:
+        raise InputError(label, text, "names of columns, with their unit in brackets", "is no name of a column")
+    return match[1].strip().removeprefix("impact.") if match[1].strip() in MEETING else match[1].strip(), match[2]

@@ -1,0 +1,192 @@
+"""Laws, films and criteria compared on the same data: AIC, and what each predicts of impacts left out of its fit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import ComputationError, InputError, did_you_mean
+from ..host.arguments import check_names
+from ..scene.scene import Scene
+from ..settings import check_rtol
+from .data import read_data
+from .fit import RTOL
+from .free_entries import FreeEntries, free_entries
+from .likelihood import Likelihood, Resolution
+from .measurements import Measurements
+from .objective import Objective
+from .optimise import Optimum, optimise, settled
+from .shown import in_unit
+
+CHOICES = ("bridge.law", "model.film", "model.glass", "model.tangential", "model.arm", "pendulum.law")
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A scene with other choices, fitted.
+
+    Attributes:
+        name: the choices, as "bridge.law = willett".
+        log_likelihood, aic: at its most likely values; lower AIC is better.
+        predicted: mean log-likelihood of a row under the scene fitted to the other folds; None without folds.
+        estimates: most likely values, SI.
+        reason: why there are none of these.
+    """
+
+    name: str
+    log_likelihood: float | None = None
+    aic: float | None = None
+    predicted: float | None = None
+    estimates: Mapping[str, float] | None = None
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Candidates, the best by AIC first, those without a fit last."""
+
+    scene: Scene
+    candidates: tuple[Candidate, ...]
+
+    def to_dict(self) -> list[dict[str, Any]]:
+        """The JSON of the comparison."""
+        return [
+            {
+                "choice": each.name, "log_likelihood": each.log_likelihood, "aic": each.aic,
+                "predicted": each.predicted, "estimates": None if each.estimates is None else dict(each.estimates),
+                "reason": each.reason or None,
+            }
+            for each in self.candidates
+        ]  # fmt: skip
+
+    def rows(self) -> tuple[list[str], list[list[str]]]:
+        """Head and cells of a table; AIC as the difference from the best."""
+        names = list(next((each.estimates for each in self.candidates if each.estimates), {}))
+        least = min((each.aic for each in self.candidates if each.aic is not None), default=0.0)
+        cells = []
+        for each in self.candidates:
+            if each.aic is None or each.estimates is None:
+                cells.append([each.name, each.reason, *[""] * (2 + len(names))])
+                continue
+            predicted = "-" if each.predicted is None else f"{each.predicted:.3f}"
+            values = [in_unit(self.scene, name, each.estimates[name]) for name in names]
+            cells.append([each.name, f"{each.aic - least:.2f}", f"{each.log_likelihood:.2f}", predicted, *values])
+        return ["choice", "AIC - best", "log-likelihood", "predicted per impact", *names], cells
+
+    def __str__(self) -> str:
+        head, cells = self.rows()
+        widths = [max(len(row[k]) for row in (head, *cells)) for k in range(len(head))]
+        return "\n".join(
+            "  ".join(cell.ljust(size) for cell, size in zip(row, widths)).rstrip() for row in (head, *cells)
+        )
+
+
+def compare_models(
+    scene: Scene | str | Path,
+    data: Any,
+    free: Sequence[str] | str,
+    *,
+    over: Sequence[str] | str = ("bridge.law",),
+    prior: Mapping[str, str] | None = None,
+    folds: int = 5,
+    rtol: float = RTOL,
+    seed: int = 0,
+) -> Comparison:
+    """Fit the scene and, for each named choice, the scene with every other value of it.
+
+    Arguments:
+        scene, data, free, prior, rtol: as of `fit`.
+        over: choices by dotted name, of `CHOICES`; each is varied alone.
+        folds: of the cross-validation; 0 for none.
+        seed: of the folds.
+
+    Returns:
+        Comparison: the candidates, the best by AIC first.
+
+    Raises:
+        InputError: as of `fit`, and a choice that the scene has not.
+
+    Example:
+        >>> from wetdoublet.solvers import compare_models
+        >>> seen = {"speed": [0.1, 0.2, 0.3, 0.4], "angle": [0.8] * 4, "outcome": ["stick", "stick", "SRS", "SRS"]}
+        >>> both = compare_models("granulation", seen, "liquid.viscosity", over="model.arm", folds=0)
+        >>> [each.name for each in both.candidates if each.aic is None]
+        []
+    """
+    first = Scene.load(scene)
+    table = data if isinstance(data, Measurements) else read_data(data, first)
+    names = check_names(over, CHOICES, "over")
+    if not isinstance(folds, int) or isinstance(folds, bool) or folds < 0 or folds == 1:
+        raise InputError("folds", folds, "a whole number from 2, or 0 for no cross-validation")
+    candidates = []
+    for name, scene_ in _scenes(first, names):
+        try:
+            if isinstance(scene_, InputError):
+                raise scene_
+            candidates.append(
+                _candidate(name, scene_, table, free, prior, min(folds, table.size), check_rtol(rtol), seed)
+            )
+        except (InputError, ComputationError) as error:
+            if not candidates:
+                raise  # the scene itself
+            candidates.append(Candidate(name, reason=str(error)))
+    order = sorted(candidates, key=lambda each: np.inf if each.aic is None else each.aic)
+    return Comparison(first, tuple(order))
+
+
+def _scenes(first: Scene, names: Sequence[str]) -> list[tuple[str, Scene | InputError]]:
+    found: list[tuple[str, Scene | InputError]] = []
+    own = {}
+    for name in names:
+        table = getattr(first, name.partition(".")[0])
+        if table is None:
+            known = [each for each in CHOICES if getattr(first, each.partition(".")[0]) is not None]
+            problem = "is of a table that the scene has not" + did_you_mean(name, known)
+            raise InputError("over", name, ", ".join(known), problem)
+        own[name] = str(getattr(table, name.partition(".")[2]))
+    found.append((", ".join(f"{name} = {value}" for name, value in own.items()), first))
+    for name, value in own.items():
+        for other in first.fields[name].choices:
+            if other != value:
+                try:
+                    found.append((f"{name} = {other}", first.with_entries({name: other})))
+                except InputError as error:
+                    found.append((f"{name} = {other}", error))
+    return found
+
+
+def _candidate(
+    name: str, scene: Scene, data: Measurements, free: Sequence[str] | str, prior: Mapping[str, str] | None,
+    folds: int, rtol: float, seed: int,
+) -> Candidate:  # fmt: skip
+    entries = free_entries(scene, free, data, prior, rtol)
+    likelihood = Likelihood(scene, entries.names, data, rtol)
+    best = optimise(likelihood, entries)
+    evaluation = Objective(likelihood, entries, Resolution()).at(best.inner)
+    assert evaluation is not None
+    values = dict(zip(entries.names, entries.values(best.inner).tolist(), strict=True))
+    predicted = _predicted(scene, data, entries, best, folds, rtol, seed) if folds > 1 else None
+    return Candidate(name, evaluation.value, 2 * entries.size - 2 * evaluation.value, predicted, values)
+
+
+def _predicted(
+    scene: Scene, data: Measurements, free: FreeEntries, best: Optimum, folds: int, rtol: float, seed: int
+) -> float:
+    """Mean log-likelihood of a row under the scene that is fitted to the rows of the other folds."""
+    order = np.random.default_rng(seed).permutation(data.size)
+    total = 0.0
+    for k in range(folds):
+        left = np.sort(order[k::folds])
+        kept = np.setdiff1d(order, left)
+        fitted = settled(Likelihood(scene, free.names, data.part(kept), rtol), free, best.inner)
+        test = Likelihood(scene, free.names, data.part(left), rtol)
+        values = free.values(fitted.inner)
+        test.aim(values)
+        found = test(values)
+        assert found is not None  # the values are possible for all rows
+        total += found.value
+    return total / data.size

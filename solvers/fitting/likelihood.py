@@ -1,0 +1,358 @@
+"""The likelihood of measured impacts, and its gradient by the free entries.
+
+Of a row it is the integral over the scatter in speed and angle of [the outcome agrees] times the density of what was
+measured about the results of the collision. Every line through the scatter is split at its changes of outcome. Between
+two changes the results are smooth and are interpolated by Chebyshev polynomials in a variable in which a square root at
+a change is smooth too; the integral over the polynomials costs no collisions.
+
+Derivatives are taken at fixed interpolation variable: the points of a segment move with its ends, and the square roots
+cancel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.special import log_ndtr
+
+from ..errors import InputError
+from ..settings import RTOL
+from . import changes as boundaries
+from .interpolation import SegmentMap, segment_map
+from .law import BoundLaw, Law
+from .lines import REACH, Lines
+from .measurements import Measurements
+from .segments import Segments, moving_ends
+from .sums import Moments, RowSums
+
+NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
+_FAR = np.array([6.0, 7.0, 8.5, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0])  # where an outcome not seen nearby is looked for
+_FARTHEST = 30.0
+_RARE = 1e-4  # probability within REACH below which the observed outcome is looked for beyond
+FINER = (3, 7)
+"""Factors of the number of lines of rows that need more."""
+KNEE, TAIL = 12.0, 4.0
+"""A row that lies more than this many units of log-likelihood below the most likely observation (4.9 standard
+deviations) contradicts the model; from there its log-likelihood falls with the logarithm of the distance."""
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """How finely the scatter is integrated.
+
+    Arguments:
+        lines: lines through the scatter of a row.
+        nodes: collisions on a segment; half as many more where it ends at a change.
+        points: of the quadrature over the interpolated results.
+        grid: points of a line at which the outcome is looked at.
+        quick: derivatives of changes beside slow saddles to 1e-4 only.
+        within: error of a probability from the place of a change.
+    """
+
+    lines: int = 3
+    nodes: int = 8
+    points: int = 128
+    grid: int = 15
+    quick: bool = True
+    within: float = boundaries.WITHIN
+
+    def doubled(self) -> Resolution:
+        """The same, twice as fine and with exact derivatives."""
+        return Resolution(2 * self.lines + 1, 2 * self.nodes, 2 * self.points, 2 * self.grid, False, self.within / 100)
+
+
+COARSE = Resolution(1, 4, 64, 11)
+EXACT = Resolution(quick=False, within=1e-10)
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Log-likelihoods of the rows.
+
+    Attributes:
+        rows: (rows,), natural logarithms, relative to a perfect observation's density and limited (`KNEE`).
+        scores: (rows, free entries), derivatives by the free entries' values.
+        plain: (rows,), as `rows` without the limit.
+        probability: (rows,), of the observed outcome.
+        mean, spread: result -> (rows,), mean and standard deviation over the scatter where the outcome agrees.
+    """
+
+    rows: np.ndarray
+    scores: np.ndarray
+    plain: np.ndarray
+    probability: np.ndarray
+    mean: dict[str, np.ndarray]
+    spread: dict[str, np.ndarray]
+
+    @property
+    def value(self) -> float:
+        return float(self.rows.sum())
+
+
+class Likelihood:
+    """The log-likelihood of measurements as a function of the free entries' values.
+
+    Arguments:
+        scene, names, data: scene, free entries and rows.
+        rtol: relative tolerance of the integrations.
+    """
+
+    def __init__(self, scene: object, names: tuple[str, ...], data: Measurements, rtol: float = RTOL) -> None:
+        from ..scene.scene import Scene
+
+        assert isinstance(scene, Scene)
+        self.data, self.names = data, names
+        self.of = tuple(name for name, (values, _) in data.observed.items() if np.isfinite(values).any())
+        self.law = Law(scene, names, data, rtol)
+        self.direction = np.zeros(data.size)
+        self.more = np.ones(data.size, int)  # factor of the lines of each row, odd
+        density = data.separated
+        self.constant = np.zeros(data.size)  # of the densities' normalisation
+        for name in self.of:
+            values, sd = data.observed[name]
+            seen = density & np.isfinite(values)
+            self.constant[seen] -= np.log(sd[seen] * np.sqrt(2 * np.pi))
+
+    # ---- the frame
+
+    def aim(self, values: np.ndarray) -> None:
+        """Turn the lines of every row to where its results change fastest, for these values.
+
+        Raises:
+            InputError: values that no scene may have.
+        """
+        law = self.bound(values)
+        data = self.data
+        if not ((data.speed_sd > 0) & (data.angle_sd > 0)).any():
+            return
+        nearest = np.full(data.size, np.inf)
+        for across in (0.0, np.pi / 2):
+            lines = Lines.of(data, np.full(data.size, across), np.ones(data.size, int))
+            found = boundaries.locate(law, lines, within=1e-3)
+            if not found.size:
+                continue
+            order = np.argsort(np.abs(found.y))
+            rows, first = np.unique(lines.row[found.line[order]], return_index=True)
+            which = order[first]
+            closer = np.abs(found.y[which]) < nearest[rows]
+            rows, which = rows[closer], which[closer]
+            if not rows.size:
+                continue
+            fine = replace(found, y=found.y.copy())
+            normal = boundaries.normals(law, lines, fine, which, True)
+            turned = self._direction(lines, found.line[which], found.y[which], normal.speed, normal.angle)
+            turned = np.where(np.isfinite(turned), turned, across)
+            nearest[rows], self.direction[rows] = np.abs(found.y[which]), turned
+        for k, name in enumerate(self.of):
+            smooth = np.flatnonzero(data.separated & np.isfinite(data.observed[name][0]))
+            lines = Lines.of(data, self.direction, np.ones(data.size, int))
+            there = law.results(self.of, smooth, *lines.at(smooth, np.zeros(smooth.size)))
+            by = there.speed[k] * data.speed_sd[smooth], there.angle[k] * data.angle_sd[smooth]
+            steep = np.hypot(*by) > data.observed[name][1][smooth]
+            turned = self._direction(lines, smooth, np.zeros(smooth.size), there.speed[k], there.angle[k])
+            steep &= np.isfinite(turned) & (there.outcome > 0)
+            self.direction[smooth] = np.where(steep, turned, self.direction[smooth])
+            if steep.any():
+                break
+
+    def _direction(
+        self, lines: Lines, line: np.ndarray, y: np.ndarray, speed: np.ndarray, angle: np.ndarray
+    ) -> np.ndarray:
+        row = lines.row[line]
+        if self.data.relative:
+            at_speed, at_angle = lines.at(line, y)
+            angle = angle - speed * at_speed * np.tan(at_angle)
+            speed = speed * np.cos(at_angle)
+        with np.errstate(invalid="ignore"):
+            turned: np.ndarray = np.arctan2(angle * self.data.angle_sd[row], speed * self.data.speed_sd[row])
+            turned[(angle == 0) & (speed == 0)] = np.nan
+        return turned
+
+    def refine(self, values: np.ndarray, within: float) -> None:
+        """Give more lines to rows whose log-likelihood at these values is not within an error of what it should be."""
+        law, size = self.bound(values), self.data.size
+        self.more = np.ones(size, int)
+        now, open_ = self.evaluate(law, Resolution()).rows, np.ones(size, bool)
+        for factor in FINER:
+            fine = self.evaluate(law, Resolution(), np.where(open_, factor, 0)).rows
+            open_ &= np.abs(fine - now) > within
+            self.more[open_], now = factor, fine
+            if not open_.any():
+                break
+
+    def bound(self, values: np.ndarray) -> BoundLaw:
+        """The law at these values; InputError where no scene may have them."""
+        law = self.law.at(np.asarray(values, dtype=float))
+        if law is None:
+            said = ", ".join(f"{name} = {value:.6g}" for name, value in zip(self.names, values, strict=True))
+            raise InputError("free", said, "values that the scene may have together", "make a scene impossible")
+        return law
+
+    # ---- the integral
+
+    def __call__(self, values: np.ndarray, resolution: Resolution | None = None) -> Evaluation | None:
+        """The log-likelihoods at these values; None where they make the scene impossible."""
+        law = self.law.at(np.asarray(values, dtype=float))
+        return None if law is None else self.evaluate(law, resolution or Resolution())
+
+    def evaluate(self, law: BoundLaw, resolution: Resolution, factors: np.ndarray | None = None) -> Evaluation:
+        """The log-likelihoods of all rows under a law.
+
+        Arguments:
+            factors: (rows,), of the number of lines, in place of those found by `refine`; 0 leaves a row out.
+        """
+        data, size = self.data, self.data.size
+        if factors is None:
+            factors = self.more if resolution.lines > 1 else np.ones(size, int)
+        lines = Lines.of(data, self.direction, resolution.lines * factors)
+        found = boundaries.locate(law, lines, resolution.grid, resolution.within)
+        segments = Segments.of(lines, found, data.allowed)
+        mass = segments.mass()
+        probability = np.bincount(segments.row, segments.weight * mass, size)
+        dense = data.separated[segments.row]
+        ends = moving_ends(law, lines, found, segments, dense & (mass > NEGLIGIBLE), resolution.quick)
+        total = RowSums(size, len(self.names))
+        plain = np.flatnonzero(~dense & (mass > 0))
+        total.add(segments.row[plain], np.log(segments.weight[plain] * mass[plain]), segments.mass_slopes(ends)[plain])
+        moments = Moments(self.of, size)
+        self._densities(
+            law, lines, segments, ends, np.flatnonzero(dense & (mass > NEGLIGIBLE)), resolution, total, moments
+        )
+        rows, scores = total.result()
+        rare = np.flatnonzero((probability < _RARE) & (factors > 0))
+        if rare.size:
+            self._beyond(law, rare, rows, scores, resolution)
+        limited, factor = limit(rows)
+        return Evaluation(
+            limited + self.constant, scores * factor[:, None], rows + self.constant, np.minimum(probability, 1.0),
+            *moments.result(),
+        )  # fmt: skip
+
+    def _densities(
+        self,
+        law: BoundLaw,
+        lines: Lines,
+        segments: Segments,
+        ends: tuple[np.ndarray, np.ndarray],
+        which: np.ndarray,
+        resolution: Resolution,
+        total: RowSums,
+        moments: Moments,
+    ) -> None:
+        """Add the integrals of densities over segments `which`."""
+        free = (segments.from_change[which].astype(int) + 2 * segments.to_change[which]).astype(int)
+        groups = [(kind, which[free == kind]) for kind in range(4)]
+        groups = [(kind, part) for kind, part in groups if part.size]
+        if not groups:
+            return
+        counts = [resolution.nodes * 3 // 2 if kind else resolution.nodes for kind, _ in groups]
+        maps = [segment_map(kind, count, resolution.points) for (kind, _), count in zip(groups, counts)]
+        places, on = [], []
+        for (_, part), each in zip(groups, maps):
+            low, high = segments.low[part, None], segments.high[part, None]
+            places.append((low + (high - low) * each.at_nodes).ravel())
+            on.append(np.repeat(segments.line[part], each.at_nodes.size))
+        y, line = np.concatenate(places), np.concatenate(on)
+        found = law.results(self.of, lines.row[line], *lines.at(line, y))
+        by_speed, by_angle = lines.slopes(line, y)
+        by_y = found.speed * by_speed + found.angle * by_angle
+        first = 0
+        for (_, part), each in zip(groups, maps):
+            own = slice(first, first + part.size * each.at_nodes.size)
+            first = own.stop
+            shape = part.size, each.at_nodes.size
+            value = found.value[:, own].reshape(-1, *shape)
+            low_p, high_p = ends[0][part], ends[1][part]
+            moves = low_p[:, None] * (1 - each.at_nodes)[:, None] + high_p[:, None] * each.at_nodes[:, None]
+            slope = (
+                found.free[:, own].reshape(-1, *shape, len(self.names))
+                + by_y[:, own].reshape(-1, *shape)[..., None] * moves
+            )
+            self._integrate(segments, part, each, value, slope, low_p, high_p, total, moments)
+
+    def _integrate(
+        self,
+        segments: Segments,
+        part: np.ndarray,
+        mapping: SegmentMap,
+        value: np.ndarray,
+        slope: np.ndarray,
+        low_p: np.ndarray,
+        high_p: np.ndarray,
+        total: RowSums,
+        moments: Moments,
+    ) -> None:
+        row = segments.row[part]
+        lost = ~np.isfinite(value).all(axis=(0, 2))  # a trajectory on the way was not completed
+        value, slope = np.nan_to_num(value), np.nan_to_num(slope)
+        low, high = segments.low[part, None], segments.high[part, None]
+        length = high - low
+        y = low + length * mapping.at_points
+        scatter = -(y**2) / 2 - np.log(2 * np.pi) / 2 + np.log(length * mapping.rate * mapping.weight)
+        exponent = scatter.copy()
+        pulls = []
+        for k, name in enumerate(self.of):
+            measured, sd = (each[row, None] for each in self.data.observed[name])
+            at = value[k] @ mapping.interpolate.T
+            moments.add(name, row, segments.weight[part], scatter, at)
+            seen = np.isfinite(measured)
+            misfit = np.where(seen, (measured - at) / sd, 0.0)
+            exponent -= misfit**2 / 2
+            pulls.append((k, misfit / sd))
+        exponent[lost] = -np.inf
+        top = np.max(exponent, axis=1, keepdims=True, initial=-1e300)
+        density = np.exp(exponent - top)
+        whole = density.sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = np.where(whole[:, None] > 0, density / whole[:, None], 0.0)
+            logs = np.log(whole) + top[:, 0] + np.log(segments.weight[part])
+        gradient = (high_p - low_p) / length
+        # y moves with the ends: dy = low_p (1 - g) + high_p g
+        mean_y, mean_gy = -(share * y).sum(axis=1), -(share * y * mapping.at_points).sum(axis=1)
+        gradient += low_p * (mean_y - mean_gy)[:, None] + high_p * mean_gy[:, None]
+        for k, pull in pulls:
+            at_nodes = (share * pull) @ mapping.interpolate
+            gradient += np.einsum("sn,snp->sp", at_nodes, slope[k])
+        kept = np.flatnonzero(whole > 0)
+        total.add(row[kept], logs[kept], gradient[kept])
+
+    def _beyond(
+        self, law: BoundLaw, rows: np.ndarray, into: np.ndarray, scores: np.ndarray, resolution: Resolution
+    ) -> None:
+        """Log-probabilities of rows whose outcome is rare within the reach of the integral, from the nearest change.
+
+        The row's likelihood is that of a scatter as far as the change, and falls with the square of the distance also
+        where the integral would be zero.
+        """
+        data = self.data.part(rows)
+        lines = replace(Lines.of(data, self.direction[rows], np.ones(rows.size, int), _FARTHEST), row=rows)
+        inner = np.linspace(-REACH, REACH, resolution.grid)
+        grid = np.concatenate([-_FAR[::-1], inner, _FAR])
+        places = np.clip(grid, lines.low[:, None], lines.high[:, None])
+        found = boundaries.locate(law, lines, places, within=1e-3)
+        allowed = self.data.allowed[rows]
+        near, sign = np.full(rows.size, np.inf), np.zeros(rows.size)
+        which = np.full(rows.size, -1)
+        for k in range(found.size):
+            line, y = int(found.line[k]), float(found.y[k])
+            # the side of the change on which the outcome agrees must be the farther one
+            inward, outward = (found.before[k], found.after[k]) if y > 0 else (found.after[k], found.before[k])
+            if allowed[line, outward] and not allowed[line, inward] and abs(y) < near[line]:
+                near[line], sign[line], which[line] = abs(y), np.sign(y) or 1.0, k
+        there = np.flatnonzero((which >= 0) & (near > REACH / 2))
+        tail = np.full(rows.size, float(log_ndtr(-_FARTHEST)))
+        slope = np.zeros((rows.size, len(self.names)))
+        if there.size:
+            tail[there] = log_ndtr(-near[there])
+            moves = boundaries.slopes(law, lines, found, which[there], True)
+            hazard = np.exp(-(near[there] ** 2) / 2 - np.log(2 * np.pi) / 2 - tail[there])
+            slope[there] = -(hazard * sign[there])[:, None] * moves
+        missing = (into[rows] < tail) & ((which < 0) | (near > REACH / 2))
+        into[rows[missing]], scores[rows[missing]] = tail[missing], slope[missing]
+
+
+def limit(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Log-likelihoods with their heavy tail, and the derivative of that by the plain ones."""
+    beyond = np.maximum(-KNEE - rows, 0.0)
+    return np.maximum(rows, -KNEE) - TAIL * np.log1p(beyond / TAIL), 1 / (1 + beyond / TAIL)

@@ -1,0 +1,237 @@
+"""A fit as a figure: data over the regime map, results with their band, profiles of the likelihood, residuals."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from scipy.stats import chi2
+
+from ...generated.automaton import OUTCOMES
+from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, patch, picture
+from ..formatting.ticks import plain
+from ..many.collide_many import collide_many
+from .estimates import Fitted
+from .objective import whitening
+from .profiles import DROP, profile_point
+from .shown import unit_shown
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+_GRID = 40  # points of the map along each axis
+_FINE = 120  # of the outcomes of the estimates
+_TRIED = 32  # values of the entries, for bands
+_JOINT = 0.95
+_CURVE = 80  # points of a curve of a result
+_PROFILE = 5  # points of a profile to each side
+_MARKS = dict(zip(OUTCOMES, ("o", "s", "^"), strict=True))
+_LINES = ("#2a6f97", "#c1554a", "#4f772d")
+_LABELS = {
+    "restitution": r"restitution $e_n$",
+    "tangential_restitution": r"tangential restitution $e_t$",
+    "contact_time": "contact time (s)",
+    "rotation": "rotation (rad)",
+}
+
+
+@picture
+def draw(found: Fitted) -> Figure:
+    """The four kinds of pictures of a fit in one figure."""
+    free = found.free
+    figure = Figure(figsize=(11.0, 7.6), layout="constrained")
+    parts: Any = figure.subfigures(2, 1, height_ratios=(1.25, 1.0))
+    top, bottom = parts
+    left, right = top.subplots(1, 2)
+    samples = _samples(found)
+    _map(left, found, samples)
+    _results(right, found, samples)
+    axes = bottom.subplots(1, free.size + 1, width_ratios=[1.0] * free.size + [1.5], squeeze=False)[0]
+    for k in range(free.size):
+        _profile(axes[k], found, k)
+    axes[0].set_ylabel("log-likelihood - maximum")
+    _residuals(axes[-1], found)
+    return figure
+
+
+def _samples(found: Fitted) -> np.ndarray:
+    """Values of the entries within their joint 95 % region, the estimates first; bands are the range over them."""
+    free, objective = found.free, found.objective
+    white = whitening(objective, found.best)
+    ends = [(each.low, each.high) for each in found.estimates.values()]
+    low = [free.low[k] if end[0] is None else free.entries[k].inner(end[0]) for k, end in enumerate(ends)]
+    high = [free.high[k] if end[1] is None else free.entries[k].inner(end[1]) for k, end in enumerate(ends)]
+    radius = np.sqrt(chi2.ppf(_JOINT, free.size))
+    normal = np.random.default_rng(0).standard_normal((_TRIED, free.size))
+    normal *= radius * np.linspace(0.4, 1.0, _TRIED)[:, None] / np.linalg.norm(normal, axis=1)[:, None]
+    least = objective.value(found.best) - radius**2 / 2
+    inside = [found.best]
+    tried = np.clip(found.best + normal @ white.T, low, high)
+    inside += [each for each in tried if objective.value(each) >= least]
+    return np.array([free.values(each) for each in inside])
+
+
+def _collided(found: Fitted, values: np.ndarray, speed: np.ndarray, angle: np.ndarray, of: tuple[str, ...] = ()) -> Any:
+    """Collisions at all points with each of several values of the entries, (values, points)."""
+    count, size = values.shape[0], speed.size
+    vary = {}
+    for k, name in enumerate(found.free.names):
+        vary[name] = found.first.as_given(name, np.repeat(values[:, k], size))
+    kind: dict[str, Any] = {"relative_speed" if found.data.relative else "speed": np.tile(speed, count)}
+    return collide_many(found.first, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
+
+
+def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
+    data = found.data
+    low, high = data.speed.min(), data.speed.max()
+    margin = max((high / low) ** 0.06, 1.05)
+    first, last = np.degrees([data.angle.min(), data.angle.max()])
+    pad = max(0.06 * (last - first), 1.5)
+    limits = np.radians(max(first - pad, 0.0)), np.radians(min(last + pad, 89.0))
+
+    def outcomes(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        speed = np.geomspace(low / margin, high * margin, count)
+        angle = np.linspace(limits[0], limits[1], count)
+        points = [each.ravel() for each in np.meshgrid(speed, angle, indexing="ij")]
+        found_ = _collided(found, values, points[0], points[1]).outcome.values.reshape(-1, count, count)
+        return np.degrees(angle), speed, found_
+
+    degrees, speed, codes = outcomes(samples[:1], _FINE)
+    colours = ListedColormap([FILLS[name] for name in OUTCOMES])
+    axes.pcolormesh(degrees, speed, codes[0], cmap=colours, vmin=-0.5, vmax=2.5, shading="nearest", rasterized=True)
+    for code in range(len(OUTCOMES)):
+        inside = (codes[0] == code).astype(float)
+        if 0 < inside.mean() < 1:
+            axes.contour(degrees, speed, inside, levels=[0.5], colors=[INK], linewidths=0.9)
+    rough_degrees, rough_speed, several = outcomes(samples, _GRID)
+    differs = (several != several[0]).any(axis=0).astype(float)
+    if differs.any():
+        axes.contourf(rough_degrees, rough_speed, differs, levels=[0.5, 1.5], colors=["#000000"], alpha=0.18)
+    handles = []
+    for code, name in enumerate(OUTCOMES):
+        seen = data.outcome == code
+        if seen.any():
+            axes.plot(np.degrees(data.angle[seen]), data.speed[seen], _MARKS[name], color=INK, markerfacecolor="white",
+                      markersize=5, markeredgewidth=1.0)  # fmt: skip
+            handles.append(_mark(name, f"{LETTERS[name]} observed"))
+    unknown = data.outcome < 0
+    if unknown.any():
+        axes.plot(np.degrees(data.angle[unknown]), data.speed[unknown], "x", color=INK, markersize=5)
+        handles.append(Line2D([], [], linestyle="", marker="x", color=INK, label="outcome not recorded"))
+    odd = found.rows.contradicting
+    if odd.size:
+        axes.plot(
+            np.degrees(data.angle[odd]), data.speed[odd], "o", color="#b00020", markerfacecolor="none", markersize=11
+        )
+        handles.append(Line2D([], [], linestyle="", marker="o", color="#b00020", markerfacecolor="none", markersize=9,
+                              label="contradicts the model"))  # fmt: skip
+    present = [patch(name) for code, name in enumerate(OUTCOMES) if (codes[0] == code).any()]
+    axes.set_yscale("log")
+    plain(axes.yaxis)
+    axes.set_xlabel("impact angle (deg)")
+    axes.set_ylabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
+    axes.legend(handles=present + handles, fontsize=6.5, loc="best", framealpha=0.9)
+    axes.set_title("impacts on the fitted map; shaded: where the outcome is uncertain (95 %)", fontsize=9)
+
+
+def _mark(name: str, label: str) -> Line2D:
+    return Line2D([], [], linestyle="", marker=_MARKS[name], color=INK, markerfacecolor="white", label=label)
+
+
+def _results(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
+    data = found.data
+    name = next(iter(found.rows.expected), "")
+    if not name:
+        axes.axis("off")
+        axes.text(0.5, 0.5, "no result was measured beside the outcome", ha="center", va="center", color=NOTE)
+        return
+    measured, sd = data.observed[name]
+    rows = np.flatnonzero(np.isfinite(measured))
+    speed = np.geomspace(0.9 * data.speed.min(), 1.1 * data.speed.max(), _CURVE)
+    for colour, group in zip(_LINES, _by_angle(data.angle[rows])):
+        own = rows[group]
+        angle = float(np.mean(data.angle[own]))
+        values = _collided(found, samples, speed, np.full(_CURVE, angle), (name,))[name].values.reshape(-1, _CURVE)
+        told = np.isfinite(values).mean(axis=0) > 0.5
+        low, high = np.full(_CURVE, np.nan), np.full(_CURVE, np.nan)
+        if told.any():
+            low[told], high[told] = np.nanmin(values[:, told], axis=0), np.nanmax(values[:, told], axis=0)
+        axes.fill_between(speed, low, high, color=colour, alpha=0.25, linewidth=0)
+        axes.plot(speed, values[0], color=colour, linewidth=1.2, label=f"{np.degrees(angle):.3g}°")
+        axes.errorbar(data.speed[own], measured[own], sd[own], data.speed_sd[own], fmt="o", color=colour,
+                      markersize=3.5, elinewidth=0.7)  # fmt: skip
+    axes.set_xscale("log")
+    plain(axes.xaxis)
+    axes.set_xlabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
+    axes.set_ylabel(_LABELS[name])
+    axes.legend(title="mean angle of the group", fontsize=7, title_fontsize=7)
+    axes.set_title("measured, and the fit at the mean angle of each group with its band (95 %)", fontsize=9)
+
+
+def _by_angle(angle: np.ndarray) -> list[np.ndarray]:
+    """Indices of at most three groups of neighbouring angles."""
+    groups = min(len(_LINES), np.unique(np.round(angle, 4)).size)
+    order = np.argsort(angle)
+    return [part for part in np.array_split(order, groups) if part.size]
+
+
+def _profile(axes: Axes, found: Fitted, k: int) -> None:
+    free, objective, best = found.free, found.objective, found.best
+    entry = free.entries[k]
+    estimate = found.estimates[entry.name]
+    unit, size = unit_shown(found.first, entry.name)
+    top = objective.value(best)
+    places, heights = [float(best[k])], [0.0]
+    for bound, limit in ((estimate.low, free.low[k]), (estimate.high, free.high[k])):
+        far = limit if bound is None else best[k] + 1.35 * (entry.inner(bound) - best[k])
+        far = float(np.clip(far, free.low[k], free.high[k]))
+        start = best
+        for at in np.linspace(best[k], far, _PROFILE + 1)[1:]:
+            start = profile_point(objective, start, k, float(at))
+            height = objective.value(start) - top
+            if not np.isfinite(height):
+                break
+            places.append(float(at))
+            heights.append(height)
+    order = np.argsort(places)
+    values = np.array([entry.outer(at) for at in np.array(places)[order]]) / size
+    axes.plot(values, np.array(heights)[order], "-", color=_LINES[0], marker=".", markersize=4)
+    axes.axhline(-DROP, color=NOTE, linewidth=0.8, linestyle="--")
+    for bound in (estimate.low, estimate.high):
+        if bound is not None:
+            axes.axvline(bound / size, color=NOTE, linewidth=0.8)
+    axes.axvline(estimate.value / size, color=INK, linewidth=0.8)
+    if entry.log and values.max() > 20 * values.min():
+        axes.set_xscale("log")
+    axes.set_ylim(max(min(heights) * 1.1, -5.0), 0.4)
+    axes.set_xlabel(f"{entry.name.partition('.')[2].replace('_', ' ')}" + (f" ({unit})" if unit else ""))
+    axes.set_title(estimate.verdict, fontsize=8)
+
+
+def _residuals(axes: Axes, found: Fitted) -> None:
+    data, rows = found.data, found.rows
+    axes.axhspan(-2, 2, color=NOTE, alpha=0.12, linewidth=0)
+    axes.axhline(0, color=NOTE, linewidth=0.8)
+    for name, residual in rows.residual.items():
+        known = np.isfinite(residual)
+        for code, outcome in enumerate(OUTCOMES):
+            own = known & (data.outcome == code)
+            if own.any():
+                axes.plot(data.speed[own], residual[own], _MARKS[outcome], color=INK, markerfacecolor=EDGES[outcome],
+                          markersize=5, label=f"{LETTERS[outcome]}, {name.replace('_', ' ')}")  # fmt: skip
+    stuck = ~data.separated
+    if stuck.any():
+        surprise = np.sqrt(np.maximum(-2 * np.log(np.maximum(rows.probability[stuck], 1e-9)), 0.0))
+        axes.plot(
+            data.speed[stuck], surprise, "o", color=INK, markerfacecolor="white", markersize=4, label="outcome alone"
+        )
+    axes.set_xscale("log")
+    plain(axes.xaxis)
+    axes.set_xlabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
+    axes.set_ylabel("residual (standard deviations)")
+    axes.legend(fontsize=6.5)
+    axes.set_title("residuals", fontsize=9)

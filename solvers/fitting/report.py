@@ -1,0 +1,101 @@
+"""A fit as a report: Markdown, HTML and their picture."""
+
+from __future__ import annotations
+
+import html
+import math
+from pathlib import Path
+
+import numpy as np
+
+from ...generated.automaton import OUTCOMES
+from ..formatting.markdown import table
+from ..host import files
+from ..host.outputs import check_folder
+from .estimates import Fitted
+from .shown import in_unit, interval
+
+Table = tuple[list[str], list[list[str]]]
+_MOST = 12  # rows of the data that are shown: those that pull most
+_STYLE = (
+    "body{font-family:sans-serif;max-width:60em;margin:2em auto;padding:0 1em}table{border-collapse:collapse}"
+    "td,th{padding:.25em .8em;border-bottom:1px solid #ddd;text-align:left}img{max-width:100%}"
+)
+
+
+def write_report(found: Fitted, folder: str | Path) -> list[Path]:
+    """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths."""
+    into = check_folder(folder, "report")
+    into.mkdir(parents=True, exist_ok=True)
+    found.plot(into / "fit.png")
+    title = f"Fit of {found.points} impacts" + (f" to {found.first.name}" if found.first.name else "")
+    parts: list[tuple[str, Table | list[str]]] = [
+        ("Estimates", _estimates(found)),
+        ("", [*found.combinations, _height(found)]),
+        ("Correlation", _correlation(found)),
+        ("Remarks", list(found.remarks)),
+        ("Impacts that pull most", _rows(found)),
+        ("", ["Pull: how far the estimates would move without the impact, in standard errors, to first order."]),
+    ]  # fmt: skip
+    parts = [(head, part) for head, part in parts if part]
+    markdown, page = [f"# {title}", "![the fit](fit.png)"], [f"<h1>{html.escape(title)}</h1>"]
+    page.append('<img src="fit.png" alt="the fit">')
+    for head, part in parts:
+        if head:
+            markdown.append(f"## {head}")
+            page.append(f"<h2>{head}</h2>")
+        if isinstance(part, tuple):
+            markdown.append(table(*part))
+            page.append(_html(part))
+        else:
+            markdown.append("\n".join(f"* {line}" for line in part))
+            page.append("<ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in part) + "</ul>")
+    head = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{html.escape(title)}</title>'
+    files.write(into / "report.md", "\n\n".join(markdown) + "\n")
+    files.write(into / "report.html", f"{head}<style>{_STYLE}</style><body>{''.join(page)}</body></html>\n")
+    return [into / name for name in ("report.md", "report.html", "fit.png")]
+
+
+def _height(found: Fitted) -> str:
+    change = f"with twice as fine integrals it changes by {found.quadrature:.2g}"
+    return f"Log-likelihood {found.log_likelihood:.4f}; {change}."
+
+
+def _estimates(found: Fitted) -> Table:
+    rows = [
+        [name, in_unit(found.first, name, each.value), interval(found.first, name, each.low, each.high), each.verdict]
+        for name, each in found.estimates.items()
+    ]
+    return ["entry", "estimate", "95 % interval", "verdict"], rows
+
+
+def _correlation(found: Fitted) -> Table | list[str]:
+    names = list(found.estimates)
+    if len(names) < 2:
+        return []
+    rows = [[name, *(f"{value:.2f}" for value in row)] for name, row in zip(names, found.correlation.tolist())]
+    return ["", *names], rows
+
+
+def _rows(found: Fitted) -> Table:
+    data, rows = found.data, found.rows
+    names = list(rows.expected)
+    head = ["impact", "speed (m/s)", "angle (deg)", "outcome", "probability"]
+    head += [f"{name} (expected)" for name in names] + ["pull"]
+    cells = []
+    for k in np.argsort(-rows.pull)[:_MOST].tolist():
+        outcome = OUTCOMES[data.outcome[k]] if data.outcome[k] >= 0 else "-"
+        cell = [data.label(k), f"{data.speed[k]:.4g}", f"{math.degrees(data.angle[k]):.4g}", outcome]
+        cell.append(f"{rows.probability[k]:.3g}")
+        for name in names:
+            measured = float(data.observed[name][0][k])
+            cell.append("-" if math.isnan(measured) else f"{measured:.4g} ({rows.expected[name][k]:.4g})")
+        cells.append([*cell, f"{rows.pull[k]:.2f}"])
+    return head, cells
+
+
+def _html(part: Table) -> str:
+    head, rows = part
+    lines = ["<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in row) + "</tr>"
+             for tag, row in [("th", head), *(("td", row) for row in rows)]]  # fmt: skip
+    return f"<table>{''.join(lines)}</table>"

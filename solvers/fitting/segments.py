@@ -1,0 +1,91 @@
+"""Parts of lines through the scatter on which the outcome agrees with the observed one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import ndtr
+
+from . import changes as boundaries
+from .changes import Changes
+from .law import BoundLaw
+from .lines import REACH, Lines
+
+
+@dataclass(frozen=True)
+class Segments:
+    """Parts of lines where the outcome agrees with the row's.
+
+    Attributes:
+        low, high: the ends, within the errors of the changes so that the outcome is sure.
+        first, last: the changes at their ends; -1 at the end of a line.
+    """
+
+    line: np.ndarray
+    row: np.ndarray
+    weight: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    first: np.ndarray
+    last: np.ndarray
+
+    @classmethod
+    def of(cls, lines: Lines, changes: Changes, allowed: np.ndarray) -> Segments:
+        every = np.arange(lines.size)
+        line = np.concatenate([every, changes.line])
+        order = np.argsort(line, kind="stable")  # the first segment of a line, then those after its changes
+        first = np.concatenate([np.full(lines.size, -1), np.arange(changes.size)])[order]
+        line = line[order]
+        outcome = np.concatenate([changes.first, changes.after])[order]
+        ends = np.append(line[1:] != line[:-1], True)
+        last = np.where(ends, -1, np.append(first[1:], -1))
+        upper, lower = np.append(changes.y + changes.error, 0.0), np.append(changes.y - changes.error, 0.0)
+        low = np.where(first < 0, lines.low[line], upper[first])
+        high = np.where(last < 0, lines.high[line], lower[last])
+        row = lines.row[line]
+        kept = np.flatnonzero(np.where(outcome >= 0, allowed[row, outcome], False) & (high > low))
+        parts = (line, row, lines.weight[line], low, high, first, last)
+        return cls(*(each[kept] for each in parts))
+
+    @property
+    def from_change(self) -> np.ndarray:
+        return self.first >= 0
+
+    @property
+    def to_change(self) -> np.ndarray:
+        return self.last >= 0
+
+    def _limits(self) -> tuple[np.ndarray, np.ndarray]:
+        """The ends, where the end of a line stands for all that lies beyond."""
+        return np.where(self.first < 0, -np.inf, self.low), np.where(self.last < 0, np.inf, self.high)
+
+    def mass(self) -> np.ndarray:
+        """Probability of the scatter within each."""
+        low, high = self._limits()
+        flip = low > 0  # the difference of two small numbers, not of two near one
+        found: np.ndarray = np.where(flip, ndtr(-low) - ndtr(-high), ndtr(high) - ndtr(low))
+        return found
+
+    def mass_slopes(self, ends: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+        """Derivatives of the logarithm of `mass`."""
+        low, high = self._limits()
+        mass = np.maximum(self.mass(), 1e-300)
+        density = [np.exp(-(each**2) / 2) / np.sqrt(2 * np.pi) / mass for each in (low, high)]
+        found: np.ndarray = density[1][:, None] * ends[1] - density[0][:, None] * ends[0]
+        return found
+
+
+def moving_ends(
+    law: BoundLaw, lines: Lines, changes: Changes, segments: Segments, dense: np.ndarray, quick: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """Derivatives of the segments' ends by the free entries, where they matter."""
+    needed = np.zeros(changes.size + 1, bool)
+    for end in (segments.first, segments.last):
+        needed[end[dense]] = True
+        needed[end[~dense & (np.abs(np.append(changes.y, 0.0)[end]) < REACH - 0.5)]] = True
+    needed = np.flatnonzero(needed[:-1])
+    slopes = np.zeros((changes.size + 1, len(law.values)))  # the last for ends that stay
+    if needed.size:
+        slopes[needed] = boundaries.slopes(law, lines, changes, needed, quick)
+    return slopes[segments.first], slopes[segments.last]

@@ -1,0 +1,90 @@
+"""Measurements as they are read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from wetdoublet.solvers import InputError, Scene
+from wetdoublet.solvers.fitting.data import ANGLE_SD, SPEED_SD, read_data
+
+SCENE = Scene.load("granulation")
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "impacts.csv"
+    path.write_text(text)
+    return path
+
+
+def test_units_missing_cells_and_comments(tmp_path):
+    """Units of the header give SI, empty cells are missing, restitution 0 alone is a stick."""
+    text = (
+        "# impacts\nspeed [cm/s],speed_sd [%],angle [deg],restitution,outcome,liquid.viscosity [mPa s]\n"
+        "50,3,30,0.4,,2000 # first\n# between\n20,,45,0,,2100\n30,2,60,,SRS,2200\n"
+    )
+    found = read_data(written(tmp_path, text), SCENE)
+    np.testing.assert_allclose(found.speed, [0.5, 0.2, 0.3])
+    np.testing.assert_allclose(found.speed_sd, [0.015, SPEED_SD * 0.2, 0.006])
+    np.testing.assert_allclose(found.angle, np.radians([30, 45, 60]))
+    np.testing.assert_allclose(found.angle_sd, ANGLE_SD)
+    assert found.outcome.tolist() == [-1, 0, 1]
+    np.testing.assert_array_equal(np.isfinite(found.observed["restitution"][0]), [True, False, False])
+    np.testing.assert_allclose(found.columns["liquid.viscosity"], [2.0, 2.1, 2.2])
+    assert [remark.split(",")[0] for remark in found.remarks] == [
+        "Scatter of the speed", "Scatter of the angle", "Standard deviation of restitution",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("header", "row", "field", "said"),
+    [
+        ("speed [m/s],angle [deg],restitution", "0.5,95,0.4", "row 1 (line 2), column angle", "out of range"),
+        ("speed [m/s],angle [deg],restitution", "0.5,x,0.4", "row 1 (line 2), column angle", "not a number"),
+        ("speed [m/s],angle [deg],restitution", ",30,0.4", "row 1 (line 2), column speed", "empty"),
+        ("speed [m/s],angle [deg],outcome", "0.5,30,bouncing", "row 1 (line 2), column outcome", "not known"),
+        ("speed [m/s],angle [deg],restitution,outcome", "0.5,30,0.3,S", "column restitution", "contradicts"),
+        (
+            "speed [m/s],angle [deg],restitution,restitution_sd",
+            "0.5,30,0.3,-1",
+            "column restitution_sd",
+            "out of range",
+        ),
+        ("speed [m/s],angle [deg],restitution", "0.5,30,0.3,1", "row 1 (line 2)", "too many"),
+        ("speed,angle [deg],restitution", "0.5,30,0.3", "header", "has no unit"),
+        ("speed [kg],angle [deg],restitution", "0.5,30,0.3", "header", "a mass"),
+        ("sped [m/s],angle [deg],restitution", "0.5,30,0.3", "header", "did you mean speed?"),
+        ("speed [m/s],angle [deg]", "0.5,30", "data", "says nothing"),
+        ("speed [m/s],stokes,angle [deg],outcome", "0.5,1,30,S", "header", "together with"),
+        ("speed [m/s],speed_sd [m/s],angle_sd [deg],outcome", "0.5,0,0,S", "column angle_sd", "is 0"),
+    ],
+)
+def test_bad_cells_are_named(tmp_path, header, row, field, said):
+    """What is wrong is said with the row, the line and the column."""
+    with pytest.raises(InputError) as error:
+        read_data(written(tmp_path, f"{header}\n{row}\n"), SCENE)
+    assert field in error.value.field
+    assert said in str(error.value)
+
+
+def test_tables_of_python_are_read_alike(tmp_path):
+    """A DataFrame, a mapping and a Dataset give what the file gives."""
+    columns = {"speed": [0.5, 0.2], "angle": [0.5, 0.8], "restitution": [0.4, np.nan], "outcome": ["bounce", "stick"]}
+    text = "speed [m/s],angle [rad],restitution,outcome\n0.5,0.5,0.4,bounce\n0.2,0.8,,stick\n"
+    expected = read_data(written(tmp_path, text), SCENE)
+    frame = pd.DataFrame(columns)
+    for source in (columns, frame, frame.to_xarray()):
+        found = read_data(source, SCENE)
+        np.testing.assert_array_equal(found.speed, expected.speed)
+        np.testing.assert_array_equal(found.outcome, expected.outcome)
+        np.testing.assert_array_equal(found.observed["restitution"][0], expected.observed["restitution"][0])
+
+
+def test_stokes_numbers_are_speeds_of_the_scene():
+    """A Stokes number gives the speed that it has with the row's own viscosity."""
+    found = read_data(
+        {"stokes": [0.1, 0.1], "angle": [0.5, 0.5], "outcome": ["S", "S"], "liquid.viscosity": [2.0, 4.0]}, SCENE
+    )
+    np.testing.assert_allclose(found.speed * SCENE.stokes_per_speed, [0.1, 0.2])

@@ -1,0 +1,137 @@
+"""Fits of synthetic impacts."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import InputError, Scene, fit, log_likelihood
+from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
+from wetdoublet.solvers.fitting.synthetic import drawn
+from wetdoublet.solvers.fitting.verdicts import IDENTIFIED, NOT_AT_ALL, ONE_SIDE
+
+from tests.helpers.command import run
+
+VISCOSITY, FILM, ROUGHNESS = "liquid.viscosity", "liquid.film_thickness", "particles.roughness"
+
+
+def plan(scene: Scene, rows: int, stokes: tuple[float, float], seed: int = 0) -> Measurements:
+    random = np.random.default_rng(seed)
+    speed = np.exp(random.uniform(*np.log(stokes), rows)) / scene.stokes_per_speed
+    return Measurements(
+        speed, random.uniform(0.2, 1.2, rows), 0.02 * speed, np.full(rows, 0.01), np.full(rows, UNKNOWN),
+        {"restitution": (np.ones(rows), np.full(rows, 0.02))},
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def pendulum():
+    """A fit of a pendulum's viscosity and roughness, and the true scene."""
+    first = Scene.load("pendulum")
+    true = first.with_entries({VISCOSITY: "14 Pa s"})
+    data = drawn(true, plan(true, 25, (0.5, 4.0)), 3)
+    return fit(first, data, [VISCOSITY, ROUGHNESS]), data
+
+
+def test_estimates_verdicts_and_intervals(pendulum):
+    """The interval of what the data tell holds the truth; a roughness behind the glass criterion is bounded above."""
+    found, _ = pendulum
+    viscosity, roughness = found.estimates[VISCOSITY], found.estimates[ROUGHNESS]
+    assert viscosity.verdict == IDENTIFIED
+    assert viscosity.low < 14 < viscosity.high
+    assert (roughness.verdict, roughness.low) == (ONE_SIDE, None)
+    assert roughness.high > 1e-6
+
+
+def test_ends_lie_where_the_likelihood_has_dropped(pendulum):
+    """At an end of the interval the likelihood of the other entries' best values is 1.92 below the maximum."""
+    found, data = pendulum
+    density = log_likelihood(found.scene, data, [VISCOSITY, ROUGHNESS])
+    best = {name: each.value for name, each in found.estimates.items()}
+    top = density(best)[0]
+    for end in (found.estimates[VISCOSITY].low, found.estimates[VISCOSITY].high):
+        assert density(best | {VISCOSITY: end})[0] == pytest.approx(top - 1.92, abs=0.15)
+
+
+def test_gradient_vanishes_at_the_estimates(pendulum):
+    """The estimates are where the log-likelihood is stationary."""
+    found, _ = pendulum
+    _, gradient = found.log_density({name: each.value for name, each in found.estimates.items()})
+    assert abs(gradient[VISCOSITY] * 14) < 2.0  # of a curvature of some thousand
+
+
+def test_what_it_writes(pendulum, tmp_path):
+    """The scene that is written has the estimates, the intervals as comments; the report names every entry."""
+    found, _ = pendulum
+    found.write(tmp_path / "fitted.toml")
+    again = Scene.load(tmp_path / "fitted.toml")
+    assert again.entries[VISCOSITY] == pytest.approx(found.estimates[VISCOSITY].value, rel=1e-5)
+    assert "# fitted: 95 %" in (tmp_path / "fitted.toml").read_text()
+    files = found.report(tmp_path / "report")
+    assert [path.name for path in files] == ["report.md", "report.html", "fit.png"]
+    assert all(name in files[0].read_text() for name in found.estimates)
+
+
+def test_command(tmp_path):
+    """The command prints the JSON of INTERFACE, with null for an open end; all sticks tell bounds alone."""
+    data = tmp_path / "sticks.csv"
+    data.write_text("stokes,angle [deg],outcome\n" + "\n".join(f"0.02,{angle},stick" for angle in (0, 5, 10)))
+    found = run("fit", "granulation", data, "--free", VISCOSITY, "--json")
+    assert found.exit_code == 0, found.output
+    told = json.loads(found.stdout)
+    estimate = told["estimates"][VISCOSITY]
+    assert estimate["verdict"] == ONE_SIDE
+    assert None in (estimate["low"], estimate["high"])
+    assert told["points"] == 3
+    assert any(remark.startswith("All impacts stick") for remark in told["remarks"])
+
+
+def test_an_entry_without_influence_is_not_identifiable():
+    """The roughness does not move the outcome of slow impacts that the film stops: nothing is told of it."""
+    data = {"stokes": [0.02, 0.02], "angle": [0.1, 0.1], "outcome": ["stick", "stick"]}
+    found = fit("granulation-dry-bridge", data | {"angle": [0.0, 0.0]}, "particles.dry_restitution")
+    assert found.estimates["particles.dry_restitution"].verdict == NOT_AT_ALL
+
+
+def test_a_contradicting_row_is_named():
+    """A stick among fast bounces is named, and does not move the estimate."""
+    scene = Scene.load("pendulum")
+    data = drawn(scene, plan(scene, 20, (2.0, 6.0)), 1)
+    outcome, values = data.outcome.copy(), data.observed["restitution"][0].copy()
+    fast = int(np.argmax(data.speed))
+    outcome[fast], values[fast] = 0, np.nan
+    odd = Measurements(
+        data.speed,
+        data.angle,
+        data.speed_sd,
+        data.angle_sd,
+        outcome,
+        {"restitution": (values, data.observed["restitution"][1])},
+    )
+    found = fit(scene, odd, VISCOSITY)
+    assert any(f"row {fast + 1}" in remark for remark in found.remarks)
+    assert found.estimates[VISCOSITY].low < 12 < found.estimates[VISCOSITY].high
+
+
+def test_a_prior_closes_an_interval():
+    """With a prior an entry that the data do not tell has the prior's interval."""
+    data = {"stokes": [0.02, 0.02], "angle": [0.0, 0.0], "outcome": ["stick", "stick"]}
+    found = fit("granulation", data, VISCOSITY, prior={VISCOSITY: "2 Pa s +- 10 %"}).estimates[VISCOSITY]
+    assert np.log(found.high / found.low) == pytest.approx(2 * 1.96 * 0.1, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("free", "prior", "said"),
+    [
+        ("liquid.viscosty", None, "did you mean liquid.viscosity?"),
+        ("bridge.law", None, "bridge.law"),
+        (VISCOSITY, {FILM: "8 um +- 10 %"}, "is not free"),
+        (VISCOSITY, {VISCOSITY: "2 Pa s"}, "is no prior"),
+        (VISCOSITY, {VISCOSITY: "2 m +- 10 %"}, "a length"),
+    ],
+)
+def test_bad_requests(free, prior, said):
+    """What is wrong is named."""
+    with pytest.raises(InputError, match=said.replace("?", r"\?")):
+        fit("granulation", {"stokes": [0.1], "angle": [0.5], "outcome": ["stick"]}, free, prior=prior)

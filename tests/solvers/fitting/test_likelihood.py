@@ -1,0 +1,122 @@
+"""The likelihood of impacts beside a Monte Carlo mean, and its gradient beside differences."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Scene, collide_many
+from wetdoublet.solvers.fitting.likelihood import EXACT, KNEE, Likelihood, Resolution, limit
+from wetdoublet.solvers.fitting.measurements import Measurements
+
+FINE = Resolution(7, 12, 256, 21, False, 1e-10)
+
+
+def impacts(scene: Scene, stokes: list[float], degrees: list[float], outcome: list[int], restitution: list[float]):
+    speed = np.array(stokes) / scene.stokes_per_speed
+    return Measurements(
+        speed, np.radians(degrees), 0.03 * speed, np.full(speed.size, 0.02), np.array(outcome, dtype=np.int8),
+        {"restitution": (np.array(restitution), np.full(speed.size, 0.03))},
+    )  # fmt: skip
+
+
+PENDULUM = (
+    [1.36, 1.5, 0.42, 1.45, 2.5],
+    [20.0, 60.0, 60.0, 60.0, 40.0],
+    [0, 2, 1, 1, -1],
+    [np.nan, 0.3, 0.08, 0.19, 0.5],
+)
+
+
+def test_likelihood_is_the_mean_over_the_scatter():
+    """Of each row the likelihood is the mean over drawn impacts of outcome times density."""
+    scene = Scene.load("pendulum")
+    data = impacts(scene, *PENDULUM)
+    likelihood = Likelihood(scene, ("liquid.viscosity",), data)
+    likelihood.aim(np.array([12.0]))
+    found = likelihood(np.array([12.0]), FINE)
+    random, count = np.random.default_rng(0), 20_000
+    for row in range(data.size):
+        speed = data.speed[row] + data.speed_sd[row] * random.standard_normal(count)
+        angle = data.angle[row] + data.angle_sd[row] * random.standard_normal(count)
+        drawn = collide_many(scene, speed=speed, angle=angle)
+        agrees = data.allowed[row][drawn.outcome.values]
+        density = agrees.astype(float)
+        measured, sd = (each[row] for each in data.observed["restitution"])
+        if data.separated[row]:
+            misfit = (measured - drawn.restitution.values) / sd
+            density = density * np.exp(-(misfit**2) / 2) / (sd * np.sqrt(2 * np.pi))
+        error = density.std() / np.sqrt(count) / density.mean()
+        assert found.plain[row] == pytest.approx(np.log(density.mean()), abs=5 * error + 1e-4)
+        assert found.probability[row] == pytest.approx(agrees.mean(), abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("name", "table"),
+    [
+        ("pendulum", PENDULUM),
+        ("granulation", ([0.05, 0.117, 0.2], [45.0, 45.0, 60.0], [1, 2, 2], [0.25, 0.6, 0.9])),
+    ],
+)
+def test_gradient_is_that_of_differences(name: str, table: tuple):
+    """The gradient agrees with differences, also where outcomes change within the scatter."""
+    scene = Scene.load(name)
+    names = ("liquid.viscosity", "liquid.film_thickness", "liquid.glass_transition_pressure")
+    likelihood = Likelihood(scene, names, impacts(scene, *table), 3e-10)
+    values = np.array([scene.entries[name] for name in names])
+    likelihood.aim(values)
+    exact = likelihood(values, EXACT).scores * values
+    step = 2e-4
+    for k in range(len(names)):
+        near = []
+        for parts in (-2, -1, 1, 2):
+            moved = values.copy()
+            moved[k] *= np.exp(parts * step)
+            near.append(likelihood(moved, EXACT).rows)
+        slope = (8 * (near[2] - near[1]) - (near[3] - near[0])) / (12 * step)
+        scale = np.abs(exact).max(axis=1)
+        np.testing.assert_allclose(exact[:, k] / scale, slope / scale, atol=1e-6)
+
+
+def test_finer_integrals_change_little():
+    """The integrals over the scatter agree with ones that are twice as fine."""
+    scene = Scene.load("pendulum")
+    likelihood = Likelihood(scene, ("liquid.viscosity",), impacts(scene, *PENDULUM))
+    values = np.array([12.5])
+    likelihood.aim(values)
+    likelihood.refine(values, 0.01)
+    coarse, fine = likelihood(values), likelihood(values, Resolution().doubled())
+    np.testing.assert_allclose(coarse.rows, fine.rows, atol=0.03)
+
+
+def test_a_row_beyond_the_scatter_has_a_gradient():
+    """An outcome far from any that the scatter allows has a finite log-likelihood, and a gradient with its sign."""
+    scene = Scene.load("granulation")
+    data = impacts(scene, [0.08], [0.0], [2], [np.nan])
+    likelihood = Likelihood(scene, ("liquid.viscosity",), data)
+    rows = [likelihood(np.array([value])) for value in (2.0, 1.9)]
+    assert rows[0].plain[0] < -KNEE
+    slope = (rows[0].rows[0] - rows[1].rows[0]) / 0.1
+    assert rows[0].scores[0, 0] == pytest.approx(slope, rel=0.1)
+
+
+def test_limit_is_smooth_and_monotonic():
+    """The heavy tail joins the plain log-likelihood with its slope."""
+    rows = np.array([-1.0, -KNEE, -KNEE - 1e-6, -100.0, -1e4])
+    limited, slope = limit(rows)
+    assert (np.diff(limited) < 0).all()
+    assert (slope > 0).all()
+    np.testing.assert_allclose(slope[:3], 1.0, atol=1e-6)
+
+
+def test_rows_of_other_viscosity_are_those_of_such_a_scene():
+    """A column of an entry gives each row the likelihood that it has in a scene with that entry."""
+    scene = Scene.load("pendulum")
+    data = impacts(scene, [1.5, 1.5], [60.0, 60.0], [2, 2], [0.3, 0.3])
+    varied = replace(data, columns={"liquid.viscosity": np.array([12.0, 13.0])})
+    names, values = ("liquid.film_thickness",), np.array([420e-6])
+    together = Likelihood(scene, names, varied)(values).rows
+    thicker = scene.with_entries({"liquid.viscosity": "13 Pa s"})
+    alone = [Likelihood(one, names, data.part(np.array([0])))(values).rows[0] for one in (scene, thicker)]
+    np.testing.assert_allclose(together, alone, rtol=1e-9)
