@@ -14,8 +14,8 @@ import numpy as np
 from scipy.signal import fftconvolve
 from scipy.special import ndtr, ndtri
 
-from ..fit.likelihood import _map
-from ..fit.lines import hermite
+from ..fitting.likelihood import _map
+from ..fitting.lines import hermite
 
 _REACH = 4.5  # standard deviations of the scatter across the lines
 _APART = 0.5  # most that neighbouring points may be seen apart, in standard deviations of the noise

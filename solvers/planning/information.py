@@ -14,11 +14,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
-from ..fit import changes as boundaries
-from ..fit.law import BoundLaw
-from ..fit.likelihood import NEGLIGIBLE, Likelihood, Resolution, _map, _moving_ends, _Segments
-from ..fit.lines import Lines
-from ..fit.measurements import Measurements
+from ..fitting import changes as boundaries
+from ..fitting.law import BoundLaw
+from ..fitting.likelihood import NEGLIGIBLE, Likelihood, Resolution, _map, _moving_ends, _Segments
+from ..fitting.lines import Lines
+from ..fitting.measurements import Measurements
 from ..scene.scene import Scene
 from ..settings import RTOL
 from .density import Curve, information_of
