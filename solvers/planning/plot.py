@@ -11,13 +11,14 @@ from matplotlib.figure import Figure
 
 from ..collision.text import against, name_of
 from ..formatting import ticks
-from ..formatting.style import INK, NOTE, halo, picture, plain_text
+from ..formatting.style import INK, NOTE, picture, plain_text
 from .result import Design
 
 if TYPE_CHECKING:
     import xarray
 
 _WORST, _BEST = 1.0, 1e-3  # standard errors from one impact that the colours tell apart, at most
+_FINE = 320, 200  # outcomes on speeds and angles, for the lines of their changes
 _LABELS = {
     "stokes": "Stokes number $St_n$",
     "speed": "normal speed $v_0$ (m/s)",
@@ -38,11 +39,12 @@ def draw(design: Design) -> Figure:
     told = np.sqrt(np.maximum(data[rows].to_array().values, 1e-300))
     best = float(np.clip(1 / told.max(), _BEST, 0.3))
     scale = LogNorm(best, _WORST)
+    outcomes = _outcomes(design)
     mesh = None
     for i, of in enumerate(rows):
         for j, name in enumerate(names):
             axes = panels[i, j]
-            mesh = _panel(axes, design, data, of, name, scale)
+            mesh = _panel(axes, design, data, of, name, scale, outcomes)
             if i == 0:
                 axes.set_title(plain_text(name), fontsize="medium")
             if i == len(rows) - 1:
@@ -61,7 +63,7 @@ def draw(design: Design) -> Figure:
     return figure
 
 
-def _panel(axes: Axes, design: Design, data: xarray.Dataset, of: str, name: str, scale: LogNorm) -> Any:
+def _panel(axes: Axes, design: Design, data: xarray.Dataset, of: str, name: str, scale: LogNorm, outcomes: Any) -> Any:
     told = data[of].sel(entry=name).values
     with np.errstate(divide="ignore"):
         error = np.where(told > 0, 1 / np.sqrt(np.maximum(told, 1e-300)), np.inf)
@@ -70,17 +72,28 @@ def _panel(axes: Axes, design: Design, data: xarray.Dataset, of: str, name: str,
     shape = y.size, x.size
     values = np.broadcast_to(np.minimum(error, 1e3).T, shape)
     mesh = axes.pcolormesh(x, y, values, norm=scale, cmap="viridis_r", shading="gouraud", rasterized=True)
-    outcome = np.broadcast_to(data["outcome"].values.T, shape)
-    for level in (0.5, 1.5):
-        if outcome.min() < level < outcome.max():
-            axes.contour(x, y, outcome, [level], colors="white", linewidths=0.9)
+    if all(design.window.extends):
+        angle, along, outcome = outcomes
+        for level in (0.5, 1.5):
+            if outcome.min() < level < outcome.max():
+                axes.contour(angle, along, outcome, [level], colors="white", linewidths=0.9)
     axes.set_yscale("log")
     ticks.plain(axes.yaxis)
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
     for each in design.impacts:
         at = np.degrees(each.angle), getattr(each, design.window.key)
-        look: Any = {"ha": "center", "va": "center", "fontsize": 8, "color": INK, "path_effects": [halo(3)]}
-        axes.plot(*at, "o", color="white", markeredgecolor=INK, markersize=9, zorder=4, clip_on=False)
-        axes.text(*at, f"{each.count}", zorder=5, clip_on=False, **{**look, "path_effects": []})
+        axes.plot(*at, "o", color="white", markeredgecolor=INK, markersize=11, zorder=4, clip_on=False)
+        look: Any = {"ha": "center", "va": "center_baseline", "fontsize": 8, "color": INK}
+        axes.text(*at, f"{each.count}", zorder=5, clip_on=False, **look)
     return mesh
+
+
+def _outcomes(design: Design) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Angles (deg), values of the key, and outcomes without scatter on a grid of them."""
+    window = design.window
+    points = window.grid(*_FINE)
+    key, angle = window.values(points)
+    along = np.unique(points[:, 0]).size
+    found = window.outcomes(points, design.rtol).reshape(-1, along)
+    return np.degrees(angle.reshape(-1, along)[:, 0]), key.reshape(-1, along)[0], found.T

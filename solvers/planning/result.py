@@ -130,8 +130,8 @@ class Design:
             along, across: number of speeds and angles.
 
         Returns:
-            Dataset over entry, speed key and angle: `information` and `by_outcome`, what the outcome alone tells; and
-            `outcome` without scatter.
+            Dataset over entry, angle and speed (by the window's name): `information`, and `by_outcome`, what the outcome
+            alone tells.
         """
         import xarray as xr
 
@@ -146,9 +146,8 @@ class Design:
             diagonal = np.einsum("cii->ic", each) * squares[:, None]
             return dims, diagonal.reshape(-1, *shape), {"units": "1"}
 
-        outcome = self.window.outcomes(points, self.rtol).reshape(shape)
         return xr.Dataset(
-            {"information": of(found.total), "by_outcome": of(found.outcome), "outcome": (dims[1:], outcome)},
+            {"information": of(found.total), "by_outcome": of(found.outcome)},
             coords={"entry": list(self.free.names), "angle": angle.reshape(shape)[:, 0],
                     self.window.key: key.reshape(shape)[0]},
             attrs={"name": self.window.scene.name},

@@ -19,6 +19,7 @@ _LEVELS = 3  # of refinement of the candidates
 _PROMISING = 24  # candidates around which finer ones are tried, beside those of the design
 _ROUNDS = 30
 _GAIN = 1e-6  # least of the criterion that is worth an exchange
+_LOSS = 3e-3  # of the criterion, that neighbours may cost by becoming one
 _STEPS = 24  # evaluations of the continuous refinement of a point
 _TWO = 2.0
 
@@ -102,6 +103,7 @@ def search(evaluate: Evaluate, before: np.ndarray, criterion: Criterion, size: i
     bound = float(criterion.value(total)) + size * float(rate.max()) - float(rate[chosen].sum())
     distinct, counts = np.unique(chosen, return_counts=True)
     places, total = _moved(evaluate, criterion, total, points[distinct], single[:, distinct], counts, h * moving)
+    places, counts, total = _merged(evaluate, criterion, before, total, places, counts, 3 * h)
     value = float(criterion.value(total))
     return Found(places, counts, total, value, max(bound, value), len(points))
 
@@ -163,3 +165,22 @@ def _moved(
             points[k, free] = found.x
             total = rest + counts[k] * evaluate(points[k][None])[:, 0]
     return points, total
+
+
+def _merged(
+    evaluate: Evaluate, criterion: Criterion, before: np.ndarray, total: np.ndarray, points: np.ndarray,
+    counts: np.ndarray, near: float,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # fmt: skip
+    """The design with neighbours as repetitions of one impact, as far as that costs next to nothing."""
+    apart = np.abs(points[:, None] - points).max(axis=-1)
+    for one, other in np.argwhere(np.triu(apart < near, 1)).tolist():
+        into, gone = (one, other) if counts[one] >= counts[other] else (other, one)
+        if counts[one] and counts[other]:
+            fewer = counts.copy()
+            fewer[into], fewer[gone] = counts[into] + counts[gone], 0
+            kept = np.flatnonzero(fewer)
+            again = before + np.einsum("c,mcij->mij", fewer[kept], evaluate(points[kept]))
+            if criterion.value(again) > criterion.value(total) - _LOSS:
+                counts, total = fewer, again
+    kept = np.flatnonzero(counts)
+    return points[kept], counts[kept], total
