@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from .host.pictures import plot
     from .many.collide_many import collide_many
     from .many.regime_map import regime_map
+    from .planning.design import design
+    from .planning.result import Design
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
     from .sensitivity.gradients_many import gradients_many
@@ -38,6 +40,7 @@ _HOMES = {
     "CheckFailed": "errors",
     "Collision": "collision.result",
     "ComputationError": "errors",
+    "Design": "planning.result",
     "Fit": "fitting.result",
     "InputError": "errors",
     "ModelWarning": "errors",
@@ -53,6 +56,7 @@ _HOMES = {
     "collide_pair": "space.collide_pair",
     "compare_models": "fitting.compare",
     "compile_kernels": "engines.kernels",
+    "design": "planning.design",
     "fit": "fitting.fit",
     "gradients_many": "sensitivity.gradients_many",
     "log_likelihood": "fitting.fit",
@@ -71,6 +75,7 @@ __all__ = [
     "CheckFailed",
     "Collision",
     "ComputationError",
+    "Design",
     "Fit",
     "InputError",
     "ModelWarning",
@@ -86,6 +91,7 @@ __all__ = [
     "collide_pair",
     "compare_models",
     "compile_kernels",
+    "design",
     "fit",
     "gradients_many",
     "log_likelihood",

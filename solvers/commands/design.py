@@ -12,6 +12,12 @@ from ..scene.schema import FIELDS
 from ..settings import check_rtol
 from . import options
 
+_OPTIONS = {
+    "free": "--free", "over": "--over", "n": "-n", "target": "--for", "data": "--data", "prior": "--prior",
+    "draws": "--draws", "speed_sd": "--speed-sd", "angle_sd": "--angle-sd", "restitution_sd": "--restitution-sd",
+}  # fmt: skip
+"""Argument of `design` -> its option."""
+
 
 @click.command("design", short_help="Where the next impacts should be to learn most about entries of a scene.")
 @options.scene_argument
@@ -87,10 +93,17 @@ def command(
     angle_sd = None if angle_sd is None else options.with_degrees(FIELDS["impact.angle"], angle_sd)
     asked = options.SceneRequest.check(source, changes, model=model)
     number, sample = _whole(size, "-n", 9), _whole(draws, "--draws", 0)
-    found = design(
-        asked.scene(), names, window, number, target=target, data=data, prior=given or None, draws=sample,
-        speed_sd=speed_sd, angle_sd=angle_sd, restitution_sd=restitution_sd, rtol=tolerance,
-    )  # fmt: skip
+    try:
+        found = design(
+            asked.scene(), names, window, number, target=target, data=data, prior=given or None, draws=sample,
+            speed_sd=speed_sd, angle_sd=angle_sd, restitution_sd=restitution_sd, rtol=tolerance,
+        )  # fmt: skip
+    except InputError as error:
+        argument, _, rest = error.field.partition(" ")
+        if argument not in _OPTIONS:
+            raise
+        field = f"{_OPTIONS[argument]} {rest}".strip()
+        raise InputError(field, error.value, error.accepted, error.problem) from None
     if as_json:
         options.put(json.dumps(found.to_dict(), indent=2, allow_nan=False), file)
     else:
