@@ -9,7 +9,7 @@ normal densities at the points of its quadrature, with exact derivatives.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,8 +22,10 @@ from ..fitting.measurements import Measurements
 from ..scene.scene import Scene
 from ..settings import RTOL
 from .density import Curve, information_of
+from .directions import directions
 
 FINE = Resolution(lines=5, points=64)
+FINEST = Resolution(lines=9, points=128)  # more lines would reach where impacts graze
 _STICK = OUTCOMES.index(STICK)
 _NOISE = "restitution"
 
@@ -62,10 +64,8 @@ def information(
     Raises:
         InputError: values that no scene may have.
     """
-    likelihood = Likelihood(scene, names, replace(plan, observed={}), rtol)
-    law = likelihood.bound(values)
-    likelihood.aim(values)  # across the nearest change of outcome: along it the restitution is smooth, and interpolated
-    lines = Lines.of(plan, likelihood.direction, np.full(plan.size, resolution.lines))
+    law = Likelihood(scene, names, plan, rtol).bound(values)
+    lines = Lines.of(plan, directions(law, plan), np.full(plan.size, resolution.lines))
     found = boundaries.locate(law, lines, resolution.grid, resolution.within)
     size = plan.size
     probability = np.zeros((size, len(OUTCOMES)))

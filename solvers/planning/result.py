@@ -16,7 +16,7 @@ from ..fitting.free_entries import FreeEntries
 from ..fitting.measurements import Measurements
 from ..fitting.shown import in_unit, interval
 from ..scene.origin import origin
-from .information import Information, information
+from .information import FINEST, Information, information
 from .search import Found
 from .window import Window
 
@@ -100,10 +100,10 @@ class Design:
         points, counts = found.points[order], found.counts[order]
         rates = np.outer(free.rates(values), free.rates(values))
         weak = np.diag((2.0 / (free.high - free.low)) ** 2)
-        own = information(window.scene, free.names, values, window.plan(points), rtol)
+        own = information(window.scene, free.names, values, window.plan(points), rtol, FINEST)
         side = max(1, round(math.sqrt(size)))
         even = window.grid(side, side)
-        others = information(window.scene, free.names, values, window.plan(even), rtol).total.sum(axis=0)
+        others = information(window.scene, free.names, values, window.plan(even), rtol, FINEST).total.sum(axis=0)
         spread = _spread(before + weak + rates * np.einsum("c,cij->ij", counts, own.total))
         by_grid = _spread(before + weak + rates * others * size / len(even))
         grows = free.size if target is None else 2

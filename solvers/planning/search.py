@@ -18,6 +18,7 @@ Evaluate = Callable[[np.ndarray], np.ndarray]
 _LEVELS = 3  # of refinement of the candidates
 _PROMISING = 24  # candidates around which finer ones are tried, beside those of the design
 _ROUNDS = 30
+_CORRECTIONS = 12  # rounds of exchange and exact information
 _GAIN = 1e-6  # least of the criterion that is worth an exchange
 _LOSS = 3e-3  # of the criterion, that neighbours may cost by becoming one
 _STEPS = 24  # evaluations of the continuous refinement of a point
@@ -75,7 +76,10 @@ class Found:
     candidates: int
 
 
-def search(evaluate: Evaluate, before: np.ndarray, criterion: Criterion, size: int, first: np.ndarray, h: float) -> Found:
+def search(
+    evaluate: Evaluate, before: np.ndarray, criterion: Criterion, size: int, first: np.ndarray, h: float,
+    exact: Evaluate | None = None,
+) -> Found:  # fmt: skip
     """The best design that is found.
 
     Arguments:
@@ -84,33 +88,57 @@ def search(evaluate: Evaluate, before: np.ndarray, criterion: Criterion, size: i
         size: number of impacts.
         first: (candidates, 2), the candidates to begin with.
         h: their spacing; it is halved at every level.
+        exact: `evaluate` without its errors, for impacts that are chosen: what is best by an error is not.
     """
-    points, single = first, evaluate(first)
-    chosen = _exchanged(criterion, before, single, _greedy(criterion, before, single, size))
+    exact = exact or evaluate
+    table = _Table(first, evaluate(first), np.zeros(len(first), bool))
+    chosen = table.best(criterion, before, _greedy(criterion, before, table.single, size), exact)
     moving = np.ptp(first, axis=0) > 0
     steps = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)]) * moving
     for _ in range(_LEVELS):
         h /= _TWO
-        rate = criterion.rate(before + single[:, chosen].sum(axis=1), single)
+        rate = criterion.rate(before + table.single[:, chosen].sum(axis=1), table.single)
         around = np.unique(np.concatenate([chosen, np.argsort(-rate)[:_PROMISING]]))
-        new = np.clip((points[around][:, None] + h * steps).reshape(-1, 2), 0, 1)
-        new = _unseen(points, np.unique(new.round(9), axis=0))
-        if new.size:
-            points, single = np.concatenate([points, new]), np.concatenate([single, evaluate(new)], axis=1)
-            chosen = _exchanged(criterion, before, single, chosen)
+        table.add((table.points[around][:, None] + h * steps).reshape(-1, 2), evaluate)
+        chosen = table.best(criterion, before, chosen, exact)
+    points, single = table.points, table.single
     total = before + single[:, chosen].sum(axis=1)
     rate = criterion.rate(total, single)
     bound = float(criterion.value(total)) + size * float(rate.max()) - float(rate[chosen].sum())
     distinct, counts = np.unique(chosen, return_counts=True)
-    places, total = _moved(evaluate, criterion, total, points[distinct], single[:, distinct], counts, h * moving)
-    places, counts, total = _merged(evaluate, criterion, before, total, places, counts, 3 * h)
+    places, total = _moved(exact, criterion, total, points[distinct], single[:, distinct], counts, h * moving)
+    places, counts, total = _merged(exact, criterion, before, total, places, counts, 3 * h)
     value = float(criterion.value(total))
     return Found(places, counts, total, value, max(bound, value), len(points))
 
 
-def _unseen(points: np.ndarray, new: np.ndarray) -> np.ndarray:
-    known = {tuple(each) for each in points.round(9).tolist()}
-    return np.array([each for each in new.tolist() if tuple(each) not in known]).reshape(-1, 2)
+@dataclass
+class _Table:
+    """Candidates, their information, and whether that is exact."""
+
+    points: np.ndarray
+    single: np.ndarray
+    sure: np.ndarray
+
+    def add(self, points: np.ndarray, evaluate: Evaluate) -> None:
+        """Add points that are not among the candidates, clipped to the unit square."""
+        known = {tuple(each) for each in self.points.round(9).tolist()}
+        new = np.unique(np.clip(points, 0, 1).round(9), axis=0)
+        new = np.array([each for each in new.tolist() if tuple(each) not in known]).reshape(-1, 2)
+        if new.size:
+            self.points = np.concatenate([self.points, new])
+            self.single = np.concatenate([self.single, evaluate(new)], axis=1)
+            self.sure = np.concatenate([self.sure, np.zeros(len(new), bool)])
+
+    def best(self, criterion: Criterion, before: np.ndarray, chosen: np.ndarray, exact: Evaluate) -> np.ndarray:
+        """The exchanged design, of impacts whose information is exact."""
+        for _ in range(_CORRECTIONS):
+            chosen = _exchanged(criterion, before, self.single, chosen)
+            unsure = np.unique(chosen[~self.sure[chosen]])
+            if not unsure.size:
+                break
+            self.single[:, unsure], self.sure[unsure] = exact(self.points[unsure]), True
+        return chosen
 
 
 def _greedy(criterion: Criterion, before: np.ndarray, single: np.ndarray, size: int) -> np.ndarray:
