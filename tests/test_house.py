@@ -21,8 +21,9 @@ ORDER = (
     "derive.vocabulary", "derive.physics", "derive.equations", "derive.user_model", "derive.user", "derive.checks",
     "derive.emit", "generated", "solvers.errors", "solvers.host", "solvers.formatting", "solvers.scene",
     "solvers.settings", "solvers.model", "solvers.certificates", "solvers.engines", "solvers.collision", "solvers.many",
-    "solvers.space", "solvers.boundaries", "solvers.sensitivity", "solvers.fitting", "solvers.planning", "solvers.verify",
-    "solvers.export", "solvers.paper", "solvers.commands", "solvers", "solvers.package", "solvers.__main__",
+    "solvers.space", "solvers.boundaries", "solvers.sensitivity", "solvers.fitting", "solvers.planning",
+    "solvers.verify", "solvers.export", "solvers.paper", "solvers.commands", "solvers", "solvers.package",
+    "solvers.__main__",
 )  # fmt: skip
 
 

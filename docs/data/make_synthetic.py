@@ -1,7 +1,7 @@
 """Makes the synthetic measurements in this folder: `python docs/data/make_synthetic.py`.
 
-They are collisions of the model with known entries, with scatter in speed and angle and noise in the restitution; nobody
-measured them. The random numbers are fixed, so that the files come out the same.
+They are collisions of the model with known entries, with scatter in speed and angle and noise in the restitution;
+nobody measured them. The random numbers are fixed, so that the files come out the same.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ STOKES, DEGREES = np.geomspace(0.8, 4.0, 6), (0.0, 20.0, 40.0, 60.0)
 def steel_spheres() -> str:
     """24 impacts of steel spheres on strings, as the CSV file that `fit` reads."""
     scene, random = Scene.load("pendulum").with_entries(TRUTH), np.random.default_rng(2012)
-    nominal = [(stokes / Scene.load("pendulum").stokes_per_speed, math.radians(angle)) for angle in DEGREES for stokes in STOKES]
-    speed, angle = np.array(nominal).T.round(4)
+    grid = np.meshgrid(STOKES / Scene.load("pendulum").stokes_per_speed, np.radians(DEGREES))
+    speed, angle = (each.ravel().round(4) for each in grid)
     found = collide_many(
         scene,
         speed=speed * (1 + SPEED_SD * random.standard_normal(speed.size)),

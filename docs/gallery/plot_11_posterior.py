@@ -7,6 +7,7 @@ transition pressure are told only together: the cloud is a narrow band, which th
 """
 
 import os
+from pathlib import Path
 
 import arviz
 import emcee
@@ -15,7 +16,7 @@ import numpy as np
 from wetdoublet import fit, log_likelihood
 
 names = ["liquid.film_thickness", "liquid.glass_transition_pressure"]
-data = os.path.join(os.environ.get("WETDOUBLET_DOCS", "docs"), "data", "synthetic-steel-spheres.csv")
+data = Path(os.environ.get("WETDOUBLET_DOCS", "docs")) / "data" / "synthetic-steel-spheres.csv"
 prior = {"liquid.film_thickness": "400 um +- 30 %"}
 density = log_likelihood("pendulum", data, names, prior=prior)  # value and gradient, SI
 

@@ -21,7 +21,9 @@ _OPTIONS = {
 
 @click.command("design", short_help="Where the next impacts should be to learn most about entries of a scene.")
 @options.scene_argument
-@click.option("--free", metavar="NAMES", help="Entries that will be estimated, as particles.roughness,liquid.viscosity.")
+@click.option(
+    "--free", metavar="NAMES", help="Entries that will be estimated, as liquid.viscosity,particles.roughness."
+)
 @click.option(
     "--over",
     metavar="WINDOW",
@@ -37,8 +39,8 @@ _OPTIONS = {
     multiple=True,
     help='What is known of an entry, as particles.roughness="2 um +- 20 %"; repeatable.',
 )
-@click.option("--draws", metavar="N", help="Best on average over N values of the entries, from priors and data [0: for one].")
-@click.option("--speed-sd", metavar="S", help='Scatter of the speed [2 %, or that of the data].')
+@click.option("--draws", metavar="N", help="Best on average over N draws from priors and data [0: for one value].")
+@click.option("--speed-sd", metavar="S", help="Scatter of the speed [2 %, or that of the data].")
 @click.option("--angle-sd", metavar="S", help="Scatter of the angle, degrees [1, or that of the data].")
 @click.option("--restitution-sd", metavar="S", help="Noise of a measured restitution [0.02]; none: outcomes only.")
 @options.changes

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.signal import fftconvolve
 from scipy.special import ndtr, ndtri
 
-from ..fitting.likelihood import _map
+from ..fitting.interpolation import segment_map
 from ..fitting.lines import hermite
 
 _REACH = 4.5  # standard deviations of the scatter across the lines
@@ -134,9 +134,9 @@ def _stacked(those: Sequence[Curve], z: np.ndarray, span: tuple[float, float]) -
 
 def _points(sheet: _Sheet, noise: float, points: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Weights of points, derivatives of the weights' logarithms, restitutions, and their derivatives."""
-    along = _map(sheet.kind, sheet.nodes, points).interpolate @ sheet.value.T
+    along = segment_map(sheet.kind, sheet.nodes, points).interpolate @ sheet.value.T
     apart = float(np.abs(np.diff(along, axis=0)).max()) / noise
-    mapping = _map(sheet.kind, sheet.nodes, _power(points * apart / _APART, points, _MOST_POINTS))
+    mapping = segment_map(sheet.kind, sheet.nodes, _power(points * apart / _APART, points, _MOST_POINTS))
     steepest = float(np.abs(np.diff(along, axis=1) / np.diff(sheet.z)).max(initial=0.0)) / noise
     low_z, high_z = sheet.span
     count = _FEWEST_LINES if sheet.z.size > 1 else 1
@@ -173,4 +173,3 @@ def _power(wanted: float, least: int, most: int) -> int:
     while least < min(wanted, most):
         least *= 2
     return least
-

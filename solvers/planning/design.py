@@ -80,14 +80,15 @@ def design(
     """
     rtol = check_rtol(rtol)
     loaded = Scene.load(scene)
-    key, speed, angle = check_over(over, loaded)
+    key, speed, angle = check_over(over)
     size, draws = check_whole(n, "n", 1, _MOST), check_whole(draws, "draws", 0, _MOST_DRAWS)
     priors = None if prior is None else check_mapping(prior, "prior", 'entries and priors, {"NAME": "2 um +- 20 %"}')
     table = None
     if data is not None:
         table = data if isinstance(data, Measurements) else read_data(data, loaded)
     scatter = Scatter.checked(speed_sd, angle_sd, restitution_sd, Scatter() if table is None else Scatter.of(table))
-    entries, before, scene_now = _known(loaded, free, table, priors, Window(loaded, key, speed, angle, scatter), rtol)
+    window = Window(loaded, key, speed, angle, scatter)
+    entries, before, scene_now = _known(loaded, free, table, priors, window, rtol)
     wanted = None if target is None else check_name(target, entries.names, "target")
     warn(scene_now)
     window = Window(scene_now, key, speed, angle, scatter)
@@ -104,9 +105,7 @@ def design(
     known = np.broadcast_to(before + weak, (len(ensemble), *before.shape))
     criterion = Criterion(None if wanted is None else entries.names.index(wanted))
     held = _Kept(evaluate)
-    found = search(
-        held, known, criterion, size, first, 1 / (_SPACING - 1), lambda points: evaluate(points, FINEST)
-    )
+    found = search(held, known, criterion, size, first, 1 / (_SPACING - 1), lambda points: evaluate(points, FINEST))
     told = held.most(entries.names)
     for name in entries.names if wanted is None else (wanted,):
         if told[name] < _NOTHING:
@@ -119,15 +118,16 @@ def _known(
     scene: Scene, free: Sequence[str] | str, data: Measurements | None, prior: Mapping[str, str] | None, window: Window,
     rtol: float,
 ) -> tuple[FreeEntries, np.ndarray, Scene]:  # fmt: skip
-    """The free entries, the information of priors and data in the variables of the search, and the scene to plan for."""
+    """The free entries, what priors and data tell (in the variables of the search), and the scene to plan for."""
     if data is not None:
         found = fit(scene, data, free, prior=prior, rtol=rtol)
         return found.free, found.objective.information(found.best), found.scene
     entries = free_entries(scene, free, window.plan(np.zeros((1, 2))), prior, rtol)
+    rates = entries.rates(np.array([each.value for each in entries.entries]))
     precision = np.zeros(entries.size)
     for k, each in enumerate(entries.entries):
         if each.prior is not None:
-            precision[k] = (each.prior.misfit(each.value)[1] * float(entries.rates(np.array([e.value for e in entries.entries]))[k])) ** 2
+            precision[k] = (each.prior.misfit(each.value)[1] * float(rates[k])) ** 2
     return entries, np.diag(precision), scene
 
 

@@ -1,7 +1,7 @@
 """The direction of the lines through the scatter of planned impacts.
 
-A line that is nearly parallel to a boundary gives its probability badly. Where one boundary is near, the lines go across
-it; where several meet, between their normals.
+A line that is nearly parallel to a boundary gives its probability badly. Where one boundary is near, the lines go
+across it; where several meet, between their normals.
 """
 
 from __future__ import annotations

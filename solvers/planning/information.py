@@ -15,10 +15,12 @@ import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
 from ..fitting import changes as boundaries
+from ..fitting.interpolation import segment_map
 from ..fitting.law import BoundLaw
-from ..fitting.likelihood import NEGLIGIBLE, Likelihood, Resolution, _map, _moving_ends, _Segments
+from ..fitting.likelihood import NEGLIGIBLE, Likelihood, Resolution
 from ..fitting.lines import Lines
 from ..fitting.measurements import Measurements
+from ..fitting.segments import Segments, moving_ends
 from ..scene.scene import Scene
 from ..settings import RTOL
 from .density import Curve, information_of
@@ -73,9 +75,9 @@ def information(
     total = np.zeros((size, len(names), len(names)))
     noise = plan.observed[_NOISE][1] if _NOISE in plan.observed else np.full(size, np.nan)
     for k in range(len(OUTCOMES)):
-        segments = _Segments.of(lines, found, np.tile(np.arange(len(OUTCOMES)) == k, (size, 1)))
+        segments = Segments.of(lines, found, np.tile(np.arange(len(OUTCOMES)) == k, (size, 1)))
         mass = segments.mass()
-        ends = _moving_ends(law, lines, found, segments, mass > NEGLIGIBLE, resolution.quick)
+        ends = moving_ends(law, lines, found, segments, mass > NEGLIGIBLE, resolution.quick)
         share = segments.weight * mass
         probability[:, k] = np.bincount(segments.row, share, size)
         np.add.at(slopes[:, k], segments.row, share[:, None] * segments.mass_slopes(ends))
@@ -95,7 +97,7 @@ def information(
 def _curves(
     law: BoundLaw,
     lines: Lines,
-    segments: _Segments,
+    segments: Segments,
     ends: tuple[np.ndarray, np.ndarray],
     which: np.ndarray,
     resolution: Resolution,
@@ -105,7 +107,7 @@ def _curves(
     counts = [resolution.nodes * 3 // 2 if kind else resolution.nodes for kind in kinds]
     if not counts:
         return {}
-    nodes = [_map(kind, count, resolution.points).at_nodes for kind, count in zip(kinds, counts, strict=True)]
+    nodes = [segment_map(kind, count, resolution.points).at_nodes for kind, count in zip(kinds, counts, strict=True)]
     g, segment = np.concatenate(nodes), np.repeat(which, counts)
     line, y = segments.line[segment], segments.low[segment] + (segments.high - segments.low)[segment] * g
     found = law.results((_NOISE,), lines.row[line], *lines.at(line, y))

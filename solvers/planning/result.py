@@ -6,7 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,7 +49,7 @@ class Impact:
 
 @dataclass(frozen=True)
 class Expected:
-    """What will be known of an entry: standard deviation on the scale of the fit, and 95 % interval (None: open), SI."""
+    """What will be known of an entry: standard deviation on the scale of the fit, 95 % interval (None: open), SI."""
 
     sd: float
     low: float | None
@@ -92,8 +92,8 @@ class Design:
 
     @classmethod
     def of(
-        cls, window: Window, free: FreeEntries, values: np.ndarray, before: np.ndarray, found: Found, target: str | None,
-        size: int, rtol: float, draws: int, data: Measurements | None,
+        cls, window: Window, free: FreeEntries, values: np.ndarray, before: np.ndarray, found: Found,
+        target: str | None, size: int, rtol: float, draws: int, data: Measurements | None,
     ) -> Design:  # fmt: skip
         """Make the result of what was found, by the information at the given values."""
         order = np.lexsort((found.points[:, 0], found.points[:, 1]))
@@ -130,8 +130,8 @@ class Design:
             along, across: number of speeds and angles.
 
         Returns:
-            Dataset over entry, angle and speed (by the window's name): `information`, and `by_outcome`, what the outcome
-            alone tells.
+            Dataset over entry, angle and speed (by the window's name): `information`, and `by_outcome`, what the
+            outcome alone tells.
         """
         import xarray as xr
 
@@ -167,8 +167,8 @@ class Design:
                 }
                 for each in self.impacts
             ],
-            "expected": {name: {"low": each.low, "high": each.high, "sd": each.sd} for name, each in self.expected.items()},
-            "before": {name: {"low": each.low, "high": each.high, "sd": each.sd} for name, each in self.before.items()},
+            "expected": {name: asdict(each) for name, each in self.expected.items()},
+            "before": {name: asdict(each) for name, each in self.before.items()},
             "against_grid": dict(self.against_grid),
             "grid": self.grid,
             "efficiency": self.efficiency,
@@ -201,7 +201,8 @@ class Design:
         rows = [("times", "St", "speed", "angle", "S / SRS / B")]
         for each in self.impacts:
             shares = " / ".join(f"{share:.0%}" for share in each.probability)
-            rows.append((f"{each.count}", f"{each.stokes:.4g}", f"{each.speed:.4g} m/s", f"{math.degrees(each.angle):.1f} deg", shares))
+            angle = f"{math.degrees(each.angle):.1f} deg"
+            rows.append((f"{each.count}", f"{each.stokes:.4g}", f"{each.speed:.4g} m/s", angle, shares))
         entries = [("entry", "expected 95 % interval", "before", f"beside a {self.grid} x {self.grid} grid")]
         for name, each in self.expected.items():
             before = self.before[name]
@@ -210,12 +211,14 @@ class Design:
                 f"{self.against_grid[name]:.2f} of its interval",
             ))  # fmt: skip
         noise = "outcomes only" if scatter.restitution is None else f"restitution to {scatter.restitution:.3g}"
-        now = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in zip(self.free.names, self.values.tolist()))
+        values = zip(self.free.names, self.values.tolist(), strict=True)
+        now = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
         averaged = f", averaged over {self.draws} draws" if self.draws > 1 else ""
+        scattered = f"scatter {scatter.speed:.3g} of the speed, {math.degrees(scatter.angle):.3g} deg; {noise}"
+        share = math.floor(100 * self.efficiency)
         said = [
-            f"Planned for {now}{averaged}; scatter {scatter.speed:.3g} of the speed, "
-            f"{math.degrees(scatter.angle):.3g} deg; {noise}.",
-            f"At least {math.floor(100 * self.efficiency)} % as good as any other {self.size} of {self.candidates} candidates.",
+            f"Planned for {now}{averaged}; {scattered}.",
+            f"At least {share} % as good as any other {self.size} of {self.candidates} candidates.",
         ]
         return "\n".join([title, "", *_columns(rows), "", *_columns(entries), "", *said])
 
@@ -253,7 +256,8 @@ def _spread(total: np.ndarray) -> np.ndarray:
 def _expected(free: FreeEntries, values: np.ndarray, spread: np.ndarray) -> dict[str, Expected]:
     """Intervals to first order; open where they would end beyond the range of a search."""
     found = {}
-    for each, value, sd, low, high in zip(free.entries, values.tolist(), spread.tolist(), free.low, free.high, strict=True):
+    columns = zip(free.entries, values.tolist(), spread.tolist(), free.low, free.high, strict=True)
+    for each, value, sd, low, high in columns:
         inner = each.inner(value)
         ends = inner - _QUANTILE * sd, inner + _QUANTILE * sd
         known = 2 * _QUANTILE * sd < high - low

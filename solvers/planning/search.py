@@ -1,7 +1,7 @@
 """The impacts that tell most: greedy choice and exchange among candidates, which are refined where they matter.
 
-Information adds up over impacts, so a design is as good as a function of the sum of its impacts' matrices. Both functions
-used here are concave in that sum, which bounds how much better any other choice among the candidates can be.
+Information adds up over impacts, so a design is as good as a function of the sum of its impacts' matrices. Both
+functions used here are concave in that sum, which bounds how much better any other choice among the candidates can be.
 """
 
 from __future__ import annotations

@@ -18,6 +18,7 @@ from ..scene.schema import FIELDS
 
 RESTITUTION = "restitution"
 SPEEDS = ("stokes", "speed", "relative_speed")
+_AXES = (*SPEEDS, "angle")
 _WIDEST_SPEED, _WIDEST_ANGLE = 1 / 3, 0.5
 _ALONG, _ACROSS = 96, 32  # outcomes that are looked at for their changes: speeds, angles
 _BESIDE = (-1.5, 0.0, 1.5)  # candidates beside a change of outcome, in standard deviations of the speed
@@ -59,7 +60,8 @@ class Scatter:
             default.restitution if restitution is None else _noise(restitution),
         )
         if found.speed == 0 and found.angle == 0:
-            raise InputError("speed_sd", 0, "speed_sd or angle_sd above 0: an outcome without scatter has no likelihood")
+            accepted = "speed_sd or angle_sd above 0: an outcome without scatter has no likelihood"
+            raise InputError("speed_sd", 0, accepted)
         return found
 
 
@@ -67,7 +69,8 @@ def _part(given: object, label: str, most: float) -> float:
     accepted = f'a part of the speed, 0 to below {most:.2g}, such as "2 %" or 0.02'
     text = given.strip() if isinstance(given, str) else given
     try:
-        found = float(text[:-1]) / 100 if isinstance(text, str) and text.endswith("%") else float(text)  # type: ignore[arg-type]
+        percent = isinstance(text, str) and text.endswith("%")
+        found = float(text[:-1]) / 100 if percent else float(text)  # type: ignore[index, arg-type]
     except (TypeError, ValueError):
         raise InputError(label, given, accepted, "is not a number") from None
     if not 0 <= found < most:
@@ -78,7 +81,8 @@ def _part(given: object, label: str, most: float) -> float:
 def _angle(given: object) -> float:
     found = FIELDS["impact.angle"].number(given, label="angle_sd")
     if found >= _WIDEST_ANGLE:
-        raise InputError("angle_sd", given, f'an angle from 0 to below {_WIDEST_ANGLE} rad, such as "1 deg"', "is out of range")
+        accepted = f'an angle from 0 to below {_WIDEST_ANGLE} rad, such as "1 deg"'
+        raise InputError("angle_sd", given, accepted, "is out of range")
     return found
 
 
@@ -138,8 +142,8 @@ class Window:
 
     def grid(self, along: int, across: int) -> np.ndarray:
         """Points evenly over the square, its edges included; (points, 2), angle by angle."""
-        ends = [np.linspace(0, 1, n) if free else np.zeros(1) for n, free in zip((along, across), self.extends, strict=True)]
-        u, v = np.meshgrid(*ends)
+        sizes = np.where(self.extends, (along, across), 1)
+        u, v = np.meshgrid(*(np.linspace(0, 1, int(n)) for n in sizes))
         return np.column_stack([u.ravel(), v.ravel()])
 
     def outcomes(self, points: np.ndarray, rtol: float) -> np.ndarray:
@@ -165,7 +169,7 @@ class Window:
         return np.unique(np.vstack([grid, *beside]).round(9), axis=0)
 
 
-def check_over(over: object, scene: Scene) -> tuple[str, tuple[float, float], tuple[float, float]]:
+def check_over(over: object) -> tuple[str, tuple[float, float], tuple[float, float]]:
     """The window of `over`: key, its ends in SI, and the ends of the angle.
 
     Raises:
@@ -175,8 +179,8 @@ def check_over(over: object, scene: Scene) -> tuple[str, tuple[float, float], tu
     if not isinstance(over, Mapping) or not over:
         raise InputError("over", over, accepted)
     for name in over:
-        if name not in (*SPEEDS, "angle"):
-            raise InputError("over", name, ", ".join((*SPEEDS, "angle")), "is not known" + did_you_mean(name, (*SPEEDS, "angle")))
+        if name not in _AXES:
+            raise InputError("over", name, ", ".join(_AXES), "is not known" + did_you_mean(name, _AXES))
     keys = [name for name in SPEEDS if name in over]
     if len(keys) != 1:
         raise InputError("over", ", ".join(over), f"one of {', '.join(SPEEDS)}, and angle")
@@ -185,7 +189,8 @@ def check_over(over: object, scene: Scene) -> tuple[str, tuple[float, float], tu
     found = {}
     for name in (keys[0], "angle"):
         given: Any = over[name]
-        ends = list(given) if isinstance(given, Sequence | np.ndarray) and not isinstance(given, str) else [given, given]
+        several = isinstance(given, Sequence | np.ndarray) and not isinstance(given, str)
+        ends = list(given) if several else [given, given]
         if len(ends) != 2:
             raise InputError(f"over {name}", given, "two ends, (LO, HI), or one value")
         low, high = (FIELDS[f"impact.{name}"].number(end, label=f"over {name}") for end in ends)

@@ -1,10 +1,11 @@
 """Designed impacts beside a grid of as many: the width of the interval on a named entry.
 
-`python -m tests.benchmarks.designs 200 --seed 1 -o designs.jsonl` draws scenes near the presets with 2 or 3 free entries,
-one of which is named, and a window of Stokes numbers and angles about the changes of outcome. N impacts (9, 16 or 25)
-are designed for the named entry, and as many put on a sqrt(N) by sqrt(N) grid over the window, Stokes numbers in their
-logarithm. Both are measured with the same scatter and noise and fitted alike from the same first guess; the ratio of the
-two 95 % intervals (of the entry's logarithm) is what counts. An open interval is as long as the range of the fit.
+`python -m tests.benchmarks.designs 200 --seed 1 -o designs.jsonl` draws scenes near the presets with 2 or 3 free
+entries, one of which is named, and a window of Stokes numbers and angles about the changes of outcome. N impacts (9, 16
+or 25) are designed for the named entry, and as many put on a sqrt(N) by sqrt(N) grid over the window, Stokes numbers in
+their logarithm. Both are measured with the same scatter and noise and fitted alike from the same first guess; the ratio
+of the two 95 % intervals (of the entry's logarithm) is what counts. An open interval is as long as the range of the
+fit.
 
 `--off 0.1` designs and starts for values that are wrong by 10 % (one standard deviation), which the fit is told as a
 prior in both cases; the design is averaged over 8 draws from it. With `--read FILE` it only prints the summary.
@@ -51,7 +52,9 @@ def experiment(seed: int, off: float) -> dict[str, object]:
             break
     target, number = str(random.choice(free)), int(random.choice(NUMBERS))
     noise, scatter, angle = random.uniform(*NOISE), random.uniform(*NOISE), np.radians(random.uniform(0.5, 2.0))
-    prior = {name: f"{guess.entries[name]!r} {guess.fields[name].unit or ''} +- {100 * off} %" for name in free} if off else None
+    prior = None
+    if off:
+        prior = {name: f"{guess.entries[name]!r} {guess.fields[name].unit or ''} +- {100 * off} %" for name in free}
     told: dict[str, object] = {"seed": seed, "preset": preset.name, "free": free, "target": target, "n": number}
     start = time.process_time()
     try:
@@ -70,8 +73,8 @@ def experiment(seed: int, off: float) -> dict[str, object]:
 
 
 def _width(
-    guess: Scene, scene: Scene, plan: Measurements, free: list[str], target: str, prior: dict[str, str] | None, seed: int,
-    noise: float,
+    guess: Scene, scene: Scene, plan: Measurements, free: list[str], target: str, prior: dict[str, str] | None,
+    seed: int, noise: float,
 ) -> dict[str, float | str]:  # fmt: skip
     rows = plan.size
     plan = Measurements(
@@ -93,16 +96,22 @@ def summary(runs: list[dict]) -> str:
     """Median ratio, and its quartiles."""
     done = [run for run in runs if "grid" in run]
     refused = sum("refused" in run for run in runs)
-    lines = [f"{len(done)} experiments; {refused} with an entry that the window does not tell; {len(runs) - len(done) - refused} failed"]
+    failed = len(runs) - len(done) - refused
+    lines = [f"{len(done)} experiments; {refused} with an entry that the window does not tell; {failed} failed"]
     ratio = np.array([run["designed"]["width"] / run["grid"]["width"] for run in done])
-    lines.append("interval, designed over grid: quartiles " + ", ".join(f"{each:.3f}" for each in np.quantile(ratio, (0.25, 0.5, 0.75))))
+    quartiles = ", ".join(f"{each:.3f}" for each in np.quantile(ratio, (0.25, 0.5, 0.75)))
+    lines.append(f"interval, designed over grid: quartiles {quartiles}")
     error = 1.25 * np.std(np.log(np.clip(ratio, 1e-3, 1e3))) / np.sqrt(len(done))
-    lines.append(f"  standard error of the median's logarithm about {error:.2f}; foretold {np.median([run['foretold'] for run in done]):.3f}")
+    foretold = np.median([run["foretold"] for run in done])
+    lines.append(f"  standard error of the median's logarithm about {error:.2f}; foretold {foretold:.3f}")
     closed = [k for k, run in enumerate(done) if not run["designed"]["open"] and not run["grid"]["open"]]
-    lines.append(f"  both closed: {len(closed)}, median {np.median(ratio[closed]):.3f}" if closed else "  never both closed")
+    lines.append(
+        f"  both closed: {len(closed)}, median {np.median(ratio[closed]):.3f}" if closed else "  never both closed"
+    )
     for label in ("designed", "grid"):
         shut = np.mean([run[label]["open"] for run in done])
-        lines.append(f"{label}: open in {shut:.0%}, holds the truth in {np.mean([run[label]['holds'] for run in done]):.1%}")
+        held = np.mean([run[label]["holds"] for run in done])
+        lines.append(f"{label}: open in {shut:.0%}, holds the truth in {held:.1%}")
     for number in NUMBERS:
         own = [value for value, run in zip(ratio, done) if run["n"] == number]
         if own:

@@ -31,7 +31,9 @@ def planned(scene: Scene, stokes: list[float], degrees: list[float], speed_sd: f
         ("granulation", 0.12, 45.0, ("liquid.film_thickness", "liquid.viscosity")),  # bounce or stick-rotate-separate
     ],
 )
-def test_information_is_the_covariance_of_the_score(preset: str, stokes: float, degrees: float, names: tuple[str, ...]) -> None:
+def test_information_is_the_covariance_of_the_score(
+    preset: str, stokes: float, degrees: float, names: tuple[str, ...]
+) -> None:
     """Summed over the outcomes, and over a fine grid of measured restitutions, by the likelihood of the fit itself."""
     scene = Scene.load(preset)
     plan = planned(scene, [stokes], [degrees], 0.03, 0.5)
