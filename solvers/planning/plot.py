@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from ..collision.text import against, name_of
 from ..formatting import ticks
 from ..formatting.style import INK, NOTE, picture, plain_text
-from .result import Design
+from .planned import Planned
 
 if TYPE_CHECKING:
     import xarray
@@ -28,7 +28,7 @@ _ROWS = {"information": "outcome and restitution", "by_outcome": "outcome alone"
 
 
 @picture
-def draw(design: Design) -> Figure:
+def draw(design: Planned) -> Figure:
     """A panel for each entry: outcome and restitution above, the outcome alone below."""
     data = design.map()
     names = list(design.free.names)
@@ -65,7 +65,7 @@ def draw(design: Design) -> Figure:
     return figure
 
 
-def _panel(axes: Axes, design: Design, data: xarray.Dataset, of: str, name: str, scale: LogNorm, outcomes: Any) -> Any:
+def _panel(axes: Axes, design: Planned, data: xarray.Dataset, of: str, name: str, scale: LogNorm, outcomes: Any) -> Any:
     told = data[of].sel(entry=name).values
     with np.errstate(divide="ignore"):
         error = np.where(told > 0, 1 / np.sqrt(np.maximum(told, 1e-300)), np.inf)
@@ -91,7 +91,7 @@ def _panel(axes: Axes, design: Design, data: xarray.Dataset, of: str, name: str,
     return mesh
 
 
-def _outcomes(design: Design) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _outcomes(design: Planned) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Angles (deg), values of the key, and outcomes without scatter on a grid of them."""
     window = design.window
     points = window.grid(*_FINE)
