@@ -111,7 +111,7 @@ def design(
         if told[name] < _NOTHING:
             accepted = "entries that outcome or restitution depend on in this window"
             raise InputError("free", name, accepted, "changes nothing that is observed in the window")
-    return Design.of(window, entries, values, before, found, wanted, size, rtol, len(ensemble), table)
+    return Design.of(window, entries, values, before, found, wanted, size, rtol, len(ensemble), loaded)
 
 
 def _known(

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..fitting.free_entries import FreeEntries
 from ..fitting.measurements import Measurements
+from ..scene.scene import Scene
 from .information import FINEST, Information, information
 from .search import Found
 from .window import Window
@@ -66,6 +67,7 @@ class Planned:
         target: the entry that matters; None for all.
         draws: values of the entries for which the impacts are the best on average.
         candidates: impacts among which they were chosen.
+        given: the scene as it was given, whose units are shown.
         points: (distinct impacts, 2), in the window: logarithm of the speed, and angle, 0 to 1.
     """
 
@@ -83,12 +85,12 @@ class Planned:
     candidates: int
     points: np.ndarray
     rtol: float
-    data: Measurements | None = None
+    given: Scene
 
     @classmethod
     def of(
         cls, window: Window, free: FreeEntries, values: np.ndarray, before: np.ndarray, found: Found,
-        target: str | None, size: int, rtol: float, draws: int, data: Measurements | None,
+        target: str | None, size: int, rtol: float, draws: int, given: Scene,
     ) -> Self:  # fmt: skip
         """Make the result of what was found, by the information at the given values."""
         order = np.lexsort((found.points[:, 0], found.points[:, 1]))
@@ -106,7 +108,7 @@ class Planned:
             window, free, values, _impacts(window, points, counts, own),
             _expected(free, values, spread), _expected(free, values, _spread(before + weak)),
             dict(zip(free.names, (spread / by_grid).tolist(), strict=True)), side,
-            math.exp((found.value - found.bound) / grows), target, draws, found.candidates, points, rtol, data,
+            math.exp((found.value - found.bound) / grows), target, draws, found.candidates, points, rtol, given,
         )  # fmt: skip
 
     @property

@@ -69,7 +69,7 @@ class Design(Planned):
         return file.getvalue()
 
     def __str__(self) -> str:
-        scene, scatter = self.window.scene, self.window.scatter
+        scene, scatter = self.given, self.window.scatter
         names = self.free.names if self.target is None else (self.target,)
         title = f"{self.size} impacts for {', '.join(names)}"
         rows = [("times", "St", "speed", "angle", "S / SRS / B")]
