@@ -9,6 +9,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE / "_ext"))
 # notebooks and their shell commands find the environment that builds the site
 os.environ["PATH"] = str(Path(sys.executable).parent) + os.pathsep + os.environ["PATH"]
+os.environ["WETDOUBLET_DOCS"] = str(HERE)  # and the data
 
 from gallery_pictures import WrittenPictures  # noqa: E402 -- found by the path that is set above
 

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from .host.pictures import plot
     from .many.collide_many import collide_many
     from .many.regime_map import regime_map
+    from .planning.design import design
+    from .planning.result import Design
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
     from .sensitivity.gradients_many import gradients_many
@@ -39,6 +41,7 @@ _HOMES = {
     "CheckFailed": "errors",
     "Collision": "collision.result",
     "ComputationError": "errors",
+    "Design": "planning.result",
     "Fit": "fitting.result",
     "InputError": "errors",
     "ModelWarning": "errors",
@@ -55,6 +58,7 @@ _HOMES = {
     "collision_averages": "averages.averages",
     "compare_models": "fitting.compare",
     "compile_kernels": "engines.kernels",
+    "design": "planning.design",
     "fit": "fitting.fit",
     "gradients_many": "sensitivity.gradients_many",
     "log_likelihood": "fitting.fit",
@@ -73,6 +77,7 @@ __all__ = [
     "CheckFailed",
     "Collision",
     "ComputationError",
+    "Design",
     "Fit",
     "InputError",
     "ModelWarning",
@@ -89,6 +94,7 @@ __all__ = [
     "collision_averages",
     "compare_models",
     "compile_kernels",
+    "design",
     "fit",
     "gradients_many",
     "log_likelihood",

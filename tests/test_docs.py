@@ -2,6 +2,7 @@
 
 import doctest
 import re
+import runpy
 import shlex
 from dataclasses import fields
 from importlib import import_module
@@ -86,3 +87,14 @@ def test_every_public_name_has_an_example_that_runs(name):
     (example,) = doctest.DocTestFinder(recurse=False).find(value, name, module=import_module(value.__module__))
     assert example.examples, f"{name} has no example"
     assert not doctest.DocTestRunner().run(example).failed
+
+
+def test_the_synthetic_data_are_those_of_their_script():
+    """`docs/data/make_synthetic.py` makes the files that lie beside it, and their first line says that they are."""
+    folder = ROOT / "docs/data"
+    made = runpy.run_path(str(folder / "make_synthetic.py"))["FILES"]
+    assert set(made) == {path.name for path in folder.glob("synthetic-*.csv")}
+    for name, make in made.items():
+        text = (folder / name).read_text(encoding="utf-8")
+        assert text == make()
+        assert text.startswith("# Synthetic")

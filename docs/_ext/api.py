@@ -22,7 +22,7 @@ GROUPS = {
         "band",
         "sobol_indices",
     ),
-    "Fits": ("fit", "Fit", "compare_models", "log_likelihood"),
+    "Fits": ("fit", "Fit", "compare_models", "log_likelihood", "design", "Design"),
     "Errors and warnings": ("WetDoubletError", "InputError", "ComputationError", "CheckFailed", "ModelWarning"),
 }
 MODEL_WRITERS = ("quantity", "let", "law")

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -60,6 +61,7 @@ def run(page: Path) -> list[str]:
         lines = [line for language, text in blocks(page) if language != "python" for line in commands(text, language)]
         if any(path.name in line for path in prepared for line in lines) or "--model mine" in " ".join(lines):
             _prepare(prepared, folder, environment)
+        shutil.copy(ROOT / "docs/data/synthetic-steel-spheres.csv", Path(folder) / "impacts.csv")
         for path in prepared:
             if f"--new {path.stem} " in " ".join(lines):
                 path.unlink(missing_ok=True)  # the page makes it

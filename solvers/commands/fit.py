@@ -70,7 +70,7 @@ def command(
     file = options.check_file(output, "-o")
     for first, one, second, other in ((file, "-o", picture, "--plot"), (file, "-o", scene_file, "--write")):
         options.check_apart(first, one, second, other)
-    given = _assigned(priors)
+    given = options.assigned(priors, "--prior", 'NAME=PRIOR, such as particles.roughness="2 um +- 20 %"')
     if free is None:
         accepted = "entries to estimate, as --free particles.roughness,liquid.viscosity"
         raise InputError("--free", None, accepted)
@@ -99,13 +99,3 @@ def command(
         found.report(folder)
     if picture is not None:
         found.plot(picture)
-
-
-def _assigned(given: Sequence[str]) -> dict[str, str]:
-    found = {}
-    for text in given:
-        name, equals, value = text.partition("=")
-        if not equals:
-            raise InputError("--prior", text, 'NAME=PRIOR, such as particles.roughness="2 um +- 20 %"', "has no =")
-        found[name.strip()] = value
-    return found

@@ -146,6 +146,17 @@ def entries(changes: Sequence[str]) -> dict[str, str]:
     return found
 
 
+def assigned(given: Sequence[str], label: str, accepted: str) -> dict[str, str]:
+    """The texts of a repeatable option NAME=TEXT, by name."""
+    found = {}
+    for text in given:
+        name, equals, value = text.partition("=")
+        if not equals:
+            raise InputError(label, text, accepted, "has no =")
+        found[name.strip()] = value
+    return found
+
+
 def _option(key: str) -> str:
     return f"--{key.replace('_', '-')}"
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from wetdoublet.solvers import CheckFailed as CheckFailed
     from wetdoublet.solvers import Collision as Collision
     from wetdoublet.solvers import ComputationError as ComputationError
+    from wetdoublet.solvers import Design as Design
     from wetdoublet.solvers import Fit as Fit
     from wetdoublet.solvers import InputError as InputError
     from wetdoublet.solvers import ModelWarning as ModelWarning
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from wetdoublet.solvers import collide_pair as collide_pair
     from wetdoublet.solvers import compare_models as compare_models
     from wetdoublet.solvers import compile_kernels as compile_kernels
+    from wetdoublet.solvers import design as design
     from wetdoublet.solvers import fit as fit
     from wetdoublet.solvers import gradients_many as gradients_many
     from wetdoublet.solvers import log_likelihood as log_likelihood

@@ -1,0 +1,1 @@
+"""Where the next impacts should be to learn most about a scene's entries."""

@@ -1,0 +1,172 @@
+"""`design()`: where the next impacts should be to learn most about entries of a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.stats import norm, qmc
+
+from ..errors import InputError
+from ..fitting.data import read_data
+from ..fitting.fit import RTOL, fit
+from ..fitting.free_entries import FreeEntries, free_entries
+from ..fitting.likelihood import Resolution
+from ..fitting.measurements import Measurements
+from ..host.arguments import check_mapping, check_name, check_whole
+from ..model.validity import warn
+from ..scene.scene import Scene
+from ..settings import check_rtol
+from .information import FINE, FINEST, information
+from .result import Design
+from .search import Criterion, search
+from .window import Scatter, Window, check_over
+
+_SPACING = 20  # candidates to begin with, to either side
+_MOST, _MOST_DRAWS = 1000, 256
+_NOTHING = 1e-9  # information of an impact on an entry, in the variable of the search, that is none
+
+
+def design(
+    scene: Scene | str | Path,
+    free: Sequence[str] | str,
+    over: Mapping[str, Any],
+    n: int = 9,
+    *,
+    target: str | None = None,
+    data: Any = None,
+    prior: Mapping[str, str] | None = None,
+    draws: int = 0,
+    speed_sd: float | str | None = None,
+    angle_sd: float | str | None = None,
+    restitution_sd: float | str | None = None,
+    rtol: float = RTOL,
+    seed: int = 0,
+) -> Design:
+    """Choose the impacts from whose outcomes and restitutions `fit` will learn most.
+
+    Arguments:
+        scene: a Scene, a path or a preset's name. The impacts are best for its values of the free entries, or for the
+            estimates from `data`.
+        free: entries that will be estimated, by dotted name.
+        over: window of impacts, {"stokes": (0.02, 0.5), "angle": ("0 deg", "80 deg")}; also speed or relative_speed,
+            and one value in place of two ends.
+        n: number of impacts.
+        target: the entry that matters, of `free`; the others are then estimated only as far as that needs. None: all
+            alike (D-optimal).
+        data: impacts measured before, as of `fit`; they are fitted first, and what they tell counts.
+        prior: what is known of free entries, as of `fit`.
+        draws: number of quasi-random values of the free entries, from the priors and the data's estimates with their
+            errors, over which the impacts are the best on average; 0: for one value each.
+        speed_sd: scatter of the speed, relative ("2 %"); angle_sd: of the angle. Default: the data's, or `fit`'s.
+        restitution_sd: standard deviation of the measured restitution; "none" if only outcomes are recorded.
+        rtol: relative tolerance of the collisions.
+        seed: of the quasi-random values.
+
+    Returns:
+        Design: the impacts, what they will tell, and how they compare with an even grid.
+
+    Raises:
+        InputError: a wrong argument, or an entry on which nothing in the window depends.
+        ComputationError: the scene's collisions are not differentiated by a compiled kernel.
+
+    Example:
+        >>> from wetdoublet.solvers import design
+        >>> found = design("granulation", ["liquid.viscosity"], {"stokes": (0.05, 0.3), "angle": 0.0}, 4)
+        >>> bool(found.against_grid["liquid.viscosity"] < 0.7)
+        True
+    """
+    rtol = check_rtol(rtol)
+    loaded = Scene.load(scene)
+    key, speed, angle = check_over(over)
+    size, draws = check_whole(n, "n", 1, _MOST), check_whole(draws, "draws", 0, _MOST_DRAWS)
+    priors = None if prior is None else check_mapping(prior, "prior", 'entries and priors, {"NAME": "2 um +- 20 %"}')
+    table = None
+    if data is not None:
+        table = data if isinstance(data, Measurements) else read_data(data, loaded)
+    scatter = Scatter.checked(speed_sd, angle_sd, restitution_sd, Scatter() if table is None else Scatter.of(table))
+    window = Window(loaded, key, speed, angle, scatter)
+    entries, before, scene_now = _known(loaded, free, table, priors, window, rtol)
+    wanted = None if target is None else check_name(target, entries.names, "target")
+    warn(scene_now)
+    window = Window(scene_now, key, speed, angle, scatter)
+    values = np.array([float(scene_now.entries[name]) for name in entries.names])
+    ensemble = _ensemble(entries, values, before, draws, seed)
+
+    def evaluate(points: np.ndarray, resolution: Resolution = FINE) -> np.ndarray:
+        plan = window.plan(points)
+        found = (information(scene_now, entries.names, each, plan, rtol, resolution).total for each in ensemble)
+        return np.stack([_inner(entries, each, one) for each, one in zip(ensemble, found, strict=True)])
+
+    first = window.candidates(_SPACING, rtol)
+    weak = np.diag((2.0 / (entries.high - entries.low)) ** 2)  # nothing is known beyond the range of a search
+    known = np.broadcast_to(before + weak, (len(ensemble), *before.shape))
+    criterion = Criterion(None if wanted is None else entries.names.index(wanted))
+    held = _Kept(evaluate)
+    found = search(held, known, criterion, size, first, 1 / (_SPACING - 1), lambda points: evaluate(points, FINEST))
+    told = held.most(entries.names)
+    for name in entries.names if wanted is None else (wanted,):
+        if told[name] < _NOTHING:
+            accepted = "entries that outcome or restitution depend on in this window"
+            raise InputError("free", name, accepted, "changes nothing that is observed in the window")
+    return Design.of(window, entries, values, before, found, wanted, size, rtol, len(ensemble), loaded)
+
+
+def _known(
+    scene: Scene, free: Sequence[str] | str, data: Measurements | None, prior: Mapping[str, str] | None, window: Window,
+    rtol: float,
+) -> tuple[FreeEntries, np.ndarray, Scene]:  # fmt: skip
+    """The free entries, what priors and data tell (in the variables of the search), and the scene to plan for."""
+    if data is not None:
+        found = fit(scene, data, free, prior=prior, rtol=rtol)
+        return found.free, found.objective.information(found.best), found.scene
+    entries = free_entries(scene, free, window.plan(np.zeros((1, 2))), prior, rtol)
+    rates = entries.rates(np.array([each.value for each in entries.entries]))
+    precision = np.zeros(entries.size)
+    for k, each in enumerate(entries.entries):
+        if each.prior is not None:
+            precision[k] = (each.prior.misfit(each.value)[1] * float(rates[k])) ** 2
+    return entries, np.diag(precision), scene
+
+
+def _inner(entries: FreeEntries, values: np.ndarray, found: np.ndarray) -> np.ndarray:
+    """Information in the variables of the search."""
+    rates = entries.rates(values)
+    scaled: np.ndarray = found * np.outer(rates, rates)
+    return scaled
+
+
+def _ensemble(entries: FreeEntries, values: np.ndarray, before: np.ndarray, draws: int, seed: int) -> list[np.ndarray]:
+    """Values for which the impacts are planned: the given ones, or quasi-random ones from what is known of them."""
+    if not draws:
+        return [values]
+    told = np.diag(before) > 0
+    if not told.any():
+        raise InputError("draws", draws, "priors or data, from which values are drawn", "has nothing to draw from")
+    covariance = np.zeros_like(before)
+    covariance[np.ix_(told, told)] = np.linalg.pinv(before[np.ix_(told, told)])
+    spread, axes = np.linalg.eigh(covariance)
+    points = norm.ppf(qmc.Sobol(entries.size, seed=seed).random(draws) * (1 - 1e-9) + 5e-10)
+    centre = np.array([each.inner(value) for each, value in zip(entries.entries, values, strict=True)])
+    inner = centre + points @ (axes * np.sqrt(np.maximum(spread, 0))).T
+    return [entries.values(each) for each in np.clip(inner, entries.low, entries.high)]
+
+
+class _Kept:
+    """An evaluation that remembers the most that an impact told of each entry."""
+
+    def __init__(self, evaluate: Any) -> None:
+        self._evaluate = evaluate
+        self._most: np.ndarray | None = None
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        found: np.ndarray = self._evaluate(points)
+        most = np.einsum("mcii->mci", found).max(axis=(0, 1))
+        self._most = most if self._most is None else np.maximum(self._most, most)
+        return found
+
+    def most(self, names: Sequence[str]) -> dict[str, float]:
+        assert self._most is not None
+        return dict(zip(names, self._most.tolist(), strict=True))

@@ -1,0 +1,127 @@
+"""The Fisher information of planned impacts: the covariance of the score of the fit's likelihood.
+
+An impact is seen as its outcome and, if it separates, its restitution with noise. With the scatter integrated out, the
+probability of a stick is p, and a separated outcome k has the density f_k(e) of the measured restitution; both depend
+on the free entries. The information is p' p'^T/p plus, for every separated outcome, the integral of f_k' f_k'^T/f_k
+over e. Lines, changes of outcome and interpolation along the lines are those of the likelihood, so f_k is a sum of
+normal densities at the points of its quadrature, with exact derivatives.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...generated.automaton import OUTCOMES, STICK
+from ..fitting import changes as boundaries
+from ..fitting.interpolation import segment_map
+from ..fitting.law import BoundLaw
+from ..fitting.likelihood import NEGLIGIBLE, Likelihood, Resolution
+from ..fitting.lines import Lines
+from ..fitting.measurements import Measurements
+from ..fitting.segments import Segments, moving_ends
+from ..scene.scene import Scene
+from ..settings import RTOL
+from .density import Curve, information_of
+from .directions import directions
+
+FINE = Resolution(lines=5, points=64)
+FINEST = Resolution(lines=9, points=128)  # more lines would reach where impacts graze
+_STICK = OUTCOMES.index(STICK)
+_NOISE = "restitution"
+
+
+@dataclass(frozen=True)
+class Information:
+    """Information of single impacts, by the free entries' values.
+
+    Attributes:
+        total: (impacts, free entries, free entries), of outcome and restitution.
+        outcome: the same, of the outcome alone.
+        probability: (impacts, outcomes).
+    """
+
+    total: np.ndarray
+    outcome: np.ndarray
+    probability: np.ndarray
+
+
+def information(
+    scene: Scene,
+    names: tuple[str, ...],
+    values: np.ndarray,
+    plan: Measurements,
+    rtol: float = RTOL,
+    resolution: Resolution = FINE,
+) -> Information:
+    """The Fisher information of each planned impact.
+
+    Arguments:
+        names, values: the free entries.
+        plan: impacts with their scatter, all other entries the scene's; of `observed` the standard deviation of the
+            restitution counts, NaN where it is not measured.
+        resolution: of the integrals over the scatter.
+
+    Raises:
+        InputError: values that no scene may have.
+    """
+    law = Likelihood(scene, names, plan, rtol).bound(values)
+    lines = Lines.of(plan, directions(law, plan), np.full(plan.size, resolution.lines))
+    found = boundaries.locate(law, lines, resolution.grid, resolution.within)
+    size = plan.size
+    probability = np.zeros((size, len(OUTCOMES)))
+    slopes = np.zeros((size, len(OUTCOMES), len(names)))
+    total = np.zeros((size, len(names), len(names)))
+    noise = plan.observed[_NOISE][1] if _NOISE in plan.observed else np.full(size, np.nan)
+    for k in range(len(OUTCOMES)):
+        segments = Segments.of(lines, found, np.tile(np.arange(len(OUTCOMES)) == k, (size, 1)))
+        mass = segments.mass()
+        ends = moving_ends(law, lines, found, segments, mass > NEGLIGIBLE, resolution.quick)
+        share = segments.weight * mass
+        probability[:, k] = np.bincount(segments.row, share, size)
+        np.add.at(slopes[:, k], segments.row, share[:, None] * segments.mass_slopes(ends))
+        if k != _STICK:
+            dense = np.flatnonzero((mass > NEGLIGIBLE) & np.isfinite(noise[segments.row]))
+            for row, curves in _curves(law, lines, segments, ends, dense, resolution).items():
+                count = int(np.count_nonzero(lines.row == row))
+                total[row] += information_of(curves, count, float(noise[row]), resolution.points)
+    outer = slopes[..., :, None] * slopes[..., None, :]
+    single = np.where(probability[..., None, None] > NEGLIGIBLE, outer, 0.0)
+    single /= np.maximum(probability, NEGLIGIBLE)[..., None, None]
+    outcome = single.sum(axis=1)
+    total = np.where(np.isfinite(noise)[:, None, None], total + single[:, _STICK], outcome)
+    return Information(total, outcome, probability)
+
+
+def _curves(
+    law: BoundLaw,
+    lines: Lines,
+    segments: Segments,
+    ends: tuple[np.ndarray, np.ndarray],
+    which: np.ndarray,
+    resolution: Resolution,
+) -> dict[int, list[Curve]]:
+    """Row -> the restitution on those of its segments that are among `which`."""
+    kinds = (segments.from_change[which] + 2 * segments.to_change[which]).tolist()
+    counts = [resolution.nodes * 3 // 2 if kind else resolution.nodes for kind in kinds]
+    if not counts:
+        return {}
+    nodes = [segment_map(kind, count, resolution.points).at_nodes for kind, count in zip(kinds, counts, strict=True)]
+    g, segment = np.concatenate(nodes), np.repeat(which, counts)
+    line, y = segments.line[segment], segments.low[segment] + (segments.high - segments.low)[segment] * g
+    found = law.results((_NOISE,), lines.row[line], *lines.at(line, y))
+    by_speed, by_angle = lines.slopes(line, y)
+    by_y = found.speed[0] * by_speed + found.angle[0] * by_angle
+    slope = found.free[0] + by_y[:, None] * (ends[0][segment] * (1 - g)[:, None] + ends[1][segment] * g[:, None])
+    curves: dict[int, list[Curve]] = {}
+    first = 0
+    for k, kind, count in zip(which.tolist(), kinds, counts, strict=True):
+        own = slice(first, first + count)
+        first += count
+        if np.isfinite(found.value[0, own]).all():  # every trajectory on the way was completed
+            span = np.array([segments.low[k], segments.high[k]]), np.stack([ends[0][k], ends[1][k]])
+            number = int(segments.line[k]) - int(np.searchsorted(lines.row, segments.row[k]))
+            curve = Curve(kind, count, number, *span, found.value[0, own], slope[own])
+            curves.setdefault(int(segments.row[k]), []).append(curve)
+    return curves

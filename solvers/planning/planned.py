@@ -1,0 +1,178 @@
+"""Planned impacts, and what they will tell."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+from ..fitting.free_entries import FreeEntries
+from ..fitting.measurements import Measurements
+from ..scene.scene import Scene
+from .information import FINEST, Information, information
+from .search import Found
+from .window import Window
+
+if TYPE_CHECKING:
+    import xarray
+
+_QUANTILE = 1.959963984540054
+_ALONG, _ACROSS = 56, 40  # impacts of a map
+
+
+@dataclass(frozen=True)
+class Impact:
+    """A planned impact.
+
+    Attributes:
+        count: how often it is repeated.
+        stokes, speed: normal Stokes number and speed (m/s).
+        relative_speed: magnitude of the relative velocity, m/s.
+        angle: rad.
+        probability: of stick, stick-rotate-separate and bounce.
+    """
+
+    count: int
+    stokes: float
+    speed: float
+    relative_speed: float
+    angle: float
+    probability: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Expected:
+    """What will be known of an entry: standard deviation on the scale of the fit, 95 % interval (None: open), SI."""
+
+    sd: float
+    low: float | None
+    high: float | None
+
+
+@dataclass(frozen=True)
+class Planned:
+    """Planned impacts, and what they will tell.
+
+    Attributes:
+        impacts: by angle and speed.
+        expected: of each free entry with these impacts and what was known before.
+        before: the same without the impacts.
+        against_grid: expected interval (in the logarithm for entries that vary so) over that of as many impacts evenly
+            over the window, `grid` by `grid` of them.
+        efficiency: least ratio of the criterion to that of any other choice among the candidates: of the volume's
+            root for all entries, of the interval for one.
+        target: the entry that matters; None for all.
+        draws: values of the entries for which the impacts are the best on average.
+        candidates: impacts among which they were chosen.
+        given: the scene as it was given, whose units are shown.
+        points: (distinct impacts, 2), in the window: logarithm of the speed, and angle, 0 to 1.
+    """
+
+    window: Window
+    free: FreeEntries
+    values: np.ndarray
+    impacts: tuple[Impact, ...]
+    expected: Mapping[str, Expected]
+    before: Mapping[str, Expected]
+    against_grid: Mapping[str, float]
+    grid: int
+    efficiency: float
+    target: str | None
+    draws: int
+    candidates: int
+    points: np.ndarray
+    rtol: float
+    given: Scene
+
+    @classmethod
+    def of(
+        cls, window: Window, free: FreeEntries, values: np.ndarray, before: np.ndarray, found: Found,
+        target: str | None, size: int, rtol: float, draws: int, given: Scene,
+    ) -> Self:  # fmt: skip
+        """Make the result of what was found, by the information at the given values."""
+        order = np.lexsort((found.points[:, 0], found.points[:, 1]))
+        points, counts = found.points[order], found.counts[order]
+        rates = np.outer(free.rates(values), free.rates(values))
+        weak = np.diag((2.0 / (free.high - free.low)) ** 2)
+        own = information(window.scene, free.names, values, window.plan(points), rtol, FINEST)
+        side = max(1, round(math.sqrt(size)))
+        even = window.grid(side, side)
+        others = information(window.scene, free.names, values, window.plan(even), rtol, FINEST).total.sum(axis=0)
+        spread = _spread(before + weak + rates * np.einsum("c,cij->ij", counts, own.total))
+        by_grid = _spread(before + weak + rates * others * size / len(even))
+        grows = free.size if target is None else 2
+        return cls(
+            window, free, values, _impacts(window, points, counts, own),
+            _expected(free, values, spread), _expected(free, values, _spread(before + weak)),
+            dict(zip(free.names, (spread / by_grid).tolist(), strict=True)), side,
+            math.exp((found.value - found.bound) / grows), target, draws, found.candidates, points, rtol, given,
+        )  # fmt: skip
+
+    @property
+    def size(self) -> int:
+        """Number of impacts."""
+        return sum(each.count for each in self.impacts)
+
+    def plan(self) -> Measurements:
+        """The impacts as rows of measurements without observations, as `fit` and synthetic data take them."""
+        return self.window.plan(np.repeat(self.points, [each.count for each in self.impacts], axis=0))
+
+    def map(self, along: int = _ALONG, across: int = _ACROSS) -> xarray.Dataset:
+        """What a single impact tells of each entry over the window, in the variables of the fit (logarithms).
+
+        Arguments:
+            along, across: number of speeds and angles.
+
+        Returns:
+            Dataset over entry, angle and speed (by the window's name): `information`, and `by_outcome`, what the
+            outcome alone tells.
+        """
+        import xarray as xr
+
+        points = self.window.grid(along, across)
+        found = information(self.window.scene, self.free.names, self.values, self.window.plan(points), self.rtol)
+        key, angle = self.window.values(points)
+        shape = np.unique(points[:, 1]).size, np.unique(points[:, 0]).size
+        squares = self.free.rates(self.values) ** 2
+        dims = ("entry", "angle", self.window.key)
+
+        def of(each: np.ndarray) -> Any:
+            diagonal = np.einsum("cii->ic", each) * squares[:, None]
+            return dims, diagonal.reshape(-1, *shape), {"units": "1"}
+
+        return xr.Dataset(
+            {"information": of(found.total), "by_outcome": of(found.outcome)},
+            coords={"entry": list(self.free.names), "angle": angle.reshape(shape)[:, 0],
+                    self.window.key: key.reshape(shape)[0]},
+            attrs={"name": self.window.scene.name},
+        )  # fmt: skip
+
+
+def _spread(total: np.ndarray) -> np.ndarray:
+    found: np.ndarray = np.sqrt(np.diag(np.linalg.inv(total)))
+    return found
+
+
+def _expected(free: FreeEntries, values: np.ndarray, spread: np.ndarray) -> dict[str, Expected]:
+    """Intervals to first order; open where they would end beyond the range of a search."""
+    found = {}
+    columns = zip(free.entries, values.tolist(), spread.tolist(), free.low, free.high, strict=True)
+    for each, value, sd, low, high in columns:
+        inner = each.inner(value)
+        ends = inner - _QUANTILE * sd, inner + _QUANTILE * sd
+        known = 2 * _QUANTILE * sd < high - low
+        below = each.outer(ends[0]) if known and ends[0] > low else None
+        found[each.name] = Expected(sd, below, each.outer(ends[1]) if known and ends[1] < high else None)
+    return found
+
+
+def _impacts(window: Window, points: np.ndarray, counts: np.ndarray, own: Information) -> tuple[Impact, ...]:
+    plan = window.plan(points)
+    normal = plan.speed * np.cos(plan.angle) if plan.relative else plan.speed
+    return tuple(
+        Impact(int(count), window.scene.stokes_of(speed), speed, speed / math.cos(angle), angle, tuple(share))
+        for count, speed, angle, share in zip(counts, normal.tolist(), plan.angle.tolist(), own.probability.tolist())
+    )

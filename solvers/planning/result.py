@@ -1,0 +1,123 @@
+"""The result of `design`, shown and written."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from ..fitting.shown import in_unit, interval
+from ..scene.origin import origin
+from .planned import Planned
+
+
+@dataclass(frozen=True)
+class Design(Planned):
+    """The result of `design`: planned impacts, what they will tell, and how that is shown and written.
+
+    `impacts` are the planned ones, `expected` and `before` the intervals of the entries with and without them,
+    `against_grid` their lengths beside those of an even grid. The attributes are listed at `Planned`.
+
+    Example:
+        >>> from wetdoublet.solvers import design
+        >>> found = design("granulation", "liquid.viscosity", {"stokes": (0.05, 0.3), "angle": 0.0}, 3)
+        >>> sum(each.count for each in found.impacts)
+        3
+    """
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object of `wetdoublet design --json`."""
+        scatter = self.window.scatter
+        return {
+            "impacts": [
+                {
+                    "count": each.count, "stokes": each.stokes, "speed": each.speed,
+                    "relative_speed": each.relative_speed, "angle": each.angle,
+                    "probability": dict(zip(("stick", "stick-rotate-separate", "bounce"), each.probability)),
+                }
+                for each in self.impacts
+            ],
+            "expected": {name: asdict(each) for name, each in self.expected.items()},
+            "before": {name: asdict(each) for name, each in self.before.items()},
+            "against_grid": dict(self.against_grid),
+            "grid": self.grid,
+            "efficiency": self.efficiency,
+            "for": self.target,
+            "draws": self.draws,
+            "candidates": self.candidates,
+            "scatter": {"speed": scatter.speed, "angle": scatter.angle, "restitution": scatter.restitution},
+        } | origin(self.window.scene)  # fmt: skip
+
+    def to_csv(self) -> str:
+        """A row for each impact in the form that `fit` reads, its observations empty."""
+        scatter, relative = self.window.scatter, self.window.key == "relative_speed"
+        name = "relative_speed" if relative else "speed"
+        file = io.StringIO()
+        writer = csv.writer(file, lineterminator="\n")
+        head = [f"{name} [m/s]", f"{name}_sd [m/s]", "angle [deg]", "angle_sd [deg]", "outcome"]
+        measured = scatter.restitution is not None
+        writer.writerow(head + (["restitution", "restitution_sd"] if measured else []))
+        for each in self.impacts:
+            speed = each.relative_speed if relative else each.speed
+            row = [f"{speed:.6g}", f"{scatter.speed * speed:.3g}", f"{math.degrees(each.angle):.4f}"]
+            row += [f"{math.degrees(scatter.angle):.4g}", ""]
+            writer.writerows([row + (["", f"{scatter.restitution:.4g}"] if measured else [])] * each.count)
+        return file.getvalue()
+
+    def __str__(self) -> str:
+        scene, scatter = self.given, self.window.scatter
+        names = self.free.names if self.target is None else (self.target,)
+        title = f"{self.size} impacts for {', '.join(names)}"
+        rows = [("times", "St", "speed", "angle", "S / SRS / B")]
+        for each in self.impacts:
+            shares = " / ".join(f"{share:.0%}" for share in each.probability)
+            angle = f"{math.degrees(each.angle):.1f} deg"
+            rows.append((f"{each.count}", f"{each.stokes:.4g}", f"{each.speed:.4g} m/s", angle, shares))
+        entries = [("entry", "expected 95 % interval", "before", f"beside a {self.grid} x {self.grid} grid")]
+        for name, expected in self.expected.items():
+            before = self.before[name]
+            entries.append((
+                name, interval(scene, name, expected.low, expected.high),
+                interval(scene, name, before.low, before.high),
+                f"{self.against_grid[name]:.2f} of its interval",
+            ))  # fmt: skip
+        noise = "outcomes only" if scatter.restitution is None else f"restitution to {scatter.restitution:.3g}"
+        values = zip(self.free.names, self.values.tolist(), strict=True)
+        now = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
+        averaged = f", averaged over {self.draws} draws" if self.draws > 1 else ""
+        scattered = f"scatter {scatter.speed:.3g} of the speed, {math.degrees(scatter.angle):.3g} deg; {noise}"
+        share = math.floor(100 * self.efficiency)
+        said = [
+            f"Planned for {now}{averaged}; {scattered}.",
+            f"At least {share} % as good as any other {self.size} of {self.candidates} candidates.",
+        ]
+        return "\n".join([title, "", *_columns(rows), "", *_columns(entries), "", *said])
+
+    def _repr_html_(self) -> str:
+        from ..formatting.notebook import view
+
+        rows = [
+            [str(each.count), f"{each.stokes:.4g}", f"{each.speed:.4g} m/s", f"{math.degrees(each.angle):.1f} deg"]
+            for each in self.impacts
+        ]
+        return view(f"design of {self.size} impacts", rows, ["times", "St", "speed", "angle"])
+
+    def plot(self, path: str | Path | None = None) -> Any:
+        """Draw what single impacts tell over the window, and the planned ones; returns the matplotlib Figure.
+
+        Arguments:
+            path: file to write (.png, .pdf or .svg); None only draws.
+        """
+        from ..host.pictures import saved
+        from .plot import draw
+
+        return saved(lambda: draw(self), path)
+
+
+def _columns(rows: Sequence[tuple[str, ...]]) -> list[str]:
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return ["  ".join(cell.ljust(size) for cell, size in zip(row, widths, strict=True)).rstrip() for row in rows]

@@ -1,0 +1,135 @@
+"""Designs: the search against theory, a design against random ones, what is refused, and the table to fill in."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import Design, InputError, Scene, design
+from wetdoublet.solvers.fitting.data import read_data
+from wetdoublet.solvers.planning.information import information
+from wetdoublet.solvers.planning.search import Criterion, search
+
+from ...helpers.command import run
+
+FREE = ["liquid.viscosity", "liquid.film_thickness"]
+OVER = {"stokes": (0.06, 0.3), "angle": "30 deg"}
+
+
+@pytest.fixture(scope="module")
+def found() -> Design:
+    return design("granulation", FREE, OVER, 6)
+
+
+def regression(points: np.ndarray) -> np.ndarray:
+    """Information of a quadratic regression on the first coordinate, for one draw."""
+    x = np.stack([np.ones(len(points)), 2 * points[:, 0] - 1, (2 * points[:, 0] - 1) ** 2], axis=1)
+    return (x[:, :, None] * x[:, None, :])[None]
+
+
+def test_quadratic_regression_is_measured_at_its_ends_and_middle() -> None:
+    """The D-optimal design of a quadratic on an interval has a third of its points at either end and the middle."""
+    first = np.column_stack([np.linspace(0, 1, 8), np.zeros(8)])  # without the middle
+    made = search(regression, 1e-9 * np.eye(3)[None], Criterion(None), 9, first, 1 / 7)
+    order = np.argsort(made.points[:, 0])
+    assert made.points[order, 0] == pytest.approx([0, 0.5, 1], abs=0.02)
+    assert made.counts[order].tolist() == [3, 3, 3]
+    assert made.value == pytest.approx(made.bound, abs=1e-2)
+
+
+def test_curvature_is_measured_half_in_the_middle() -> None:
+    """For the quadratic coefficient alone: a quarter at either end, half in the middle (Elfving)."""
+    first = np.column_stack([np.linspace(0, 1, 9), np.zeros(9)])
+    made = search(regression, 1e-6 * np.eye(3)[None], Criterion(2), 8, first, 1 / 8)
+    order = np.argsort(made.points[:, 0])
+    assert made.points[order, 0] == pytest.approx([0, 0.5, 1], abs=0.02)
+    assert made.counts[order].tolist() == [2, 4, 2]
+
+
+def test_a_design_beats_random_ones(found: Design) -> None:
+    """The determinant of its information is larger than that of any of 20 random designs in the window."""
+    scene = Scene.load("granulation")
+    values = np.array([scene.entries[name] for name in FREE])
+    random = np.random.default_rng(0)
+    others = found.window.plan(np.column_stack([random.random(120), np.zeros(120)]))
+    single = information(scene, tuple(FREE), values, others).total * np.outer(values, values)
+    of_random = np.linalg.slogdet(1e-3 * np.eye(2) + single.reshape(20, 6, 2, 2).sum(axis=1))[1]
+    own = information(scene, tuple(FREE), values, found.plan()).total.sum(axis=0) * np.outer(values, values)
+    assert np.linalg.slogdet(own)[1] > of_random.max()
+    assert found.efficiency > 0.9
+    assert found.size == 6
+
+
+def test_a_prior_is_known_before() -> None:
+    """Without impacts an entry is known as its prior says; draws come from it; the named entry is told best."""
+    made = design("granulation", FREE[:1], {"stokes": (0.06, 0.3), "angle": 0.0}, 2,
+                  target=FREE[0], prior={FREE[0]: "2 Pa s +- 10 %"}, draws=2)  # fmt: skip
+    assert made.before[FREE[0]].sd == pytest.approx(0.1, rel=1e-3)
+    assert made.expected[FREE[0]].sd < 0.1
+    assert made.draws == 2
+
+
+def test_the_table_is_what_a_fit_reads(found: Design, tmp_path: Path) -> None:
+    """Filled in, it is read with the speeds, angles and scatter that were planned."""
+    lines = found.to_csv().splitlines()
+    filled = [lines[0], *(line.replace(",,,0.02", ",bounce,0.4,0.02") for line in lines[1:])]
+    file = tmp_path / "plan.csv"
+    file.write_text("\n".join(filled))
+    data, plan = read_data(file, Scene.load("granulation")), found.plan()
+    assert data.speed == pytest.approx(plan.speed, rel=1e-5)
+    assert data.angle == pytest.approx(plan.angle, abs=1e-5)
+    assert data.speed_sd == pytest.approx(plan.speed_sd, rel=1e-2)
+    assert (data.outcome == 2).all()
+
+
+def test_the_table_shows_the_impacts(found: Design) -> None:
+    """A row for each distinct impact, the expected intervals, and what the design is compared with."""
+    text = str(found)
+    assert text.startswith("6 impacts for liquid.viscosity, liquid.film_thickness")
+    assert all(f"{each.stokes:.4g}" in text for each in found.impacts)
+    assert "beside a 2 x 2 grid" in text
+    assert sum(each["count"] for each in found.to_dict()["impacts"]) == 6
+
+
+@pytest.mark.parametrize(
+    ("changes", "field"),
+    [
+        ({"free": []}, "free"),
+        ({"free": ["liquid.viscosty"]}, "free"),
+        ({"free": ["bridge.contact_angle"], "over": {"stokes": (1e-4, 2e-4), "angle": 0.0}, "n": 1}, "free"),
+        ({"over": {"stokes": (0.1, 0.2)}}, "over"),
+        ({"over": {"stokes": (0.2, 0.1), "angle": 0.0}}, "over stokes"),
+        ({"over": {"stokes": (0.1, 0.2), "angle": (0.0, 1.6)}}, "over angle"),
+        ({"over": {"stoke": (0.1, 0.2), "angle": 0.0}}, "over"),
+        ({"over": {"stokes": 0.1, "speed": 1.0, "angle": 0.0}}, "over"),
+        ({"n": 0}, "n"),
+        ({"target": "particles.roughness"}, "target"),
+        ({"draws": 4}, "draws"),
+        ({"speed_sd": "40 %"}, "speed_sd"),
+        ({"speed_sd": 0, "angle_sd": 0}, "speed_sd"),
+        ({"angle_sd": "40 deg"}, "angle_sd"),
+        ({"restitution_sd": 0}, "restitution_sd"),
+        ({"prior": {"particles.roughness": "1 um +- 10 %"}}, "prior"),
+    ],
+)  # fmt: skip
+def test_what_is_refused(changes: dict[str, Any], field: str) -> None:
+    """A wrong argument is named, and so is an entry on which nothing in the window depends."""
+    asked: dict[str, Any] = {"scene": "granulation", "free": FREE, "over": OVER, "n": 4} | changes
+    with pytest.raises(InputError) as error:
+        design(**asked)
+    assert error.value.field == field
+
+
+def test_the_command_says_the_same() -> None:
+    """`wetdoublet design --json` has the impacts and intervals of `design`; a wrong option is named as it is typed."""
+    window = ["--over", "stokes=0.06:0.3,angle=0", "--restitution-sd", "none"]
+    told = json.loads(run("design", "granulation", "--free", FREE[0], *window, "-n", 3, "--json").stdout)
+    made = design("granulation", FREE[:1], {"stokes": (0.06, 0.3), "angle": 0.0}, 3, restitution_sd="none")
+    assert told["impacts"] == made.to_dict()["impacts"]
+    assert told["expected"][FREE[0]] == made.to_dict()["expected"][FREE[0]]
+    refused = run("design", "granulation", "--free", "liquid.viscosty", *window)
+    assert refused.exit_code == 2
+    assert refused.stderr.startswith('--free: "liquid.viscosty" is not known, did you mean liquid.viscosity?')

@@ -1,0 +1,89 @@
+"""The information of planned impacts: what the likelihood of a fit, or a closed form, says it is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+from wetdoublet.solvers import Scene, boundary
+from wetdoublet.solvers.fitting.likelihood import Likelihood, Resolution
+from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
+from wetdoublet.solvers.planning.information import information
+
+NOISE = 0.03
+
+
+def planned(scene: Scene, stokes: list[float], degrees: list[float], speed_sd: float, angle_sd: float) -> Measurements:
+    """Impacts with restitution to be measured, scatter relative and in degrees."""
+    speed, size = np.array(stokes) / scene.stokes_per_speed, len(stokes)
+    return Measurements(
+        speed, np.radians(degrees), speed_sd * speed, np.full(size, np.radians(angle_sd)), np.full(size, UNKNOWN),
+        {"restitution": (np.full(size, np.nan), np.full(size, NOISE))},
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("preset", "stokes", "degrees", "names"),
+    [
+        ("pendulum", 1.5, 20.0, ("liquid.film_thickness", "liquid.viscosity")),  # stick or bounce
+        ("granulation", 0.12, 45.0, ("liquid.film_thickness", "liquid.viscosity")),  # bounce or stick-rotate-separate
+    ],
+)
+def test_information_is_the_covariance_of_the_score(
+    preset: str, stokes: float, degrees: float, names: tuple[str, ...]
+) -> None:
+    """Summed over the outcomes, and over a fine grid of measured restitutions, by the likelihood of the fit itself."""
+    scene = Scene.load(preset)
+    plan = planned(scene, [stokes], [degrees], 0.03, 0.5)
+    values = np.array([scene.entries[name] for name in names])
+    step = NOISE / 2
+    seen = np.arange(-5 * NOISE, 1.6, step)
+    rows = plan.part(np.zeros(1 + 2 * seen.size, int))
+    measured = np.concatenate([[np.nan], seen, seen])
+    outcome = np.concatenate([[0], np.full(seen.size, 1), np.full(seen.size, 2)])
+    data = replace(rows, outcome=outcome, observed={"restitution": (measured, rows.observed["restitution"][1])})
+    likelihood = Likelihood(scene, names, data)
+    likelihood.direction[:] = 0.0  # along the speeds
+    found = likelihood(values, Resolution(lines=15, points=256, quick=False))
+    assert found is not None
+    weight = np.exp(found.plain) * np.where(outcome == 0, 1.0, step)
+    score = found.scores * values
+    assert weight.sum() == pytest.approx(1, abs=1e-4)
+    expected = (score * weight[:, None]).T @ score
+    told = information(scene, names, values, plan).total[0] * np.outer(values, values)
+    assert told == pytest.approx(expected, rel=0.02, abs=0.01 * np.trace(expected) / 2)
+
+
+def test_an_outcome_tells_what_the_boundary_says() -> None:
+    """Head-on, with scatter in the speed alone: p = Phi((v - v*)/sd), and p'^2/(p (1 - p)) is known in closed form."""
+    scene, name = Scene.load("granulation"), "liquid.viscosity"
+    mu = float(scene.entries[name])
+
+    def critical(viscosity: float) -> float:
+        changed = scene.with_si({name: viscosity})
+        [line] = boundary(changed, angle=[0.0]).changes
+        return line[0].stokes / changed.stokes_per_speed
+
+    h = 1e-4 * mu
+    rate, middle = (critical(mu + h) - critical(mu - h)) / (2 * h), critical(mu)
+    plan = planned(scene, [0.112, 0.118], [0.0, 0.0], 0.03, 0.0)
+    z = (plan.speed - middle) / plan.speed_sd
+    expected = (norm.pdf(z) / plan.speed_sd * rate) ** 2 / (norm.cdf(z) * norm.sf(z))
+    found = information(scene, (name,), np.array([mu]), plan)
+    assert found.outcome[:, 0, 0] == pytest.approx(expected, rel=1e-3)
+    assert found.probability[:, 2] == pytest.approx(norm.cdf(z), abs=1e-5)
+    assert (found.total[:, 0, 0] > found.outcome[:, 0, 0]).all()
+
+
+def test_far_from_a_boundary_restitution_tells_its_derivative() -> None:
+    """Scatter much smaller than the noise: the information is (de_n/dp)^2/(noise^2 + spread^2)."""
+    from wetdoublet.solvers import sensitivities
+
+    scene, name = Scene.load("pendulum"), "liquid.film_thickness"
+    plan = planned(scene, [2.5], [20.0], 1e-4, 0.0)
+    slope = sensitivities(scene, ["restitution"], [name], speed=float(plan.speed[0]), angle=float(plan.angle[0]))
+    found = information(scene, (name,), np.array([scene.entries[name]]), plan)
+    assert found.total[0, 0, 0] == pytest.approx((slope.gradient["restitution"][name] / NOISE) ** 2, rel=1e-3)
+    assert found.outcome[0, 0, 0] == pytest.approx(0, abs=1e-6 * found.total[0, 0, 0])
