@@ -21,7 +21,8 @@ ORDER = (
     "derive.vocabulary", "derive.physics", "derive.equations", "derive.user_model", "derive.user", "derive.checks",
     "derive.emit", "generated", "solvers.errors", "solvers.host", "solvers.formatting", "solvers.scene",
     "solvers.settings", "solvers.model", "solvers.certificates", "solvers.engines", "solvers.collision", "solvers.many",
-    "solvers.space", "solvers.boundaries", "solvers.sensitivity", "solvers.verify", "solvers.export", "solvers.paper",
+    "solvers.space", "solvers.boundaries", "solvers.sensitivity", "solvers.verify", "solvers.export", "solvers.tables",
+    "solvers.paper",
     "solvers.commands", "solvers", "solvers.package", "solvers.__main__",
 )  # fmt: skip
 

@@ -57,7 +57,7 @@ class Layout:
         return tuple(panel.labels for panel in self.panels)
 
     def boundary(self, which: int, k: int, angle: np.ndarray) -> np.ndarray:
-        """ln St of boundary k of a panel at angles; NaN where it is not found."""
+        """Logarithms of St of boundary k of a panel at angles; NaN where it is not found."""
         panel, plane = self.panels[which], self.plane
         arc = panel.arcs[k]
         low, high = panel.labels[k], panel.labels[k + 1]
@@ -127,7 +127,7 @@ def _panels(plane: Collisions, regions: list) -> list[Panel]:
 
 
 def _traced(plane: Collisions) -> list[tuple[np.ndarray, int, int]]:
-    """Changes of outcome on seed lines, with the signatures on both sides: narrow strips that a lattice does not show."""
+    """Changes of outcome on seed lines, with signatures on both sides: narrow strips that a lattice does not show."""
     angles = np.linspace(*plane.span, _LINES)
     found = trace(plane.scene, angles, plane.stokes, plane.rtol)
     places = [

@@ -96,7 +96,7 @@ def fit(forest: Forest, sample: Sample, order: Order, seed: int = 0) -> int:
 
 
 def _checks(random: np.random.Generator, patches: int, count: int) -> np.ndarray:
-    """Places of checks in each patch, denser towards its edges, where a series is least accurate; its corners among them."""
+    """Places of checks in each patch, denser towards its edges, where a series is least accurate, and its corners."""
     free = 0.5 - 0.5 * np.cos(np.pi * random.random((patches, count, 2)))
     corners = np.array([(x, z) for x in (_CORNER, 1 - _CORNER) for z in (_CORNER, 1 - _CORNER)])
     edges = np.where(random.random((patches, 4, 1)) < 0.5, _CORNER, 1 - _CORNER)

@@ -1,7 +1,7 @@
 """Coordinates across a cell that undo the singularities at its ends: square roots and logarithms.
 
-A cell is an interval between two boundaries (or two ends of an angle panel), w in 0..1. The coordinate s of its series is
-g(w) from 0 to 1, where g is w, or a sum of sqrt(w) or ln(w) for the lower end and of -sqrt(1 - w) or -ln(1 - w) for the
+A cell is an interval between two boundaries (or two ends of an angle panel), w in 0..1. The coordinate s of its series
+is g(w) scaled to 0..1, where g is w, or a sum of sqrt(w) or ln(w) for the lower end and of -sqrt(1 - w) or -ln(1 - w) for the
 upper one.
 """
 
@@ -59,7 +59,7 @@ def _raw(low: np.ndarray, high: np.ndarray, w: np.ndarray) -> tuple[np.ndarray, 
 
 
 def inverse(code: int, s: np.ndarray, least: np.ndarray | float) -> np.ndarray:
-    """w of a coordinate s, by bisection."""
+    """The place w of a coordinate s, by bisection."""
     if code == 0:
         return s
     low, high = np.full(s.shape, -_LOGIT), np.full(s.shape, _LOGIT)

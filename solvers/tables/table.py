@@ -17,9 +17,10 @@ from ..many.batch import checked_numbers, checked_vary
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import RTOL, check_rtol
-from .attack import Attack, attack
+from .attack import Attack
+from .attack import attack as attacked
 from .build import Builder
-from .data import Data
+from .law import ANGLE, STOKES, Law
 from .read import read
 from .slices import Range, Slicer
 
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
 RESULTS = ("restitution", "tangential_restitution", "rotation")
 """Results that a table may have."""
 ATTACK = 1_000_000  # default number of queries
-STOKES, ANGLE = "impact.stokes", "impact.angle"
 _SHORT = {"stokes": STOKES, "angle": ANGLE}
 _FINEST, _COARSEST = 1e-7, 0.1
 _DOUBLE_BELOW = 1e-5  # error below which results are kept in double precision
@@ -40,17 +40,8 @@ _ACCEPTED = '{"stokes": (LO, HI), "angle": (LO, HI)}, and at most one other nume
 
 
 @dataclass(frozen=True)
-class Table:
-    """A collision law as a table, as `table` returns it.
-
-    Attributes:
-        scene: the scene.
-        of: results.
-        range: ranges of the variables.
-        error: largest error that it states, over the magnitude of a result where that is above 1.
-        found: what the attack found: number of `queries`, `largest` error and where.
-        rtol: relative tolerance of the collisions.
-        data: its arrays.
+class Table(Law):
+    """A collision law as a table, as `table` returns it; its attributes are those of `Law`.
 
     Example:
         >>> from wetdoublet.solvers import table
@@ -58,19 +49,6 @@ class Table:
         >>> law([0.02, 0.3], 0.25).outcome.values
         array([0, 2])
     """
-
-    scene: Scene
-    of: tuple[str, ...]
-    range: Range
-    error: float
-    found: Attack
-    rtol: float
-    data: Data
-
-    @property
-    def variables(self) -> tuple[str, ...]:
-        """Dotted names of the variables."""
-        return (STOKES, ANGLE) + (() if self.range.third is None else (self.range.third,))
 
     def __call__(self, stokes: Any, angle: Any, third: Any = None, slopes: bool = False) -> xarray.Dataset:
         """Outcome and results at impacts.
@@ -128,7 +106,7 @@ class Table:
         """Read a table that `save` has written as NetCDF. InputError if the file is none."""
         from .store import load
 
-        return load(path)
+        return cls(**vars(load(path)))
 
     def plot(self, path: str | FilePath | None = None) -> Any:
         """Draw restitution, boundaries and patches; returns the matplotlib Figure.
@@ -202,7 +180,7 @@ def _made(
         builder = Builder(slicer.signatures, of, tolerance, lambda k: tell(f"{k} panels"))
         slicer.fill(builder)
         data = builder.data(*ranges.corners, ranges.logarithmic, np.float64 if error < _DOUBLE_BELOW else np.float32)
-        found = attack(data, scene, ranges.third, of, error, rtol, count, attempt + 1,
+        found = attacked(data, scene, ranges.third, of, error, rtol, count, attempt + 1,
                        lambda k: tell(f"{k} queries"))  # fmt: skip
         if not found.failed:
             return Table(scene, of, ranges, error, found, rtol, data)
@@ -268,5 +246,7 @@ def _check_supported(scene: Scene, ranges: Range) -> None:
         raise InputError("SCENE", scene.name, "a model without declared events", "has events of its own")
     bound = scene.bridge is not None or scene.pendulum is not None or scene.attraction is not None
     if not bound and ranges.angle[0] < _LEAST_UNBOUND:
-        raise InputError(ANGLE, ranges.angle[0], f"an angle of at least {_LEAST_UNBOUND:g} rad, as nothing holds the "
-                         "particles together and e_n falls to 0 head-on with a power of the angle", "is too small")  # fmt: skip
+        accepted = (
+            f"an angle of at least {_LEAST_UNBOUND:g} rad: without attraction e_n falls to 0 towards head-on impact"
+        )
+        raise InputError(ANGLE, ranges.angle[0], accepted, "is too small")

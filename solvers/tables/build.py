@@ -201,6 +201,7 @@ class Builder:
             low, high, logarithmic, np.array(self.slices), np.array(self.first_panel, dtype=np.int32),
             np.array(self.cuts, dtype=np.int32).reshape(-1, 2), np.array(self.maps, dtype=np.int8),
             np.array(self.first_edge, dtype=np.int32), np.array(self.edges, dtype=np.int32),
-            outcome, criterion, cell_map, root, np.array([0.0 if name == "restitution" else np.nan for name in self.of]),
+            outcome, criterion, cell_map, root,
+            np.array([0.0 if name == "restitution" else np.nan for name in self.of]),
             self.shapes.trees(), self.values.trees(kind),
         )  # fmt: skip

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from .data import Data
+from .maps import forward
+from .read import read
 
 _NEAREST, _FARTHEST = -9.0, -1.5  # decimal logarithms of distances from a boundary
 
@@ -45,19 +47,17 @@ def _cuts(data: Data, third: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     first, last = data.first_panel[part], data.first_panel[part + 1]
     most, none = int((last - first).max(initial=1)), np.zeros(third.size)
     places = [data.shapes.values(data.cuts[first, 0], t, none, none)[0][:, 0]]
-    for k in range(most):
-        places.append(data.shapes.values(data.cuts[np.minimum(first + k, last - 1), 1], t, none, none)[0][:, 0])
+    ends = (data.cuts[np.minimum(first + k, last - 1), 1] for k in range(most))
+    places += [data.shapes.values(end, t, none, none)[0][:, 0] for end in ends]
     return np.array(places), last - first + 1
 
 
 def heights(data: Data, third: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """ln St of the boundaries at angles, with both ends of the range (boundaries x n, padded), and their number."""
-    from .read import read
-
+    """Logarithms of St of the boundaries at angles, with both ends of the range (boundaries x n, padded), and their number."""
     none = np.zeros(angle.size)
     panel = read(data, third, angle, none + data.low[2]).panel
-    part, t = _slice(data, third)
-    x = coordinate(data, part, t, panel, angle)
+    t = _slice(data, third)[1]
+    x = coordinate(data, t, panel, angle)
     first, last = data.first_edge[panel], data.first_edge[panel + 1]
     places = [none + data.low[2], none + data.high[2]]
     for k in range(int((last - first).max(initial=0))):
@@ -68,10 +68,8 @@ def heights(data: Data, third: np.ndarray, angle: np.ndarray) -> tuple[np.ndarra
     return np.array(places), last - first + 2
 
 
-def coordinate(data: Data, part: np.ndarray, t: np.ndarray, panel: np.ndarray, angle: np.ndarray) -> np.ndarray:
+def coordinate(data: Data, t: np.ndarray, panel: np.ndarray, angle: np.ndarray) -> np.ndarray:
     """The coordinate of angles across their panels."""
-    from .maps import forward
-
     none = np.zeros(angle.size)
     low = data.shapes.values(data.cuts[panel, 0], t, none, none)[0][:, 0]
     high = data.shapes.values(data.cuts[panel, 1], t, none, none)[0][:, 0]

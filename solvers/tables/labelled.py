@@ -14,10 +14,10 @@ from .read import Read
 if TYPE_CHECKING:
     import xarray
 
-    from .table import Table
+    from .law import Law
 
 
-def answers(table: Table, columns: list[np.ndarray], said: Read, slopes: bool) -> xarray.Dataset:
+def answers(table: Law, columns: list[np.ndarray], said: Read, slopes: bool) -> xarray.Dataset:
     """The Dataset of answers at impacts."""
     along = ("collision",)
     units = ["1", "rad", *(table.scene.fields[name].unit or "1" for name in table.variables[2:])]
@@ -41,7 +41,7 @@ def answers(table: Table, columns: list[np.ndarray], said: Read, slopes: bool) -
     return labelled(variables, coordinates, {"scene": table.scene.to_toml(), "error": table.error}, axes)
 
 
-def text(table: Table) -> str:
+def text(table: Law) -> str:
     """A table in words: ranges, size, error and where the largest was found."""
     data, found = table.data, table.found
     lines = [f"table of {table.scene.name or 'a scene'}: {', '.join(table.of)}"]
@@ -60,7 +60,7 @@ def text(table: Table) -> str:
     return "\n".join(lines)
 
 
-def where(table: Table) -> str:
+def where(table: Law) -> str:
     """Where the largest error was found, in words."""
     third, angle, stokes = table.found.at
     if not table.found.largest:
