@@ -109,7 +109,7 @@ def _enter(
 
 
 def _distance(outcome: np.ndarray, values: np.ndarray, right: np.ndarray, exact: np.ndarray) -> np.ndarray:
-    """Largest error of each answer, over the magnitude of a result where that is above 1; infinite for another outcome."""
+    """Largest error of each answer, over magnitudes above 1; infinite for another outcome."""
     error = np.abs(values - exact) / np.maximum(1.0, np.abs(exact))
     error = np.where(np.isnan(exact), 0.0, error)  # undefined: of a stick, or head-on, where the table has the limit
     error = error.max(axis=-1, initial=0.0)

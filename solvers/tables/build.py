@@ -115,16 +115,19 @@ class Builder:
         panel = part.layouts[0].panels[which]
         best: tuple[float, int] = (np.inf, LINEAR)
         failure: Unresolved | None = None
+        middle = Slice(part.low, part.high, [part.layouts[len(part.layouts) // 2]])
         for code in ANGLE_MAPS if panel.arcs else (LINEAR,):
             forest = Forest(1)
             try:
-                self._edges(part, which, code, forest)
+                self._edges(middle, which, code, forest)
             except Unresolved as error:
                 failure = error
                 continue
             cost = sum(one.size for one in forest.coefficients)
             if cost < _WORTH * best[0]:
                 best = cost, code
+            if len(forest.box) == len(panel.arcs):  # a patch for each boundary: smooth
+                break
         if best[0] == np.inf and panel.arcs:
             assert failure is not None
             angle = np.degrees(panel.low + failure.place[0] * (panel.high - panel.low))
@@ -189,6 +192,8 @@ class Builder:
             cost = float(sum(one.size for one in forest.coefficients))
             if cost < _WORTH * best[0]:
                 best = cost, code
+            if len(forest.box) == len(_SLICES):  # a patch for each line: smooth
+                break
         return best[1]
 
     def data(self, low: np.ndarray, high: np.ndarray, logarithmic: bool, kind: type) -> Data:

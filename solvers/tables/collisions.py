@@ -184,7 +184,7 @@ def _at_once(recorded: Recorded) -> np.ndarray:
 
 
 def _slides(impacts: Impacts, oblique: bool, rtol: float, found: np.ndarray) -> np.ndarray:
-    """Mask of collisions with a sliding rebound: they change with the friction; those that stick or have none do not."""
+    """Mask of collisions with a sliding rebound: with a little more friction they change, others do not."""
     own = impacts.scene.particles.friction
     if own is None or not oblique:
         return np.zeros(found.size, bool)

@@ -53,7 +53,7 @@ def _cuts(data: Data, third: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def heights(data: Data, third: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Logarithms of St of the boundaries at angles, with both ends of the range (boundaries x n, padded), and their number."""
+    """Boundaries at angles as ln St, and both ends of the range (places x n, padded), and their number."""
     none = np.zeros(angle.size)
     panel = read(data, third, angle, none + data.low[2]).panel
     t = _slice(data, third)[1]

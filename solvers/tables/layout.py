@@ -20,6 +20,7 @@ _LINES, _RANDOM = 33, 4096  # seed lines, random collisions held against the cur
 _BESIDE = 1e-6  # distance in the square at which signatures beside a traced change are looked at
 _THIN = 3e-7  # rad; a narrower panel is part of its neighbour
 _FINER, _MORE, _ROUNDS = 385, 8, 3
+_LOCATED = 1e-9  # width in the square to which a boundary is located
 _REACHES = (1e-4, 1e-3, 1e-2, 0.1)  # of the search for a boundary near its polyline
 
 
@@ -70,7 +71,7 @@ class Layout:
                 break
             up = np.tile([0.0, 1.0], (left.size, 1))
             ends = np.full(left.size, low), np.full(left.size, high)
-            found[left] = crossings(plane.labels, centre[left], up, np.full(left.size, reach), *ends)[:, 1]
+            found[left] = crossings(plane.labels, centre[left], up, np.full(left.size, reach), *ends, _LOCATED)[:, 1]
         return np.log(plane.stokes[0]) + found * plane.decades
 
 

@@ -1,8 +1,8 @@
 """Coordinates across a cell that undo the singularities at its ends: square roots and logarithms.
 
 A cell is an interval between two boundaries (or two ends of an angle panel), w in 0..1. The coordinate s of its series
-is g(w) scaled to 0..1, where g is w, or a sum of sqrt(w) or ln(w) for the lower end and of -sqrt(1 - w) or -ln(1 - w) for the
-upper one.
+is g(w) scaled to 0..1, where g is w, or a sum of sqrt(w) or ln(w) for the lower end and of -sqrt(1 - w) or
+-ln(1 - w) for the upper one.
 """
 
 from __future__ import annotations

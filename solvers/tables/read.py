@@ -23,7 +23,7 @@ class Read:
         values: results (n x results); NaN for a stick.
         slopes: their derivatives by the third variable (its logarithm where the table is over that), the angle and
             ln St (3 x n x results), if asked for.
-        panel, cell: where it was found; -1 outside.
+        panel, cell, patch: where it was found; -1 outside, and no patch for a stick.
     """
 
     outcome: np.ndarray
@@ -32,6 +32,7 @@ class Read:
     slopes: np.ndarray
     panel: np.ndarray
     cell: np.ndarray
+    patch: np.ndarray
 
 
 def read(data: Data, third: np.ndarray, angle: np.ndarray, height: np.ndarray, slopes: bool = False) -> Read:
@@ -42,7 +43,7 @@ def read(data: Data, third: np.ndarray, angle: np.ndarray, height: np.ndarray, s
     outcome, criterion = np.full(size, OUTSIDE), np.full(size, -1)
     values = np.full((size, count), np.nan)
     along = np.full((3 if slopes else 0, size, count), np.nan)
-    panels, cells = np.full(size, -1), np.full(size, -1)
+    panels, cells, patches = (np.full(size, -1) for _ in range(3))
     if inside.size:
         place = _Place(data, at[:, inside], slopes)
         panels[inside], cells[inside] = place.panel, place.cell
@@ -52,10 +53,11 @@ def read(data: Data, third: np.ndarray, angle: np.ndarray, height: np.ndarray, s
         values[inside] = data.of_stick
         found, own = data.results.values(root[free], place.t[free], place.x[free], place.z[free], slopes)
         values[inside[free]] = found
+        patches[inside[free]] = data.results.patch_of(root[free], place.x[free], place.z[free])
         if slopes:
             along[:, inside] = 0.0 * data.of_stick
             along[:, inside[free]] = np.einsum("ijn,inm->jnm", place.chain[:, :, free], own)
-    return Read(outcome, criterion, values, along, panels, cells)
+    return Read(outcome, criterion, values, along, panels, cells, patches)
 
 
 class _Place:
