@@ -10,6 +10,7 @@ GROUPS = {
     "Scenes": ("Scene",),
     "Collisions": ("collide", "Collision", "collide_many", "collide_pair", "regime_map", "compile_kernels"),
     "Boundaries": ("boundary", "Boundaries", "atlas", "Atlas"),
+    "Tables": ("table", "Table"),
     "Sensitivities and uncertainty": (
         "sensitivities",
         "Sensitivities",

@@ -167,7 +167,7 @@ class Builder:
         return outcome, met, code, root
 
     def _unresolved(self, strip: Strip, k: int, code: int, label: int, error: Unresolved) -> ComputationError:
-        place = strip.place(float(error.place[0]), float(error.place[1]), k, code)
+        place = strip.place(error.place, k, code)
         return ComputationError(
             f"{self.signatures.said(label)} near {place} could not be tabulated to {self.error:g}: {error}",
             advice="leave that place out of the ranges, or ask for a larger error",

@@ -48,10 +48,13 @@ class Strip:
 
         return edge(k - 1, low), edge(k, high)
 
-    def place(self, x: float, z: float, k: int, code: int) -> str:
-        """A place in cell k, in words."""
-        angle, height = self._at(np.array([[x, z]]), len(self.layouts) // 2, k, code)[:2]
-        return f"{np.degrees(angle[0]):.6g} deg, St {np.exp(height[0]):.6g}"
+    def place(self, at: np.ndarray, k: int, code: int) -> str:
+        """A place (x, z) of cell k, and what a collision there is, in words."""
+        m = len(self.layouts) // 2
+        angle, height = self._at(at[None], m, k, code)[:2]
+        plane = self.layouts[m].plane
+        label = int(plane.at(angle, np.exp(height), ())[0][0])
+        return f"{np.degrees(angle[0]):.6g} deg, St {np.exp(height[0]):.6g} (there: {plane.signatures.said(label)})"
 
     def results(self, points: np.ndarray, k: int, code: int, only: int | None = None) -> np.ndarray:
         """Results (n x nodes x results) at points (x, z) of cell k with this map; NaN where there are none.

@@ -56,7 +56,8 @@ class Signatures:
 
     def of(self, codes: np.ndarray) -> np.ndarray:
         """Outcomes of codes, by number; -1 where the code is UNKNOWN."""
-        return np.array([*self.outcomes, -1])[codes]
+        found: np.ndarray = np.array([*self.outcomes, -1])[codes]
+        return found
 
     def said(self, code: int) -> str:
         """A signature in words."""

@@ -46,14 +46,9 @@ class Data:
     results: Trees
 
     @property
-    def third(self) -> bool:
-        """True if there is a third variable."""
-        return bool(self.slices.size > 2 or self.low[0] != 0.0 or self.high[0] != 1.0)
-
-    @property
     def bytes(self) -> int:
         """Size of the arrays in C."""
-        own = sum(getattr(self, name).nbytes for name in ("slices", "first_panel", "cuts", "maps", "first_edge",
+        own: int = sum(getattr(self, name).nbytes for name in ("slices", "first_panel", "cuts", "maps", "first_edge",
                   "edges", "outcome", "criterion", "cell_map", "root", "of_stick"))  # fmt: skip
         parts = ("axis", "cut", "child", "box", "size", "start", "coefficients")
         return own + sum(getattr(trees, name).nbytes for trees in (self.shapes, self.results) for name in parts)

@@ -24,7 +24,8 @@ def queries(data: Data, count: int, random: np.random.Generator) -> np.ndarray:
     axis = random.integers(0, 3, edge.size)
     ends = np.where(random.random(edge.size) < 0.5, data.low[axis], data.high[axis])
     at[axis, edge] = ends
-    return np.clip(at, low, high)
+    inside: np.ndarray = np.clip(at, low, high)
+    return inside
 
 
 def _beside(random: np.random.Generator, places: np.ndarray, count: np.ndarray) -> np.ndarray:
@@ -73,5 +74,6 @@ def coordinate(data: Data, t: np.ndarray, panel: np.ndarray, angle: np.ndarray) 
     none = np.zeros(angle.size)
     low = data.shapes.values(data.cuts[panel, 0], t, none, none)[0][:, 0]
     high = data.shapes.values(data.cuts[panel, 1], t, none, none)[0][:, 0]
-    found: np.ndarray = forward(data.maps[panel], np.clip((angle - low) / (high - low), 0, 1), 0.0)[0]
-    return np.clip(found, 0.0, 1.0)
+    x = forward(data.maps[panel], np.clip((angle - low) / (high - low), 0, 1), 0.0)[0]
+    found: np.ndarray = np.clip(x, 0.0, 1.0)
+    return found

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..boundaries.arcs import CHORD, Arc, monotone, refined
 from ..boundaries.continuation import crossings
-from ..boundaries.regions import apart, labelled, slabs
+from ..boundaries.regions import Slab, apart, labelled, slabs
 from ..boundaries.survey import Survey, lattice, surveyed
 from ..boundaries.trace import trace
 from .collisions import UNKNOWN, Collisions
@@ -72,7 +72,8 @@ class Layout:
             up = np.tile([0.0, 1.0], (left.size, 1))
             ends = np.full(left.size, low), np.full(left.size, high)
             found[left] = crossings(plane.labels, centre[left], up, np.full(left.size, reach), *ends, _LOCATED)[:, 1]
-        return np.log(plane.stokes[0]) + found * plane.decades
+        height: np.ndarray = np.log(plane.stokes[0]) + found * plane.decades
+        return height
 
 
 def layout_of(plane: Collisions, doubts: np.ndarray | None = None) -> Layout:
@@ -111,7 +112,7 @@ def _arcs(plane: Collisions, survey: Survey) -> list[Arc]:
     return refined(plane, [part for parts in pieces for part in parts], ascending=True)
 
 
-def _panels(plane: Collisions, regions: list) -> list[Panel]:
+def _panels(plane: Collisions, regions: list[Slab]) -> list[Panel]:
     low, high = plane.span
     found: list[Panel] = []
     for slab in regions:

@@ -28,7 +28,7 @@ def draw(table: Law) -> Figure:
     height = np.linspace(data.low[2], data.high[2], _UP)
     third = 0.5 * (data.low[0] + data.high[0])
     grid = [one.ravel() for one in np.meshgrid(angle, height)]
-    said = read(data, np.full(grid[0].size, third), *grid)
+    said = read(data, np.full(grid[0].size, third), grid[0], grid[1])
     outcome = said.outcome.reshape(_UP, _ACROSS)
     figure = Figure(figsize=(9.2, 4.6), layout="constrained")
     left, right = figure.subplots(1, 2, sharex=True, sharey=True)

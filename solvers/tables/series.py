@@ -91,7 +91,8 @@ def chebyshev(x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
 
 def nodes(count: int) -> np.ndarray:
     """Chebyshev points of the first kind in 0..1, ascending."""
-    return 0.5 - 0.5 * np.cos(np.pi * (np.arange(count) + 0.5) / count)
+    found: np.ndarray = 0.5 - 0.5 * np.cos(np.pi * (np.arange(count) + 0.5) / count)
+    return found
 
 
 def transform(count: int) -> np.ndarray:
@@ -121,9 +122,9 @@ class Forest:
     def reset(self, mark: tuple[int, ...]) -> None:
         """Take away the nodes and patches made since a mark."""
         for nodes_ in (self.axis, self.cut, self.child):
-            del nodes_[mark[0] :]  # type: ignore[attr-defined]
+            del nodes_[mark[0] :]
         for patches in (self.box, self.size, self.coefficients):
-            del patches[mark[1] :]  # type: ignore[attr-defined]
+            del patches[mark[1] :]
 
     def node(self) -> int:
         """A new node; `divide` or `leaf` says what it is."""

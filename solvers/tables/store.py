@@ -141,7 +141,7 @@ def load(path: str | Path) -> Law:
     attack = Attack(int(said["attack_queries"]), float(said["largest_error_found"]), (third, angle, stokes),
                     int(said["attack_direct"]))  # fmt: skip
     trees = [
-        Trees(*(found[f"{prefix}_{name}"].values for name in _TREES), count)
+        Trees(**{name: found[f"{prefix}_{name}"].values for name in _TREES}, results=count)
         for prefix, count in (("shape", 1), ("result", len(of)))
     ]
     data = Data(*ranges.corners, ranges.logarithmic, *(found[name].values for name in _OWN), *trees)
