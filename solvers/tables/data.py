@@ -48,7 +48,8 @@ class Data:
     @property
     def bytes(self) -> int:
         """Size of the arrays in C."""
-        own: int = sum(getattr(self, name).nbytes for name in ("slices", "first_panel", "cuts", "maps", "first_edge",
+        own = sum(getattr(self, name).nbytes for name in ("slices", "first_panel", "cuts", "maps", "first_edge",
                   "edges", "outcome", "criterion", "cell_map", "root", "of_stick"))  # fmt: skip
         parts = ("axis", "cut", "child", "box", "size", "start", "coefficients")
-        return own + sum(getattr(trees, name).nbytes for trees in (self.shapes, self.results) for name in parts)
+        found: int = own + sum(getattr(trees, name).nbytes for trees in (self.shapes, self.results) for name in parts)
+        return found
