@@ -27,7 +27,16 @@ ORDER = (
 )  # fmt: skip
 
 
-MADE_ELSEWHERE = {"mine.py", "MODEL.py", "NAME.py", "model.py", "model.h", "settings.h", "layout.h"}  # by users, builds
+MADE_ELSEWHERE = {
+    "mine.py",
+    "law.h",
+    "MODEL.py",
+    "NAME.py",
+    "model.py",
+    "model.h",
+    "settings.h",
+    "layout.h",
+}  # by users, builds
 
 
 @cache

@@ -2,7 +2,7 @@
 
     python -m tests.benchmarks.table [QUERIES] [FILE]
 
-QUERIES (1e7) in the attack of each table over two variables, a tenth of it over three. Times are CPU times of one
+QUERIES (1e7) in the attack of the first table, a tenth of it of the others. Times are CPU times of one
 thread, the least of several runs, table and kernel in turn. The tables are written into FILE
 (docs/engineering/table-figures.md) between its marks.
 """
@@ -52,7 +52,7 @@ def main(queries: int, file: Path | None) -> None:
     for name, over, error in CASES:
         scene, three = Scene.load(name), len(over) > 2
         started = time.process_time()
-        law = table(scene, over=over, error=error, attack=queries // 10 if three else queries)
+        law = table(scene, over=over, error=error, attack=queries if len(rows) == 2 else queries // 10)
         spent = time.process_time() - started
         stokes, angle, third = _impacts(law, _QUERIES)
         quick, sloped = _reader(law, stokes, angle, third)
@@ -64,10 +64,15 @@ def main(queries: int, file: Path | None) -> None:
             f" {times[1]:.0f} | {times[2]:.0f} | {'-' if three else f'{_slopes(law):.1e}'} |"
         )
         print(rows[-1], flush=True)
-    if file is not None:
-        before, _, rest = file.read_text().partition(_MARKS[0])
-        after = rest.partition(_MARKS[1])[2]
-        file.write_text(before + "\n".join([_MARKS[0], *rows, _MARKS[1]]) + after)
+        if file is not None:
+            _write(file, rows)
+
+
+def _write(file: Path, rows: list[str]) -> None:
+    """Put the rows between the marks of a file."""
+    before, _, rest = file.read_text().partition(_MARKS[0])
+    after = rest.partition(_MARKS[1])[2]
+    file.write_text(before + "\n".join([_MARKS[0], *rows, _MARKS[1]]) + after)
 
 
 def _impacts(law: Table, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
