@@ -45,9 +45,9 @@ class Table(Law):
 
     Example:
         >>> from wetdoublet.solvers import table
-        >>> law = table("granulation", over={"stokes": (0.01, 0.5), "angle": (0.2, 0.3)}, error=1e-3, attack=10_000)
-        >>> law([0.02, 0.3], 0.25).outcome.values
-        array([0, 2])
+        >>> law = table("granulation", over={"stokes": (0.15, 0.2), "angle": (0.3, 0.4)}, error=1e-3, attack=2000)
+        >>> law([0.17, 0.3], 0.35).outcome.values  # a bounce, and an impact outside
+        array([ 2, -1])
     """
 
     def __call__(self, stokes: Any, angle: Any, third: Any = None, slopes: bool = False) -> xarray.Dataset:
@@ -156,7 +156,7 @@ def table(
 
     Example:
         >>> from wetdoublet.solvers import table
-        >>> law = table("granulation", over={"stokes": (0.01, 0.5), "angle": (0.2, 0.3)}, error=1e-3, attack=10_000)
+        >>> law = table("granulation", over={"stokes": (0.15, 0.2), "angle": (0.3, 0.4)}, error=1e-3, attack=2000)
         >>> law.found.largest < 1e-3
         True
     """
