@@ -44,7 +44,8 @@ class Trees:
             axis = self.axis[node]
             inner = np.flatnonzero(axis != LEAF)
             if not inner.size:
-                return np.asarray(self.child[node])
+                found: np.ndarray = self.child[node]
+                return found
             at = np.where(axis[inner] == 0, x[inner], z[inner])
             node[inner] = self.child[node[inner]] + (at >= self.cut[node[inner]])
 
@@ -98,7 +99,7 @@ def nodes(count: int) -> np.ndarray:
 def transform(count: int) -> np.ndarray:
     """The matrix from values at `nodes` to coefficients."""
     at = 2 * nodes(count) - 1
-    matrix = 2.0 / count * np.cos(np.arange(count)[:, None] * np.arccos(at)[None, :])
+    matrix: np.ndarray = 2.0 / count * np.cos(np.arange(count)[:, None] * np.arccos(at)[None, :])
     matrix[0] *= 0.5
     return matrix
 
