@@ -27,14 +27,20 @@ typedef struct {
     double value, by_w, by_least;
 } @NAME@_mapped;
 
+/* Chebyshev polynomials, even and odd ones by recurrences of their own, which do not wait for each other. */
 static inline void @NAME@_chebyshev(double x, int count, double *value)
 {
+    double second = 2.0 * x * x - 1.0, twice = 2.0 * second;
     int k;
     value[0] = 1.0;
     if (count > 1)
         value[1] = x;
-    for (k = 2; k < count; ++k)
-        value[k] = 2.0 * x * value[k - 1] - value[k - 2];
+    if (count > 2)
+        value[2] = second;
+    if (count > 3)
+        value[3] = x * (twice - 1.0);
+    for (k = 4; k < count; ++k)
+        value[k] = twice * value[k - 2] - value[k - 4];
 }
 
 static inline void @NAME@_chebyshev_slope(double x, int count, const double *value, double *slope)
@@ -61,6 +67,10 @@ static inline @NAME@_shape @NAME@_shape_at(int node, double t, double x, int slo
     count_t = @NAME@_shape_size[3 * patch];
     count_x = @NAME@_shape_size[3 * patch + 1];
     c = @NAME@_shape_series + @NAME@_shape_start[patch];
+    if (count_t == 1 && count_x == 1) {
+        found.value = c[0];
+        return found;
+    }
     box = @NAME@_shape_box + 4 * patch;
     t = 2.0 * t - 1.0;
     x = 2.0 * (x - box[0]) * box[2] - 1.0;
