@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from .sensitivity.uncertainty import band
     from .sensitivity.variance import sobol_indices
     from .space.collide_pair import collide_pair
+    from .tables.table import Table, table
 
 _HOMES = {
     "Atlas": "boundaries.boundary",
@@ -47,6 +48,7 @@ _HOMES = {
     "ModelWarning": "errors",
     "Scene": "scene.scene",
     "Sensitivities": "sensitivity.result",
+    "Table": "tables.table",
     "WetDoubletError": "errors",
     "atlas": "boundaries.boundary",
     "band": "sensitivity.uncertainty",
@@ -67,6 +69,7 @@ _HOMES = {
     "regime_map": "many.regime_map",
     "sensitivities": "sensitivity.sensitivities",
     "sobol_indices": "sensitivity.variance",
+    "table": "tables.table",
     "trajectory_sensitivities": "sensitivity.trajectory",
 }
 
@@ -83,6 +86,7 @@ __all__ = [
     "ModelWarning",
     "Scene",
     "Sensitivities",
+    "Table",
     "WetDoubletError",
     "atlas",
     "band",
@@ -103,6 +107,7 @@ __all__ = [
     "regime_map",
     "sensitivities",
     "sobol_indices",
+    "table",
     "trajectory_sensitivities",
 ]
 

@@ -22,13 +22,14 @@ ORDER = (
     "derive.emit", "generated", "solvers.errors", "solvers.host", "solvers.formatting", "solvers.scene",
     "solvers.settings", "solvers.model", "solvers.certificates", "solvers.engines", "solvers.collision", "solvers.many",
     "solvers.space", "solvers.boundaries", "solvers.sensitivity", "solvers.averages", "solvers.fitting",
-    "solvers.planning", "solvers.verify", "solvers.export", "solvers.paper", "solvers.commands", "solvers",
-    "solvers.package", "solvers.__main__",
+    "solvers.planning", "solvers.verify", "solvers.export", "solvers.tables", "solvers.paper", "solvers.commands",
+    "solvers", "solvers.package", "solvers.__main__",
 )  # fmt: skip
 
 
 MADE_ELSEWHERE = {
     "mine.py",
+    "law.h",
     "MODEL.py",
     "NAME.py",
     "model.py",

@@ -11,6 +11,7 @@ GROUPS = {
     "Collisions": ("collide", "Collision", "collide_many", "collide_pair", "regime_map", "compile_kernels"),
     "Averages": ("collision_averages",),
     "Boundaries": ("boundary", "Boundaries", "atlas", "Atlas"),
+    "Tables": ("table", "Table"),
     "Sensitivities and uncertainty": (
         "sensitivities",
         "Sensitivities",

@@ -46,7 +46,13 @@ class Followed:
 
 
 def crossings(
-    labels: Labels, centre: np.ndarray, along: np.ndarray, reach: np.ndarray, low: np.ndarray, high: np.ndarray
+    labels: Labels,
+    centre: np.ndarray,
+    along: np.ndarray,
+    reach: np.ndarray,
+    low: np.ndarray,
+    high: np.ndarray,
+    located: float = LOCATED,
 ) -> np.ndarray:
     """Points of segments where label `low` changes to `high`, the nearest to each centre.
 
@@ -55,6 +61,7 @@ def crossings(
         centre, along: centres and unit directions of the segments (n x 2).
         reach: length of the segments to either side, clipped to the square.
         low, high: labels before and after (n).
+        located: width of the interval that brackets a change in the end.
 
     Returns:
         Points, n x 2; NaN where no two neighbouring points have these labels.
@@ -76,15 +83,15 @@ def crossings(
                 continue
             wide = interval[1] - interval[0]
             stuck = wide < _DOUBT and not (seen[row, 1:-1] >= 0).any()
-            if wide < LOCATED or stuck:
+            if wide < located or stuck:
                 found[k] = centre[k] + 0.5 * (interval[0] + interval[1]) * along[k]
             else:
                 kept.append(k)
                 ends.append(interval)
         open_ = np.array(kept, dtype=int)
         at = np.array([np.linspace(*pair, _PARTS + 1) for pair in ends]).reshape(len(ends), _PARTS + 1)
-    located: np.ndarray = np.clip(found, 0.0, 1.0)
-    return located
+    inside: np.ndarray = np.clip(found, 0.0, 1.0)
+    return inside
 
 
 def _inside(centre: np.ndarray, along: np.ndarray, reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -76,11 +76,11 @@ def collide_by_kernel(
         if books is not None:  # where the ledger is open the trajectory is wrong
             kept &= _closed(found, books, request.rtol)
         if part.size == kept.size and kept.all():  # the usual case; avoids copies
-            finished(part, _block(request, found, impacts, books))
+            finished(part, block_of(request, found, impacts, books))
             continue
         done = sound.copy()
         done[sound] = kept
-        finished(part[done], _block(request, found[kept], impacts.part(kept), None if books is None else books[kept]))
+        finished(part[done], block_of(request, found[kept], impacts.part(kept), None if books is None else books[kept]))
         left.append(part[~done])
     return np.concatenate(left)
 
@@ -135,7 +135,7 @@ def admissible(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     return sound
 
 
-def _block(request: Batch, found: np.ndarray, impacts: Impacts, books: np.ndarray | None) -> Block:
+def block_of(request: Batch, found: np.ndarray, impacts: Impacts, books: np.ndarray | None) -> Block:
     """Kernel records as the requested columns of a result."""
     separated = found["outcome"] > 0
 

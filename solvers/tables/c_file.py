@@ -1,0 +1,168 @@
+"""A table as one header in C99 (and C++): its data and a reader."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..export.equations import file_name
+from ..many.results import attributes
+from .labelled import where
+from .maps import LEAST
+
+if TYPE_CHECKING:
+    from .law import Law
+
+_WIDTH = 110
+
+
+def header(table: Law) -> str:
+    """The text of the header."""
+    name = file_name(table.scene)
+    reader = Path(__file__).with_name("reader.h").read_text(encoding="utf-8")
+    real = "float" if table.data.results.coefficients.dtype == np.float32 else "double"
+    for word, text in (("@NAME@", name), ("@REAL@", real), ("@LEAST@", repr(LEAST))):
+        reader = reader.replace(word, text)
+    guard = f"{name}_table_h".upper()
+    parts = [
+        _comment(table, name),
+        f"#ifndef {guard}\n#define {guard}\n",
+        _sizes(table, name),
+        _arrays(table, name, real),
+    ]
+    return "\n".join([*parts, reader, _functions(table, name), f"#endif /* {guard} */\n"])
+
+
+def _comment(table: Law, name: str) -> str:
+    data, of = table.data, table.of
+    arguments = _arguments(table)
+    ranges = [
+        f"stokes    normal Stokes number, {table.range.stokes[0]!r} to {table.range.stokes[1]!r}",
+        f"angle     impact angle in rad, {table.range.angle[0]!r} to {table.range.angle[1]!r}",
+    ]
+    if table.range.third is not None:
+        unit = table.scene.fields[table.range.third].unit or "1"
+        low, high = table.range.ends
+        ranges.append(f"{arguments[2]}: {table.range.third} in {unit}, {low!r} to {high!r}")
+    results = [
+        f"value[{k}]  {one}: {attributes(one)['long_name']} ({attributes(one)['units']})" for k, one in enumerate(of)
+    ]
+    given = "".join(f"double {one}, " for one in arguments)
+    example = ", ".join(("0.5 * (lo + hi)",) * len(arguments))
+    lines = [
+        f"Collision law of {table.scene.name or 'a scene'} as a table, made by wetdoublet.",
+        "",
+        f"    int {name}_table({given}{name}_answer *answer);",
+        f"    int {name}_table_slopes({given}{name}_answer *answer, {name}_slopes *slopes);",
+        "",
+        f"Both return {name}_OK, or {name}_OUTSIDE where an argument is outside its range or NaN: nothing is",
+        "extrapolated, the outcome is then -1 and all results are NaN. No allocation, no state: safe from any thread.",
+        "",
+        "Arguments, all other entries as in the scene below:",
+        *(f"    {one}" for one in ranges),
+        "Results of collisions that separate (a stick has restitution 0 and NaN otherwise):",
+        *(f"    {one}" for one in results),
+        f"`slopes.by[m][k]` is the derivative of value[m] by argument k in the order above ({', '.join(arguments)}).",
+        "",
+        f"Error: at most {table.error:g} was asked for, over the magnitude of a result where that is above 1. Of",
+        f"{table.found.queries} random and boundary-hugging queries, {table.found.direct} agreed with the collision at",
+        "their own impact and the others with one at most 1e-6 (relative) beside it, across or along a boundary.",
+        f"Largest error found: {table.found.largest:.3g}{where(table)}.",
+        f"Data: {data.bytes} bytes, {data.maps.size} angle panels, {len(data.results.size)} patches.",
+        "",
+        "Example (range ends lo and hi):",
+        f"    {name}_answer one;",
+        f"    if ({name}_table({example}, &one) == {name}_OK && one.outcome != {name}_STICK)",
+        "        v_after = one.value[0] * v_before;",
+        "",
+        "Scene:",
+        *(f"    {line}" for line in table.scene.to_toml().replace("*/", "* /").splitlines()),
+    ]
+    return "\n".join(["/*", *(f" * {line}".rstrip() for line in lines), " */"])
+
+
+def _arguments(table: Law) -> list[str]:
+    third = table.range.third
+    return ["stokes", "angle"] + ([] if third is None else [third.replace(".", "_")])
+
+
+def _sizes(table: Law, name: str) -> str:
+    data = table.data
+    most = max(int(trees.size.max(initial=1)) for trees in (data.shapes, data.results))
+    numbers = {
+        "RESULTS": len(table.of), "VARIABLES": len(table.variables), "SLICES": data.slices.size - 1, "MOST": most,
+    }  # fmt: skip
+    return "\n".join(f"#define {name}_{key} {value}" for key, value in numbers.items()) + "\n"
+
+
+def _arrays(table: Law, name: str, real: str) -> str:
+    data = table.data
+    third = np.log(table.range.ends) if table.range.logarithmic else np.array(table.range.ends)
+    ranges = [*table.range.stokes, *table.range.angle, *third.tolist()]
+    height = [data.low[2], data.high[2]]
+    parts = [f"static const double {name}_range[3][2] = {{{', '.join(_pairs(ranges))}}};"]
+    parts.append(_array("double", f"{name}_height", height))
+    for key, kind in (
+        ("slices", "double"), ("first_panel", "int"), ("cuts", "int"), ("maps", "signed char"), ("first_edge", "int"),
+        ("edges", "int"), ("outcome", "signed char"), ("criterion", "signed char"), ("cell_map", "signed char"),
+        ("root", "int"),
+    ):  # fmt: skip
+        parts.append(_array(kind, f"{name}_{key}", getattr(data, key).ravel().tolist()))
+    parts.append(_array("signed char", f"{name}_of_stick", np.isnan(data.of_stick).astype(int).tolist()))
+    for prefix, trees in (("shape_", data.shapes), ("", data.results)):
+        for key, kind in (
+            ("axis", "signed char"), ("cut", "double"), ("child", "int"), ("box", "double"), ("size", "short"),
+            ("start", "int"),
+        ):  # fmt: skip
+            parts.append(_array(kind, f"{name}_{prefix}{key}", getattr(trees, key).ravel().tolist()))
+        own = "double" if prefix else real
+        parts.append(_array(own, f"{name}_{prefix}series", trees.coefficients))
+    return "\n".join(parts) + "\n"
+
+
+def _pairs(numbers: Sequence[float]) -> list[str]:
+    return [f"{{{low!r}, {high!r}}}" for low, high in zip(numbers[::2], numbers[1::2], strict=True)]
+
+
+def _array(kind: str, name: str, values: Sequence[float] | np.ndarray) -> str:
+    """A constant array; an empty one has one element, as C knows none."""
+    if kind == "float":
+        words = [f"{np.format_float_scientific(value, unique=True, trim='0', exp_digits=1)}f" for value in values]
+    elif kind == "double":
+        words = [repr(float(value)) for value in values]
+    else:
+        words = [str(int(value)) for value in values]
+    words = words or ["0"]
+    lines, line = [], "   "
+    for word in words:
+        if len(line) + len(word) > _WIDTH:
+            lines.append(line)
+            line = "   "
+        line += f" {word},"
+    return "\n".join([f"static const {kind} {name}[{len(words)}] = {{", *lines, line.rstrip(","), "};"])
+
+
+def _functions(table: Law, name: str) -> str:
+    arguments = _arguments(table)
+    given = ", ".join(f"double {one}" for one in arguments)
+    third = "0.5" if len(arguments) < 3 else arguments[2]
+    taken = f"{third} > 0.0 ? log({third}) : -1e300" if table.range.logarithmic else third
+    scaled = ""
+    if table.range.logarithmic:
+        scaled = f"    for (m = 0; m < {name}_RESULTS; ++m)\n        slopes->by[m][2] /= {third};\n"
+    return f"""/* Outcome and results at an impact. */
+static inline int {name}_table({given}, {name}_answer *answer)
+{{
+    return {name}_read({taken}, angle, stokes, answer, 0);
+}}
+
+/* The same with derivatives. */
+static inline int {name}_table_slopes({given}, {name}_answer *answer, {name}_slopes *slopes)
+{{
+{"    int m;" + chr(10) if scaled else ""}    int status = {name}_read({taken}, angle, stokes, answer, slopes);
+{scaled}    return status;
+}}
+"""

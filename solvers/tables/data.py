@@ -1,0 +1,55 @@
+"""Data of a table: panels, boundaries, cells and series as flat arrays, as files hold them and readers use them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .series import Trees
+
+
+@dataclass
+class Data:
+    """The arrays of a table.
+
+    Attributes:
+        low, high: ranges of the third variable (its logarithm if `logarithmic`; 0..1 if there is none), angle, ln St.
+        slices: ends of the panels of the third variable.
+        first_panel: first angle panel of each slice, and their number at the end.
+        cuts: roots of the lower and upper angle of each panel, among the shapes.
+        maps: map of the angle in each panel.
+        first_edge: first boundary of each panel among `edges`, and their number at the end.
+        edges: roots of the boundaries, among the shapes.
+        outcome, criterion, cell_map, root: of each cell: outcome by number, first rebound criterion (-1 for none), map
+            of its height and root of its results (-1 for a stick). A panel has a cell more than boundaries; its first
+            is number `first_edge` + the number of the panel.
+        of_stick: results of a stick: restitution 0, others NaN.
+        shapes, results: trees of angles and ln St, and of results.
+    """
+
+    low: np.ndarray
+    high: np.ndarray
+    logarithmic: bool
+    slices: np.ndarray
+    first_panel: np.ndarray
+    cuts: np.ndarray
+    maps: np.ndarray
+    first_edge: np.ndarray
+    edges: np.ndarray
+    outcome: np.ndarray
+    criterion: np.ndarray
+    cell_map: np.ndarray
+    root: np.ndarray
+    of_stick: np.ndarray
+    shapes: Trees
+    results: Trees
+
+    @property
+    def bytes(self) -> int:
+        """Size of the arrays in C."""
+        own = sum(getattr(self, name).nbytes for name in ("slices", "first_panel", "cuts", "maps", "first_edge",
+                  "edges", "outcome", "criterion", "cell_map", "root", "of_stick"))  # fmt: skip
+        parts = ("axis", "cut", "child", "box", "size", "start", "coefficients")
+        found: int = own + sum(getattr(trees, name).nbytes for trees in (self.shapes, self.results) for name in parts)
+        return found

@@ -1,0 +1,163 @@
+"""Trees of tensor Chebyshev series on the unit square, as flat arrays, and their evaluation.
+
+Coordinates: t (of the third variable, in 0..1), x (across an angle panel), z (across a cell). A tree divides x and z;
+each of its leaves is a patch with a series in t, x and z.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+LEAF = -1
+
+
+@dataclass
+class Trees:
+    """Flat arrays of many trees.
+
+    Attributes:
+        axis: of each node, 0 for x, 1 for z, LEAF for a patch.
+        cut: coordinate at which a node divides; below it goes to `child`, else to `child + 1`.
+        child: first child, or the patch of a leaf.
+        box: lower ends and reciprocal sizes of each patch: (x, z, 1/dx, 1/dz).
+        size: numbers of coefficients of each patch in t, x and z.
+        start: first coefficient of each patch; results one after the other.
+        coefficients: all coefficients.
+        results: number of results.
+    """
+
+    axis: np.ndarray
+    cut: np.ndarray
+    child: np.ndarray
+    box: np.ndarray
+    size: np.ndarray
+    start: np.ndarray
+    coefficients: np.ndarray
+    results: int
+
+    def patch_of(self, root: np.ndarray, x: np.ndarray, z: np.ndarray) -> np.ndarray:
+        """The patch of points in the trees with these roots."""
+        node = root.copy()
+        while True:
+            axis = self.axis[node]
+            inner = np.flatnonzero(axis != LEAF)
+            if not inner.size:
+                found: np.ndarray = self.child[node]
+                return found
+            at = np.where(axis[inner] == 0, x[inner], z[inner])
+            node[inner] = self.child[node[inner]] + (at >= self.cut[node[inner]])
+
+    def values(
+        self, root: np.ndarray, t: np.ndarray, x: np.ndarray, z: np.ndarray, slopes: bool = False
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Values (n x results), and with `slopes` derivatives by t, x and z (3 x n x results)."""
+        found = np.zeros((root.size, self.results))
+        along = np.zeros((3 if slopes else 0, root.size, self.results))
+        if not root.size:
+            return found, along
+        patch = self.patch_of(root, x, z)
+        order = np.argsort(patch, kind="stable")
+        edges = np.flatnonzero(np.diff(patch[order])) + 1
+        for own in np.split(order, edges):
+            k = int(patch[own[0]])
+            n_t, n_x, n_z = (int(n) for n in self.size[k])
+            count = n_t * n_x * n_z * self.results
+            c = self.coefficients[self.start[k] : self.start[k] + count].astype(float)
+            c = c.reshape(self.results, n_t, n_x, n_z)
+            low_x, low_z, per_x, per_z = self.box[k]
+            basis_t, slope_t = chebyshev(2 * t[own] - 1, n_t)
+            basis_x, slope_x = chebyshev(2 * (x[own] - low_x) * per_x - 1, n_x)
+            basis_z, slope_z = chebyshev(2 * (z[own] - low_z) * per_z - 1, n_z)
+            found[own] = np.einsum("mijk,ni,nj,nk->nm", c, basis_t, basis_x, basis_z, optimize=True)
+            if slopes:
+                along[0, own] = 2 * np.einsum("mijk,ni,nj,nk->nm", c, slope_t, basis_x, basis_z, optimize=True)
+                along[1, own] = 2 * per_x * np.einsum("mijk,ni,nj,nk->nm", c, basis_t, slope_x, basis_z, optimize=True)
+                along[2, own] = 2 * per_z * np.einsum("mijk,ni,nj,nk->nm", c, basis_t, basis_x, slope_z, optimize=True)
+        return found, along
+
+
+def chebyshev(x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Chebyshev polynomials at points (n x count), and their derivatives."""
+    value, slope = np.zeros((x.size, count)), np.zeros((x.size, count))
+    value[:, 0] = 1.0
+    if count > 1:
+        value[:, 1], slope[:, 1] = x, 1.0
+    for k in range(2, count):
+        value[:, k] = 2 * x * value[:, k - 1] - value[:, k - 2]
+        slope[:, k] = 2 * value[:, k - 1] + 2 * x * slope[:, k - 1] - slope[:, k - 2]
+    return value, slope
+
+
+def nodes(count: int) -> np.ndarray:
+    """Chebyshev points of the first kind in 0..1, ascending."""
+    found: np.ndarray = 0.5 - 0.5 * np.cos(np.pi * (np.arange(count) + 0.5) / count)
+    return found
+
+
+def transform(count: int) -> np.ndarray:
+    """The matrix from values at `nodes` to coefficients."""
+    at = 2 * nodes(count) - 1
+    matrix: np.ndarray = 2.0 / count * np.cos(np.arange(count)[:, None] * np.arccos(at)[None, :])
+    matrix[0] *= 0.5
+    return matrix
+
+
+class Forest:
+    """Trees under construction."""
+
+    def __init__(self, results: int) -> None:
+        self.results = results
+        self.axis: list[int] = []
+        self.cut: list[float] = []
+        self.child: list[int] = []
+        self.box: list[tuple[float, float, float, float]] = []
+        self.size: list[tuple[int, ...]] = []
+        self.coefficients: list[np.ndarray] = []
+
+    def mark(self) -> tuple[int, int]:
+        """Numbers of nodes and patches, for `reset`."""
+        return len(self.axis), len(self.box)
+
+    def reset(self, mark: tuple[int, ...]) -> None:
+        """Take away the nodes and patches made since a mark."""
+        for nodes_ in (self.axis, self.cut, self.child):
+            del nodes_[mark[0] :]
+        for patches in (self.box, self.size, self.coefficients):
+            del patches[mark[1] :]
+
+    def node(self) -> int:
+        """A new node; `divide` or `leaf` says what it is."""
+        self.axis.append(LEAF)
+        self.cut.append(0.0)
+        self.child.append(-1)
+        return len(self.axis) - 1
+
+    def divide(self, node: int, axis: int, cut: float) -> tuple[int, int]:
+        """Divide a node; returns its children."""
+        first, second = self.node(), self.node()
+        self.axis[node], self.cut[node], self.child[node] = axis, cut, first
+        return first, second
+
+    def leaf(self, node: int, low: np.ndarray, wide: np.ndarray, series: np.ndarray) -> None:
+        """Make a node the leaf of a patch with these coefficients (results x t x x x z)."""
+        self.child[node] = len(self.box)
+        self.box.append((float(low[0]), float(low[1]), 1 / float(wide[0]), 1 / float(wide[1])))
+        self.size.append(series.shape[1:])
+        self.coefficients.append(series)
+
+    def trees(self, kind: type = np.float64) -> Trees:
+        """The trees so far; coefficients of this kind."""
+        counts = [one.size for one in self.coefficients]
+        flat = [one.ravel() for one in self.coefficients]
+        return Trees(
+            np.array(self.axis, dtype=np.int8),
+            np.array(self.cut, dtype=float),
+            np.array(self.child, dtype=np.int32),
+            np.array(self.box, dtype=float).reshape(-1, 4),
+            np.array(self.size, dtype=np.int16).reshape(-1, 3),
+            np.array(np.cumsum([0, *counts[:-1]]) if counts else [], dtype=np.int32),
+            np.concatenate(flat).astype(kind) if flat else np.zeros(0, kind),
+            self.results,
+        )

@@ -1,0 +1,132 @@
+"""Slices of the third variable: ranges in which all planes have the same layout, and the layouts at their nodes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..errors import ComputationError
+from ..scene.scene import Scene
+from .build import Builder, Slice
+from .collisions import Signatures, plane_of
+from .fit import Coarse
+from .kinks import with_kinks
+from .layout import Layout, layout_of
+from .series import nodes
+
+NODES = 8  # of the third variable in a slice
+_MOST = 40  # slices
+_APART = 3e-7  # relative distance between values with different layouts at which the change between them is located
+
+
+@dataclass
+class Range:
+    """The ranges of a table.
+
+    Attributes:
+        third: dotted name of the third variable, if there is one.
+        ends: its range, SI; 0..1 if there is none.
+        angle, stokes: ranges, rad and 1.
+    """
+
+    third: str | None
+    ends: tuple[float, float]
+    angle: tuple[float, float]
+    stokes: tuple[float, float]
+
+    @property
+    def logarithmic(self) -> bool:
+        """True if the table is over the logarithm of the third variable."""
+        return self.third is not None and self.ends[0] > 0 and self.ends[1] > 2 * self.ends[0]
+
+    @property
+    def corners(self) -> tuple[np.ndarray, np.ndarray]:
+        """Lowest and highest third variable (or its logarithm), angle and ln St."""
+        third = np.log(self.ends) if self.logarithmic else np.array(self.ends)
+        low, high = zip(third.tolist(), self.angle, (math.log(one) for one in self.stokes), strict=True)
+        return np.array(low), np.array(high)
+
+
+@dataclass
+class Slicer:
+    """Makes slices and adds them to a builder.
+
+    Arguments:
+        doubts: impacts (third variable, angle, St) to look at as well.
+    """
+
+    scene: Scene
+    range: Range
+    rtol: float
+    of: tuple[str, ...]
+    doubts: np.ndarray
+    tell: Callable[[str], None]
+    signatures: Signatures = field(default_factory=Signatures)
+    made: int = field(default=0, init=False)
+    collisions: int = field(default=0, init=False)
+    failures: list[str] = field(default_factory=list, init=False)
+    _layouts: dict[float, Layout] = field(default_factory=dict, init=False)
+
+    def layout(self, at: float) -> Layout:
+        """The layout at a value of the third variable (or its logarithm)."""
+        if at not in self._layouts:
+            scene = self.scene
+            if self.range.third is not None:
+                scene = scene.with_si({self.range.third: math.exp(at) if self.range.logarithmic else at})
+            plane = plane_of(scene, self.range.angle, self.range.stokes, self.rtol, self.of, self.signatures)
+            found = with_kinks(layout_of(plane, self.doubts[:, 1:]))
+            self.failures += found.failures
+            self._layouts[at] = found
+            self.tell(f"{len(self._layouts)} planes")
+        return self._layouts[at]
+
+    def fill(self, builder: Builder) -> None:
+        """Add all slices to a builder."""
+        low, high = self.range.corners
+        if self.range.third is None:
+            builder.add(Slice(0.0, 1.0, [self.layout(0.0)]))
+        else:
+            self._fill(builder, float(low[0]), float(high[0]))
+        self.collisions = sum(one.plane.collisions for one in self._layouts.values())
+
+    def _fill(self, builder: Builder, low: float, high: float) -> None:
+        self.made += 1
+        if self.made > _MOST:
+            raise ComputationError(
+                f"more than {_MOST} slices of {self.range.third} would be needed, near {self._shown(low)}",
+                advice="ask for a smaller range of it",
+            )
+        places = (low + nodes(NODES) * (high - low)).tolist()
+        layouts = [self.layout(at) for at in places]
+        for k in range(NODES - 1):
+            if layouts[k].shape != layouts[k + 1].shape:
+                first, last = self._changes(places[k], places[k + 1])
+                self._fill(builder, low, first)
+                builder.slices[-1] = last  # what lies between is as close to one side as to the other
+                self._fill(builder, last, high)
+                return
+        before = builder.mark()
+        try:
+            builder.add(Slice(low, high, layouts))
+        except Coarse:
+            builder.reset(before)
+            middle = 0.5 * (low + high)
+            self._fill(builder, low, middle)
+            self._fill(builder, middle, high)
+
+    def _changes(self, low: float, high: float) -> tuple[float, float]:
+        """Two values close to each other between which the layout changes."""
+        shape = self.layout(low).shape
+        while high - low > _APART * (1.0 if self.range.logarithmic else max(abs(low), abs(high))):
+            middle = 0.5 * (low + high)
+            if self.layout(middle).shape == shape:
+                low = middle
+            else:
+                high = middle
+        return low, high
+
+    def _shown(self, at: float) -> str:
+        return f"{math.exp(at) if self.range.logarithmic else at:.6g}"

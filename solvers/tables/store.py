@@ -1,0 +1,148 @@
+"""Files of a table: NetCDF by xarray, and the header in C."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..host import files
+from ..host.outputs import check_file
+from ..scene.scene import Scene
+from ..scene.user_model import Package
+from .attack import Attack
+from .data import Data
+from .law import Law
+from .series import Trees
+from .slices import Range
+
+if TYPE_CHECKING:
+    import xarray
+
+SUFFIXES = (".nc", ".h")
+_FORMAT = "wetdoublet table 1"
+_OWN = {
+    "slices": ("slice_end",), "first_panel": ("slice_end",), "cuts": ("panel", "end"), "maps": ("panel",),
+    "first_edge": ("panel_end",), "edges": ("edge",), "outcome": ("cell",), "criterion": ("cell",),
+    "cell_map": ("cell",), "root": ("cell",), "of_stick": ("result",),
+}  # fmt: skip
+_TREES = {
+    "axis": ("node",), "cut": ("node",), "child": ("node",), "box": ("patch", "of_box"), "size": ("patch", "variable"),
+    "start": ("patch",), "coefficients": ("coefficient",),
+}  # fmt: skip
+_MEANING = {
+    "slices": "ends of the slices of the third variable (its logarithm if logarithmic)",
+    "first_panel": "first angle panel of each slice",
+    "cuts": "nodes of the lower and upper angle of each panel",
+    "maps": "map of the angle in each panel: low + 3 high; 0 linear, 1 square root, 2 logarithm",
+    "first_edge": "first boundary of each panel among edges; cell k of panel p is number first_edge + p + k",
+    "edges": "nodes of the boundaries, ln St as a function of t and x",
+    "outcome": "outcome of each cell: 0 stick, 1 stick-rotate-separate, 2 bounce",
+    "criterion": "first rebound criterion of a bounce: 0 glass, 1 elastic, 2 rough, -1 none",
+    "cell_map": "map of the height of each cell",
+    "root": "node of the results of each cell, -1 for a stick",
+    "of_stick": "results of a stick",
+    "axis": "coordinate that a node divides: 0 x, 1 z, -1 none",
+    "cut": "where a node divides",
+    "child": "first child of a node, or its patch",
+    "box": "x, z, 1/dx, 1/dz of each patch",
+    "size": "number of Chebyshev coefficients in t, x and z of each patch",
+    "start": "first coefficient of each patch",
+    "coefficients": "Chebyshev coefficients, by result, t, x and z",
+}
+
+
+def dataset(table: Law) -> xarray.Dataset:
+    """The Dataset of a table."""
+    import xarray as xr
+
+    variables: dict[str, Any] = {
+        name: (dims, getattr(table.data, name), {"long_name": _MEANING[name]}) for name, dims in _OWN.items()
+    }
+    for prefix, trees in (("shape", table.data.shapes), ("result", table.data.results)):
+        for name, dims in _TREES.items():
+            own = tuple(one if one in ("of_box", "variable") else f"{prefix}_{one}" for one in dims)
+            variables[f"{prefix}_{name}"] = own, getattr(trees, name), {"long_name": _MEANING[name]}
+    return xr.Dataset(variables, attrs=_attributes(table))
+
+
+def _attributes(table: Law) -> dict[str, Any]:
+    from importlib.metadata import version
+
+    third, angle, stokes = table.found.at
+    said = {
+        "Conventions": "CF-1.11",
+        "title": f"Table of a collision law: {table.scene.name or 'unnamed scene'}",
+        "source": f"wetdoublet {version('wetdoublet')}",
+        "format": _FORMAT,
+        "scene": table.scene.to_toml(),
+        "results": " ".join(table.of),
+        "stokes": np.array(table.range.stokes),
+        "angle": np.array(table.range.angle),
+        "third": table.range.third or "",
+        "third_range": np.array(table.range.ends),
+        "rtol": table.rtol,
+        "error": table.error,
+        "error_meaning": "largest error of a result, over its magnitude where that is above 1",
+        "attack": "random and boundary-hugging queries; each answer is a collision's at most 1e-6 (relative) beside it",
+        "attack_queries": table.found.queries,
+        "attack_direct": table.found.direct,
+        "largest_error_found": table.found.largest,
+        "largest_error_at": np.array([third, angle, stokes]),
+    }
+    return said | ({} if table.scene.package is None else {"model": table.scene.package.text})
+
+
+def save(table: Law, path: str | Path) -> None:
+    """Write a table; the format by the suffix."""
+    file = check_file(path, "path", SUFFIXES)
+    if file.suffix.lower() == ".h":
+        from .c_file import header
+
+        files.write(file, header(table))
+        return
+    from h5netcdf import File
+    from xarray.backends import H5NetCDFStore
+
+    made = io.BytesIO()  # on a full disk HDF5 aborts the process, so write the file from memory
+    with File(made, "w") as written:
+        dataset(table).dump_to_store(H5NetCDFStore(written))
+    files.write(file, made.getbuffer())
+
+
+def load(path: str | Path) -> Law:
+    """Read a table from NetCDF."""
+    import xarray as xr
+
+    accepted = "a NetCDF file that `wetdoublet table` has written"
+    try:
+        with xr.open_dataset(path, engine="h5netcdf") as opened:
+            found = opened.load()
+    except FileNotFoundError:
+        raise InputError("path", str(path), accepted, "does not exist") from None
+    except (OSError, ValueError) as error:
+        raise InputError("path", str(path), accepted, f"cannot be read ({error})") from None
+    said = found.attrs
+    if said.get("format") != _FORMAT:
+        raise InputError("path", str(path), accepted, "is no table")
+    model = said.get("model")
+    scene = Scene.from_toml(said["scene"], package=None if model is None else Package(str(model)))
+    of = tuple(str(said["results"]).split())
+
+    def ends(name: str) -> tuple[float, float]:
+        low, high = (float(one) for one in said[name])
+        return low, high
+
+    ranges = Range(str(said["third"]) or None, ends("third_range"), ends("angle"), ends("stokes"))
+    third, angle, stokes = (float(one) for one in said["largest_error_at"])
+    attack = Attack(int(said["attack_queries"]), float(said["largest_error_found"]), (third, angle, stokes),
+                    int(said["attack_direct"]))  # fmt: skip
+    trees = [
+        Trees(**{name: found[f"{prefix}_{name}"].values for name in _TREES}, results=count)
+        for prefix, count in (("shape", 1), ("result", len(of)))
+    ]
+    data = Data(*ranges.corners, ranges.logarithmic, *(found[name].values for name in _OWN), *trees)
+    return Law(scene, of, ranges, float(said["error"]), attack, float(said["rtol"]), data)
