@@ -34,7 +34,9 @@ if TYPE_CHECKING:
 MOST = 400  # radii
 _BLOCK = 32  # pairs that are computed together
 _OF_GRADIENTS = 100.0  # tolerance of the lines of derivatives, over that of the means
-_TOLERANCE = Field("tolerance", "an error", "1e-6", Range("from 1e-9 to 1e-2", lambda v: 1e-9 <= v <= 1e-2))
+_TOLERANCE = Field(
+    "tolerance", "an error", "1e-6", Range("from 1e-9 to 1e-2", 1e-9, 1e-2, low_open=False, high_open=False)
+)
 _OF_ONE = ("particles.radius", "particles.density")  # entries of one sphere of a pair, as those of its partner
 Progress = Callable[[int, int], None]
 
