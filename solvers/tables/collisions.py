@@ -101,7 +101,7 @@ class Collisions(Plane):
         if self.steps > _MOST_STEPS:
             place = f"{np.degrees(np.median(angle)):.6g} deg, St {np.median(stokes):.6g}"
             raise ComputationError(
-                f"boundaries near {place} take more than {_MOST_STEPS:.0e} steps to find: doublets take many turns there",
+                f"boundaries near {place} take more than {_MOST_STEPS:.0e} steps: doublets take many turns there",
                 advice="leave that place out of the ranges",
             )
         return labels, labels
