@@ -15,6 +15,7 @@ from ...generated.automaton import KINDS, LAST_ANSWER, OUTCOMES
 from ..boundaries.plane import ANGLE, Plane
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, run_recorded
+from ..errors import ComputationError
 from ..many.batch import Batch
 from ..many.by_kernel import block_of, impacts_of
 from ..scene.scene import Scene
@@ -23,6 +24,7 @@ UNKNOWN = -1
 STICK = 0  # code of the signature of all sticks
 _EVENTS = 12  # events of a signature; later ones are not distinguished
 _BUDGET = 20_000  # steps of a collision; one that takes more is within rounding of a separatrix
+_MOST_STEPS = 500_000_000  # to find the boundaries of a plane; a preset takes some 1e8
 _CHUNK = 8192
 _DIGIT = len(KINDS) + 1
 _EDGES = ("film edge", "tangential edge")  # a run of crossings of one edge counts as one: a grazed edge is smooth
@@ -40,6 +42,7 @@ class Signatures:
     keys: dict[int, int] = field(default_factory=lambda: {0: STICK})
     outcomes: list[int] = field(default_factory=lambda: [0])
     events: list[tuple[str, ...]] = field(default_factory=lambda: [()])
+    steps: int = 0  # of all collisions whose signatures these are
 
     def codes(self, keys: np.ndarray) -> np.ndarray:
         """Codes of packed keys; new ones are entered."""
@@ -88,10 +91,19 @@ class Collisions(Plane):
 
     of: tuple[str, ...] = ("restitution",)
     signatures: Signatures = field(default_factory=Signatures)
+    steps: int = field(default=0, init=False)
 
     def seen(self, points: np.ndarray, most: int = 0) -> tuple[np.ndarray, np.ndarray]:
         """Signatures at points of the unit square, twice."""
-        labels = self.at(self.x(points), self.stokes_at(points), ())[0]
+        angle, stokes, before = self.x(points), self.stokes_at(points), self.signatures.steps
+        labels = self.at(angle, stokes, ())[0]
+        self.steps += self.signatures.steps - before
+        if self.steps > _MOST_STEPS:
+            place = f"{np.degrees(np.median(angle)):.6g} deg, St {np.median(stokes):.6g}"
+            raise ComputationError(
+                f"boundaries near {place} take more than {_MOST_STEPS:.0e} steps: doublets take many turns there",
+                advice="leave that place out of the ranges",
+            )
         return labels, labels
 
     def at(
@@ -150,6 +162,7 @@ def _run(request: Batch, impacts: Impacts, oblique: bool, known: Signatures) -> 
     recorded = run_recorded(impacts, oblique, request.rtol, budget=_BUDGET, room=(_EVENTS, 1), fold=fold)
     assert recorded is not None  # `table` has asked whether there is a kernel
     found = recorded.answers
+    known.steps += int(found["steps"].sum())
     keys = _packed(recorded.events["kind"].astype(np.int64), found["events"])
     flags = 2 * _slides(impacts, oblique, request.rtol, found) + _at_once(recorded)
     keys = np.where(found["outcome"] == 0, 0, 12 * keys + 3 * flags + found["outcome"])
