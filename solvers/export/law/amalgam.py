@@ -48,8 +48,8 @@ class _Kernel:
         return found
 
 
-def merged(sources: Sequence[Source], callers: Sequence[Item]) -> tuple[str, list[str]]:
-    """The text of all kernels, and their headers of the C library.
+def merged(sources: Sequence[Source], callers: Sequence[Item]) -> tuple[str, list[str], list[str]]:
+    """The text of all kernels, the headers that they always include, and those under a condition.
 
     Arguments:
         callers: what stands behind the kernels, and calls their functions with the prefix.
@@ -71,8 +71,23 @@ def merged(sources: Sequence[Source], callers: Sequence[Item]) -> tuple[str, lis
         renamed = _renamer(kernel, own_items)
         body = "".join(_sections(own_items, kernel.heads, renamed))
         text += f"{_rule(f'Kernel `{kernel.prefix}`')}\n{body}"
-    includes = sorted({item.code.strip() for kernel in kernels for item in kernel.items if item.kind == "include"})
-    return text, includes
+    includes = {include for kernel in kernels for include in _includes(kernel.items)}
+    return text, *(sorted(one for one in includes if one.startswith("#if") == within) for within in (False, True))
+
+
+def _includes(own: Sequence[Item]) -> list[str]:
+    """The includes of a kernel, each with the conditions that it stands under."""
+    found, above = list[str](), list[str]()
+    for item in own:
+        if item.kind == "include":
+            found.append("\n".join([*above, item.code.strip(), *["#endif"]*len(above)]))
+        elif item.code.startswith("#endif"):
+            above.pop()
+        elif item.code.startswith("#if"):
+            above.append(item.code.strip())
+        elif item.kind == "condition" and above:
+            above[-1] = f"{above[-1]}\n{item.code.strip()}"
+    return found
 
 
 def digests(sources: Iterable[Source]) -> list[str]:

@@ -127,8 +127,8 @@ def _law(scene: Scene, own: tuple[Kernel, ...]) -> str:
             *(_LINE.sub("", (OWN / name).read_text()) for name in called),
         ]
     )
-    text, includes = merged(_sources(scene, own), items("law", behind)[1])
-    return "\n".join([_head(scene, own), '#include "law.h"', "", *includes, "", _LANES, text, behind])
+    text, always, sometimes = merged(_sources(scene, own), items("law", behind)[1])
+    return "\n".join([_head(scene, own), '#include "law.h"', "", *always, "", _LANES, *sometimes, text, behind])
 
 
 def _sources(scene: Scene, own: tuple[Kernel, ...]) -> list[Source]:
@@ -158,4 +158,4 @@ def _named(name: str, text: str) -> str:
     """The text with the law's own prefix."""
     text = text.replace('"law.h"', f'"{name}.h"')
     text = re.sub(r"\blaw_(?=\w)", f"{name}_", text)
-    return re.sub(r"\bLAW_(?=\w)", f"{name.upper()}_", text)
+    return re.sub(r"(?:\b|(?<=-D))LAW_(?=\w)", f"{name.upper()}_", text)

@@ -70,6 +70,24 @@ def test_builds_and_checks(compiler: str, pendulum: Path, tmp_path: Path):
     assert {each.name for each in folder.iterdir()} == {each.name for each in pendulum.iterdir()}
 
 
+@pytest.mark.parametrize("compiler", COMPILERS.values())
+def test_spheres_that_spin_are_cpp_in_lanes(compiler: str, granulation: Path):
+    """A law with a bridge and spins is C++ in vector lanes as well, to either compiler."""
+    if shutil.which(compiler) is None:
+        pytest.skip(f"{compiler} is missing")
+    flags = "-x c++ -std=c++11 -pedantic -Wall -Wextra -Werror -DGRANULATION_LANES=2 -fsyntax-only granulation.c"
+    subprocess.run([compiler, *flags.split()], cwd=granulation, check=True)
+
+
+def test_needs_no_x86_and_names_its_own_macro(granulation: Path):
+    """Headers of x86 are included where it is compiled for, and texts name the macro that the file reads."""
+    code = (granulation / "granulation.c").read_text()
+    assert "#if LANES > 1 && defined(__AVX2__)\n#include <immintrin.h>\n#endif" in code
+    assert code.count("immintrin.h") == 1
+    for name in ("granulation.c", "README.md"):
+        assert "-DGRANULATION_LANES=1" in (granulation / name).read_text()
+
+
 @NEED
 def test_is_our_kernel(law: Law, monkeypatch: pytest.MonkeyPatch):
     """The same variant without contraction gives the same numbers to 1e-12, and the same outcomes."""

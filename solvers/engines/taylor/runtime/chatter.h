@@ -176,7 +176,7 @@ static mask held_in_chatter(lanes *l, const fixed *f, double tolerance)
     (void)grows;
 #else
     mask next = only_whole(NOT(grows), l->cycles + 1);
-    mask asked = tops & (next >= splat_mask(CYCLES)) & (((next - CYCLES) & 15) == splat_mask(0));
+    mask asked = tops & (next >= splat_mask(CYCLES)) & (((next - splat_mask(CYCLES)) & 15) == splat_mask(0));
 #endif
     l->cycles = choose_whole(tops, next, l->cycles);
     return bits(asked) ? asked & held_at_top(&f->c, l->y, f->end, tolerance) : asked;
