@@ -86,6 +86,8 @@ def _from_csv(source: str | Path, label: str) -> tuple[list[Column], list[int]]:
     first = kept[0][1]
     separator = max(",;\t", key=first.count)
     head, *rows = csv.reader(io.StringIO("\n".join(line for _, line in kept)), delimiter=separator)
+    while head and not head[-1].strip():
+        head.pop()  # empty columns at the right, as spreadsheets leave them
     lines = [k for k, _ in kept[1:]]
     if len(rows) != len(lines):
         raise InputError(label, str(source), accepted, "has a quoted cell that does not end on its line")
@@ -107,4 +109,6 @@ def _header(text: str, label: str) -> tuple[str, str | None]:
     match = _HEADER.fullmatch(text)
     if match is None:
         raise InputError(label, text, "names of columns, with their unit in brackets", "is no name of a column")
+    if "(" in match[1]:
+        raise InputError(label, text, "the unit in square brackets, such as speed [m/s]", "has parentheses")
     return match[1].strip().removeprefix("impact.") if match[1].strip() in MEETING else match[1].strip(), match[2]

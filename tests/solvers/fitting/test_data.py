@@ -52,6 +52,8 @@ def test_units_missing_cells_and_comments(tmp_path):
             "column restitution_sd",
             "out of range",
         ),
+        ("speed [m/s];angle [deg];restitution", "0,5;30;0.3", "row 1 (line 2), column speed", "decimal comma"),
+        ("speed (m/s),angle [deg],restitution", "0.5,30,0.3", "data", "square brackets"),
         ("speed [m/s],angle [deg],restitution", "0.5,30,0.3,1", "row 1 (line 2)", "too many"),
         ("speed,angle [deg],restitution", "0.5,30,0.3", "header", "has no unit"),
         ("speed [kg],angle [deg],restitution", "0.5,30,0.3", "header", "a mass"),
@@ -67,6 +69,12 @@ def test_bad_cells_are_named(tmp_path, header, row, field, said):
         read_data(written(tmp_path, f"{header}\n{row}\n"), SCENE)
     assert field in error.value.field
     assert said in str(error.value)
+
+
+def test_empty_columns_at_the_right_are_no_columns(tmp_path):
+    """A spreadsheet's file, with a byte order mark, semicolons and empty columns at the right, is read."""
+    text = "\ufeffspeed [m/s];angle [deg];outcome;;\n0.5;30;Bounce;;\n0.2;30;Stick Rotate Separate;;\n"
+    assert read_data(written(tmp_path, text), SCENE).outcome.tolist() == [2, 1]
 
 
 def test_tables_of_python_are_read_alike(tmp_path):
