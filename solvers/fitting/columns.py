@@ -44,7 +44,11 @@ def columns_of(source: Any, label: str) -> tuple[list[Column], list[int]]:
         kept = {str(name): frame[name].tolist() for name in frame.columns if str(name) in given}
         return _named(kept, {name: unit for name, unit in given.items() if isinstance(unit, str)}, label)
     if hasattr(source, "columns") and hasattr(source, "iloc"):  # pandas
-        return _named({str(name): source[name].tolist() for name in source.columns}, {}, label)
+        if not source.columns.is_unique:
+            name = source.columns[source.columns.duplicated()][0]
+            raise InputError(f"{label}, header", str(name), "each column once", "is given twice")
+        known = source.astype(object).where(source.notna(), None)  # pandas has several kinds of missing cells
+        return _named({str(name): known[name].tolist() for name in known.columns}, {}, label)
     if isinstance(source, (str, Path)):
         return _from_csv(source, label)
     accepted = "a CSV file, a DataFrame, a Dataset, or a mapping of columns"

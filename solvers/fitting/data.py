@@ -249,7 +249,7 @@ class _Table:
                     continue
                 code = _WORDS.get(word)
             else:
-                code = int(cell) if cell in range(len(OUTCOMES)) else None
+                code = int(cell) if not isinstance(cell, bool) and cell in range(len(OUTCOMES)) else None
             if code is None:
                 accepted = f"{STICK}, {ROTATE}, {BOUNCE}, or an empty cell"
                 raise InputError(

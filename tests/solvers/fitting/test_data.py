@@ -83,11 +83,17 @@ def test_tables_of_python_are_read_alike(tmp_path):
     text = "speed [m/s],angle [rad],restitution,outcome\n0.5,0.5,0.4,bounce\n0.2,0.8,,stick\n"
     expected = read_data(written(tmp_path, text), SCENE)
     frame = pd.DataFrame(columns)
-    for source in (columns, frame, frame.to_xarray()):
+    for source in (columns, frame, frame.convert_dtypes(), frame.to_xarray()):
         found = read_data(source, SCENE)
         np.testing.assert_array_equal(found.speed, expected.speed)
         np.testing.assert_array_equal(found.outcome, expected.outcome)
         np.testing.assert_array_equal(found.observed["restitution"][0], expected.observed["restitution"][0])
+
+
+def test_truth_values_are_no_outcomes():
+    """True does not say which of the three outcomes it means."""
+    with pytest.raises(InputError, match="row 1, column outcome"):
+        read_data({"speed": [0.5], "angle": [0.5], "outcome": [True]}, SCENE)
 
 
 def test_stokes_numbers_are_speeds_of_the_scene():
