@@ -138,7 +138,7 @@ def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
     axes.set_xlabel("impact angle (deg)")
     axes.set_ylabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
     axes.legend(handles=present + handles, fontsize=6.5, loc="best", framealpha=0.9)
-    axes.set_title("impacts on the fitted map; shaded: where the outcome is uncertain (95 %)", fontsize=9)
+    axes.set_title("impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _own(found), fontsize=9)
 
 
 def _mark(name: str, label: str) -> Line2D:
@@ -167,12 +167,22 @@ def _results(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
         axes.plot(speed, values[0], color=colour, linewidth=1.2, label=f"{np.degrees(angle):.3g}°")
         axes.errorbar(data.speed[own], measured[own], sd[own], data.speed_sd[own], fmt="o", color=colour,
                       markersize=3.5, elinewidth=0.7)  # fmt: skip
+        if data.columns:
+            axes.plot(data.speed[own], found.rows.expected[name][own], "_", color=colour, markersize=10)
     axes.set_xscale("log")
     plain(axes.xaxis)
     axes.set_xlabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
     axes.set_ylabel(_LABELS[name])
     axes.legend(title="mean angle of the group", fontsize=7, title_fontsize=7)
-    axes.set_title("measured, and the fit at the mean angle of each group with its band (95 %)", fontsize=9)
+    dashes = ";\ndashes: the fit with each impact's own entries" if data.columns else ""
+    title = "measured, and the fit at the mean angle of each group with its band (95 %)"
+    axes.set_title(title + _own(found) + dashes, fontsize=9)
+
+
+def _own(found: Fitted) -> str:
+    """What a picture for one value of every entry says where entries differ from impact to impact."""
+    names = ", ".join(found.data.columns)
+    return f",\nwith the scene's own {names}" if names else ""
 
 
 def _by_angle(angle: np.ndarray) -> list[np.ndarray]:
