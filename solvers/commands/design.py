@@ -69,7 +69,7 @@ def command(
     plot: str | None,
     output: str | None,
 ) -> None:
-    r"""Choose the impacts from whose outcomes and restitutions `fit` will learn most about entries of SCENE.
+    """Choose the impacts from whose outcomes and restitutions `fit` will learn most about entries of SCENE.
 
     With -o FILE.csv they are written as the table that `fit` reads, to be filled in.
 
@@ -77,7 +77,7 @@ def command(
     Examples:
       wetdoublet design granulation --free liquid.viscosity,liquid.film_thickness --over stokes=0.02:0.5,angle=0:80
       wetdoublet design granulation --free liquid.viscosity --over stokes=0.05:0.3,angle=0 -n 4 --restitution-sd none
-    """
+    """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..fitting.fit import RTOL
     from ..planning.design import design
 
@@ -95,17 +95,11 @@ def command(
     angle_sd = None if angle_sd is None else options.with_degrees(FIELDS["impact.angle"], angle_sd)
     asked = options.SceneRequest.check(source, changes, model=model)
     number, sample = _whole(size, "-n", 9), _whole(draws, "--draws", 0)
-    try:
+    with options.arguments_as_options(_OPTIONS):
         found = design(
             asked.scene(), names, window, number, target=target, data=data, prior=given or None, draws=sample,
             speed_sd=speed_sd, angle_sd=angle_sd, restitution_sd=restitution_sd, rtol=tolerance,
         )  # fmt: skip
-    except InputError as error:
-        argument, _, rest = error.field.partition(" ")
-        if argument not in _OPTIONS:
-            raise
-        field = f"{_OPTIONS[argument]} {rest}".strip()
-        raise InputError(field, error.value, error.accepted, error.problem) from None
     if as_json:
         options.put(json.dumps(found.to_dict(), indent=2, allow_nan=False), file)
     else:

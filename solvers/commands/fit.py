@@ -11,6 +11,9 @@ from ..errors import InputError
 from ..settings import check_rtol
 from . import options
 
+_OPTIONS = {"free": "--free", "prior": "--prior", "over": "--compare"}
+"""Argument of `fit` or `compare_models` -> its option."""
+
 
 @click.command("fit", short_help="Entries of a scene from measured impacts, with what the data cannot tell.")
 @options.scene_argument
@@ -52,7 +55,7 @@ def command(
     plot: str | None,
     output: str | None,
 ) -> None:
-    r"""Estimate entries of SCENE from the impacts in DATA.csv; the scene's own values are a first guess.
+    """Estimate entries of SCENE from the impacts in DATA.csv; the scene's own values are a first guess.
 
     \b
     The first line of DATA.csv names its columns:
@@ -61,13 +64,14 @@ def command(
     Examples:
       wetdoublet fit granulation impacts.csv --free particles.roughness,liquid.viscosity --plot fit.png
       wetdoublet fit scene.toml impacts.csv --free liquid.viscosity --prior liquid.viscosity="2 Pa s +- 10 %"
-    """
+    """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..fitting.fit import RTOL, fit
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     picture = options.check_file(plot, "--plot", options.PICTURES)
     scene_file = options.check_file(written, "--write", (".toml",))
     file = options.check_file(output, "-o")
+    into = options.check_folder(folder, "--report")
     for first, one, second, other in ((file, "-o", picture, "--plot"), (file, "-o", scene_file, "--write")):
         options.check_apart(first, one, second, other)
     given = options.assigned(priors, "--prior", 'NAME=PRIOR, such as particles.roughness="2 um +- 20 %"')
@@ -79,14 +83,14 @@ def command(
     if data is None:
         raise InputError("DATA.csv", None, "a CSV file with a row for each impact")
     scene = asked.scene()
-    found = fit(scene, data, names, prior=given or None, rtol=tolerance)
     table = None
-    if compare is not None:
-        from ..fitting.compare import compare_models
+    with options.arguments_as_options(_OPTIONS):
+        found = fit(scene, data, names, prior=given or None, rtol=tolerance)
+        if compare is not None:
+            from ..fitting.compare import compare_models
 
-        table = compare_models(
-            scene, data, names, over=[name.strip() for name in compare.split(",")], prior=given or None, rtol=tolerance
-        )
+            over = [name.strip() for name in compare.split(",")]
+            table = compare_models(scene, data, names, over=over, prior=given or None, rtol=tolerance)
     if as_json:
         object_ = found.to_dict() | ({} if table is None else {"comparison": table.to_dict()})
         text = json.dumps(object_, indent=2, allow_nan=False)
@@ -95,7 +99,7 @@ def command(
     options.put(text, file)
     if scene_file is not None:
         found.write(scene_file)
-    if folder is not None:
-        found.report(folder)
+    if into is not None:
+        found.report(into)
     if picture is not None:
         found.plot(picture)

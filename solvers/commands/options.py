@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -216,6 +217,18 @@ def check_apart(file: Path | None, option: str, other: Path | None, its_option: 
 def check_folder(path: str | None, option: str = "--out") -> Path | None:
     """Return the output folder, or None; InputError naming the option if it cannot be created or used."""
     return None if path is None else outputs.check_folder(path, option)
+
+
+@contextmanager
+def arguments_as_options(named: Mapping[str, str]) -> Iterator[None]:
+    """Errors of a Python function name the command's options, by its arguments."""
+    try:
+        yield
+    except InputError as error:
+        argument, _, rest = error.field.partition(" ")
+        if argument not in named:
+            raise
+        raise InputError(f"{named[argument]} {rest}".strip(), error.value, error.accepted, error.problem) from None
 
 
 def put(text: str, file: Path | None) -> None:

@@ -44,7 +44,11 @@ def columns_of(source: Any, label: str) -> tuple[list[Column], list[int]]:
         kept = {str(name): frame[name].tolist() for name in frame.columns if str(name) in given}
         return _named(kept, {name: unit for name, unit in given.items() if isinstance(unit, str)}, label)
     if hasattr(source, "columns") and hasattr(source, "iloc"):  # pandas
-        return _named({str(name): source[name].tolist() for name in source.columns}, {}, label)
+        if not source.columns.is_unique:
+            name = source.columns[source.columns.duplicated()][0]
+            raise InputError(f"{label}, header", str(name), "each column once", "is given twice")
+        known = source.astype(object).where(source.notna(), None)  # pandas has several kinds of missing cells
+        return _named({str(name): known[name].tolist() for name in known.columns}, {}, label)
     if isinstance(source, (str, Path)):
         return _from_csv(source, label)
     accepted = "a CSV file, a DataFrame, a Dataset, or a mapping of columns"
@@ -86,6 +90,8 @@ def _from_csv(source: str | Path, label: str) -> tuple[list[Column], list[int]]:
     first = kept[0][1]
     separator = max(",;\t", key=first.count)
     head, *rows = csv.reader(io.StringIO("\n".join(line for _, line in kept)), delimiter=separator)
+    while head and not head[-1].strip():
+        head.pop()  # empty columns at the right, as spreadsheets leave them
     lines = [k for k, _ in kept[1:]]
     if len(rows) != len(lines):
         raise InputError(label, str(source), accepted, "has a quoted cell that does not end on its line")
@@ -107,4 +113,6 @@ def _header(text: str, label: str) -> tuple[str, str | None]:
     match = _HEADER.fullmatch(text)
     if match is None:
         raise InputError(label, text, "names of columns, with their unit in brackets", "is no name of a column")
+    if "(" in match[1]:
+        raise InputError(label, text, "the unit in square brackets, such as speed [m/s]", "has parentheses")
     return match[1].strip().removeprefix("impact.") if match[1].strip() in MEETING else match[1].strip(), match[2]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
@@ -19,6 +20,7 @@ from ..scene.schema import MEETING, SPEEDS
 from .columns import Column, columns_of
 from .measurements import OBSERVED, UNKNOWN, Measurements
 
+_DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+")
 _MISSING = ("", "-", "na", "n/a", "nan", "null", "none")
 _WORDS = {
     STICK: OUTCOMES.index(STICK), "sticks": OUTCOMES.index(STICK), "s": OUTCOMES.index(STICK),
@@ -125,6 +127,8 @@ class _Table:
             text = cell.strip()
             if text.lower() in _MISSING:
                 return None
+            if _DECIMAL_COMMA.fullmatch(text):
+                raise InputError(self._where(row, name), text, "numbers with a decimal point", "has a decimal comma")
             return units.number(text, self._where(row, name), words)
         try:
             return float(cell)
@@ -217,7 +221,7 @@ class _Table:
         else:
             speed_sd = np.full(self.size, np.nan)
         if np.isnan(speed_sd).any():
-            self.remarks.append(f"Scatter of the speed, where it is not given: {SPEED_SD:.0%}.")
+            self.remarks.append(f"Scatter of the speed, where it is not given: {100 * SPEED_SD:g} %.")
             speed_sd = np.where(np.isnan(speed_sd), SPEED_SD * speed, speed_sd)
         angle_sd = np.full(self.size, np.nan)
         if "angle_sd" in self.by_name:
@@ -245,7 +249,7 @@ class _Table:
                     continue
                 code = _WORDS.get(word)
             else:
-                code = int(cell) if cell in range(len(OUTCOMES)) else None
+                code = int(cell) if not isinstance(cell, bool) and cell in range(len(OUTCOMES)) else None
             if code is None:
                 accepted = f"{STICK}, {ROTATE}, {BOUNCE}, or an empty cell"
                 raise InputError(
@@ -275,7 +279,8 @@ class _Table:
             if gap.any():
                 relative = name == "contact_time"
                 default = RESULT_SD[name] * (np.abs(values) if relative else 1.0)
-                shown = f"{RESULT_SD[name]:.0%}" if relative else f"{RESULT_SD[name]:.4g} {_UNITS[name]}".strip()
+                shown = f"{100 * RESULT_SD[name]:g} %" if relative else f"{RESULT_SD[name]:.4g}"
+                shown = f"{math.degrees(RESULT_SD[name]):.3g} deg" if _UNITS[name] == "rad" else shown
                 self.remarks.append(f"Standard deviation of {name}, where it is not given: {shown}.")
                 sd = np.where(np.isnan(sd), default, sd)
             for row in np.flatnonzero(~(sd > 0) & np.isfinite(values) & (values != 0)).tolist():

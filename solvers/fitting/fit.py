@@ -213,6 +213,8 @@ def _remarks(data: Measurements, rows: Rows, error: float, others: tuple[Any, ..
             f"{odd.size} of {data.size} impacts {verb} the model at these estimates ({names}): their scatter does not "
             "allow what was observed. They count less than others."
         )
+    if 2 * odd.size > data.size:
+        said.append("Most impacts contradict the model: estimates, intervals and verdicts mean little.")
     for name, residual in rows.residual.items():
         known = residual[np.isfinite(residual)]
         if known.size and chi2.sf(float((known**2).sum()), known.size) < _ODD:

@@ -116,26 +116,29 @@ def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
         seen = data.outcome == code
         if seen.any():
             axes.plot(np.degrees(data.angle[seen]), data.speed[seen], _MARKS[name], color=INK, markerfacecolor="white",
-                      markersize=5, markeredgewidth=1.0)  # fmt: skip
+                      markersize=5, markeredgewidth=1.0, clip_on=False, zorder=3)  # fmt: skip
             handles.append(_mark(name, f"{LETTERS[name]} observed"))
     unknown = data.outcome < 0
     if unknown.any():
-        axes.plot(np.degrees(data.angle[unknown]), data.speed[unknown], "x", color=INK, markersize=5)
+        axes.plot(
+            np.degrees(data.angle[unknown]), data.speed[unknown], "x", color=INK, markersize=5, clip_on=False, zorder=3
+        )
         handles.append(Line2D([], [], linestyle="", marker="x", color=INK, label="outcome not recorded"))
     odd = found.rows.contradicting
     if odd.size:
-        axes.plot(
-            np.degrees(data.angle[odd]), data.speed[odd], "o", color="#b00020", markerfacecolor="none", markersize=11
-        )
+        axes.plot(np.degrees(data.angle[odd]), data.speed[odd], "o", color="#b00020", markerfacecolor="none",
+                  markersize=11, clip_on=False, zorder=3)  # fmt: skip
         handles.append(Line2D([], [], linestyle="", marker="o", color="#b00020", markerfacecolor="none", markersize=9,
                               label="contradicts the model"))  # fmt: skip
     present = [patch(name) for code, name in enumerate(OUTCOMES) if (codes[0] == code).any()]
+    for each in present:
+        each.set_linewidth(0.6)  # the legend may lie on the same colour
     axes.set_yscale("log")
     plain(axes.yaxis)
     axes.set_xlabel("impact angle (deg)")
     axes.set_ylabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
     axes.legend(handles=present + handles, fontsize=6.5, loc="best", framealpha=0.9)
-    axes.set_title("impacts on the fitted map; shaded: where the outcome is uncertain (95 %)", fontsize=9)
+    axes.set_title("impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _own(found), fontsize=9)
 
 
 def _mark(name: str, label: str) -> Line2D:
@@ -164,12 +167,22 @@ def _results(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
         axes.plot(speed, values[0], color=colour, linewidth=1.2, label=f"{np.degrees(angle):.3g}°")
         axes.errorbar(data.speed[own], measured[own], sd[own], data.speed_sd[own], fmt="o", color=colour,
                       markersize=3.5, elinewidth=0.7)  # fmt: skip
+        if data.columns:
+            axes.plot(data.speed[own], found.rows.expected[name][own], "_", color=colour, markersize=10)
     axes.set_xscale("log")
     plain(axes.xaxis)
     axes.set_xlabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
     axes.set_ylabel(_LABELS[name])
     axes.legend(title="mean angle of the group", fontsize=7, title_fontsize=7)
-    axes.set_title("measured, and the fit at the mean angle of each group with its band (95 %)", fontsize=9)
+    dashes = ";\ndashes: the fit with each impact's own entries" if data.columns else ""
+    title = "measured, and the fit at the mean angle of each group with its band (95 %)"
+    axes.set_title(title + _own(found) + dashes, fontsize=9)
+
+
+def _own(found: Fitted) -> str:
+    """What a picture for one value of every entry says where entries differ from impact to impact."""
+    names = ", ".join(found.data.columns)
+    return f",\nwith the scene's own {names}" if names else ""
 
 
 def _by_angle(angle: np.ndarray) -> list[np.ndarray]:
@@ -207,7 +220,7 @@ def _profile(axes: Axes, found: Fitted, k: int) -> None:
     axes.axvline(estimate.value / size, color=INK, linewidth=0.8)
     if entry.log and values.max() > 20 * values.min():
         axes.set_xscale("log")
-    axes.set_ylim(max(min(heights) * 1.1, -5.0), 0.4)
+    axes.set_ylim(max(min(min(heights), -DROP) * 1.1, -5.0), 0.4)
     axes.set_xlabel(f"{entry.name.partition('.')[2].replace('_', ' ')}" + (f" ({unit})" if unit else ""))
     axes.set_title(estimate.verdict, fontsize=8)
 
@@ -223,6 +236,10 @@ def _residuals(axes: Axes, found: Fitted) -> None:
             if own.any():
                 axes.plot(data.speed[own], residual[own], _MARKS[outcome], color=INK, markerfacecolor=EDGES[outcome],
                           markersize=5, label=f"{LETTERS[outcome]}, {name.replace('_', ' ')}")  # fmt: skip
+        own = known & (data.outcome < 0)
+        if own.any():
+            label = f"outcome not recorded, {name.replace('_', ' ')}"
+            axes.plot(data.speed[own], residual[own], "x", color=INK, markersize=5, label=label)
     stuck = ~data.separated
     if stuck.any():
         surprise = np.sqrt(np.maximum(-2 * np.log(np.maximum(rows.probability[stuck], 1e-9)), 0.0))

@@ -144,7 +144,8 @@ class Fit:
         ]
         widths[0] = max(width, widths[0])
         head = ("entry", "estimate", "95 % interval", "verdict")
-        lines = [f"{self.points} impacts, log-likelihood {self.log_likelihood:.3f}", ""]
+        count = "1 impact" if self.points == 1 else f"{self.points} impacts"
+        lines = [f"{count}, log-likelihood {self.log_likelihood:.3f}", ""]
         lines += ["  ".join(cell.ljust(size) for cell, size in zip(row, widths)).rstrip() for row in (head, *rows)]
         for title, said in (("", self.combinations), ("", self.remarks)):
             if said:

@@ -52,6 +52,8 @@ def test_units_missing_cells_and_comments(tmp_path):
             "column restitution_sd",
             "out of range",
         ),
+        ("speed [m/s];angle [deg];restitution", "0,5;30;0.3", "row 1 (line 2), column speed", "decimal comma"),
+        ("speed (m/s),angle [deg],restitution", "0.5,30,0.3", "data", "square brackets"),
         ("speed [m/s],angle [deg],restitution", "0.5,30,0.3,1", "row 1 (line 2)", "too many"),
         ("speed,angle [deg],restitution", "0.5,30,0.3", "header", "has no unit"),
         ("speed [kg],angle [deg],restitution", "0.5,30,0.3", "header", "a mass"),
@@ -69,17 +71,29 @@ def test_bad_cells_are_named(tmp_path, header, row, field, said):
     assert said in str(error.value)
 
 
+def test_empty_columns_at_the_right_are_no_columns(tmp_path):
+    """A spreadsheet's file, with a byte order mark, semicolons and empty columns at the right, is read."""
+    text = "\ufeffspeed [m/s];angle [deg];outcome;;\n0.5;30;Bounce;;\n0.2;30;Stick Rotate Separate;;\n"
+    assert read_data(written(tmp_path, text), SCENE).outcome.tolist() == [2, 1]
+
+
 def test_tables_of_python_are_read_alike(tmp_path):
     """A DataFrame, a mapping and a Dataset give what the file gives."""
     columns = {"speed": [0.5, 0.2], "angle": [0.5, 0.8], "restitution": [0.4, np.nan], "outcome": ["bounce", "stick"]}
     text = "speed [m/s],angle [rad],restitution,outcome\n0.5,0.5,0.4,bounce\n0.2,0.8,,stick\n"
     expected = read_data(written(tmp_path, text), SCENE)
     frame = pd.DataFrame(columns)
-    for source in (columns, frame, frame.to_xarray()):
+    for source in (columns, frame, frame.convert_dtypes(), frame.to_xarray()):
         found = read_data(source, SCENE)
         np.testing.assert_array_equal(found.speed, expected.speed)
         np.testing.assert_array_equal(found.outcome, expected.outcome)
         np.testing.assert_array_equal(found.observed["restitution"][0], expected.observed["restitution"][0])
+
+
+def test_truth_values_are_no_outcomes():
+    """True does not say which of the three outcomes it means."""
+    with pytest.raises(InputError, match="row 1, column outcome"):
+        read_data({"speed": [0.5], "angle": [0.5], "outcome": [True]}, SCENE)
 
 
 def test_stokes_numbers_are_speeds_of_the_scene():
