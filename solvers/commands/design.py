@@ -69,7 +69,7 @@ def command(
     plot: str | None,
     output: str | None,
 ) -> None:
-    r"""Choose the impacts from whose outcomes and restitutions `fit` will learn most about entries of SCENE.
+    """Choose the impacts from whose outcomes and restitutions `fit` will learn most about entries of SCENE.
 
     With -o FILE.csv they are written as the table that `fit` reads, to be filled in.
 
@@ -77,7 +77,7 @@ def command(
     Examples:
       wetdoublet design granulation --free liquid.viscosity,liquid.film_thickness --over stokes=0.02:0.5,angle=0:80
       wetdoublet design granulation --free liquid.viscosity --over stokes=0.05:0.3,angle=0 -n 4 --restitution-sd none
-    """
+    """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..fitting.fit import RTOL
     from ..planning.design import design
 

@@ -52,7 +52,7 @@ def command(
     plot: str | None,
     output: str | None,
 ) -> None:
-    r"""Estimate entries of SCENE from the impacts in DATA.csv; the scene's own values are a first guess.
+    """Estimate entries of SCENE from the impacts in DATA.csv; the scene's own values are a first guess.
 
     \b
     The first line of DATA.csv names its columns:
@@ -61,7 +61,7 @@ def command(
     Examples:
       wetdoublet fit granulation impacts.csv --free particles.roughness,liquid.viscosity --plot fit.png
       wetdoublet fit scene.toml impacts.csv --free liquid.viscosity --prior liquid.viscosity="2 Pa s +- 10 %"
-    """
+    """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..fitting.fit import RTOL, fit
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
