@@ -25,7 +25,7 @@ SET_UP = re.compile(
     r"(\.venv/bin/)?python -m (pip|pytest|sphinx|tests))"
 )
 """What sets up an environment, or measures for minutes, is run by the integration script or by hand."""
-LONG = re.compile(r"wetdoublet (reproduce|bench|verify|boundary \S+ --angle 0:85 )|--stress|:10000 ")
+LONG = re.compile(r"wetdoublet (reproduce|bench|verify|boundary \S+ --angle 0:85 )|--stress|--compare|:10000 ")
 """Commands that take tens of seconds: `tests/test_docs.py` holds their options, tests of their own what they do."""
 
 

@@ -23,6 +23,7 @@ _CELL = 1 / 16  # of the histogram of restitutions, in the same
 _BEYOND = 6.0  # where a density ends, in the same
 _MOST_LINES, _MOST_POINTS = 256, 512
 _FEWEST_LINES = 16
+_ROUGH = 2.0  # most of the complete information that interpolation may add
 _RARE = 1e-3  # probability of a sheet that is left out
 _TINY = 1e-290
 
@@ -57,10 +58,13 @@ def information_of(curves: Sequence[Curve], lines: int, noise: float, points: in
         noise: standard deviation of the measurement.
         points: least number of points of the quadrature along a segment.
     """
-    found = [_points(each, noise, points) for each in _sheets(curves, lines)]
-    if not found:
+    own = _joined([_points(each, noise, points) for each in _single(curves, lines)])
+    sheets = _sheets(curves, lines)
+    if not sheets:
         return np.zeros((curves[0].slope.shape[1],) * 2)
-    weight, slope, value, moves = (np.concatenate(each) for each in zip(*found, strict=True))
+    between = _joined([_points(each, noise, points) for each in sheets])
+    smooth = (_complete(between, noise) <= _ROUGH * _complete(own, noise)).all()
+    weight, slope, value, moves = between if smooth else own
     cell = noise * _CELL
     low = float(value.min()) - _BEYOND * noise
     size = int((float(value.max()) + _BEYOND * noise - low) / cell) + 2
@@ -88,6 +92,22 @@ def information_of(curves: Sequence[Curve], lines: int, noise: float, points: in
     return total
 
 
+_Points = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""Weights of points, derivatives of the weights' logarithms, restitutions, and their derivatives."""
+
+
+def _joined(found: Sequence[_Points]) -> _Points:
+    weight, slope, value, moves = (np.concatenate(each) for each in zip(*found, strict=True))
+    return weight, slope, value, moves
+
+
+def _complete(found: _Points, noise: float) -> np.ndarray:
+    """The information on each entry if it were seen on which point an impact lies, which the density cannot exceed."""
+    weight, slope, _, moves = found
+    total: np.ndarray = weight @ (slope**2 + (moves / noise) ** 2)
+    return total
+
+
 @dataclass(frozen=True)
 class _Sheet:
     """Curves that continue each other from line to line; arrays of those of `Curve`.
@@ -109,8 +129,8 @@ class _Sheet:
 
 def _sheets(curves: Sequence[Curve], lines: int) -> list[_Sheet]:
     """Sheets through neighbouring lines that have as many curves of the same kinds."""
-    z, weight = hermite(lines)
-    edges = np.clip(ndtri(np.clip(np.concatenate([[0], np.cumsum(weight)]), 0, 1)), -_REACH, _REACH)
+    weight = hermite(lines)[1]
+    z, edges = _places(lines)
     on: list[list[Curve]] = [[] for _ in range(lines)]
     for each in curves:
         on[each.line].append(each)
@@ -127,13 +147,28 @@ def _sheets(curves: Sequence[Curve], lines: int) -> list[_Sheet]:
     return found
 
 
+def _single(curves: Sequence[Curve], lines: int) -> list[_Sheet]:
+    """Every curve by itself, for as much of the scatter as its line stands for."""
+    z, edges = _places(lines)
+    return [
+        _stacked([each], z[each.line : each.line + 1], (float(edges[each.line]), float(edges[each.line + 1])))
+        for each in curves
+    ]
+
+
+def _places(lines: int) -> tuple[np.ndarray, np.ndarray]:
+    """Where lines lie across the scatter, and (lines + 1,) the ends of what they stand for."""
+    z, weight = hermite(lines)
+    return z, np.clip(ndtri(np.clip(np.concatenate([[0], np.cumsum(weight)]), 0, 1)), -_REACH, _REACH)
+
+
 def _stacked(those: Sequence[Curve], z: np.ndarray, span: tuple[float, float]) -> _Sheet:
     arrays = (np.stack([getattr(each, name) for each in those]) for name in ("ends", "moves", "value", "slope"))
     return _Sheet(those[0].kind, those[0].nodes, z, span, *arrays)
 
 
-def _points(sheet: _Sheet, noise: float, points: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Weights of points, derivatives of the weights' logarithms, restitutions, and their derivatives."""
+def _points(sheet: _Sheet, noise: float, points: int) -> _Points:
+    """The points of a sheet."""
     along = segment_map(sheet.kind, sheet.nodes, points).interpolate @ sheet.value.T
     apart = float(np.abs(np.diff(along, axis=0)).max()) / noise
     mapping = segment_map(sheet.kind, sheet.nodes, _power(points * apart / _APART, points, _MOST_POINTS))
