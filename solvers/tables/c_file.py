@@ -41,6 +41,7 @@ def _comment(table: Law, name: str) -> str:
     arguments = _arguments(table)
     ranges = [
         f"stokes    normal Stokes number, {table.range.stokes[0]!r} to {table.range.stokes[1]!r}",
+        "          m v/(6 pi mu a^2): reduced mass m, normal approach speed v, viscosity mu, reduced radius a; SI",
         f"angle     impact angle in rad, {table.range.angle[0]!r} to {table.range.angle[1]!r}",
     ]
     if table.range.third is not None:

@@ -80,7 +80,7 @@ def _includes(own: Sequence[Item]) -> list[str]:
     found, above = list[str](), list[str]()
     for item in own:
         if item.kind == "include":
-            found.append("\n".join([*above, item.code.strip(), *["#endif"]*len(above)]))
+            found.append("\n".join([*above, item.code.strip(), *["#endif"] * len(above)]))
         elif item.code.startswith("#endif"):
             above.pop()
         elif item.code.startswith("#if"):

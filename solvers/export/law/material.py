@@ -22,6 +22,15 @@ LARGEST = 1e30
 """Largest magnitude of a number, and the inverse of the smallest: beyond it groups may leave a double's range."""
 _LARGE = {"glass_transition_pressure": NO_GLASS, "youngs_modulus": NEVER_MET["youngs_modulus"]}
 _RATIO = Range(f"from {1 / FARTHEST:g} to {FARTHEST:g}", 1 / FARTHEST, FARTHEST, low_open=False, high_open=False)
+_ALONE = {
+    "reduced_radius": "reduced radius, R1 R2/(R1 + R2)",
+    "reduced_mass": "reduced mass, M1 M2/(M1 + M2)",
+    "volume": "bridge volume over (2 reduced_radius)^3",
+}
+_BESIDE_WALL = {
+    "reduced_radius": "radius of the sphere",
+    "reduced_mass": "mass of the sphere",
+}
 _OK = "OK"
 
 
@@ -74,12 +83,20 @@ def material(scene: Scene, kernels: Iterable[Kernel]) -> tuple[Number, ...]:
     found = []
     for name in [*known, *sorted(names - {*known})]:
         if name in known:
-            unit, meaning = VOCABULARY[name].unit, VOCABULARY[name].meaning
+            unit, meaning = VOCABULARY[name].unit, _meaning(name, scene)
         else:
             own = user_model.fields(scene.package)[f"{user_model.TABLE}.{name}"]
             unit, meaning = own.unit or "1", own.what
         found.append(Number(name, unit, meaning, _range(name, scene), float(given[name])))
     return tuple(found)
+
+
+def _meaning(name: str, scene: Scene) -> str:
+    """The vocabulary's, but for numbers whose R and M the header does not explain."""
+    from ....derive.vocabulary.quantities import VOCABULARY
+
+    own = {**_ALONE, **_BESIDE_WALL} if scene.wall else _ALONE
+    return own.get(name, VOCABULARY[name].meaning)
 
 
 def impact(scene: Scene) -> tuple[Number, ...]:
@@ -91,9 +108,10 @@ def impact(scene: Scene) -> tuple[Number, ...]:
     ranges = {each: FIELDS[f"impact.{each}"].range for each in meanings}
     if scene.pendulum is not None:
         ranges = dict.fromkeys(ranges, still)
-        meanings = dict.fromkeys(meanings, "0: spheres on strings do not spin before the impact")
+        meanings = dict.fromkeys(meanings, "spheres on strings do not spin before the impact")
     elif scene.wall:
-        ranges[other], meanings[other] = still, "0: a wall does not spin"
+        meanings[one] = "the sphere's angular velocity before the impact, positive as it rolls along its velocity"
+        ranges[other], meanings[other] = still, "a wall does not spin"
     return (
         Number("speed", "m/s", "normal approach speed at initial contact", FIELDS["impact.speed"].range, 1.0),
         Number("angle", "rad", "impact angle, 0 along the line of centres", FIELDS["impact.angle"].range, 0.0),

@@ -175,7 +175,8 @@ def _afterwards(scene: Scene) -> str:
 
 def _in_place(scene: Scene) -> str:
     moved = (
-        "The way along the wall is estimated from the velocities before and after."
+        "The way along the wall is estimated from the velocities before and after; "
+        "the wall's position follows the sphere."
         if scene.wall
         else "Their centre of mass moves on meanwhile."
     )
