@@ -30,6 +30,7 @@ NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left o
 _FAR = np.array([6.0, 7.0, 8.5, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0])  # where an outcome not seen nearby is looked for
 _FARTHEST = 30.0
 _RARE = 1e-4  # probability within REACH below which the observed outcome is looked for beyond
+_BESIDE = 0.05  # beyond a change of outcome, in standard deviations: where its results are taken
 FINER = (3, 7)
 """Factors of the number of lines of rows that need more."""
 KNEE, TAIL = 12.0, 4.0
@@ -322,8 +323,8 @@ class Likelihood:
     ) -> None:
         """Log-probabilities of rows whose outcome is rare within the reach of the integral, from the nearest change.
 
-        The row's likelihood is that of a scatter as far as the change, and falls with the square of the distance also
-        where the integral would be zero.
+        The row's likelihood is that of a scatter as far as the change, with the results there, and falls with the
+        square of the distance also where the integral would be zero.
         """
         data = self.data.part(rows)
         lines = replace(Lines.of(data, self.direction[rows], np.ones(rows.size, int), _FARTHEST), row=rows)
@@ -348,8 +349,30 @@ class Likelihood:
             moves = boundaries.slopes(law, lines, found, which[there], True)
             hazard = np.exp(-(near[there] ** 2) / 2 - np.log(2 * np.pi) / 2 - tail[there])
             slope[there] = -(hazard * sign[there])[:, None] * moves
+            misfit, misfit_slope = self._misfit(law, lines, there, found.y[which[there]] + _BESIDE * sign[there], moves)
+            tail[there] -= misfit
+            slope[there] -= misfit_slope
         missing = (into[rows] < tail) & ((which < 0) | (near > REACH / 2))
         into[rows[missing]], scores[rows[missing]] = tail[missing], slope[missing]
+
+    def _misfit(
+        self, law: BoundLaw, lines: Lines, which: np.ndarray, y: np.ndarray, moves: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Half the squared distance of what was measured from the results at places that move, and its slopes."""
+        row = lines.row[which]
+        half, slope = np.zeros(which.size), np.zeros(moves.shape)
+        if not self.of:
+            return half, slope
+        there = law.results(self.of, row, *lines.at(which, y))
+        by_speed, by_angle = lines.slopes(which, y)
+        for k, name in enumerate(self.of):
+            measured, sd = (each[row] for each in self.data.observed[name])
+            known = np.isfinite(measured) & np.isfinite(there.value[k]) & self.data.separated[row]
+            pull = np.where(known, (measured - np.nan_to_num(there.value[k])) / sd, 0.0)
+            by_y = there.speed[k] * by_speed + there.angle[k] * by_angle
+            half += pull**2 / 2
+            slope[known] -= ((pull / sd)[:, None] * (there.free[k] + by_y[:, None] * moves))[known]
+        return half, slope
 
 
 def limit(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide_many
+from wetdoublet.solvers import Scene, collide_many, log_likelihood
 from wetdoublet.solvers.fitting.likelihood import EXACT, KNEE, Likelihood, Resolution, limit
 from wetdoublet.solvers.fitting.measurements import Measurements
 
@@ -120,3 +120,11 @@ def test_rows_of_other_viscosity_are_those_of_such_a_scene():
     thicker = scene.with_entries({"liquid.viscosity": "13 Pa s"})
     alone = [Likelihood(one, names, data.part(np.array([0])))(values).rows[0] for one in (scene, thicker)]
     np.testing.assert_allclose(together, alone, rtol=1e-9)
+
+
+def test_a_rare_outcome_does_not_hide_what_was_measured():
+    """A restitution counts also where its outcome is rare: the log-likelihood has no step at a probability of 1e-4."""
+    seen = {"speed": [0.169], "angle [deg]": [24.0], "liquid.viscosity": [3.0], "restitution": [0.25], "outcome": ["B"]}
+    density = log_likelihood("pendulum", seen, "liquid.film_thickness")
+    common, rare = (density([height])[0] for height in (356.5e-6, 358e-6))
+    assert abs(common - rare) < 0.1
