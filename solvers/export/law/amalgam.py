@@ -72,7 +72,8 @@ def merged(sources: Sequence[Source], callers: Sequence[Item]) -> tuple[str, lis
         body = "".join(_sections(own_items, kernel.heads, renamed))
         text += f"{_rule(f'Kernel `{kernel.prefix}`')}\n{body}"
     includes = {include for kernel in kernels for include in _includes(kernel.items)}
-    return text, *(sorted(one for one in includes if one.startswith("#if") == within) for within in (False, True))
+    conditional = {include for include in includes if include.startswith("#if")}
+    return text, sorted(includes - conditional), sorted(conditional)
 
 
 def _includes(own: Sequence[Item]) -> list[str]:

@@ -54,6 +54,8 @@ static int is_wrong_in_pieces(int k, const law_material *material, const law_imp
     law_begin(material, impact, VECTOR_RTOL, &c);
     for (int piece = 1; piece <= 3 && c.status == LAW_OK; piece++)
         law_advance(&c, time*piece/3.0);
+    if (sticks && c.motion == LAW_LOST && c.outcome == LAW_STICK)
+        return 0; /* proved, and then it rebounds without end: law.h says that it cannot be followed */
     if (c.status != LAW_OK || (c.motion == LAW_APART) == sticks) {
         printf("vector %d in pieces: %s\n", k, law_message(c.status));
         return 1;
