@@ -11,11 +11,18 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, shown
-from ..scene.schema import FIELDS, Field
+from ..scene.schema import FIELDS, Field, Range
 from ..scene.values import array
 
 _SPEED = FIELDS["impact.relative_speed"]
-_GAS = Field("speeds", "the standard deviation of a particle's velocity components", '"0.3 m/s"', unit="m/s")
+_LEAST, _MOST = 1e-30, 1e30  # m/s; products of speeds and densities stay within a double's range
+_GAS = Field(
+    "speeds",
+    "the standard deviation of a particle's velocity components",
+    '"0.3 m/s"',
+    Range(f"from {_LEAST:g} to {_MOST:g}", _LEAST, _MOST, low_open=False, high_open=False),
+    unit="m/s",
+)
 _PREFIX = "maxwell:"
 _ACCEPTED = (
     'a relative speed as "1 m/s", "maxwell:0.3 m/s" with the standard deviation of a particle\'s velocity components, '
@@ -91,9 +98,12 @@ def _table(speed: np.ndarray, density: np.ndarray, label: str) -> Speeds:
         raise InputError(label, None, _ACCEPTED, f"has {speed.size} speeds and {density.size} densities")
     if not (np.all(np.diff(speed) > 0) and speed[0] >= 0 and np.isfinite(speed[-1])):
         raise InputError(label, speed, "speeds that ascend from 0 or more", "does not ascend")
-    total = float(np.trapezoid(density, speed))
-    if not (np.isfinite(density).all() and (density >= 0).all() and total > 0):
+    if speed[-1] > _MOST:
+        raise InputError(label, speed, f"speeds of at most {_MOST:g} m/s", "is out of range")
+    if not (np.isfinite(density).all() and (density >= 0).all() and density.max() > 0):
         raise InputError(label, density, "densities of 0 or more, not all of them 0", "is no density")
+    density = density / density.max()  # so that no product overflows or vanishes
+    total = float(np.trapezoid(density, speed))
     return Speeds(
         f"table of {speed.size} relative speeds from {speed[0]:.6g} to {speed[-1]:.6g} m/s",
         speed,

@@ -11,8 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.export.equations import file_name
-from wetdoublet.solvers.export.law.texts import texts
+from wetdoublet.solvers.export.law.texts import law_name, texts
 
 COMPILERS = {"gcc": "g++", "clang": "clang++"}
 FOUND = [name for name, other in COMPILERS.items() if shutil.which(name) and shutil.which(other)]
@@ -30,7 +29,7 @@ class Law:
     """The law in a folder, compiled as a library."""
 
     def __init__(self, scene: Scene, folder: Path, *flags: str, compiler: str = "gcc") -> None:
-        self.name = file_name(scene)
+        self.name = law_name(scene)
         self._folder = folder
         library = folder / f"{self.name}-{len(list(folder.glob('*.so')))}.so"
         source = str(folder / f"{self.name}.c")

@@ -15,7 +15,7 @@ from .amalgam import OWN, Source, digests, merged
 from .fortran import interface
 from .header import RESULTS, default_material, header, message_function
 from .items import items
-from .kernels import SPACE, Kernel, kernels, only_in_a_plane
+from .kernels import HEAD_ON, PLANE, SPACE, Kernel, kernels, only_in_a_plane
 from .material import Number, Result, checks, impact, material, results
 from .vectors import table
 
@@ -23,6 +23,8 @@ ROOTS = ("integrate.h", "follow.h")
 """Files of a kernel whose functions the law calls, with what they include."""
 CALLERS = ("law.h", "contact.h")
 """Files behind the kernels, which call their functions."""
+_TAKEN = ("check", "example", "vectors", "add", "oblique", HEAD_ON, PLANE, SPACE, f"{SPACE}_set")
+"""Names of other files of the folder, and beginnings of names within the law that would be those of its types."""
 _LINE = re.compile(r'^#(?:pragma once|include "[^"]+")\n', re.MULTILINE)
 _LANES = """\
 /* Doubles side by side: as many as a vector register holds, or one in plain C. -DLAW_LANES=1 chooses. */
@@ -43,6 +45,17 @@ _LANES = """\
 """
 
 
+def law_name(scene: Scene) -> str:
+    """The prefix of a scene's law and the name of its files, other than those of its neighbours and prefixes within it.
+
+    Examples:
+        >>> law_name(Scene("example", Scene.load("granulation").given))
+        'example_law'
+    """
+    name = file_name(scene)
+    return f"{name}_law" if name in _TAKEN else name
+
+
 def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
     """Texts of the files by name.
 
@@ -50,7 +63,7 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
         InputError: a law of the scene has no recurrence.
         ComputationError: no compiler is found for the test vectors.
     """
-    name = file_name(scene)
+    name = law_name(scene)
     own = kernels(scene, rtol)
     found = {
         f"{name}.h": _head(scene, own) + _header(scene, own),
@@ -78,7 +91,7 @@ def _filled(file: str, scene: Scene, own: tuple[Kernel, ...]) -> str:
     integers = [f'("{name}", ctypes.c_int)' for kind, name, _ in RESULTS if kind == "int"]
     speed = 0.1 / scene.stokes_per_speed
     places = {
-        "NAME": file_name(scene),
+        "NAME": law_name(scene),
         "MATERIAL": _fields(material(scene, own)),
         "IMPACT": _fields(impact(scene)),
         "DOUBLES": ", ".join(doubles),

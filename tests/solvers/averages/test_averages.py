@@ -184,6 +184,8 @@ def test_a_pair_that_is_impossible_is_marked() -> None:
         ({"speeds": "maxwell:fast"}, "speeds"),
         ({"speeds": ([1.0, 0.5], [1.0, 1.0])}, "speeds"),
         ({"speeds": ([0.5, 1.0], [0.0, 0.0])}, "speeds"),
+        ({"speeds": ([0.0, 1e300], [1.0, 1e300])}, "speeds"),
+        ({"speeds": "maxwell:1e300 m/s"}, "speeds"),
         ({"speeds": "there-is-none.csv"}, "speeds"),
         ({"speeds": 1.0, "radii": [1e-4, 1e-4]}, "radii"),
         ({"speeds": 1.0, "films": "thick"}, "films"),

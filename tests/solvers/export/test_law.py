@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import shutil
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
@@ -17,6 +18,7 @@ from wetdoublet.solvers.engines.taylor.layout import ANSWER
 from wetdoublet.solvers.export.law.conditions import Conditions
 from wetdoublet.solvers.export.law.items import items
 from wetdoublet.solvers.export.law.kernels import kernels
+from wetdoublet.solvers.export.law.texts import law_name
 from wetdoublet.solvers.settings import STEPS
 
 from ...helpers.exported_law import COMPILERS, FOUND, Law, written
@@ -180,6 +182,21 @@ def test_shares_no_data(pendulum: Path, tmp_path: Path):
     assert all(name.startswith("pendulum_") for name in public)
     called = {line.split()[-1] for line in listed.splitlines() if " U " in line}
     assert not called & {"malloc", "calloc", "free", "printf"}
+
+
+def test_no_name_of_a_scene_is_one_within_the_law(pendulum: Path, granulation: Path):
+    """What the header declares has other names than what the law has for itself, whatever the scene is called."""
+    for folder in (pendulum, granulation):
+        prefix = f"{folder.name}_"
+        header = (folder / f"{prefix[:-1]}.h").read_text()
+        public = set(re.findall(rf"\b{prefix}(\w+)", header))
+        own = set(re.findall(r"\b[a-z]\w*", re.sub(r"/\*.*?\*/", "", header, flags=re.DOTALL)))
+        within = set(re.findall(r"\b[a-z]\w+", (folder / f"{prefix[:-1]}.c").read_text())) - own
+        names = {word.removesuffix(f"_{end}") for word in within for end in public if word.endswith(f"_{end}")}
+        names |= {path.stem for path in folder.iterdir() if path.suffix in (".c", ".h", ".f90")} - {prefix[:-1]}
+        assert {"check", "example", "vectors"} < names
+        for name in names:
+            assert law_name(Scene(name, GRANULATION.given)) not in names
 
 
 @NEED
