@@ -104,7 +104,7 @@ def end(
 
 
 def checked(objective: Objective, best: np.ndarray, k: int, found: End, known: Sequence[np.ndarray]) -> End:
-    """The end of an interval, also looked for from elsewhere: a profile may follow a local maximum of the other entries.
+    """The end of an interval, looked for from elsewhere too: a profile may follow a local maximum of other entries.
 
     Arguments:
         known: likely points, such as the ends of other intervals.
@@ -139,7 +139,7 @@ def checked(objective: Objective, best: np.ndarray, k: int, found: End, known: S
 def _elsewhere(
     objective: Objective, best: np.ndarray, k: int, value: float, known: Sequence[np.ndarray]
 ) -> list[np.ndarray]:
-    """Starts of a profile point: the estimate and known points with the entry's value, and points on the way to these."""
+    """Starts of a profile point: the estimate and known points with this value, and points on the way to these."""
     free = objective.free
     starts = []
     for point in (best, *known):
