@@ -22,7 +22,7 @@ from .likelihood import Likelihood, Resolution
 from .measurements import Measurements
 from .objective import Objective, whitening
 from .optimise import Optimum, optimise, settled
-from .profiles import DROP, End, end
+from .profiles import DROP, End, checked, end
 from .result import Fit, log_density
 from .verdicts import combinations, judged
 
@@ -139,11 +139,27 @@ def _intervals(likelihood: Likelihood, free: FreeEntries, best: Optimum) -> tupl
             if better is not None:
                 break
         if better is None:
+            ends, better = _checked(objective, best.inner, ends)
+        if better is None:
             return best, ends
         again = settled(likelihood, free, better)
         best = Optimum(again.inner, again.value, best.others)
     advice = "give priors, free fewer entries, or start from other values"
     raise ComputationError("the likelihood has no maximum that its profiles agree on", advice=advice)
+
+
+def _checked(
+    objective: Objective, inner: np.ndarray, ends: list[tuple[End, End]]
+) -> tuple[list[tuple[End, End]], np.ndarray | None]:
+    """The ends, each looked for from the other intervals' ends too, and a point more likely than the maximum if met."""
+    now = [list(pair) for pair in ends]
+    for k in range(objective.free.size):
+        for side in (0, 1):
+            known = [each.inner for j, pair in enumerate(now) for each in pair if j != k]
+            now[k][side] = checked(objective, inner, k, now[k][side], known)
+            if now[k][side].better is not None:
+                return ends, now[k][side].better
+    return [(below, above) for below, above in now], None
 
 
 def _result(

@@ -6,11 +6,13 @@ log-likelihood is at most 1.92 below its maximum (95 %, chi-squared with one deg
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
 
+from .likelihood import COARSE
 from .objective import Objective, whitening
 
 DROP = 1.920729410347062  # half the 95 % quantile of chi-squared with one degree of freedom
@@ -22,6 +24,9 @@ _FARTHER = 4.0
 _FIRST = 0.6  # of the way that the information matrix gives; far outside an optimisation takes longer
 _TOLERANCE = 1e-3  # of the sum of squares of a point of the profile
 _AT_BOUND = 1e-3  # of the range of the search
+_AT_WALL = 0.02  # of the way, width of a bracket beyond which no scene is possible
+_HOPELESS = 50.0  # log-likelihood below the maximum from which no start is followed
+_CHECKS = 3  # of an end from elsewhere
 
 
 @dataclass(frozen=True)
@@ -29,41 +34,58 @@ class End:
     """An end of an interval.
 
     Attributes:
-        inner: in the variables of the search, all entries; the bound of the search where `open`.
-        open: the likelihood does not fall by DROP before the bound of the search.
+        inner: in the variables of the search, all entries; where `open`, the farthest point that was looked at.
+        open: the likelihood does not fall by DROP before the bound of the search, or before the scene is impossible.
         better: a point that is more likely than the maximum, if one was met.
+        wall: no scene was found beyond; with other values of the other entries there may be one.
     """
 
     inner: np.ndarray
     open: bool
     better: np.ndarray | None = None
+    wall: bool = False
 
 
-def end(objective: Objective, best: np.ndarray, k: int, sign: float, drop: float = DROP) -> End:
+def end(
+    objective: Objective, best: np.ndarray, k: int, sign: float, drop: float = DROP, after: np.ndarray | None = None,
+    way: np.ndarray | None = None,
+) -> End:  # fmt: skip
     """The end of the interval of entry k below (-1) or above (1) its estimate.
 
     The root of twice the drop of the profile is nearly linear in the entry, and is followed by secants within a
     bracket; the other entries start from where the last points of the profile lead.
+
+    Arguments:
+        after: a point within the interval from which to go on.
+        way: a rate of all entries by distance that leads to possible scenes; none other than `tangent` if None.
     """
     free, top = objective.free, objective.value(best)
     bound = free.low[k] if sign < 0 else free.high[k]
     if abs(bound - best[k]) < _AT_BOUND * (free.high[k] - free.low[k]):
         return End(best, True)
-    white = whitening(objective, best)
-    covariance = white @ white.T
     goal, most = np.sqrt(2 * drop), abs(bound - best[k])
-    step = _FIRST * goal * np.sqrt(covariance[k, k])
-    tangent = sign * covariance[:, k] / covariance[k, k]
     inside, outside = (0.0, 0.0), (np.inf, np.inf)  # distances from the estimate, and roots there
-    at = best
+    if after is None:
+        white = whitening(objective, best)
+        covariance = white @ white.T
+        step = _FIRST * goal * np.sqrt(covariance[k, k])
+        tangent, at = sign * covariance[:, k] / covariance[k, k], best
+    else:
+        passed = abs(float(after[k] - best[k]))
+        inside = passed, np.sqrt(2 * max(top - objective.value(after), 0.0))
+        tangent, at, step = (after - best) / passed, after, _next(inside, outside, goal, False)
     for tried in range(_STEPS):
         step = min(step, most)
-        start = np.clip(at + tangent * (step - abs(at[k] - best[k])), free.low, free.high)
-        point = profile_point(objective, start, k, float(best[k] + sign * step))
+        value = float(best[k] + sign * step)
+        ahead = np.clip(at + tangent * (step - abs(at[k] - best[k])), free.low, free.high)
+        aside = at if way is None else np.clip(best + way * step, free.low, free.high)
+        start = _possible(objective, (ahead, aside, at, best), k, value)
+        point = profile_point(objective, start, k, value)
         height = objective.value(point)
         if height > top + _BETTER * drop:
             return End(point, False, point)
-        root = np.sqrt(2 * max(top - height, 0.0)) if np.isfinite(height) else 10 * goal
+        possible = bool(np.isfinite(height))
+        root = np.sqrt(2 * max(top - height, 0.0)) if possible else np.inf
         if root < goal * (1 + _WITHIN) and step == most:
             return End(point, True)
         if abs(root - goal) < _WITHIN * goal:
@@ -72,12 +94,70 @@ def end(objective: Objective, best: np.ndarray, k: int, sign: float, drop: float
             inside = step, root
         else:
             outside = step, root
-        if np.isfinite(height):
+        if possible:
             tangent, at = (point - best) / step, point
+        wall = not np.isfinite(outside[1]) and np.isfinite(outside[0])
         step = _next(inside, outside, goal, tried % 3 == 2)
-        if outside[0] - inside[0] < _NARROW * most:
-            break
+        if outside[0] - inside[0] < (_AT_WALL * outside[0] if wall else _NARROW * most):
+            return End(at, wall, wall=wall)
     return End(at, False)
+
+
+def checked(objective: Objective, best: np.ndarray, k: int, found: End, known: Sequence[np.ndarray]) -> End:
+    """The end of an interval, looked for from elsewhere too: a profile may follow a local maximum of other entries.
+
+    Arguments:
+        known: likely points, such as the ends of other intervals.
+    """
+    top, drop = objective.value(best), DROP
+    coarse = Objective(objective.likelihood, objective.free, COARSE)
+    for _ in range(_CHECKS):
+        if found.better is not None or (found.open and not found.wall) or found.inner[k] == best[k]:
+            break
+        value, sign = float(found.inner[k]), float(np.sign(found.inner[k] - best[k]))
+        near = max(_elsewhere(objective, best, k, value, known), key=coarse.value)
+        guess = np.clip(objective.free.start, objective.free.low, objective.free.high)
+        guess[k] = value
+        starts = [start for start in (near, guess) if coarse.value(start) > top - _HOPELESS]
+        if not starts:
+            break
+        points = [profile_point(objective, start, k, value) for start in starts]
+        first = int(np.argmax([objective.value(each) for each in points]))
+        point, start, height = points[first], starts[first], objective.value(points[first])
+        if height > top + _BETTER * drop:
+            return End(point, False, point)
+        if not height > top - drop * (1 - _BETTER):
+            break
+        way = (start - best) / abs(value - best[k])
+        farther = end(objective, best, k, sign, drop, point, way)
+        if farther.better is None and abs(farther.inner[k] - best[k]) <= abs(value - best[k]):
+            break
+        found = farther
+    return found
+
+
+def _elsewhere(
+    objective: Objective, best: np.ndarray, k: int, value: float, known: Sequence[np.ndarray]
+) -> list[np.ndarray]:
+    """Starts of a profile point: the estimate and known points with this value, and points on the way to these."""
+    free = objective.free
+    starts = []
+    for point in (best, *known):
+        starts.append(np.where(np.arange(best.size) == k, value, point))
+        way = float(point[k] - best[k])
+        if way * (value - best[k]) > 0:
+            starts.append(np.clip(best + (point - best) * (value - best[k]) / way, free.low, free.high))
+    return starts
+
+
+def _possible(objective: Objective, starts: Sequence[np.ndarray], k: int, value: float) -> np.ndarray:
+    """The first start that with this value of entry k is a scene, or the first."""
+    for start in starts:
+        whole = start.copy()
+        whole[k] = value
+        if np.isfinite(objective.value(whole)):
+            return start
+    return starts[0]
 
 
 def _next(inside: tuple[float, float], outside: tuple[float, float], goal: float, halve: bool) -> float:
@@ -85,7 +165,9 @@ def _next(inside: tuple[float, float], outside: tuple[float, float], goal: float
     (low, at_low), (high, at_high) = inside, outside
     if not np.isfinite(high):
         return low * float(np.clip(goal / max(at_low, 1e-9), 1.1, _FARTHER))
-    part = 0.5 if halve else float(np.clip((goal - at_low) / (at_high - at_low), 0.08, 0.92))
+    part = (
+        0.5 if halve or not np.isfinite(at_high) else float(np.clip((goal - at_low) / (at_high - at_low), 0.08, 0.92))
+    )
     return low + part * (high - low)
 
 

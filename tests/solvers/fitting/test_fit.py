@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, fit, log_likelihood
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
 from wetdoublet.solvers.fitting.synthetic import drawn
-from wetdoublet.solvers.fitting.verdicts import IDENTIFIED, NOT_AT_ALL, ONE_SIDE
+from wetdoublet.solvers.fitting.verdicts import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE
 
 from tests.helpers.command import run
 
@@ -92,6 +93,21 @@ def test_an_entry_without_influence_is_not_identifiable():
     data = {"stokes": [0.02, 0.02], "angle": [0.1, 0.1], "outcome": ["stick", "stick"]}
     found = fit("granulation-dry-bridge", data | {"angle": [0.0, 0.0]}, "particles.dry_restitution")
     assert found.estimates["particles.dry_restitution"].verdict == NOT_AT_ALL
+
+
+def test_a_known_combination():
+    """Where nothing but viscosity resists inertia the data tell viscosity over mass, and neither alone."""
+    mass = "particles.reduced_mass"
+    glass, tension, modulus = "liquid.glass_transition_pressure", "bridge.surface_tension", "particles.youngs_modulus"
+    alone = {glass: "1e18 Pa", tension: "1e-12 N/m", modulus: "1e21 Pa"}
+    scene = Scene.load("granulation").with_entries(alone)
+    head_on = replace(plan(scene, 4, (5.0, 9.0)), angle=np.zeros(4), angle_sd=np.zeros(4))
+    found = fit(scene, drawn(scene, head_on, 4), [VISCOSITY, mass], starts=0)
+    assert {each.verdict for each in found.estimates.values()} == {COMBINED}
+    (sentence,) = found.combinations
+    assert sentence.startswith(
+        (f"The data tell {VISCOSITY} * {mass}^-1 to", f"The data tell {VISCOSITY}^-1 * {mass} to")
+    )
 
 
 def test_a_contradicting_row_is_named():
