@@ -444,7 +444,9 @@ class Header:
         )
         head = "static inline void dry_forces(const constants *c, const vec *y, vec film, vec shear, vec *found)"
         lines += ["enum { GRIP_LIMIT, HOLDING, DRY_FORCES };"]
-        lines += self._value("dry_forces", head, {"limit": "found[GRIP_LIMIT]", "holding": "found[HOLDING]"})
+        forces = self._value("dry_forces", head, {"limit": "found[GRIP_LIMIT]", "holding": "found[HOLDING]"})
+        forces.insert(forces.index("{") + 1, "    (void)film; (void)shear; /* some models have no edge */")
+        lines += forces
         for name, kind, result in (("rubbed", "void", ", vec *after"), ("friction_loss", "vec", "")):
             told, head = (
                 model[name],
