@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from wetdoublet.solvers import ModelWarning as ModelWarning
     from wetdoublet.solvers import Scene as Scene
     from wetdoublet.solvers import Sensitivities as Sensitivities
+    from wetdoublet.solvers import Table as Table
     from wetdoublet.solvers import WetDoubletError as WetDoubletError
     from wetdoublet.solvers import atlas as atlas
     from wetdoublet.solvers import band as band
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from wetdoublet.solvers import collide as collide
     from wetdoublet.solvers import collide_many as collide_many
     from wetdoublet.solvers import collide_pair as collide_pair
+    from wetdoublet.solvers import collision_averages as collision_averages
     from wetdoublet.solvers import compare_models as compare_models
     from wetdoublet.solvers import compile_kernels as compile_kernels
     from wetdoublet.solvers import design as design
@@ -48,6 +50,7 @@ if TYPE_CHECKING:
     from wetdoublet.solvers import regime_map as regime_map
     from wetdoublet.solvers import sensitivities as sensitivities
     from wetdoublet.solvers import sobol_indices as sobol_indices
+    from wetdoublet.solvers import table as table
     from wetdoublet.solvers import trajectory_sensitivities as trajectory_sensitivities
 
     __version__: str

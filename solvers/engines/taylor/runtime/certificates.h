@@ -199,7 +199,11 @@ static inline mask spun_down(const constants *c, const vec *y, mask asked, doubl
 #elif SPACE
 #define CHATTER_TESTS ATTRACTS
 #else
-#define CHATTER_TESTS (TURNS && ATTRACTS && !OWN_EVENTS && (ORBITAL_MARGINS || !STRINGS))
+#define CHATTER_TESTS (TURNS && ATTRACTS && (ORBITAL_MARGINS || !STRINGS))
+#if OWN_EVENTS
+#undef CHATTER_TESTS
+#define CHATTER_TESTS 0
+#endif /* OWN_EVENTS */
 #endif
 /* Whether that test is a proof. */
 #define CHATTER_PROVES (SPACE || (ORBITAL_MARGINS && !STRINGS))
