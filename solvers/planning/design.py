@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,13 +13,12 @@ from ..errors import InputError
 from ..fitting.data import read_data
 from ..fitting.fit import RTOL, fit
 from ..fitting.free_entries import FreeEntries, free_entries
-from ..fitting.likelihood import Resolution
 from ..fitting.measurements import Measurements
 from ..host.arguments import check_mapping, check_name, check_whole
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import check_rtol
-from .information import FINE, FINEST, information
+from .information import Information, information, sure_information
 from .result import Design
 from .search import Criterion, search
 from .window import Scatter, Window, check_over
@@ -95,9 +94,9 @@ def design(
     values = np.array([float(scene_now.entries[name]) for name in entries.names])
     ensemble = _ensemble(entries, values, before, draws, seed)
 
-    def evaluate(points: np.ndarray, resolution: Resolution = FINE) -> np.ndarray:
+    def evaluate(points: np.ndarray, of: Callable[..., Information] = information) -> np.ndarray:
         plan = window.plan(points)
-        found = (information(scene_now, entries.names, each, plan, rtol, resolution).total for each in ensemble)
+        found = (of(scene_now, entries.names, each, plan, rtol).total for each in ensemble)
         return np.stack([_inner(entries, each, one) for each, one in zip(ensemble, found, strict=True)])
 
     first = window.candidates(_SPACING, rtol)
@@ -105,7 +104,9 @@ def design(
     known = np.broadcast_to(before + weak, (len(ensemble), *before.shape))
     criterion = Criterion(None if wanted is None else entries.names.index(wanted))
     held = _Kept(evaluate)
-    found = search(held, known, criterion, size, first, 1 / (_SPACING - 1), lambda points: evaluate(points, FINEST))
+    found = search(
+        held, known, criterion, size, first, 1 / (_SPACING - 1), lambda points: evaluate(points, sure_information)
+    )
     told = held.most(entries.names)
     for name in entries.names if wanted is None else (wanted,):
         if told[name] < _NOTHING:

@@ -12,7 +12,7 @@ import numpy as np
 from ..fitting.free_entries import FreeEntries
 from ..fitting.measurements import Measurements
 from ..scene.scene import Scene
-from .information import FINEST, Information, information
+from .information import Information, information, sure_information
 from .search import Found
 from .window import Window
 
@@ -63,7 +63,7 @@ class Planned:
         against_grid: expected interval (in the logarithm for entries that vary so) over that of as many impacts evenly
             over the window, `grid` by `grid` of them.
         efficiency: least ratio of the criterion to that of any other choice among the candidates: of the volume's
-            root for all entries, of the interval for one.
+            root for all entries, of the interval for one. None where it is not known.
         target: the entry that matters; None for all.
         draws: values of the entries for which the impacts are the best on average.
         candidates: impacts among which they were chosen.
@@ -79,7 +79,7 @@ class Planned:
     before: Mapping[str, Expected]
     against_grid: Mapping[str, float]
     grid: int
-    efficiency: float
+    efficiency: float | None
     target: str | None
     draws: int
     candidates: int
@@ -97,18 +97,19 @@ class Planned:
         points, counts = found.points[order], found.counts[order]
         rates = np.outer(free.rates(values), free.rates(values))
         weak = np.diag((2.0 / (free.high - free.low)) ** 2)
-        own = information(window.scene, free.names, values, window.plan(points), rtol, FINEST)
+        own = sure_information(window.scene, free.names, values, window.plan(points), rtol)
         side = max(1, round(math.sqrt(size)))
         even = window.grid(side, side)
-        others = information(window.scene, free.names, values, window.plan(even), rtol, FINEST).total.sum(axis=0)
+        others = sure_information(window.scene, free.names, values, window.plan(even), rtol).total.sum(axis=0)
         spread = _spread(before + weak + rates * np.einsum("c,cij->ij", counts, own.total))
         by_grid = _spread(before + weak + rates * others * size / len(even))
         grows = free.size if target is None else 2
+        efficiency = None if found.bound is None else math.exp((found.value - found.bound) / grows)
         return cls(
             window, free, values, _impacts(window, points, counts, own),
             _expected(free, values, spread), _expected(free, values, _spread(before + weak)),
             dict(zip(free.names, (spread / by_grid).tolist(), strict=True)), side,
-            math.exp((found.value - found.bound) / grows), target, draws, found.candidates, points, rtol, given,
+            efficiency, target, draws, found.candidates, points, rtol, given,
         )  # fmt: skip
 
     @property

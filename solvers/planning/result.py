@@ -14,6 +14,8 @@ from ..fitting.shown import in_unit, interval
 from ..scene.origin import origin
 from .planned import Planned
 
+_TELLING = 0.5  # least bound on the efficiency that is worth a sentence
+
 
 @dataclass(frozen=True)
 class Design(Planned):
@@ -90,11 +92,10 @@ class Design(Planned):
         now = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
         averaged = f", averaged over {self.draws} draws" if self.draws > 1 else ""
         scattered = f"scatter {scatter.speed:.3g} of the speed, {math.degrees(scatter.angle):.3g} deg; {noise}"
-        share = math.floor(100 * self.efficiency)
-        said = [
-            f"Planned for {now}{averaged}; {scattered}.",
-            f"At least {share} % as good as any other {self.size} of {self.candidates} candidates.",
-        ]
+        said = [f"Planned for {now}{averaged}; {scattered}."]
+        if (self.efficiency or 0) > _TELLING:
+            share = math.floor(100 * (self.efficiency or 0))
+            said.append(f"At least {share} % as good as any other {self.size} of {self.candidates} candidates.")
         return "\n".join([title, "", *_columns(rows), "", *_columns(entries), "", *said])
 
     def _repr_html_(self) -> str:

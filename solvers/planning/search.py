@@ -18,6 +18,7 @@ Evaluate = Callable[[np.ndarray], np.ndarray]
 _LEVELS = 3  # of refinement of the candidates
 _PROMISING = 24  # candidates around which finer ones are tried, beside those of the design
 _ROUNDS = 30
+_TOP = 16  # candidates that are made exact at once
 _CORRECTIONS = 12  # rounds of exchange and exact information
 _GAIN = 1e-6  # least of the criterion that is worth an exchange
 _LOSS = 3e-3  # of the criterion, that neighbours may cost by becoming one
@@ -64,7 +65,8 @@ class Found:
         counts: how often each is repeated.
         information: (draws, entries, entries), of all of them and what was known before.
         value: of the criterion.
-        bound: what `value` cannot exceed by any choice of as many impacts among the candidates.
+        bound: what `value` cannot exceed by any choice of as many impacts among the candidates; None where the
+            information of what promises most is too uncertain.
         candidates: number of them.
     """
 
@@ -72,7 +74,7 @@ class Found:
     counts: np.ndarray
     information: np.ndarray
     value: float
-    bound: float
+    bound: float | None
     candidates: int
 
 
@@ -101,15 +103,18 @@ def search(
         around = np.unique(np.concatenate([chosen, np.argsort(-rate)[:_PROMISING]]))
         table.add((table.points[around][:, None] + h * steps).reshape(-1, 2), evaluate)
         chosen = table.best(criterion, before, chosen, exact)
+    chosen = table.settled(criterion, before, chosen, exact)
     points, single = table.points, table.single
     total = before + single[:, chosen].sum(axis=1)
     rate = criterion.rate(total, single)
-    bound = float(criterion.value(total)) + size * float(rate.max()) - float(rate[chosen].sum())
+    bound = None
+    if table.sure[np.argmax(rate)]:
+        bound = float(criterion.value(total)) + size * float(rate.max()) - float(rate[chosen].sum())
     distinct, counts = np.unique(chosen, return_counts=True)
     places, total = _moved(exact, criterion, total, points[distinct], single[:, distinct], counts, h * moving)
     places, counts, total = _merged(exact, criterion, before, total, places, counts, 3 * h)
     value = float(criterion.value(total))
-    return Found(places, counts, total, value, max(bound, value), len(points))
+    return Found(places, counts, total, value, None if bound is None else max(bound, value), len(points))
 
 
 @dataclass
@@ -138,6 +143,18 @@ class _Table:
             if not unsure.size:
                 break
             self.single[:, unsure], self.sure[unsure] = exact(self.points[unsure]), True
+        return chosen
+
+    def settled(self, criterion: Criterion, before: np.ndarray, chosen: np.ndarray, exact: Evaluate) -> np.ndarray:
+        """The same, after the candidates that promise most have been made exact, on which the bound depends."""
+        for _ in range(_CORRECTIONS):
+            rate = criterion.rate(before + self.single[:, chosen].sum(axis=1), self.single)
+            top = np.argsort(-rate)[:_TOP]
+            if self.sure[top[0]]:
+                break
+            unsure = top[~self.sure[top]]
+            self.single[:, unsure], self.sure[unsure] = exact(self.points[unsure]), True
+            chosen = self.best(criterion, before, chosen, exact)
         return chosen
 
 

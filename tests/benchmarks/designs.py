@@ -29,6 +29,7 @@ from .fits import ANGLES, NOISE, PRESETS, SPREAD, _entries, _window
 
 NUMBERS = (9, 16, 25)
 DRAWS = 8
+_NOISE_SEED = 10**9  # what is measured does not depend on how the scene was drawn
 
 
 def experiment(seed: int, off: float) -> dict[str, object]:
@@ -81,7 +82,7 @@ def _width(
         plan.speed, plan.angle, plan.speed_sd, plan.angle_sd, plan.outcome,
         {"restitution": (np.ones(rows), np.full(rows, noise))},
     )  # fmt: skip
-    found = fit(guess, drawn(scene, plan, seed), free, prior=prior)
+    found = fit(guess, drawn(scene, plan, _NOISE_SEED + seed), free, prior=prior)
     entry = found.free.entries[free.index(target)]
     one = found.estimates[target]
     low, high = (entry.low if one.low is None else one.low), (entry.high if one.high is None else one.high)
