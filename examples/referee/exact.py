@@ -50,7 +50,7 @@ def collide(law: str, parameters: dict[str, Any], pair: Pair, end: float, longes
     def apart(_: float, y: State) -> float:
         return float(y[0] - end) if y[1] > 0 else -1.0
 
-    apart.terminal = True  # type: ignore[attr-defined]
+    apart.terminal = True  # type: ignore[attr-defined]  # as scipy asks
     inertia = 0.4 * 2 * pair.mass * radius**2  # of one sphere
     begin = [start, -pair.speed, pair.tangential / (2 * radius + start), 0.0, *chosen.added]
     scale = np.array([start, pair.speed, pair.speed / radius, pair.speed / radius, *(1.0 for _ in chosen.added)])

@@ -61,7 +61,7 @@ def rebound(ratio: float, most: float) -> float:
     def apart(t: float, y: Any) -> float:
         return float(y[0]) if t > 1e-3 else 1.0
 
-    apart.terminal = True  # type: ignore[attr-defined]
+    apart.terminal = True  # type: ignore[attr-defined]  # as scipy asks
     found = solve_ivp(motion, (0, 40), [0.0, 1.0], events=apart, rtol=1e-6, atol=1e-9)
     return float(-found.y[1, -1]) if found.t_events[0].size else 0.0
 

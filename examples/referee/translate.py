@@ -284,7 +284,7 @@ def viscoelastic_damping(scene: Scene, common: dict[str, Any], speed: float) -> 
         def apart(t: float, y: Any) -> float:
             return float(y[0]) if t > 0.1 else 1.0
 
-        apart.terminal = True  # type: ignore[attr-defined]
+        apart.terminal = True  # type: ignore[attr-defined]  # as scipy asks
         found = solve_ivp(motion, (0, 200), [0.0, 1.0], events=apart, rtol=1e-9, atol=1e-12)
         return float(-found.y[1, -1])
 

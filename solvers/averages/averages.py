@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +12,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..host.arguments import check_function, check_name, check_names
+from ..host.cores import usable_cores
+from ..host.workers import in_workers
 from ..many.batch import checked_numbers
 from ..many.journal import Journal
 from ..many.journal import journal as checked_journal
@@ -72,7 +74,7 @@ def collision_averages(
         rtol: relative tolerance of the collisions, 1e-13..1e-3.
         wrt: numeric entries of a pair's scene, such as liquid.viscosity, by which the means are differentiated, each
             alone, at fixed relative speeds.
-        progress: called with (pairs done, pairs in all) after every block.
+        progress: called with (pairs done, pairs in all) at the start and after every block.
         journal: file that keeps finished pairs, so that the same call continues after an interrupt; the caller removes
             it.
 
@@ -203,18 +205,28 @@ def _computed(asked: _Asked, kept: Journal | None, progress: Progress | None) ->
     mirror = np.arange(size).reshape(asked.shape).T.ravel() if asked.symmetric else np.arange(size)
     left = np.flatnonzero(~done & (mirror >= np.arange(size)))
     total = int(np.count_nonzero(mirror >= np.arange(size)))
-    for k in range(0, left.size, _BLOCK):
-        if progress is not None:
-            progress(total - left.size + k, total)
-        where = left[k : k + _BLOCK]
-        block = _block(asked, where)
+    ready = total - left.size
+    if progress is not None:
+        progress(ready, total)
+    for where, block in _blocks(asked, [left[k : k + _BLOCK] for k in range(0, left.size, _BLOCK)]):
         if kept is not None:
             kept.add(where, block)
         for name, values in block.items():
             found[name][where] = values
-    if progress is not None:
-        progress(total, total)
+        ready += where.size
+        if progress is not None:
+            progress(ready, total)
     return {name: values[np.minimum(mirror, np.arange(size))] for name, values in found.items()}
+
+
+def _blocks(asked: _Asked, blocks: list[np.ndarray]) -> Iterator[tuple[np.ndarray, Columns]]:
+    """Pairs and their columns: the first in this process, which compiles the kernel, many others on all cores."""
+    cores = min(usable_cores(), len(blocks) - 1)
+    alone = blocks[:1] if cores > 1 else blocks
+    for where in alone:
+        yield where, _block(asked, where)
+    if cores > 1:
+        yield from in_workers(cores, _block, ((where, (asked, where)) for where in blocks[1:]))
 
 
 def _blank(size: int, parameters: int) -> Columns:

@@ -32,13 +32,7 @@ _OPTIONS = {
 @click.option("-n", "size", metavar="N", help="Number of impacts [9].")
 @click.option("--for", "target", metavar="NAME", help="The entry that matters [all of --free alike].")
 @click.option("--data", metavar="DATA.csv", help="Impacts measured before; they are fitted first.")
-@click.option(
-    "--prior",
-    "priors",
-    metavar="NAME=PRIOR",
-    multiple=True,
-    help='What is known of an entry, as particles.roughness="2 um +- 20 %"; repeatable.',
-)
+@options.priors
 @click.option("--draws", metavar="N", help="Best on average over N draws from priors and data [0: for one value].")
 @click.option("--speed-sd", metavar="S", help="Scatter of the speed [2 %, or that of the data].")
 @click.option("--angle-sd", metavar="S", help="Scatter of the angle, degrees [1, or that of the data].")
@@ -118,10 +112,8 @@ def _window(text: str) -> dict[str, object]:
             problem = "is given twice" if equals else "has no ="
             raise InputError("--over", text, "stokes=LO:HI,angle=LO:HI", problem)
         entry = FIELDS.get(f"impact.{name}")
-        values = ends.split(":")
-        found[name] = [value if entry is None else options.with_degrees(entry, value) for value in values]
-        if len(values) == 1:
-            found[name] = values and found[name][0]  # type: ignore[index]
+        values = [value if entry is None else options.with_degrees(entry, value) for value in ends.split(":")]
+        found[name] = values if len(values) > 1 else values[0]
     return found
 
 

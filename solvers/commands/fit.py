@@ -19,13 +19,7 @@ _OPTIONS = {"free": "--free", "prior": "--prior", "over": "--compare"}
 @options.scene_argument
 @click.argument("data", metavar="DATA.csv", required=False)
 @click.option("--free", metavar="NAMES", help="Entries to estimate, as particles.roughness,liquid.viscosity.")
-@click.option(
-    "--prior",
-    "priors",
-    metavar="NAME=PRIOR",
-    multiple=True,
-    help='What is known of an entry, as particles.roughness="2 um +- 20 %"; repeatable.',
-)
+@options.priors
 @click.option(
     "--compare",
     metavar="NAMES",

@@ -32,6 +32,13 @@ rtol = click.option("--rtol", metavar="R", help="Relative tolerance, 1e-13..1e-3
 engine = click.option("--engine", metavar="E", help="cvodes, rosenbrock or taylor [the best for the scene].")
 plot = click.option("--plot", metavar="FILE.png", help="Draw a picture: .png, .pdf or .svg.")
 output = click.option("-o", "output", metavar="FILE", help="Write to FILE instead of standard output.")
+priors = click.option(
+    "--prior",
+    "priors",
+    metavar="NAME=PRIOR",
+    multiple=True,
+    help='What is known of an entry, as particles.roughness="2 um +- 20 %"; repeatable.',
+)
 model = click.option(
     "--model", "model", metavar="DIR", help="A user's model, which is run: folder of `generate`, or MODEL.py."
 )

@@ -22,13 +22,14 @@ from .likelihood import Likelihood, Resolution
 from .measurements import Measurements
 from .objective import Objective, whitening
 from .optimise import Optimum, optimise, settled
-from .profiles import DROP, End, checked, end
+from .profiles import DROP, End, beyond, checked, end
 from .result import Fit, log_density
 from .verdicts import combinations, judged
 
 RTOL = 1e-8
 """Relative tolerance of the collisions of a fit."""
 _RESTARTS = 3  # times that a more likely point, met on a profile, replaces the maximum
+_ROUNDS = 5  # in which ends are moved beyond likely points
 _ODD = 1e-3  # probability of residuals as large as found below which they are remarked on
 _COARSE = 0.05  # error of the log-likelihood by quadrature that is remarked on
 
@@ -159,6 +160,19 @@ def _checked(
             now[k][side] = checked(objective, inner, k, now[k][side], known)
             if now[k][side].better is not None:
                 return ends, now[k][side].better
+    for _ in range(_ROUNDS):  # what was seen on the way to one end may lie outside another
+        moved = False
+        for k in range(objective.free.size):
+            for side, sign in enumerate((-1.0, 1.0)):
+                point = beyond(objective, inner, k, now[k][side], sign < 0)
+                if point is None:
+                    continue
+                way = (point - inner) / abs(point[k] - inner[k])
+                now[k][side], moved = end(objective, inner, k, sign, DROP, point, way), True
+                if now[k][side].better is not None:
+                    return ends, now[k][side].better
+        if not moved:
+            break
     return [(below, above) for below, above in now], None
 
 

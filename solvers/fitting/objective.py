@@ -27,6 +27,8 @@ class Objective:
     def __init__(self, likelihood: Likelihood, free: FreeEntries, resolution: Resolution) -> None:
         self.likelihood, self.free, self.resolution = likelihood, free, resolution
         self.evaluations = 0
+        self.points: list[np.ndarray] = []  # all that were evaluated
+        self.heights: list[float] = []  # `value` there
         self._last: dict[bytes, Evaluation | None] = {}
 
     def at(self, inner: np.ndarray) -> Evaluation | None:
@@ -37,6 +39,8 @@ class Objective:
                 del self._last[next(iter(self._last))]
             self._last[key] = self.likelihood(self.free.values(inner), self.resolution)
             self.evaluations += 1
+            self.points.append(inner.copy())
+            self.heights.append(self.value(inner))
         return self._last[key]
 
     def residuals(self, inner: np.ndarray) -> np.ndarray:

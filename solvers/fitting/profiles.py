@@ -27,6 +27,7 @@ _AT_BOUND = 1e-3  # of the range of the search
 _AT_WALL = 0.02  # of the way, width of a bracket beyond which no scene is possible
 _HOPELESS = 50.0  # log-likelihood below the maximum from which no start is followed
 _CHECKS = 3  # of an end from elsewhere
+_OUTSIDE = 0.02  # of the interval's half width, by which a likely point must lie outside to move its end
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,19 @@ def end(
         step = _next(inside, outside, goal, tried % 3 == 2)
         if outside[0] - inside[0] < (_AT_WALL * outside[0] if wall else _NARROW * most):
             return End(at, wall, wall=wall)
-    return End(at, False)
+    return End(at, not np.isfinite(outside[0]))
+
+
+def beyond(objective: Objective, best: np.ndarray, k: int, found: End, below: bool) -> np.ndarray | None:
+    """The farthest point evaluated so far that is likely enough to lie within the interval and is outside of it."""
+    if found.open and not found.wall:
+        return None
+    least = objective.value(best) - DROP * (1 - _BETTER)
+    likely = np.array(objective.heights) > least
+    points = np.array(objective.points)[likely]
+    excess = (found.inner[k] - points[:, k]) * (1.0 if below else -1.0)
+    at = int(np.argmax(excess))
+    return points[at] if excess[at] > _OUTSIDE * abs(found.inner[k] - best[k]) else None
 
 
 def checked(objective: Objective, best: np.ndarray, k: int, found: End, known: Sequence[np.ndarray]) -> End:

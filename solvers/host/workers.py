@@ -8,13 +8,16 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TypeVar
 
+from ..errors import ComputationError
 from .remarks import silence_workers
 from .user_cache import settle
 
+K = TypeVar("K")
+R = TypeVar("R")
 _LOOK = 0.2  # s between checks for the parent
 _PR_SET_PDEATHSIG = 1
 _LASTING = threading.Lock()  # of the lasting pool
@@ -34,6 +37,37 @@ def workers(count: int, env: Mapping[str, str] | None = None) -> Iterator[Any]:
     finally:
         # idle workers end by themselves; without psutil loky needs pgrep to kill them, and hangs where that is missing
         pool.shutdown(wait=True, kill_workers=not done)
+
+
+def in_workers(cores: int, run: Callable[..., R], parts: Iterable[tuple[K, tuple[Any, ...]]]) -> Iterator[tuple[K, R]]:
+    """Keys and results of `run`, in the order in which they finish; each worker receives only its part.
+
+    Arguments:
+        parts: a key and the arguments of `run` for each result.
+
+    Raises:
+        ComputationError: a worker died.
+    """
+    from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
+
+    waiting: dict[Future[R], K] = {}
+    left = iter(parts)
+    try:
+        with workers(cores) as pool:
+            while True:
+                with undisturbed():  # only this process handles an interrupt; it then stops its workers
+                    for key, arguments in left:
+                        waiting[pool.submit(run, *arguments)] = key
+                        if len(waiting) > 2 * cores:
+                            break
+                if not waiting:
+                    return
+                for future in wait(waiting, return_when=FIRST_COMPLETED).done:
+                    yield waiting.pop(future), future.result()
+    except BrokenExecutor as error:
+        raise ComputationError(
+            f"a worker process died ({type(error).__name__})", advice="run it again; it may be out of memory"
+        ) from None
 
 
 @contextmanager

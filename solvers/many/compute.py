@@ -7,14 +7,13 @@ worker processes. A collision that fails is marked with its reason and the rest 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
 
 import numpy as np
 
-from ..errors import ComputationError, InputError
+from ..errors import InputError
 from ..host.compiler import compiler
 from ..host.cores import usable_cores
-from ..host.workers import undisturbed, workers
+from ..host.workers import in_workers
 from ..model.validity import warn
 from ..settings import FEW
 from .batch import Batch, check_some_scene
@@ -126,27 +125,8 @@ def _in_parallel(
     request: Batch, blocks: list[np.ndarray], cores: int, machine_code: bool
 ) -> Iterator[tuple[np.ndarray, Block]]:
     """Blocks and their results in the order in which they finish; each worker receives only its part of the batch."""
-    from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
-
     if request.engine != "cvodes":
         compiler()  # a missing compiler is reported here and not by a worker
     if machine_code:
         run(request.part(blocks[0][:1]), True)  # compile once, before the workers need it
-    waiting: dict[Any, np.ndarray] = {}
-    left = iter(blocks)
-    try:
-        with workers(cores) as pool:
-            while True:
-                with undisturbed():  # only this process handles an interrupt; it then stops its workers
-                    for block in left:
-                        waiting[pool.submit(run, request.part(block), machine_code)] = block
-                        if len(waiting) > 2 * cores:
-                            break
-                if not waiting:
-                    return
-                for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                    yield waiting.pop(future), future.result()
-    except BrokenExecutor as error:
-        raise ComputationError(
-            f"a worker process died ({type(error).__name__})", advice="run it again; it may be out of memory"
-        ) from None
+    yield from in_workers(cores, run, ((block, (request.part(block), machine_code)) for block in blocks))

@@ -65,12 +65,12 @@ class Scatter:
         return found
 
 
-def _part(given: object, label: str, most: float) -> float:
+def _part(given: Any, label: str, most: float) -> float:
     accepted = f'a part of the speed, 0 to below {most:.2g}, such as "2 %" or 0.02'
     text = given.strip() if isinstance(given, str) else given
     try:
         percent = isinstance(text, str) and text.endswith("%")
-        found = float(text[:-1]) / 100 if percent else float(text)  # type: ignore[index, arg-type]
+        found = float(text[:-1]) / 100 if percent else float(text)
     except (TypeError, ValueError):
         raise InputError(label, given, accepted, "is not a number") from None
     if not 0 <= found < most:
@@ -86,12 +86,12 @@ def _angle(given: object) -> float:
     return found
 
 
-def _noise(given: object) -> float | None:
+def _noise(given: Any) -> float | None:
     accepted = 'a number > 0, or "none" where only outcomes are recorded'
     if isinstance(given, str) and given.strip() == "none":
         return None
     try:
-        found = float(given)  # type: ignore[arg-type]
+        found = float(given)
     except (TypeError, ValueError):
         raise InputError("restitution_sd", given, accepted, "is not a number") from None
     if not 0 < found < math.inf:

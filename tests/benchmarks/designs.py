@@ -13,19 +13,14 @@ prior in both cases; the design is averaged over 8 draws from it. With `--read F
 
 from __future__ import annotations
 
-import argparse
-import json
-import sys
 import time
-import warnings
-from pathlib import Path
 
 import numpy as np
-from wetdoublet.solvers import ComputationError, InputError, Scene, design, fit
+from wetdoublet.solvers import InputError, Scene, design, fit
 from wetdoublet.solvers.fitting.measurements import Measurements
 from wetdoublet.solvers.fitting.synthetic import drawn
 
-from .fits import ANGLES, NOISE, PRESETS, SPREAD, _entries, _window
+from .near_presets import ANGLES, NOISE, drawn_truth, repeat, window_of
 
 NUMBERS = (9, 16, 25)
 DRAWS = 8
@@ -36,17 +31,14 @@ def experiment(seed: int, off: float) -> dict[str, object]:
     """One scene, designed and on a grid."""
     random = np.random.default_rng(seed)
     while True:
-        preset = Scene.load(str(random.choice(PRESETS)))
-        free = _entries(preset, random)[:3]
-        truth = {name: preset.entries[name] * float(np.exp(random.uniform(-SPREAD, SPREAD))) for name in free}
-        if "particles.dry_restitution" in truth:
-            truth["particles.dry_restitution"] = float(random.uniform(0.5, 0.98))
+        preset, truth = drawn_truth(random, 3)
+        free = list(truth)
         shift = {name: float(np.exp(off * random.standard_normal())) for name in free}
         try:
             scene = preset.with_si(truth)
             guess = scene.with_si({name: min(value * shift[name], 1.0) if "restitution" in name else value * shift[name]
                                    for name, value in truth.items()})  # fmt: skip
-            window = _window(scene)
+            window = window_of(scene)
         except InputError:
             continue
         if window is not None:
@@ -121,31 +113,5 @@ def summary(runs: list[dict]) -> str:
     return "\n".join(lines)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("count", type=int, nargs="?", default=10)
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--off", type=float, default=0.0)
-    parser.add_argument("-o", dest="output", type=Path)
-    parser.add_argument("--read", type=Path)
-    asked = parser.parse_args()
-    warnings.simplefilter("ignore")
-    if asked.read is not None:
-        sys.stdout.write(summary([json.loads(line) for line in asked.read.read_text().splitlines()]) + "\n")
-        return
-    runs = []
-    for k in range(asked.count):
-        seed = 100_000 * asked.seed + k
-        try:
-            run = experiment(seed, asked.off)
-        except (ComputationError, InputError) as error:
-            run = {"seed": seed, "error": str(error)}
-        runs.append(run)
-        if asked.output is not None:
-            with asked.output.open("a") as file:
-                file.write(json.dumps(run) + "\n")
-    sys.stdout.write(summary(runs) + "\n")
-
-
 if __name__ == "__main__":
-    main()
+    repeat(__doc__, 10, lambda seed, asked: experiment(seed, asked.off), summary, {"off": 0.0})

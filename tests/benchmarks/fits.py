@@ -8,49 +8,31 @@ gives it. With `--read FILE` it only prints the summary of what was written.
 
 from __future__ import annotations
 
-import argparse
-import json
-import sys
 import time
-import warnings
 from collections import Counter
-from pathlib import Path
 
 import numpy as np
 from wetdoublet.generated.automaton import OUTCOMES
-from wetdoublet.solvers import ComputationError, InputError, Scene, collide_many
+from wetdoublet.solvers import ComputationError, InputError
 from wetdoublet.solvers.fitting.fit import fit
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
 from wetdoublet.solvers.fitting.synthetic import drawn
 from wetdoublet.solvers.fitting.verdicts import IDENTIFIED
 
-PRESETS = ("granulation", "pendulum", "granulation-dry-bridge", "lactose-pvp", "pellet-coating", "glass-beads-water")
-FREE = (
-    "particles.roughness",
-    "liquid.viscosity",
-    "liquid.film_thickness",
-    "liquid.coating_thickness",
-    "liquid.glass_transition_pressure",
-    "bridge.surface_tension",
-    "particles.dry_restitution",
-)
-SPREAD = np.log(2.0)  # factor of the true values to either side of the preset's
-ROWS, ENTRIES, NOISE = (20, 60), (2, 4), (0.01, 0.05)
-ANGLES = np.radians([5.0, 80.0])
+from .near_presets import ANGLES, ENTRIES, NOISE, drawn_truth, repeat, window_of
+
+ROWS = (20, 60)
 
 
 def experiment(seed: int) -> dict[str, object]:
     """One synthetic experiment and its two fits."""
     random = np.random.default_rng(seed)
     while True:
-        preset = Scene.load(str(random.choice(PRESETS)))
-        free = _entries(preset, random)
-        truth = {name: preset.entries[name] * float(np.exp(random.uniform(-SPREAD, SPREAD))) for name in free}
-        if "particles.dry_restitution" in truth:
-            truth["particles.dry_restitution"] = float(random.uniform(0.5, 0.98))
+        preset, truth = drawn_truth(random, ENTRIES[1])
+        free = list(truth)
         try:
             scene = preset.with_si(truth)
-            window = _window(scene)
+            window = window_of(scene)
         except InputError:
             continue
         if window is not None:
@@ -85,23 +67,6 @@ def _inner(found: object, truth: dict[str, float]) -> np.ndarray:
     return np.array([each.inner(truth[each.name]) for each in found.free.entries])
 
 
-def _entries(scene: Scene, random: np.random.Generator) -> list[str]:
-    known = [name for name in FREE if name in scene.entries]
-    size = int(random.integers(ENTRIES[0], min(ENTRIES[1], len(known)) + 1))
-    return [known[k] for k in sorted(random.choice(len(known), size, replace=False))]
-
-
-def _window(scene: Scene) -> tuple[float, float] | None:
-    """Stokes numbers about the changes of outcome; None where there are none."""
-    stokes, angle = np.geomspace(1e-3, 300, 60), np.radians([10.0, 30.0, 50.0, 70.0])
-    grid = [each.ravel() for each in np.meshgrid(stokes, angle, indexing="ij")]
-    outcome = collide_many(scene, stokes=grid[0], angle=grid[1]).outcome.values.reshape(60, 4)
-    changes = np.flatnonzero((outcome[1:] != outcome[:-1]).any(axis=1))
-    if not changes.size or not (outcome == 0).any():
-        return None
-    return float(stokes[max(changes[0] - 3, 0)]), float(stokes[min(changes[-1] + 6, 59)])
-
-
 def summary(runs: list[dict]) -> str:
     """Coverage and verdicts, with binomial errors."""
     done = [run for run in runs if "estimates" in run]
@@ -134,30 +99,5 @@ def summary(runs: list[dict]) -> str:
     return "\n".join(lines)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("count", type=int, nargs="?", default=20)
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("-o", dest="output", type=Path)
-    parser.add_argument("--read", type=Path)
-    asked = parser.parse_args()
-    warnings.simplefilter("ignore")
-    if asked.read is not None:
-        sys.stdout.write(summary([json.loads(line) for line in asked.read.read_text().splitlines()]) + "\n")
-        return
-    runs = []
-    for k in range(asked.count):
-        seed = 100_000 * asked.seed + k
-        try:
-            run = experiment(seed)
-        except (ComputationError, InputError) as error:
-            run = {"seed": seed, "error": str(error)}
-        runs.append(run)
-        if asked.output is not None:
-            with asked.output.open("a") as file:
-                file.write(json.dumps(run) + "\n")
-    sys.stdout.write(summary(runs) + "\n")
-
-
 if __name__ == "__main__":
-    main()
+    repeat(__doc__, 20, lambda seed, _: experiment(seed), summary)

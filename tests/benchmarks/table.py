@@ -102,7 +102,7 @@ def _reader(law: Table, *columns: np.ndarray) -> tuple[Callable[[], Any], Callab
     subprocess.run([*shlex.split(_COMPILER), "query.c", "-o", "query.so", "-lm"], cwd=folder, check=True)
     library = ctypes.CDLL(str(folder / "query.so"))
     places = [one.ctypes.data_as(ctypes.c_void_p) for one in columns]
-    return tuple(lambda run=run: run(columns[0].size, *places) for run in (library.quick, library.sloped))  # type: ignore[return-value]
+    return tuple(lambda run=run: run(columns[0].size, *places) for run in (library.quick, library.sloped))
 
 
 def _kernel(scene: Scene, law: Table, stokes: np.ndarray, angle: np.ndarray, third: np.ndarray) -> Callable[[], Any]:
