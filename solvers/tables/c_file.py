@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...generated.automaton import CRITERIA, KINDS, OUTCOMES
 from ..export.equations import file_name
 from ..many.results import attributes
 from .labelled import where
@@ -24,9 +25,16 @@ def header(table: Law) -> str:
     name = file_name(table.scene)
     reader = Path(__file__).with_name("reader.h").read_text(encoding="utf-8")
     real = "float" if table.data.results.coefficients.dtype == np.float32 else "double"
-    for word, text in (("@NAME@", name), ("@REAL@", real), ("@LEAST@", repr(LEAST))):
+    big = _constants(name)
+    outcomes = ", ".join(f"{big}_{word.upper().replace('-', '_')} = {k}" for k, word in enumerate(OUTCOMES))
+    criteria = ", ".join(f"{KINDS.index(word)} {word}" for word in CRITERIA)
+    places = {
+        "@NAME@": name, "@BIG@": big, "@REAL@": real, "@LEAST@": repr(LEAST), "@OUTCOMES@": outcomes,
+        "@CRITERIA@": criteria,
+    }  # fmt: skip
+    for word, text in places.items():
         reader = reader.replace(word, text)
-    guard = f"{name}_table_h".upper()
+    guard = f"{big}_H"
     parts = [
         _comment(table, name),
         f"#ifndef {guard}\n#define {guard}\n",
@@ -36,8 +44,13 @@ def header(table: Law) -> str:
     return "\n".join([*parts, reader, _functions(table, name), f"#endif /* {guard} */\n"])
 
 
+def _constants(name: str) -> str:
+    """The beginning of the names of constants, which are not those of the exported law of the scene."""
+    return f"{name}_table".upper()
+
+
 def _comment(table: Law, name: str) -> str:
-    data, of = table.data, table.of
+    data, of, big = table.data, table.of, _constants(name)
     arguments = _arguments(table)
     ranges = [
         f"stokes    normal Stokes number, {table.range.stokes[0]!r} to {table.range.stokes[1]!r}",
@@ -59,7 +72,7 @@ def _comment(table: Law, name: str) -> str:
         f"    int {name}_table({given}{name}_answer *answer);",
         f"    int {name}_table_slopes({given}{name}_answer *answer, {name}_slopes *slopes);",
         "",
-        f"Both return {name}_OK, or {name}_OUTSIDE where an argument is outside its range or NaN: nothing is",
+        f"Both return {big}_OK, or {big}_OUTSIDE where an argument is outside its range or NaN: nothing is",
         "extrapolated, the outcome is then -1 and all results are NaN. No allocation, no state: safe from any thread.",
         "",
         "Arguments, all other entries as in the scene below:",
@@ -76,7 +89,7 @@ def _comment(table: Law, name: str) -> str:
         "",
         "Example (range ends lo and hi):",
         f"    {name}_answer one;",
-        f"    if ({name}_table({example}, &one) == {name}_OK && one.outcome != {name}_STICK)",
+        f"    if ({name}_table({example}, &one) == {big}_OK && one.outcome != {big}_STICK)",
         "        v_after = one.value[0] * v_before;",
         "",
         "Scene:",
@@ -96,7 +109,7 @@ def _sizes(table: Law, name: str) -> str:
     numbers = {
         "RESULTS": len(table.of), "VARIABLES": len(table.variables), "SLICES": data.slices.size - 1, "MOST": most,
     }  # fmt: skip
-    return "\n".join(f"#define {name}_{key} {value}" for key, value in numbers.items()) + "\n"
+    return "\n".join(f"#define {_constants(name)}_{key} {value}" for key, value in numbers.items()) + "\n"
 
 
 def _arrays(table: Law, name: str, real: str) -> str:
@@ -153,7 +166,7 @@ def _functions(table: Law, name: str) -> str:
     taken = f"{third} > 0.0 ? log({third}) : -1e300" if table.range.logarithmic else third
     scaled = ""
     if table.range.logarithmic:
-        scaled = f"    for (m = 0; m < {name}_RESULTS; ++m)\n        slopes->by[m][2] /= {third};\n"
+        scaled = f"    for (m = 0; m < {_constants(name)}_RESULTS; ++m)\n        slopes->by[m][2] /= {third};\n"
     return f"""/* Outcome and results at an impact. */
 static inline int {name}_table({given}, {name}_answer *answer)
 {{

@@ -2,19 +2,19 @@
 
 #include <math.h>
 
-enum { @NAME@_OK = 0, @NAME@_OUTSIDE = 1 };
-enum { @NAME@_STICK = 0, @NAME@_STICK_ROTATE_SEPARATE = 1, @NAME@_BOUNCE = 2 };
+enum { @BIG@_OK = 0, @BIG@_OUTSIDE = 1 };
+enum { @OUTCOMES@ };
 
 /* What the table says of an impact. */
 typedef struct {
-    int outcome;                      /* @NAME@_STICK, ..., -1 outside the table */
-    int criterion;                    /* first rebound criterion of a bounce: 0 glass, 1 elastic, 2 rough; else -1 */
-    double value[@NAME@_RESULTS];     /* results in the order above; NaN where undefined, and outside the table */
+    int outcome;                      /* @BIG@_STICK, ..., -1 outside the table */
+    int criterion;                    /* first rebound criterion of a bounce: @CRITERIA@; else -1 */
+    double value[@BIG@_RESULTS];     /* results in the order above; NaN where undefined, and outside the table */
 } @NAME@_answer;
 
 /* Derivatives of the results by the variables in the order above, the others held; SI units. */
 typedef struct {
-    double by[@NAME@_RESULTS][@NAME@_VARIABLES];
+    double by[@BIG@_RESULTS][@BIG@_VARIABLES];
 } @NAME@_slopes;
 
 /* A value and its derivatives by t (third variable) and x (angle), coordinates in 0..1. */
@@ -56,7 +56,7 @@ static inline void @NAME@_chebyshev_slope(double x, int count, const double *val
 /* A boundary or an angle between panels; derivatives where `sloped`. */
 static inline @NAME@_shape @NAME@_shape_at(int node, double t, double x, int sloped)
 {
-    double in_t[@NAME@_MOST], in_x[@NAME@_MOST], slope_t[@NAME@_MOST], slope_x[@NAME@_MOST];
+    double in_t[@BIG@_MOST], in_x[@BIG@_MOST], slope_t[@BIG@_MOST], slope_x[@BIG@_MOST];
     const double *c;
     const double *box;
     @NAME@_shape found = {0.0, 0.0, 0.0};
@@ -148,8 +148,8 @@ static inline @NAME@_mapped @NAME@_map(int code, double w, double least)
 /* Results at coordinates of a cell; with `by` also derivatives by t, x and z. */
 static inline void @NAME@_results_at(int node, double t, double x, double z, double *value, double by[][3])
 {
-    double in_t[@NAME@_MOST], in_x[@NAME@_MOST], in_z[@NAME@_MOST], row[@NAME@_MOST];
-    double slope_t[@NAME@_MOST], slope_x[@NAME@_MOST], slope_z[@NAME@_MOST];
+    double in_t[@BIG@_MOST], in_x[@BIG@_MOST], in_z[@BIG@_MOST], row[@BIG@_MOST];
+    double slope_t[@BIG@_MOST], slope_x[@BIG@_MOST], slope_z[@BIG@_MOST];
     const @REAL@ *c;
     const double *box;
     int patch, count_t, count_x, count_z, i, j, k, m;
@@ -167,7 +167,7 @@ static inline void @NAME@_results_at(int node, double t, double x, double z, dou
     @NAME@_chebyshev(t, count_t, in_t);
     @NAME@_chebyshev(x, count_x, in_x);
     @NAME@_chebyshev(z, count_z, in_z);
-    for (m = 0; m < @NAME@_RESULTS; ++m) {
+    for (m = 0; m < @BIG@_RESULTS; ++m) {
         const @REAL@ *own = c + m * count_t * count_x * count_z;
         for (k = 0; k < count_z; ++k)
             row[k] = 0.0;
@@ -187,7 +187,7 @@ static inline void @NAME@_results_at(int node, double t, double x, double z, dou
     @NAME@_chebyshev_slope(t, count_t, in_t, slope_t);
     @NAME@_chebyshev_slope(x, count_x, in_x, slope_x);
     @NAME@_chebyshev_slope(z, count_z, in_z, slope_z);
-    for (m = 0; m < @NAME@_RESULTS; ++m) {
+    for (m = 0; m < @BIG@_RESULTS; ++m) {
         by[m][0] = by[m][1] = by[m][2] = 0.0;
         for (i = 0; i < count_t; ++i)
             for (j = 0; j < count_x; ++j)
@@ -204,23 +204,23 @@ static inline void @NAME@_results_at(int node, double t, double x, double z, dou
 static inline int @NAME@_read(double third, double angle, double stokes, @NAME@_answer *answer, @NAME@_slopes *slopes)
 {
     const double nothing = HUGE_VAL - HUGE_VAL; /* NaN */
-    double height, t, wide, across, w, tall, least, chain[3][3], by[@NAME@_RESULTS][3];
+    double height, t, wide, across, w, tall, least, chain[3][3], by[@BIG@_RESULTS][3];
     @NAME@_shape low, high, floor_at, ceiling;
     @NAME@_mapped x, z;
     int part = 0, panel, last, edge, end, cell, m, k, sloped = slopes != 0;
 
     answer->outcome = answer->criterion = -1;
-    for (m = 0; m < @NAME@_RESULTS; ++m) {
+    for (m = 0; m < @BIG@_RESULTS; ++m) {
         answer->value[m] = nothing;
-        for (k = 0; slopes && k < @NAME@_VARIABLES; ++k)
+        for (k = 0; slopes && k < @BIG@_VARIABLES; ++k)
             slopes->by[m][k] = nothing;
     }
     if (!(stokes >= @NAME@_range[0][0] && stokes <= @NAME@_range[0][1] && angle >= @NAME@_range[1][0] &&
           angle <= @NAME@_range[1][1] && third >= @NAME@_range[2][0] && third <= @NAME@_range[2][1]))
-        return @NAME@_OUTSIDE;
+        return @BIG@_OUTSIDE;
 
     height = log(stokes);
-    while (part < @NAME@_SLICES - 1 && third >= @NAME@_slices[part + 1])
+    while (part < @BIG@_SLICES - 1 && third >= @NAME@_slices[part + 1])
         ++part;
     wide = @NAME@_slices[part + 1] - @NAME@_slices[part];
     t = (third - @NAME@_slices[part]) / wide;
@@ -255,12 +255,12 @@ static inline int @NAME@_read(double third, double angle, double stokes, @NAME@_
     answer->outcome = @NAME@_outcome[cell];
     answer->criterion = @NAME@_criterion[cell];
     if (@NAME@_root[cell] < 0) {
-        for (m = 0; m < @NAME@_RESULTS; ++m) {
+        for (m = 0; m < @BIG@_RESULTS; ++m) {
             answer->value[m] = @NAME@_of_stick[m] ? nothing : 0.0;
-            for (k = 0; slopes && k < @NAME@_VARIABLES; ++k)
+            for (k = 0; slopes && k < @BIG@_VARIABLES; ++k)
                 slopes->by[m][k] = @NAME@_of_stick[m] ? nothing : 0.0;
         }
-        return @NAME@_OK;
+        return @BIG@_OK;
     }
     tall = ceiling.value - floor_at.value;
     tall = tall > 1e-300 ? tall : 1e-300;
@@ -272,7 +272,7 @@ static inline int @NAME@_read(double third, double angle, double stokes, @NAME@_
     z.value = z.value < 0.0 ? 0.0 : z.value > 1.0 ? 1.0 : z.value;
     @NAME@_results_at(@NAME@_root[cell], t, x.value, z.value, answer->value, slopes ? by : 0);
     if (!slopes)
-        return @NAME@_OK;
+        return @BIG@_OK;
 
     {
         double x_by_t = -x.by_w * (low.by_t + across * (high.by_t - low.by_t)) / (high.value - low.value);
@@ -287,13 +287,13 @@ static inline int @NAME@_read(double third, double angle, double stokes, @NAME@_
         chain[2][1] = x_by_t / wide;
         chain[2][2] = 1.0 / wide;
     }
-    for (m = 0; m < @NAME@_RESULTS; ++m) {
+    for (m = 0; m < @BIG@_RESULTS; ++m) {
         double found[3];
         found[0] = by[m][2] * chain[0][0] / stokes;
         found[1] = by[m][2] * chain[1][0] + by[m][1] * chain[1][1];
         found[2] = by[m][2] * chain[2][0] + by[m][1] * chain[2][1] + by[m][0] * chain[2][2];
-        for (k = 0; k < @NAME@_VARIABLES; ++k)
+        for (k = 0; k < @BIG@_VARIABLES; ++k)
             slopes->by[m][k] = found[k];
     }
-    return @NAME@_OK;
+    return @BIG@_OK;
 }

@@ -11,7 +11,7 @@ from .contact import contact_header
 from .material import LARGEST, Number, Result
 from .space import declarations
 
-_OUTCOMES = ("STICK", "STICK_ROTATE_SEPARATE", "BOUNCE")
+_OUTCOMES = tuple(word.upper().replace("-", "_") for word in OUTCOMES)
 RESULTS = (
     ("int", "status", "LAW_OK, or why there is no answer"),
     ("int", "outcome", "LAW_STICK, LAW_STICK_ROTATE_SEPARATE, LAW_BOUNCE; LAW_UNDECIDED without an answer"),
@@ -48,7 +48,7 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
         *comment("Outcomes."),
         *_enumeration(
             [("UNDECIDED", -1, "there is no answer; `status` says why")]
-            + [(name, k, _said(name)) for k, name in enumerate(_OUTCOMES[: len(OUTCOMES)])]
+            + [(name, k, _said(name)) for k, name in enumerate(_OUTCOMES)]
         ),
         *comment("Rebound criteria."),
         *_enumeration(

@@ -115,7 +115,7 @@ void query(int count, const double *stokes, const double *angle, int *outcome, d
         granulation_answer one;
         granulation_slopes by;
         granulation_table_slopes(stokes[k], angle[k], &one, &by);
-        outcome[k] = granulation_table(stokes[k], angle[k], &one) == granulation_OK ? one.outcome : -1;
+        outcome[k] = granulation_table(stokes[k], angle[k], &one) == GRANULATION_TABLE_OK ? one.outcome : -1;
         for (m = 0; m < 2; ++m) {
             value[2 * k + m] = one.value[m];
             slope[4 * k + 2 * m] = by.by[m][0];
