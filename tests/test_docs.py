@@ -89,6 +89,14 @@ def test_every_public_name_has_an_example_that_runs(name):
     assert not doctest.DocTestRunner().run(example).failed
 
 
+def test_pages_that_draw_show_their_pictures():
+    """Without this line a page shows `<Figure ...>` in place of the picture."""
+    pages = [path.read_text(encoding="utf-8") for path in PAGES]
+    drawing = [text for text in pages if "{code-cell}" in text and ".plot()" in text]
+    assert len(drawing) > 3
+    assert all("%matplotlib inline" in text for text in drawing)
+
+
 def test_the_synthetic_data_are_those_of_their_script():
     """`docs/data/make_synthetic.py` makes the files that lie beside it, and their first line says that they are."""
     folder = ROOT / "docs/data"
