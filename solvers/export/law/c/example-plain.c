@@ -25,7 +25,7 @@ int main(void)
     for (int k = 0; k < IMPACTS; k++) {
         law_impact impact;
         law_collision c;
-        impact.speed = @SPEED@*pow(100.0, k%32/31.0 - 0.5); /* m/s */
+        impact.speed = @SPEED@*pow(1e4, k%32/31.0 - 0.5); /* m/s */
         impact.angle = k/32*0.04;                              /* rad */
         impact.spin = 0.0;                                     /* rad/s */
         impact.partner_spin = 0.0;

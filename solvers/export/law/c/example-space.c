@@ -21,7 +21,7 @@ static double drawn(void)
 /* Two particles whose films touch, with random velocities and spins. */
 static void meet(law_particle *first, law_particle *second, double distance)
 {
-    double speed = @SPEED@*pow(10.0, drawn()), n[3], length, approach = 0.0;
+    double speed = @SPEED@*pow(10.0, 2.0*drawn()), n[3], length, approach = 0.0;
     for (int k = 0; k < 3; k++) {
         n[k] = drawn();
         first->position[k] = 0.0;

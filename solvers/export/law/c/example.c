@@ -87,7 +87,7 @@ int main(void)
     int sticks = 0, bounces = 0, others = 0;
     for (int pair = 0; pair < PAIRS; pair++) {
         particle p[2] = {{{0.0, 0.0}, {0.0, 0.0}, 0.0}, {{0.0, 0.0}, {0.0, 0.0}, 0.0}};
-        double place = 6.28*drawn(), way = 6.28*drawn(), speed = @SPEED@*pow(100.0, drawn() - 0.5), n[2], turn;
+        double place = 6.28*drawn(), way = 6.28*drawn(), speed = @SPEED@*pow(1e4, drawn() - 0.5), n[2], turn;
         double distance = RADII[0] + RADII[1] + material.film_thickness;
         law_impact impact;
         law_collision c;
