@@ -17,6 +17,7 @@ import numpy as np
 from scipy.special import log_ndtr
 
 from ..errors import InputError
+from ..scene.scene import Scene
 from ..settings import RTOL
 from . import changes as boundaries
 from .interpolation import SegmentMap, segment_map
@@ -99,10 +100,7 @@ class Likelihood:
         rtol: relative tolerance of the integrations.
     """
 
-    def __init__(self, scene: object, names: tuple[str, ...], data: Measurements, rtol: float = RTOL) -> None:
-        from ..scene.scene import Scene
-
-        assert isinstance(scene, Scene)
+    def __init__(self, scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float = RTOL) -> None:
         self.data, self.names = data, names
         self.of = tuple(name for name, (values, _) in data.observed.items() if np.isfinite(values).any())
         self.law = Law(scene, names, data, rtol)

@@ -21,6 +21,7 @@ from .series import Forest, transform
 
 ANGLE_MAPS = tuple(low + 3 * high for low in (LINEAR, ROOT) for high in (LINEAR, ROOT))
 _SLICES = (0.04, 0.5, 0.96)  # places across a panel at which maps of a cell are compared
+_UNRESOLVED = 10_000  # coefficients as which a line counts that a map does not resolve
 _WORTH = 0.8  # a map is taken instead of a simpler one where it needs fewer coefficients by this factor
 _PART = 0.15  # of the error asked for: tolerance of the series
 _REASONS = tuple(CRITERIA)
@@ -188,7 +189,7 @@ class Builder:
                 try:
                     fit(forest, sample, Order((1, 16), tolerance, most=80))
                 except Unresolved:
-                    forest.coefficients.append(np.zeros(10_000))
+                    forest.coefficients.append(np.zeros(_UNRESOLVED))
             cost = float(sum(one.size for one in forest.coefficients))
             if cost < _WORTH * best[0]:
                 best = cost, code
