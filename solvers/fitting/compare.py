@@ -11,6 +11,8 @@ import numpy as np
 
 from ..errors import ComputationError, InputError, did_you_mean
 from ..host.arguments import check_names
+from ..host.cores import usable_cores
+from ..host.workers import in_workers
 from ..scene.scene import Scene
 from ..settings import check_rtol
 from .data import read_data
@@ -96,7 +98,7 @@ def compare_models(
     rtol: float = RTOL,
     seed: int = 0,
 ) -> Comparison:
-    """Fit the scene and, for each named choice, the scene with every other value of it.
+    """Fit the scene and, for each named choice, the scene with every other value of it; these on all cores.
 
     Arguments:
         scene, data, free, prior, rtol: as of `fit`.
@@ -122,19 +124,18 @@ def compare_models(
     names = check_names(over, CHOICES, "over")
     if not isinstance(folds, int) or isinstance(folds, bool) or folds < 0 or folds == 1:
         raise InputError("folds", folds, "a whole number from 2, or 0 for no cross-validation")
-    candidates = []
-    for name, scene_ in _scenes(first, names):
-        try:
-            if isinstance(scene_, InputError):
-                raise scene_
-            candidates.append(
-                _candidate(name, scene_, table, free, prior, min(folds, table.size), check_rtol(rtol), seed)
-            )
-        except (InputError, ComputationError) as error:
-            if not candidates:
-                raise  # the scene itself
-            candidates.append(Candidate(name, reason=str(error)))
-    order = sorted(candidates, key=lambda each: np.inf if each.aic is None else each.aic)
+    tolerance = check_rtol(rtol)
+    (name, own), *others = _scenes(first, names)
+    assert isinstance(own, Scene)
+    asked = table, free, prior, min(folds, table.size), tolerance, seed
+    candidates = [_candidate(name, own, *asked)]
+    cores = min(usable_cores(), len(others))
+    if cores > 1:
+        parts = ((name, (name, scene, *asked)) for name, scene in others)
+        candidates += [each for _, each in in_workers(cores, _tried, parts)]
+    else:
+        candidates += [_tried(name, scene, *asked) for name, scene in others]
+    order = sorted(candidates, key=lambda each: (np.inf if each.aic is None else each.aic, each.name))
     return Comparison(first, tuple(order))
 
 
@@ -157,6 +158,19 @@ def _scenes(first: Scene, names: Sequence[str]) -> list[tuple[str, Scene | Input
                 except InputError as error:
                     found.append((f"{name} = {other}", error))
     return found
+
+
+def _tried(
+    name: str, scene: Scene | InputError, data: Measurements, free: Sequence[str] | str,
+    prior: Mapping[str, str] | None, folds: int, rtol: float, seed: int,
+) -> Candidate:  # fmt: skip
+    """A candidate, or why there is none."""
+    try:
+        if isinstance(scene, InputError):
+            raise scene
+        return _candidate(name, scene, data, free, prior, folds, rtol, seed)
+    except (InputError, ComputationError) as error:
+        return Candidate(name, reason=str(error))
 
 
 def _candidate(
