@@ -12,11 +12,12 @@ change's place by the implicit function theorem; the error is of order d.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from .law import BoundLaw
+from .law import BoundLaw, outcomes_under, times_under
 from .lines import Lines
 
 GRID = 15  # points of a line at which the outcome is looked at
@@ -28,8 +29,8 @@ _FAR = 2e-6  # distance from a saddle at which that is taken, in standard deviat
 _SHIFT, _STEP_OF_ENTRY = 0.1, 2e-3  # steps of an impact, and relative ones of an entry, over that distance
 _BESIDE = 1e-5  # least distance at which gradients are taken, in standard deviations; the other is four times that
 _GROWTH = 1.3, 8.0  # of a singular gradient from the farther to the nearer
-_HALVINGS = 32
-_STEP = 1e-5  # relative, of a free entry, where a change has no singular gradient
+_EXACTLY, _ROUGHLY = (1e-5, 32), (1e-4, 20)
+"""Relative step of a free entry, where a change has no singular gradient, and halvings of the bracket of its place."""
 
 
 @dataclass(frozen=True)
@@ -164,30 +165,28 @@ def _by_times(
     """
     row = lines.row[line]
     speed, angle = lines.at(line, y + side * distance)
-    time, second, third = (law.times(row, *lines.at(line, y + factor * side * distance)) for factor in (1, 4, 16))
+    by_speed, by_angle = lines.slopes(line, y)
+    step_speed = _SHIFT * distance * (np.abs(by_speed) + 1e-3 * speed)
+    step_angle = _SHIFT * distance * (np.abs(by_angle) + 1e-3)
+    steps = _STEP_OF_ENTRY * float(distance.min()) * law.values
+    displaced = [law.displaced(k, value + step) for k, (value, step) in enumerate(zip(law.values, steps))]
+    possible = [k for k, each in enumerate(displaced) if each is not None]
+    points = [
+        (speed, angle), *(lines.at(line, y + factor * side * distance) for factor in (4, 16)),
+        (speed + step_speed, angle), (speed, angle + step_angle), *((speed, angle) for _ in possible),
+    ]  # fmt: skip
+    laws = [law] * (len(points) - len(possible)) + [each for each in displaced if each is not None]
+    every = (np.concatenate(each) for each in zip(*points, strict=True))
+    times = times_under(laws, np.tile(row, len(points)), *every).reshape(len(points), -1)
+    time, second, third = times[:3]
     with np.errstate(invalid="ignore", divide="ignore"):
         aside = np.interp((time - second) / (second - third), *_ASIDE)
         rate = np.log((4 + aside) / (1 + aside)) / (time - second)
     rate[~(rate > 0)] = np.nan
-    true = side * distance * (1 + aside)
-
-    def moved(other: BoundLaw, *at: np.ndarray) -> np.ndarray:
-        """Change of the distance."""
-        found: np.ndarray = -true * np.expm1(-rate * (other.times(row, *at) - time))
-        return found
-
-    by_speed, by_angle = lines.slopes(line, y)
-    step_speed = _SHIFT * distance * (np.abs(by_speed) + 1e-3 * speed)
-    step_angle = _SHIFT * distance * (np.abs(by_angle) + 1e-3)
-    normal_speed = -moved(law, speed + step_speed, angle) / step_speed
-    normal_angle = -moved(law, speed, angle + step_angle) / step_angle
+    nearer = side * distance * (1 + aside) * np.expm1(-rate * (times[3:] - time))  # minus the change of the distance
     free = np.full((line.size, law.values.size), np.nan)
-    for k, value in enumerate(law.values.tolist()):
-        step = _STEP_OF_ENTRY * float(distance.min()) * value
-        other = law.displaced(k, value + step)
-        if other is not None:
-            free[:, k] = -moved(other, speed, angle) / step
-    return free, normal_speed, normal_angle
+    free[:, possible] = (nearer[2:] / steps[possible, None]).T
+    return free, nearer[0] / step_speed, nearer[1] / step_angle
 
 
 _RATIOS = np.linspace(-0.6, 0.6, 241)  # of the error of a place to the distance from it
@@ -202,33 +201,42 @@ def slopes(law: BoundLaw, lines: Lines, changes: Changes, which: np.ndarray, qui
     found = normals(law, lines, changes, which, quick).slopes()
     missing = np.flatnonzero(~np.isfinite(found).all(axis=1))
     if missing.size:
-        found[missing] = _by_differences(law, lines, changes, which[missing])
+        found[missing] = _by_differences(law, lines, changes, which[missing], *(_ROUGHLY if quick else _EXACTLY))
     return found
 
 
-def _by_differences(law: BoundLaw, lines: Lines, changes: Changes, which: np.ndarray) -> np.ndarray:
+def _by_differences(
+    law: BoundLaw, lines: Lines, changes: Changes, which: np.ndarray, step: float, halvings: int
+) -> np.ndarray:
     """The same from the changes' places at displaced free entries, for boundaries without a singular gradient.
 
     Such a boundary is met at initial contact, where its place follows from the entries alone. Zero where the change
     is not found again.
     """
     found = np.zeros((which.size, law.values.size))
-    for k, value in enumerate(law.values.tolist()):
-        ends = [law.displaced(k, value * (1 + sign * _STEP)) for sign in (1.0, -1.0)]
-        places = [_again(each, lines, changes, which) for each in ends if each is not None]
-        if len(places) == 2:
-            slope = (places[0] - places[1]) / (2 * _STEP * value)
-            found[:, k] = np.where(np.isfinite(slope), slope, 0.0)
+    ends = [[law.displaced(k, value * (1 + sign * step)) for sign in (1.0, -1.0)] for k, value in enumerate(law.values)]
+    shown = [k for k, pair in enumerate(ends) if None not in pair]
+    displaced = [each for k in shown for each in ends[k] if each is not None]
+    if displaced:
+        places = _again(displaced, lines, changes, which, halvings).reshape(-1, 2, which.size)
+        slope = (places[:, 0] - places[:, 1]) / (2 * step * law.values[shown, None])
+        found[:, shown] = np.where(np.isfinite(slope), slope, 0.0).T
     return found
 
 
-def _again(law: BoundLaw, lines: Lines, changes: Changes, which: np.ndarray) -> np.ndarray:
-    """Places of changes near where they were; NaN where they are not found."""
-    line, y, before, after = (each[which] for each in (changes.line, changes.y, changes.before, changes.after))
+def _again(laws: Sequence[BoundLaw], lines: Lines, changes: Changes, which: np.ndarray, halvings: int) -> np.ndarray:
+    """Places of changes near where they were, for each law in turn; NaN where they are not found."""
+    line, y, before, after = (
+        np.tile(each[which], len(laws)) for each in (changes.line, changes.y, changes.before, changes.after)
+    )
+
+    def seen(places: np.ndarray) -> np.ndarray:
+        return outcomes_under(laws, lines.row[line], *lines.at(line, places))
+
     low, high = y - _LOOSEST, y + _LOOSEST
-    there = (_outcomes(law, lines, line, low) == before) & (_outcomes(law, lines, line, high) == after)
-    for _ in range(_HALVINGS):
+    there = (seen(low) == before) & (seen(high) == after)
+    for _ in range(halvings):
         middle = (low + high) / 2
-        below = _outcomes(law, lines, line, middle) == before
+        below = seen(middle) == before
         low, high = np.where(below, middle, low), np.where(below, high, middle)
     return np.where(there, (low + high) / 2, np.nan)

@@ -31,6 +31,7 @@ RTOL = 1e-8
 _RESTARTS = 3  # times that a more likely point, met on a profile, replaces the maximum
 _ROUNDS = 5  # in which ends are moved beyond likely points
 _ODD = 1e-3  # probability of residuals as large as found below which they are remarked on
+_UNDECIDED = 1e-3  # probability of impacts without an outcome that is remarked on
 _COARSE = 0.05  # error of the log-likelihood by quadrature that is remarked on
 
 
@@ -198,7 +199,7 @@ def _result(
     finer = likelihood(values, Resolution().doubled())
     error = np.nan if finer is None else finer.value - evaluation.value
     others = tuple((dict(zip(free.names, free.values(each.inner).tolist())), each.value) for each in best.others)
-    remarks = [*data.remarks, *_remarks(data, rows, error, others)]
+    remarks = [*data.remarks, *_remarks(data, rows, evaluation.undecided, error, others)]
     if any(each.prior is not None for each in free.entries):
         remarks.append("Intervals and verdicts are those of the likelihood times the priors.")
     changed = first.with_si({name: each.value for name, each in estimates.items()})
@@ -225,7 +226,7 @@ def _rows(
     return Rows(evaluation.probability, evaluation.mean, residual, relative, pull)
 
 
-def _remarks(data: Measurements, rows: Rows, error: float, others: tuple[Any, ...]) -> list[str]:
+def _remarks(data: Measurements, rows: Rows, undecided: np.ndarray, error: float, others: tuple[Any, ...]) -> list[str]:
     said = []
     codes = set(data.outcome.tolist())
     if codes == {OUTCOMES.index(STICK)}:
@@ -245,6 +246,12 @@ def _remarks(data: Measurements, rows: Rows, error: float, others: tuple[Any, ..
         )
     if 2 * odd.size > data.size:
         said.append("Most impacts contradict the model: estimates, intervals and verdicts mean little.")
+    if undecided.max(initial=0.0) > _UNDECIDED:
+        worst = int(np.argmax(undecided))
+        said.append(
+            f"Of the scatter of an impact ({data.label(worst)}), {100 * undecided[worst]:.2g} % has no outcome: "
+            "the doublet rebounds again and again. This part counts as not observed."
+        )
     for name, residual in rows.residual.items():
         known = residual[np.isfinite(residual)]
         if known.size and chi2.sf(float((known**2).sum()), known.size) < _ODD:

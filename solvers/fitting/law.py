@@ -6,14 +6,14 @@ passed as columns, so that no scene is made anew.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from casadi import SX, Function, densify, jacobian, vertcat
 
-from ...generated.automaton import LAST_ANSWER
+from ...generated.automaton import LAST_ANSWER, Status
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.tangent import COLUMNS, differentiates, run_tangent
 from ..errors import ComputationError
@@ -27,6 +27,7 @@ from ..scene.schema import MEETING, SPINS
 from ..settings import STEPS
 from .measurements import Measurements
 
+UNDECIDED = -1
 _ANGLE = np.radians(89.5)  # largest impact angle at which a scattered impact is computed
 _PLACES: dict[str, tuple[int, int | str]] = {  # column of the derivative, field of the value
     "restitution": (0, 0),
@@ -114,12 +115,17 @@ class BoundLaw:
     slopes: Mapping[str, np.ndarray]
 
     def outcomes(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
-        """Outcomes at normal speeds (m/s) and angles (rad; a negative one is its mirror image) of these rows."""
-        impacts = self._impacts(row, speed, angle)
+        """Outcomes at normal speeds (m/s) and angles (rad; a negative one is its mirror image) of these rows.
+
+        Doublets that rebound again and again, and whatever no engine follows to the end, are UNDECIDED.
+        """
+        impacts = self.impacts(row, speed, angle)
         found = run_kernel(impacts, self.law.rtol, jumps=2)
         assert found is not None  # checked by Law
         outcome: np.ndarray = found["outcome"].astype(np.int8)
         late = np.flatnonzero(found["status"] > LAST_ANSWER)
+        outcome[late] = UNDECIDED
+        late = late[found["status"][late] != Status.CHATTER]  # no engine decides what rebounds that often
         if late.size:
             outcome[late] = self._completed(row[late], impacts.part(late))
         return outcome
@@ -139,7 +145,7 @@ class BoundLaw:
             forward: carry all derivatives forward, also where the restitution's could be taken back.
             budget: steps of a trajectory, where longer ones may be left out.
         """
-        impacts = self._impacts(row, speed, angle)
+        impacts = self.impacts(row, speed, angle)
         count, size = row.size, len(self.law.names)
         found = Results(
             np.zeros(count, np.int8),
@@ -208,26 +214,23 @@ class BoundLaw:
             into.value[k, which] = np.where(done, value, np.nan)
             into.free[k, which], into.speed[k, which], into.angle[k, which] = free, by_speed, by_angle
 
-    def times(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
-        """Contact times over x0/v0; NaN for a doublet that stays."""
-        found = run_kernel(self._impacts(row, speed, angle), self.law.rtol, jumps=0)
-        assert found is not None  # checked by Law
-        done = (found["status"] <= LAST_ANSWER) & (found["outcome"] > 0)
-        times: np.ndarray = np.where(done, found["time"], np.nan)
-        return times
-
     def displaced(self, k: int, value: float) -> BoundLaw | None:
         """The law with another value of free entry k."""
         values = self.values.copy()
         values[k] = value
         return self.law.at(values)
 
-    def _impacts(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> Impacts:
+    def impacts(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, every: bool = False) -> Impacts:
+        """Impacts on these rows.
+
+        Arguments:
+            every: pass all quantities as columns, the scene's own too.
+        """
         scene = self.law.scene
         others = {}
         mirrored = np.where(angle < 0, -1.0, 1.0)
         for name, values in self.quantities.items():
-            if values.size == 1 and float(values[0]) == scene.material.get(name):
+            if values.size == 1 and not every and float(values[0]) == scene.material.get(name):
                 continue
             others[name] = values[row] if values.size > 1 else np.full(row.size, values[0])
         for name in _SPIN_QUANTITIES:
@@ -250,3 +253,34 @@ class BoundLaw:
         compute(request, np.arange(request.size), lambda where, block: fill(results, where, block))
         found: np.ndarray = results["outcome"]
         return found
+
+
+def outcomes_under(laws: Sequence[BoundLaw], row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """Outcomes of points under several laws of the same scene, by the kernel alone.
+
+    Arguments:
+        row, speed, angle: the points of the first law, of the second, and so on, as many of each.
+    """
+    found = _run_under(laws, row, speed, angle, 2)
+    outcome: np.ndarray = np.where(found["status"] > LAST_ANSWER, UNDECIDED, found["outcome"]).astype(np.int8)
+    return outcome
+
+
+def times_under(laws: Sequence[BoundLaw], row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """Contact times over x0/v0 of the same; NaN for a doublet that stays."""
+    found = _run_under(laws, row, speed, angle, 0)
+    done = (found["status"] <= LAST_ANSWER) & (found["outcome"] > 0)
+    times: np.ndarray = np.where(done, found["time"], np.nan)
+    return times
+
+
+def _run_under(
+    laws: Sequence[BoundLaw], row: np.ndarray, speed: np.ndarray, angle: np.ndarray, jumps: int
+) -> np.ndarray:
+    parts = [slice(k * row.size // len(laws), (k + 1) * row.size // len(laws)) for k in range(len(laws))]
+    made = [law.impacts(row[part], speed[part], angle[part], every=True) for law, part in zip(laws, parts)]
+    others = {name: np.concatenate([each.others[name] for each in made]) for name in made[0].others}
+    at = (np.concatenate([each.speed for each in made]), np.concatenate([each.angle for each in made]))
+    found = run_kernel(Impacts(made[0].scene, *at, others), laws[0].law.rtol, jumps=jumps)
+    assert found is not None  # checked by Law
+    return found

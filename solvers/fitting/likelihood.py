@@ -77,6 +77,7 @@ class Evaluation:
         scores: (rows, free entries), derivatives by the free entries' values.
         plain: (rows,), as `rows` without the limit.
         probability: (rows,), of the observed outcome.
+        undecided: (rows,), probability that no engine decides the outcome; it counts as not observed.
         mean, spread: result -> (rows,), mean and standard deviation over the scatter where the outcome agrees.
     """
 
@@ -84,6 +85,7 @@ class Evaluation:
     scores: np.ndarray
     plain: np.ndarray
     probability: np.ndarray
+    undecided: np.ndarray
     mean: dict[str, np.ndarray]
     spread: dict[str, np.ndarray]
 
@@ -206,9 +208,10 @@ class Likelihood:
             factors = self.more if resolution.lines > 1 else np.ones(size, int)
         lines = Lines.of(data, self.direction, resolution.lines * factors)
         found = boundaries.locate(law, lines, resolution.grid, resolution.within)
-        segments = Segments.of(lines, found, data.allowed)
+        segments, unknown = Segments.of(lines, found, data.allowed)
         mass = segments.mass()
         probability = np.bincount(segments.row, segments.weight * mass, size)
+        undecided = np.bincount(unknown.row, unknown.weight * unknown.mass(), size)
         dense = data.separated[segments.row]
         ends = moving_ends(law, lines, found, segments, dense & (mass > NEGLIGIBLE), resolution.quick)
         total = RowSums(size, len(self.names))
@@ -225,7 +228,7 @@ class Likelihood:
         limited, factor = limit(rows)
         return Evaluation(
             limited + self.constant, scores * factor[:, None], rows + self.constant, np.minimum(probability, 1.0),
-            *moments.result(),
+            undecided, *moments.result(),
         )  # fmt: skip
 
     def _densities(

@@ -31,7 +31,12 @@ class Segments:
     last: np.ndarray
 
     @classmethod
-    def of(cls, lines: Lines, changes: Changes, allowed: np.ndarray) -> Segments:
+    def of(cls, lines: Lines, changes: Changes, allowed: np.ndarray) -> tuple[Segments, Segments]:
+        """The segments on which the outcome agrees, and those on which it is not decided.
+
+        Arguments:
+            allowed: (rows, outcomes), whether an outcome agrees with the row's.
+        """
         every = np.arange(lines.size)
         line = np.concatenate([every, changes.line])
         order = np.argsort(line, kind="stable")  # the first segment of a line, then those after its changes
@@ -44,9 +49,10 @@ class Segments:
         low = np.where(first < 0, lines.low[line], upper[first])
         high = np.where(last < 0, lines.high[line], lower[last])
         row = lines.row[line]
-        kept = np.flatnonzero(np.where(outcome >= 0, allowed[row, outcome], False) & (high > low))
         parts = (line, row, lines.weight[line], low, high, first, last)
-        return cls(*(each[kept] for each in parts))
+        agrees = np.where(outcome >= 0, allowed[row, outcome], False)
+        kept = [np.flatnonzero(mask & (high > low)) for mask in (agrees, outcome < 0)]
+        return cls(*(each[kept[0]] for each in parts)), cls(*(each[kept[1]] for each in parts))
 
     @property
     def from_change(self) -> np.ndarray:

@@ -76,7 +76,7 @@ def information(
     total = np.zeros((size, len(names), len(names)))
     noise = plan.observed[_NOISE][1] if _NOISE in plan.observed else np.full(size, np.nan)
     for k in range(len(OUTCOMES)):
-        segments = Segments.of(lines, found, np.tile(np.arange(len(OUTCOMES)) == k, (size, 1)))
+        segments, _ = Segments.of(lines, found, np.tile(np.arange(len(OUTCOMES)) == k, (size, 1)))
         mass = segments.mass()
         ends = moving_ends(law, lines, found, segments, mass > NEGLIGIBLE, resolution.quick)
         share = segments.weight * mass
