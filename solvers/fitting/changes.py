@@ -22,7 +22,8 @@ from .lines import Lines
 
 GRID = 15  # points of a line at which the outcome is looked at
 WITHIN = 1e-5  # of the probability on either side of a change
-_LOOSEST = 0.02  # largest error of the place of a change, in standard deviations
+_LOOSER = 30.0  # most by which that grows with the distance from the centre: rare outcomes lie there
+_LOOSEST = 0.02  # standard deviations within which a change is looked for again
 _QUICK = 1000  # steps of a trajectory with derivatives, where an approximation replaces what takes longer
 _CLOSE = 1e-8  # the same for derivatives that are exact
 _FAR = 2e-6  # distance from a saddle at which that is taken, in standard deviations
@@ -83,7 +84,7 @@ def locate(law: BoundLaw, lines: Lines, grid: np.ndarray | int = GRID, within: f
         line, low, high, before, after = (
             np.concatenate(pair) for pair in zip((line, low, high, before, after), rest, strict=True)
         )
-        done = high - low <= np.minimum(within * np.exp(middle_weight(low, high)), _LOOSEST)
+        done = high - low <= within * np.minimum(np.exp(middle_weight(low, high)), _LOOSER)
         found.append((line[done], ((low + high) / 2)[done], before[done], after[done], ((high - low) / 2)[done]))
         line, low, high, before, after = (each[~done] for each in (line, low, high, before, after))
     line, y, before, after, error = (np.concatenate(each) for each in zip(*found, strict=True))

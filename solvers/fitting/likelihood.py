@@ -14,7 +14,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import log_ndtr
 
 from ..errors import InputError
 from ..scene.scene import Scene
@@ -22,16 +21,13 @@ from ..settings import RTOL
 from . import changes as boundaries
 from .interpolation import SegmentMap, segment_map
 from .law import BoundLaw, Law
-from .lines import REACH, Lines
+from .lines import Lines
 from .measurements import Measurements
+from .rare import RARE, RareRows
 from .segments import Segments, moving_ends
 from .sums import Moments, RowSums
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
-_FAR = np.array([6.0, 7.0, 8.5, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0])  # where an outcome not seen nearby is looked for
-_FARTHEST = 30.0
-_RARE = 1e-4  # probability within REACH below which the observed outcome is looked for beyond
-_BESIDE = 0.05  # beyond a change of outcome, in standard deviations: where its results are taken
 FINER = (3, 7)
 """Factors of the number of lines of rows that need more."""
 KNEE, TAIL = 12.0, 4.0
@@ -213,18 +209,24 @@ class Likelihood:
         probability = np.bincount(segments.row, segments.weight * mass, size)
         undecided = np.bincount(unknown.row, unknown.weight * unknown.mass(), size)
         dense = data.separated[segments.row]
-        ends = moving_ends(law, lines, found, segments, dense & (mass > NEGLIGIBLE), resolution.quick)
+        counts = mass > np.where(dense, NEGLIGIBLE, 0.0)
+        ends = moving_ends(law, lines, found, segments, counts, resolution.quick)
         total = RowSums(size, len(self.names))
-        plain = np.flatnonzero(~dense & (mass > 0))
+        plain = np.flatnonzero(~dense & counts)
         total.add(segments.row[plain], np.log(segments.weight[plain] * mass[plain]), segments.mass_slopes(ends)[plain])
         moments = Moments(self.of, size)
-        self._densities(
-            law, lines, segments, ends, np.flatnonzero(dense & (mass > NEGLIGIBLE)), resolution, total, moments
-        )
+        self._densities(law, lines, segments, ends, np.flatnonzero(dense & counts), resolution, total, moments)
         rows, scores = total.result()
-        rare = np.flatnonzero((probability < _RARE) & (factors > 0))
+        rare = np.flatnonzero((probability < RARE) & (factors > 0))
         if rare.size:
-            self._beyond(law, rare, rows, scores, resolution)
+            moves = np.zeros(scores.shape)  # of the logarithm of the probability
+            np.add.at(moves, segments.row, (segments.weight * mass)[:, None] * segments.mass_slopes(ends))
+            moves /= np.maximum(probability, 1e-300)[:, None]
+            how = resolution.grid, resolution.within, resolution.quick
+            beyond = RareRows.of(law, data, rare, self.direction, self.of, *how)
+            beyond = beyond.setting_in(probability[rare], moves[rare])
+            missing = beyond.log > rows[rare]
+            rows[rare[missing]], scores[rare[missing]] = beyond.log[missing], beyond.slope[missing]
         limited, factor = limit(rows)
         return Evaluation(
             limited + self.constant, scores * factor[:, None], rows + self.constant, np.minimum(probability, 1.0),
@@ -318,62 +320,6 @@ class Likelihood:
             gradient += np.einsum("sn,snp->sp", at_nodes, slope[k])
         kept = np.flatnonzero(whole > 0)
         total.add(row[kept], logs[kept], gradient[kept])
-
-    def _beyond(
-        self, law: BoundLaw, rows: np.ndarray, into: np.ndarray, scores: np.ndarray, resolution: Resolution
-    ) -> None:
-        """Log-probabilities of rows whose outcome is rare within the reach of the integral, from the nearest change.
-
-        The row's likelihood is that of a scatter as far as the change, with the results there, and falls with the
-        square of the distance also where the integral would be zero.
-        """
-        data = self.data.part(rows)
-        lines = replace(Lines.of(data, self.direction[rows], np.ones(rows.size, int), _FARTHEST), row=rows)
-        inner = np.linspace(-REACH, REACH, resolution.grid)
-        grid = np.concatenate([-_FAR[::-1], inner, _FAR])
-        places = np.clip(grid, lines.low[:, None], lines.high[:, None])
-        found = boundaries.locate(law, lines, places, within=1e-3)
-        allowed = self.data.allowed[rows]
-        near, sign = np.full(rows.size, np.inf), np.zeros(rows.size)
-        which = np.full(rows.size, -1)
-        for k in range(found.size):
-            line, y = int(found.line[k]), float(found.y[k])
-            # the side of the change on which the outcome agrees must be the farther one
-            inward, outward = (found.before[k], found.after[k]) if y > 0 else (found.after[k], found.before[k])
-            if allowed[line, outward] and not allowed[line, inward] and abs(y) < near[line]:
-                near[line], sign[line], which[line] = abs(y), np.sign(y) or 1.0, k
-        there = np.flatnonzero((which >= 0) & (near > REACH / 2))
-        tail = np.full(rows.size, float(log_ndtr(-_FARTHEST)))
-        slope = np.zeros((rows.size, len(self.names)))
-        if there.size:
-            tail[there] = log_ndtr(-near[there])
-            moves = boundaries.slopes(law, lines, found, which[there], True)
-            hazard = np.exp(-(near[there] ** 2) / 2 - np.log(2 * np.pi) / 2 - tail[there])
-            slope[there] = -(hazard * sign[there])[:, None] * moves
-            misfit, misfit_slope = self._misfit(law, lines, there, found.y[which[there]] + _BESIDE * sign[there], moves)
-            tail[there] -= misfit
-            slope[there] -= misfit_slope
-        missing = (into[rows] < tail) & ((which < 0) | (near > REACH / 2))
-        into[rows[missing]], scores[rows[missing]] = tail[missing], slope[missing]
-
-    def _misfit(
-        self, law: BoundLaw, lines: Lines, which: np.ndarray, y: np.ndarray, moves: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Half the squared distance of what was measured from the results at places that move, and its slopes."""
-        row = lines.row[which]
-        half, slope = np.zeros(which.size), np.zeros(moves.shape)
-        if not self.of:
-            return half, slope
-        there = law.results(self.of, row, *lines.at(which, y))
-        by_speed, by_angle = lines.slopes(which, y)
-        for k, name in enumerate(self.of):
-            measured, sd = (each[row] for each in self.data.observed[name])
-            known = np.isfinite(measured) & np.isfinite(there.value[k]) & self.data.separated[row]
-            pull = np.where(known, (measured - np.nan_to_num(there.value[k])) / sd, 0.0)
-            by_y = there.speed[k] * by_speed + there.angle[k] * by_angle
-            half += pull**2 / 2
-            slope[known] -= ((pull / sd)[:, None] * (there.free[k] + by_y[:, None] * moves))[known]
-        return half, slope
 
 
 def limit(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from scipy.special import ndtr
 
 from .measurements import Measurements
 
@@ -31,7 +32,7 @@ class Lines:
 
     Attributes:
         row: (lines,), the row of each.
-        weight: (lines,), of the mean over the lines of a row.
+        weight: (lines,), of the mean over the lines of a row, over the probability of what is a possible impact.
         speed, angle: (lines, 2), value at y = 0 and slope; the speed as it was measured.
         low, high: (lines,), the ends of what is a possible impact.
     """
@@ -68,7 +69,8 @@ class Lines:
             rises, falls = at[:, 1] > 0, at[:, 1] < 0
             low = np.where(rises, np.fmax(low, ends[0]), np.where(falls, np.fmax(low, ends[1]), low))
             high = np.where(rises, np.fmin(high, ends[1]), np.where(falls, np.fmin(high, ends[0]), high))
-        return cls(row, weights, speed, angle, np.minimum(low, 0.0), np.maximum(high, 0.0), data.relative)
+        low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
+        return cls(row, weights / (ndtr(high) - ndtr(low)), speed, angle, low, high, data.relative)
 
     @property
     def size(self) -> int:

@@ -10,7 +10,7 @@ from scipy.special import ndtr
 from . import changes as boundaries
 from .changes import Changes
 from .law import BoundLaw
-from .lines import REACH, Lines
+from .lines import Lines
 
 
 @dataclass(frozen=True)
@@ -62,34 +62,27 @@ class Segments:
     def to_change(self) -> np.ndarray:
         return self.last >= 0
 
-    def _limits(self) -> tuple[np.ndarray, np.ndarray]:
-        """The ends, where the end of a line stands for all that lies beyond."""
-        return np.where(self.first < 0, -np.inf, self.low), np.where(self.last < 0, np.inf, self.high)
-
     def mass(self) -> np.ndarray:
         """Probability of the scatter within each."""
-        low, high = self._limits()
-        flip = low > 0  # the difference of two small numbers, not of two near one
-        found: np.ndarray = np.where(flip, ndtr(-low) - ndtr(-high), ndtr(high) - ndtr(low))
+        flip = self.low > 0  # the difference of two small numbers, not of two near one
+        found: np.ndarray = np.where(flip, ndtr(-self.low) - ndtr(-self.high), ndtr(self.high) - ndtr(self.low))
         return found
 
     def mass_slopes(self, ends: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
         """Derivatives of the logarithm of `mass`."""
-        low, high = self._limits()
         mass = np.maximum(self.mass(), 1e-300)
-        density = [np.exp(-(each**2) / 2) / np.sqrt(2 * np.pi) / mass for each in (low, high)]
+        density = [np.exp(-(each**2) / 2) / np.sqrt(2 * np.pi) / mass for each in (self.low, self.high)]
         found: np.ndarray = density[1][:, None] * ends[1] - density[0][:, None] * ends[0]
         return found
 
 
 def moving_ends(
-    law: BoundLaw, lines: Lines, changes: Changes, segments: Segments, dense: np.ndarray, quick: bool
+    law: BoundLaw, lines: Lines, changes: Changes, segments: Segments, which: np.ndarray, quick: bool
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Derivatives of the segments' ends by the free entries, where they matter."""
+    """Derivatives by the free entries of the ends of the segments that the mask `which` tells."""
     needed = np.zeros(changes.size + 1, bool)
     for end in (segments.first, segments.last):
-        needed[end[dense]] = True
-        needed[end[~dense & (np.abs(np.append(changes.y, 0.0)[end]) < REACH - 0.5)]] = True
+        needed[end[which]] = True
     needed = np.flatnonzero(needed[:-1])
     slopes = np.zeros((changes.size + 1, len(law.values)))  # the last for ends that stay
     if needed.size:
