@@ -57,26 +57,34 @@ class Changes:
         return int(self.line.size)
 
 
-def locate(law: BoundLaw, lines: Lines, grid: np.ndarray | int = GRID, within: float = WITHIN) -> Changes:
+def locate(
+    law: BoundLaw, lines: Lines, grid: np.ndarray | int = GRID, within: float = WITHIN, kernel_alone: bool = False
+) -> Changes:
     """The changes of outcome on lines.
 
     Arguments:
         grid: number of points from end to end, or (lines, points) of them.
         within: error of the probability on either side of a change, relative to that of a change at y = 0.
+        kernel_alone: what the kernel does not follow to the end stays undecided.
     """
     if isinstance(grid, int):
         places = lines.low[:, None] + (lines.high - lines.low)[:, None] * np.linspace(0, 1, grid)
     else:
         places = grid
     line = np.repeat(np.arange(lines.size), places.shape[1])
-    outcome = _outcomes(law, lines, line, places.ravel()).reshape(places.shape)
+
+    def outcomes(line: np.ndarray, y: np.ndarray) -> np.ndarray:
+        where = lines.row[line], *lines.at(line, y)
+        return outcomes_under([law], *where) if kernel_alone else law.outcomes(*where)
+
+    outcome = outcomes(line, places.ravel()).reshape(places.shape)
     line, k = np.nonzero(outcome[:, 1:] != outcome[:, :-1])
     low, high = places[line, k], places[line, k + 1]
     before, after = outcome[line, k], outcome[line, k + 1]
     found: list[tuple[np.ndarray, ...]] = [(np.zeros(0, int), np.zeros(0), before[:0], after[:0], np.zeros(0))]
     while line.size:
         middle = (low + high) / 2
-        seen = _outcomes(law, lines, line, middle)
+        seen = outcomes(line, middle)
         same = seen == before
         third = np.flatnonzero(~same & (seen != after))  # another change follows between the middle and the far end
         rest = line[third], middle[third], high[third], seen[third], after[third]
@@ -97,10 +105,6 @@ def middle_weight(low: np.ndarray, high: np.ndarray) -> np.ndarray:
     nearest = np.where((low < 0) & (high > 0), 0.0, np.minimum(np.abs(low), np.abs(high)))
     found: np.ndarray = nearest**2 / 2
     return found
-
-
-def _outcomes(law: BoundLaw, lines: Lines, line: np.ndarray, y: np.ndarray) -> np.ndarray:
-    return law.outcomes(lines.row[line], *lines.at(line, y))
 
 
 @dataclass(frozen=True)
@@ -169,7 +173,7 @@ def _by_times(
     by_speed, by_angle = lines.slopes(line, y)
     step_speed = _SHIFT * distance * (np.abs(by_speed) + 1e-3 * speed)
     step_angle = _SHIFT * distance * (np.abs(by_angle) + 1e-3)
-    steps = _STEP_OF_ENTRY * float(distance.min()) * law.values
+    steps = _STEP_OF_ENTRY * float(distance.min()) * law.scales
     displaced = [law.displaced(k, value + step) for k, (value, step) in enumerate(zip(law.values, steps))]
     possible = [k for k, each in enumerate(displaced) if each is not None]
     points = [
@@ -215,12 +219,13 @@ def _by_differences(
     is not found again.
     """
     found = np.zeros((which.size, law.values.size))
-    ends = [[law.displaced(k, value * (1 + sign * step)) for sign in (1.0, -1.0)] for k, value in enumerate(law.values)]
+    steps = step * law.scales
+    ends = [[law.displaced(k, value + sign * steps[k]) for sign in (1, -1)] for k, value in enumerate(law.values)]
     shown = [k for k, pair in enumerate(ends) if None not in pair]
     displaced = [each for k in shown for each in ends[k] if each is not None]
     if displaced:
         places = _again(displaced, lines, changes, which, halvings).reshape(-1, 2, which.size)
-        slope = (places[:, 0] - places[:, 1]) / (2 * step * law.values[shown, None])
+        slope = (places[:, 0] - places[:, 1]) / (2 * steps[shown, None])
         found[:, shown] = np.where(np.isfinite(slope), slope, 0.0).T
     return found
 

@@ -76,6 +76,7 @@ class Law:
                 "a fit needs derivatives by the compiled kernel, which this scene or machine has not",
                 advice="install a C compiler, or leave out laws that have no derivative",
             )
+        self.parts = np.array([bool(np.isfinite(scene.fields[name].range.high)) for name in names], bool)
         own: dict[str, Any] = {name: value for name, value in scene.si if name not in MEETING}
         self._own = own | dict(data.columns)
         entries = [*names, *data.columns]
@@ -113,6 +114,12 @@ class BoundLaw:
     values: np.ndarray
     quantities: Mapping[str, np.ndarray]
     slopes: Mapping[str, np.ndarray]
+
+    @property
+    def scales(self) -> np.ndarray:
+        """(free entries,), of which steps of differences are parts: 1 for fractions and angles, which may be 0."""
+        found: np.ndarray = np.where(self.law.parts, 1.0, np.abs(self.values))
+        return found
 
     def outcomes(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
         """Outcomes at normal speeds (m/s) and angles (rad; a negative one is its mirror image) of these rows.

@@ -222,7 +222,7 @@ class Likelihood:
             moves = np.zeros(scores.shape)  # of the logarithm of the probability
             np.add.at(moves, segments.row, (segments.weight * mass)[:, None] * segments.mass_slopes(ends))
             moves /= np.maximum(probability, 1e-300)[:, None]
-            how = resolution.grid, resolution.within, resolution.quick
+            how = resolution.within, resolution.quick
             beyond = RareRows.of(law, data, rare, self.direction, self.of, *how)
             beyond = beyond.setting_in(probability[rare], moves[rare])
             missing = beyond.log > rows[rare]

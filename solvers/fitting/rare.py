@@ -15,8 +15,9 @@ from .measurements import Measurements
 RARE = 1e-4
 """Probability within REACH below which the observed outcome is looked for beyond."""
 _FADED = 1e-6  # probability below which the likelihood from the nearest change counts in full
-_FAR = np.array([6.0, 7.0, 8.5, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0])  # where an outcome not seen nearby is looked for
+_FAR = np.array([*np.arange(3.0, 8.0, 0.5), 8.5, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0])  # where the outcome is looked for
 _FARTHEST = 30.0
+_FADES = 16.0  # distance from which the likelihood falls to that of an outcome that is not found
 _TURNS = np.pi / 4 * np.arange(4)  # of lines through the impact, from the row's direction
 _BESIDE = 0.05  # beyond a change of outcome, in standard deviations: where its results are taken
 _WORST = 1e3  # most that what was measured lowers the logarithm; as much as where the outcome is not found at all
@@ -32,7 +33,7 @@ class RareRows:
     @classmethod
     def of(
         cls, law: BoundLaw, data: Measurements, rows: np.ndarray, direction: np.ndarray, of: tuple[str, ...],
-        grid: int, within: float, quick: bool,
+        within: float, quick: bool,
     ) -> RareRows:  # fmt: skip
         """The likelihood of a scatter as far as the nearest change to the observed outcome, with the results there.
 
@@ -43,7 +44,7 @@ class RareRows:
             rows: the rare ones of the data.
             direction: (rows of the data,), of their lines.
             of: results that were measured.
-            grid, within, quick: of the `Resolution`.
+            within, quick: of the `Resolution`.
         """
         part = data.part(rows)
         both = ((part.speed_sd > 0) & (part.angle_sd > 0)).astype(int)
@@ -55,8 +56,8 @@ class RareRows:
         names = ("weight", "speed", "angle", "low", "high")
         joined = (np.concatenate([getattr(each, name) for each in fan]) for name in names)
         lines = Lines(rows[own], *joined, relative=part.relative)
-        places = np.concatenate([-_FAR[::-1], np.linspace(-REACH, REACH, grid), _FAR])
-        found = boundaries.locate(law, lines, np.clip(places, lines.low[:, None], lines.high[:, None]), within)
+        places = np.concatenate([-_FAR[::-1], _FAR])
+        found = boundaries.locate(law, lines, np.clip(places, lines.low[:, None], lines.high[:, None]), within, True)
         least = np.where(np.arange(own.size) < rows.size, -ndtri(RARE), REACH)  # no likelier than by the integral
         which = _nearest(found, least, own, part.allowed)
         line = found.line[which]
@@ -71,8 +72,13 @@ class RareRows:
             hazard = np.exp(-(distance**2) / 2 - np.log(2 * np.pi) / 2 - log[at])
             slope[at] = -(np.where(distance > least[line], hazard, 0.0) * sign)[:, None] * moves
             misfit, misfit_slope = _misfit(law, data, of, lines, line, y + _BESIDE * sign, moves)
-            log[at] -= np.minimum(misfit, _WORST)
-            slope[at] -= np.where(misfit < _WORST, 1.0, 0.0)[:, None] * misfit_slope
+            short = np.where(part.separated[at], np.maximum(_WORST - misfit, 0.0), 0.0)
+            way = np.clip((distance - _FADES) / (_FARTHEST - _FADES), 0.0, 1.0)
+            share = way**2 * (3 - 2 * way)  # the farther, the nearer to what is not found at all
+            rate = 6 * way * (1 - way) / (_FARTHEST - _FADES) * sign
+            log[at] -= np.minimum(misfit, _WORST) + share * short
+            slope[at] -= (np.where(misfit < _WORST, 1 - share, 0.0))[:, None] * misfit_slope
+            slope[at] -= (rate * short)[:, None] * moves
         return cls(log, slope)
 
     def setting_in(self, probability: np.ndarray, moves: np.ndarray) -> RareRows:
