@@ -91,6 +91,8 @@ def command(
     else:
         text = str(found) if table is None else f"{found}\n\n{table}"
     options.put(text, file)
+    if found.rows.contradicted and (as_json or file is not None):
+        click.echo(found.remarks[0], err=True)  # what is on standard output says so itself
     if scene_file is not None:
         found.write(scene_file)
     if into is not None:

@@ -15,6 +15,12 @@ from .likelihood import KNEE
 from .measurements import Measurements
 from .objective import Objective
 
+CONTRADICTED = (
+    "At least half of the impacts contradict the model: no entry is identified. The estimates are the least bad ones, "
+    "and the intervals say only which values are as bad."
+)
+"""The first remark where `Rows.contradicted`."""
+
 
 @dataclass(frozen=True)
 class Estimate:
@@ -52,6 +58,11 @@ class Rows:
     def contradicting(self) -> np.ndarray:
         """Indices of the rows that lie beyond what the scatter allows."""
         return np.flatnonzero(self.log_likelihood < -KNEE)
+
+    @property
+    def contradicted(self) -> bool:
+        """Whether at least half of the rows contradict the model."""
+        return 2 * self.contradicting.size >= self.log_likelihood.size
 
 
 class Fitted(Protocol):

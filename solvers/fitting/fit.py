@@ -16,7 +16,7 @@ from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import check_rtol
 from .data import read_data
-from .estimates import Estimate, Rows
+from .estimates import CONTRADICTED, Estimate, Rows
 from .free_entries import FreeEntries, free_entries
 from .likelihood import Likelihood, Resolution
 from .measurements import Measurements
@@ -24,7 +24,7 @@ from .objective import Objective, whitening
 from .optimise import Optimum, optimise, settled
 from .profiles import DROP, End, beyond, checked, end
 from .result import Fit, log_density
-from .verdicts import combinations, judged
+from .verdicts import NOT_AT_ALL, combinations, judged
 
 RTOL = 1e-8
 """Relative tolerance of the collisions of a fit."""
@@ -185,21 +185,23 @@ def _result(
     inner = best.inner
     information = objective.information(inner)
     values = free.values(inner)
-    verdicts = [judged(objective, inner, k, *both) for k, both in enumerate(ends)]
+    white = whitening(objective, inner)
+    rows = _rows(data, likelihood, free, objective, inner, white)
+    verdicts = [NOT_AT_ALL if rows.contradicted else judged(objective, inner, k, *both) for k, both in enumerate(ends)]
     estimates = {}
     for k, (name, (below, above)) in enumerate(zip(free.names, ends, strict=True)):
         low, high = (None if each.open else float(free.values(each.inner)[k]) for each in (below, above))
         estimates[name] = Estimate(float(values[k]), low, high, verdicts[k])
-    white = whitening(objective, inner)
     covariance = white @ white.T
     spread = np.sqrt(np.diag(covariance))
     evaluation = objective.at(inner)
     assert evaluation is not None
-    rows = _rows(data, likelihood, free, objective, inner, white)
     finer = likelihood(values, Resolution().doubled())
     error = np.nan if finer is None else finer.value - evaluation.value
     others = tuple((dict(zip(free.names, free.values(each.inner).tolist())), each.value) for each in best.others)
     remarks = [*data.remarks, *_remarks(data, rows, evaluation.undecided, error, others)]
+    if rows.contradicted:
+        remarks.insert(0, CONTRADICTED)
     if any(each.prior is not None for each in free.entries):
         remarks.append("Intervals and verdicts are those of the likelihood times the priors.")
     changed = first.with_si({name: each.value for name, each in estimates.items()})
@@ -244,8 +246,6 @@ def _remarks(data: Measurements, rows: Rows, undecided: np.ndarray, error: float
             f"{odd.size} of {data.size} impacts {verb} the model at these estimates ({names}): their scatter does not "
             "allow what was observed. They count less than others."
         )
-    if 2 * odd.size > data.size:
-        said.append("Most impacts contradict the model: estimates, intervals and verdicts mean little.")
     if undecided.max(initial=0.0) > _UNDECIDED:
         worst = int(np.argmax(undecided))
         said.append(

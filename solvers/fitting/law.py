@@ -72,10 +72,7 @@ class Law:
     def __init__(self, scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float) -> None:
         self.scene, self.names, self.data, self.rtol = scene, names, data, rtol
         if not differentiates(scene, (True,)):
-            raise ComputationError(
-                "a fit needs derivatives by the compiled kernel, which this scene or machine has not",
-                advice="install a C compiler, or leave out laws that have no derivative",
-            )
+            raise _without_kernel()
         self.parts = np.array([bool(np.isfinite(scene.fields[name].range.high)) for name in names], bool)
         own: dict[str, Any] = {name: value for name, value in scene.si if name not in MEETING}
         self._own = own | dict(data.columns)
@@ -128,7 +125,8 @@ class BoundLaw:
         """
         impacts = self.impacts(row, speed, angle)
         found = run_kernel(impacts, self.law.rtol, jumps=2)
-        assert found is not None  # checked by Law
+        if found is None:
+            raise _without_kernel()
         outcome: np.ndarray = found["outcome"].astype(np.int8)
         late = np.flatnonzero(found["status"] > LAST_ANSWER)
         outcome[late] = UNDECIDED
@@ -193,7 +191,8 @@ class BoundLaw:
         back = not forward and of == ("restitution",)
         rotation = "rotation" in of
         run = run_tangent(those, oblique, rtol, rotation, None if back else wanted, None, budget, back, False)
-        assert run is not None
+        if run is None:
+            raise _without_kernel()
         answers, slopes, names = run.answers, run.slopes, run.quantities
         late = np.flatnonzero(answers["status"] > LAST_ANSWER)
         if back and late.size:
@@ -289,5 +288,13 @@ def _run_under(
     others = {name: np.concatenate([each.others[name] for each in made]) for name in made[0].others}
     at = (np.concatenate([each.speed for each in made]), np.concatenate([each.angle for each in made]))
     found = run_kernel(Impacts(made[0].scene, *at, others), laws[0].law.rtol, jumps=jumps)
-    assert found is not None  # checked by Law
+    if found is None:
+        raise _without_kernel()
     return found
+
+
+def _without_kernel() -> ComputationError:
+    return ComputationError(
+        "a fit needs derivatives by the compiled kernel, which this scene or machine has not",
+        advice="install a C compiler, or leave out laws that have no derivative",
+    )

@@ -12,7 +12,7 @@ from ...generated.automaton import OUTCOMES
 from ..formatting.markdown import table
 from ..host import files
 from ..host.outputs import check_folder
-from .estimates import Fitted
+from .estimates import CONTRADICTED, Fitted
 from .shown import in_unit, interval
 
 Table = tuple[list[str], list[list[str]]]
@@ -30,6 +30,7 @@ def write_report(found: Fitted, folder: str | Path) -> list[Path]:
     found.plot(into / "fit.png")
     title = f"Fit of {found.points} impacts" + (f" to {found.first.name}" if found.first.name else "")
     parts: list[tuple[str, Table | list[str]]] = [
+        ("", [CONTRADICTED] if found.rows.contradicted else []),
         ("Estimates", _estimates(found)),
         ("", [*found.combinations, _height(found)]),
         ("Correlation", _correlation(found)),

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
+from ..errors import InputError
 from ..scene.origin import origin
 from ..scene.scene import Scene
-from .estimates import Estimate, Rows
+from .estimates import CONTRADICTED, Estimate, Rows
 from .free_entries import FreeEntries
 from .likelihood import Evaluation
 from .measurements import Measurements
@@ -145,9 +146,10 @@ class Fit:
         widths[0] = max(width, widths[0])
         head = ("entry", "estimate", "95 % interval", "verdict")
         count = "1 impact" if self.points == 1 else f"{self.points} impacts"
-        lines = [f"{count}, log-likelihood {self.log_likelihood:.3f}", ""]
+        first = [CONTRADICTED, ""] if self.rows.contradicted else []
+        lines = [f"{count}, log-likelihood {self.log_likelihood:.3f}", "", *first]
         lines += ["  ".join(cell.ljust(size) for cell, size in zip(row, widths)).rstrip() for row in (head, *rows)]
-        for title, said in (("", self.combinations), ("", self.remarks)):
+        for title, said in (("", self.combinations), ("", self.remarks[len(first) // 2 :])):
             if said:
                 lines += ["", *([title] if title else []), *said]
         return "\n".join(lines)
@@ -159,7 +161,8 @@ class Fit:
             [name, in_unit(self.first, name, each.value), interval(self.first, name, each.low, each.high), each.verdict]
             for name, each in self.estimates.items()
         ]
-        return view(f"fit of {self.points} impacts", rows, ["entry", "estimate", "95 % interval", "verdict"])
+        notes = [CONTRADICTED] if self.rows.contradicted else []
+        return view(f"fit of {self.points} impacts", rows, ["entry", "estimate", "95 % interval", "verdict"], notes)
 
     def plot(self, path: str | Path | None = None) -> Any:
         """Draw data over the regime map, e_n with its band, profiles and residuals; returns the matplotlib Figure.
@@ -181,16 +184,22 @@ class Fit:
 
     def to_toml(self) -> str:
         """The fitted scene as TOML, with intervals and verdicts as comments."""
-        changes = {}
-        for name, each in self.estimates.items():
-            unit, size = unit_shown(self.first, name)
-            changes[name] = f"{each.value / size:.6g} {unit}" if unit else float(f"{each.value:.6g}")
-        made = self.first.with_entries(changes)
+        try:
+            made = self._rounded(6)
+        except InputError:  # at the edge of what is possible
+            made = self._rounded(17)
         comments = dict(made.comments) | {
             name: f"fitted: 95 % {interval(self.first, name, each.low, each.high)}, {each.verdict}"
             for name, each in self.estimates.items()
         }
         return Scene(made.name, made.given, tuple(comments.items()), made.package).to_toml()
+
+    def _rounded(self, digits: int) -> Scene:
+        changes: dict[str, float | str] = {}
+        for name, each in self.estimates.items():
+            unit, size = unit_shown(self.first, name)
+            changes[name] = f"{each.value / size:.{digits}g} {unit}" if unit else float(f"{each.value:.{digits}g}")
+        return self.first.with_entries(changes)
 
     def report(self, folder: str | Path) -> list[Path]:
         """Write report.md, report.html and their picture into a folder; returns the files."""

@@ -130,6 +130,27 @@ def test_a_contradicting_row_is_named():
     assert found.estimates[VISCOSITY].low < 12 < found.estimates[VISCOSITY].high
 
 
+def test_data_that_contradict_the_model_identify_nothing(tmp_path):
+    """Where half of the impacts contradict the model the first remark says so, and no verdict is `identified`."""
+    data = tmp_path / "odd.csv"
+    data.write_text("stokes,angle [deg],outcome\n0.01,10,B\n0.02,10,B\n5,10,S\n10,10,S\n")
+    found = run("fit", "granulation", data, "--free", VISCOSITY, "--json")
+    assert found.exit_code == 0, found.output
+    told = json.loads(found.stdout)
+    assert told["remarks"][0].startswith("At least half of the impacts contradict the model")
+    assert told["estimates"][VISCOSITY]["verdict"] == NOT_AT_ALL
+    assert told["remarks"][0] in found.stderr
+
+
+def test_estimates_at_the_edge_of_what_is_possible_are_written(tmp_path):
+    """A film as thick as the bridge allows is a scene that can be read again."""
+    data = {"stokes": [1.0, 2.0], "angle": [0.4, 0.4], "contact_time": [1e-3, 1e-3], "outcome": ["B", "B"]}
+    found = fit("granulation", data, FILM, starts=0)
+    found.write(tmp_path / "fitted.toml")
+    again = Scene.load(tmp_path / "fitted.toml")
+    assert again.entries[FILM] == pytest.approx(found.estimates[FILM].value, rel=1e-5)
+
+
 def test_a_prior_closes_an_interval():
     """With a prior an entry that the data do not tell has the prior's interval."""
     data = {"stokes": [0.02, 0.02], "angle": [0.0, 0.0], "outcome": ["stick", "stick"]}
