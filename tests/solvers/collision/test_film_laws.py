@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers import Scene, collide, collide_many
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Region
 
@@ -126,3 +127,12 @@ def test_sticks_are_sticks(film):
     assert one.outcome == "stick" and one.certified
     bodies = Bodies((1e-4, 1e-4), (1.04e-8, 1.04e-8), scene.liquid.viscosity, X0, 0.025, 0.05, film=film)
     assert not integrated(bodies, one.speed, one.angle, longest=300 * X0 / one.speed, rtol=1e-8).separated
+
+
+def test_a_pendulum_whose_film_cavitates_has_a_kernel():
+    """Without a bound of its film's impulse its certificates are left out, and the kernel answers like the engines."""
+    scene = Scene.load("pendulum").with_entries({"model.film": "cavitating"})
+    stokes, angle = [0.3, 1.0, 3.0], np.radians([10.0, 45.0, 60.0])
+    one, other = (collide_many(scene, stokes=stokes, angle=angle, engine=engine) for engine in ("taylor", "rosenbrock"))
+    assert one.outcome.values.tolist() == other.outcome.values.tolist()
+    np.testing.assert_allclose(one.restitution, other.restitution, rtol=1e-7)

@@ -28,7 +28,7 @@ static inline mask clear_of_glass(const constants *c, const vec *bounds, vec fas
     return glass_clearance(c, there) > 0.0;
 }
 
-#if STRINGS
+#if STRINGS && PENDULUM
 /* Lanes in which the film stops the doublet, and every rebound that a criterion may cause, for good. */
 static mask held_on_approach(const constants *c, const vec *y, vec contact, double tolerance)
 {
@@ -48,7 +48,7 @@ static mask held_on_approach(const constants *c, const vec *y, vec contact, doub
     pendulum_rebounds(c, bounds, &rebound, &beneath);
     return sure & (beneath + slack < 0.0);
 }
-#else
+#elif !STRINGS
 /* Lanes in which the energy falls below the barrier beyond the film before a criterion can be met. */
 static mask held_on_approach(const constants *c, const vec *y, const barrier *b, vec contact, double tolerance)
 {

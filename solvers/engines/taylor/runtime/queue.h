@@ -65,10 +65,10 @@ static void fill_queue(queue *q)
         mask all = splat_mask(TRUTH), none = splat_mask(0);
         unsigned proved = bits(proved_sticks(&f.c, y, &f.b, f.contact, all, none, q->rtol)) |
                           bits(held_sticks(&f.c, y, all, q->rtol));
-#if APPROACH_BOUNDS && STRINGS
+#if APPROACH_BOUNDS && STRINGS && PENDULUM
         if (~proved & bits(all))
             proved |= bits(held_on_approach(&f.c, y, f.contact, q->rtol));
-#elif APPROACH_BOUNDS
+#elif APPROACH_BOUNDS && !STRINGS
         if (~proved & bits(all))
             proved |= bits(held_on_approach(&f.c, y, &f.b, f.contact, q->rtol));
 #endif
