@@ -2,10 +2,10 @@
 
 An impact is seen as its outcome and, if it separates, its restitution with noise. With the scatter integrated out, the
 probability of outcome k is p_k, and a separated one has the density f_k(e) of the measured restitution; both depend on
-the free entries. The information is the sum of p_k' p_k'^T/p_k, what the outcome tells, plus what the restitution tells
-if the outcome is known: for every separated outcome, the integral of f_k' f_k'^T/f_k over e less p_k' p_k'^T/p_k. Lines,
-changes of outcome and interpolation along the lines are those of the likelihood, so f_k is a sum of normal densities at
-the points of its quadrature, with exact derivatives.
+the free entries. The outcome tells the sum of p_k' p_k'^T/p_k. If it is known, the restitution tells in addition, for
+every separated outcome, the integral of f_k' f_k'^T/f_k over e less p_k' p_k'^T/p_k. Lines, changes of outcome and
+interpolation along the lines are those of the likelihood, so f_k is a sum of normal densities at the points of its
+quadrature, with exact derivatives.
 """
 
 from __future__ import annotations
