@@ -65,7 +65,7 @@ def command(
 ) -> None:
     """Choose the impacts from whose outcomes and restitutions `fit` will learn most about entries of SCENE.
 
-    With -o FILE.csv they are written as the table that `fit` reads, to be filled in.
+    With -o FILE.csv they are also written as the table that `fit` reads, to be filled in.
 
     \b
     Examples:
@@ -73,6 +73,7 @@ def command(
       wetdoublet design granulation --free liquid.viscosity --over stokes=0.05:0.3,angle=0 -n 4 --restitution-sd none
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..fitting.fit import RTOL
+    from ..host import files
     from ..planning.design import design
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
@@ -94,10 +95,10 @@ def command(
             asked.scene(), names, window, number, target=target, data=data, prior=given or None, draws=sample,
             speed_sd=speed_sd, angle_sd=angle_sd, restitution_sd=restitution_sd, rtol=tolerance,
         )  # fmt: skip
-    if as_json:
-        options.put(json.dumps(found.to_dict(), indent=2, allow_nan=False), file)
-    else:
-        options.put(found.to_csv() if file is not None and file.suffix == ".csv" else str(found), file)
+    if file is not None and file.suffix == ".csv":
+        files.write(file, found.to_csv())
+        file = None
+    options.put(json.dumps(found.to_dict(), indent=2, allow_nan=False) if as_json else str(found), file)
     if picture is not None:
         found.plot(picture)
 

@@ -59,6 +59,7 @@ def command(
       wetdoublet fit granulation impacts.csv --free particles.roughness,liquid.viscosity --plot fit.png
       wetdoublet fit scene.toml impacts.csv --free liquid.viscosity --prior liquid.viscosity="2 Pa s +- 10 %"
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
+    from ..fitting.compare import check_choices, compare_models
     from ..fitting.fit import RTOL, fit
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
@@ -79,11 +80,9 @@ def command(
     scene = asked.scene()
     table = None
     with options.arguments_as_options(_OPTIONS):
+        over = None if compare is None else check_choices(scene, [name.strip() for name in compare.split(",")])
         found = fit(scene, data, names, prior=given or None, rtol=tolerance)
-        if compare is not None:
-            from ..fitting.compare import compare_models
-
-            over = [name.strip() for name in compare.split(",")]
+        if over is not None:
             table = compare_models(scene, data, names, over=over, prior=given or None, rtol=tolerance)
     if as_json:
         object_ = found.to_dict() | ({} if table is None else {"comparison": table.to_dict()})

@@ -121,7 +121,7 @@ def compare_models(
     """
     first = Scene.load(scene)
     table = data if isinstance(data, Measurements) else read_data(data, first)
-    names = check_names(over, CHOICES, "over")
+    names = check_choices(first, over)
     if not isinstance(folds, int) or isinstance(folds, bool) or folds < 0 or folds == 1:
         raise InputError("folds", folds, "a whole number from 2, or 0 for no cross-validation")
     tolerance = check_rtol(rtol)
@@ -139,16 +139,27 @@ def compare_models(
     return Comparison(first, tuple(order))
 
 
+def check_choices(scene: Scene, over: Sequence[str] | str) -> tuple[str, ...]:
+    """The names of `over`, which must be choices of this scene.
+
+    Raises:
+        InputError: an unknown name, or one of a table that the scene has not.
+    """
+    names = check_names(over, CHOICES, "over")
+    known = [each for each in CHOICES if getattr(scene, each.partition(".")[0]) is not None]
+    for name in names:
+        if name not in known:
+            problem = "is of a table that the scene has not" + did_you_mean(name, known)
+            raise InputError("over", name, ", ".join(known), problem)
+    return tuple(names)
+
+
 def _scenes(first: Scene, names: Sequence[str]) -> list[tuple[str, Scene | InputError]]:
     found: list[tuple[str, Scene | InputError]] = []
     own = {}
     for name in names:
-        table = getattr(first, name.partition(".")[0])
-        if table is None:
-            known = [each for each in CHOICES if getattr(first, each.partition(".")[0]) is not None]
-            problem = "is of a table that the scene has not" + did_you_mean(name, known)
-            raise InputError("over", name, ", ".join(known), problem)
-        own[name] = str(getattr(table, name.partition(".")[2]))
+        table, _, key = name.partition(".")
+        own[name] = str(getattr(getattr(first, table), key))
     found.append((", ".join(f"{name} = {value}" for name, value in own.items()), first))
     for name, value in own.items():
         for other in first.fields[name].choices:

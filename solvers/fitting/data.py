@@ -75,7 +75,7 @@ class _Table:
         known = (*_IMPACT, *_SPREAD, "outcome", *OBSERVED, *(f"{name}_sd" for name in OBSERVED), *entries)
         if column.name not in known:
             simple = ", ".join((*_IMPACT, *_SPREAD, "outcome", *OBSERVED, *(f"{name}_sd" for name in OBSERVED)))
-            accepted = f"{simple}, and entries of the scene by dotted name"
+            accepted = f"{simple}, and entries of the scene by dotted name; notes are written after #"
             raise InputError(
                 f"{self.label}, header", column.name, accepted, "is unknown" + did_you_mean(column.name, known)
             )

@@ -24,12 +24,14 @@ from .objective import Objective, whitening
 from .optimise import Optimum, optimise, settled
 from .profiles import DROP, End, beyond, checked, end
 from .result import Fit, log_density
+from .shown import in_unit
 from .verdicts import NOT_AT_ALL, combinations, judged
 
 RTOL = 1e-8
 """Relative tolerance of the collisions of a fit."""
 _RESTARTS = 3  # times that a more likely point, met on a profile, replaces the maximum
 _ROUNDS = 5  # in which ends are moved beyond likely points
+_ONE_SIDED = "Such data can bound an entry from one side; within the bounds no value is better than another."
 _ODD = 1e-3  # probability of residuals as large as found below which they are remarked on
 _UNDECIDED = 1e-3  # probability of impacts without an outcome that is remarked on
 _COARSE = 0.05  # error of the log-likelihood by quadrature that is remarked on
@@ -199,7 +201,7 @@ def _result(
     finer = likelihood(values, Resolution().doubled())
     error = np.nan if finer is None else finer.value - evaluation.value
     others = tuple((dict(zip(free.names, free.values(each.inner).tolist())), each.value) for each in best.others)
-    remarks = [*data.remarks, *_remarks(data, rows, evaluation.undecided, error, others)]
+    remarks = [*data.remarks, *_remarks(first, data, rows, evaluation.undecided, error, others)]
     if rows.contradicted:
         remarks.insert(0, CONTRADICTED)
     if any(each.prior is not None for each in free.entries):
@@ -208,6 +210,7 @@ def _result(
     return Fit(
         changed, first, data, estimates, evaluation.value, covariance / np.outer(spread, spread),
         combinations(free, information, verdicts), tuple(remarks), rows, float(error), others, objective,
+        tuple((below.inner, above.inner) for below, above in ends),
     )  # fmt: skip
 
 
@@ -228,16 +231,16 @@ def _rows(
     return Rows(evaluation.probability, evaluation.mean, residual, relative, pull)
 
 
-def _remarks(data: Measurements, rows: Rows, undecided: np.ndarray, error: float, others: tuple[Any, ...]) -> list[str]:
+def _remarks(
+    first: Scene, data: Measurements, rows: Rows, undecided: np.ndarray, error: float,
+    others: tuple[tuple[dict[str, float], float], ...],
+) -> list[str]:  # fmt: skip
     said = []
     codes = set(data.outcome.tolist())
     if codes == {OUTCOMES.index(STICK)}:
-        said.append("All impacts stick: they tell bounds of the entries, and no value within.")
+        said.append(f"All impacts stick. {_ONE_SIDED}")
     elif len(codes) == 1 and -1 not in codes and not data.separated.any():
-        said.append(
-            f"All impacts have the outcome {OUTCOMES[codes.pop()]}: they tell bounds of the entries, "
-            "and no value within."
-        )
+        said.append(f"All impacts have the outcome {OUTCOMES[codes.pop()]}, and no result was measured. {_ONE_SIDED}")
     odd = rows.contradicting
     if odd.size:
         names = ", ".join(data.label(k) for k in odd[:8].tolist()) + (" ..." if odd.size > 8 else "")
@@ -265,8 +268,10 @@ def _remarks(data: Measurements, rows: Rows, undecided: np.ndarray, error: float
             f"The integrals over the scatter are uncertain: the log-likelihood changes by {error:.2g} with finer ones."
         )
     if others:
+        values = ", ".join(f"{name} = {in_unit(first, name, value)}" for name, value in others[0][0].items())
         said.append(
-            f"The likelihood has {len(others) + 1} separate maxima; the next is {others[0][1]:.3f} (see `others`)."
+            f"The likelihood has {len(others) + 1} separate maxima. At the next, {values}, the log-likelihood is "
+            f"{others[0][1]:.3f}."
         )
     return said
 

@@ -132,12 +132,12 @@ def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
                               label="contradicts the model"))  # fmt: skip
     present = [patch(name) for code, name in enumerate(OUTCOMES) if (codes[0] == code).any()]
     for each in present:
-        each.set_linewidth(0.6)  # the legend may lie on the same colour
+        each.set(edgecolor=INK, hatch=None, linewidth=0.6)  # the legend may lie on the same colour
     axes.set_yscale("log")
     plain(axes.yaxis)
     axes.set_xlabel("impact angle (deg)")
     axes.set_ylabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
-    axes.legend(handles=present + handles, fontsize=6.5, loc="best", framealpha=0.9)
+    axes.legend(handles=present + handles, fontsize=6.5, loc="best", frameon=True, framealpha=0.9)
     axes.set_title("impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _own(found), fontsize=9)
 
 
@@ -199,17 +199,15 @@ def _profile(axes: Axes, found: Fitted, k: int) -> None:
     unit, size = unit_shown(found.first, entry.name)
     top = objective.value(best)
     places, heights = [float(best[k])], [0.0]
-    for bound, limit in ((estimate.low, free.low[k]), (estimate.high, free.high[k])):
+    sides = (estimate.low, free.low[k]), (estimate.high, free.high[k])
+    for (bound, limit), end in zip(sides, found.ends[k], strict=True):
         far = limit if bound is None else best[k] + 1.35 * (entry.inner(bound) - best[k])
-        far = float(np.clip(far, free.low[k], free.high[k]))
-        start = best
-        for at in np.linspace(best[k], far, _PROFILE + 1)[1:]:
-            start = profile_point(objective, start, k, float(at))
-            height = objective.value(start) - top
-            if not np.isfinite(height):
-                break
-            places.append(float(at))
-            heights.append(height)
+        outward = np.linspace(best[k], np.clip(far, free.low[k], free.high[k]), _PROFILE + 1)[1:]
+        both = _followed(found, k, best, outward), _followed(found, k, end, outward[::-1])[::-1]
+        higher = np.maximum(*both) - top  # the other entries may have several maxima
+        possible = np.isfinite(higher)
+        places += outward[possible].tolist()
+        heights += higher[possible].tolist()
     order = np.argsort(places)
     values = np.array([entry.outer(at) for at in np.array(places)[order]]) / size
     axes.plot(values, np.array(heights)[order], "-", color=_LINES[0], marker=".", markersize=4)
@@ -223,6 +221,16 @@ def _profile(axes: Axes, found: Fitted, k: int) -> None:
     axes.set_ylim(max(min(min(heights), -DROP) * 1.1, -5.0), 0.4)
     axes.set_xlabel(f"{entry.name.partition('.')[2].replace('_', ' ')}" + (f" ({unit})" if unit else ""))
     axes.set_title(estimate.verdict, fontsize=8)
+
+
+def _followed(found: Fitted, k: int, start: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Heights of the profile at places of entry k, the other entries each time from where they were before."""
+    heights = []
+    for at in places.tolist():
+        point = profile_point(found.objective, start, k, at)
+        heights.append(found.objective.value(point))
+        start = point if np.isfinite(heights[-1]) else start
+    return np.array(heights)
 
 
 def _residuals(axes: Axes, found: Fitted) -> None:

@@ -39,6 +39,7 @@ class Fit:
         remarks: sentences on defaults, contradictions, and what the data lack.
         quadrature: change of the log-likelihood with twice as fine integrals.
         others: values of less likely separate maxima, with their log-likelihoods.
+        ends: of each entry's interval below and above, all entries in the variables of the search.
 
     Example:
         >>> from wetdoublet.solvers import fit
@@ -60,6 +61,7 @@ class Fit:
     quadrature: float
     others: tuple[tuple[Mapping[str, float], float], ...]
     objective: Objective = field(repr=False, compare=False)
+    ends: tuple[tuple[np.ndarray, np.ndarray], ...] = field(repr=False, compare=False)
 
     @property
     def points(self) -> int:

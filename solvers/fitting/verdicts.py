@@ -31,11 +31,14 @@ def judged(objective: Objective, best: np.ndarray, k: int, below: End, above: En
     return COMBINED if objective.free.size > 1 and any(slice_closed(objective, best, k)) else NOT_AT_ALL
 
 
-def combinations(free: FreeEntries, information: np.ndarray, verdicts: Sequence[str]) -> tuple[str, ...]:
+def combinations(
+    free: FreeEntries, information: np.ndarray, verdicts: Sequence[str], what: str = "The data"
+) -> tuple[str, ...]:
     """Sentences on products of powers that the data tell better than their entries.
 
     Arguments:
         information: matrix in the variables of the search, which are logarithms for the entries named.
+        what: the sentences' subject, in the plural.
     """
     sd = _alone(information)
     covariance = np.linalg.pinv(information + np.diag(_vague(free)))
@@ -55,7 +58,7 @@ def combinations(free: FreeEntries, information: np.ndarray, verdicts: Sequence[
     for value, vector in zip(values[::-1], vectors.T[::-1], strict=True):
         if value <= 0 or value < _POOR**2 * values[0]:
             break
-        said.append(_sentence([free.names[k] for k in tied], vector, 1 / np.sqrt(value)))
+        said.append(_sentence(what, [free.names[k] for k in tied], vector, 1 / np.sqrt(value)))
     return tuple(said)
 
 
@@ -70,11 +73,11 @@ def _alone(information: np.ndarray) -> np.ndarray:
     return np.where(own > 1e-12, 1 / np.sqrt(np.maximum(own, 1e-12)), np.inf)
 
 
-def _sentence(names: Sequence[str], vector: np.ndarray, sd: float) -> str:
+def _sentence(what: str, names: Sequence[str], vector: np.ndarray, sd: float) -> str:
     first = int(np.argmax(np.abs(vector)))
     powers = vector / vector[first]
     kept = [k for k in range(len(names)) if abs(powers[k]) >= _PART]
     factors = [names[k] if k == first else f"{names[k]}^{powers[k]:.2g}" for k in kept]
     size = abs(sd / vector[first])
     told = f"to {100 * np.expm1(size):.2g} %" if size < 1 else f"to a factor of {np.exp(size):.2g}"
-    return f"The data tell {' * '.join(factors)} {told} (standard error)."
+    return f"{what} tell {' * '.join(factors)} {told} (standard error)."

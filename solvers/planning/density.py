@@ -1,4 +1,4 @@
-"""The density of a measured restitution over the scatter of an impact, and its information on the free entries.
+"""The density of a measured restitution over the scatter of an impact, and what it tells beyond the outcome.
 
 On a line through the scatter the restitution is a smooth curve between two changes of outcome. From line to line these
 curves change smoothly too, and are interpolated, so that the density has no trace of single lines.
@@ -50,7 +50,10 @@ class Curve:
 
 
 def information_of(curves: Sequence[Curve], lines: int, noise: float, points: int) -> np.ndarray:
-    """The integral of f' f'^T/f over the measured restitution, (free entries, free entries).
+    """What the restitution tells of the free entries if the outcome is known: (free entries, free entries).
+
+    The integral of f' f'^T/f over the measured restitution, less p' p'^T/p with p the integral of f. It has no negative
+    eigenvalue, whatever the errors of f and f'.
 
     Arguments:
         curves: of an impact and an outcome.
@@ -87,9 +90,11 @@ def information_of(curves: Sequence[Curve], lines: int, noise: float, points: in
         for k in range(slope.shape[1])
     ]
     kept = f > max(_TINY, 1e-13 * float(f.max()))  # what is less is rounding of the convolution
-    score = np.array(by)[:, kept] / np.sqrt(f[kept])
-    total: np.ndarray = cell * (score @ score.T)
-    return total
+    root = np.sqrt(f[kept])
+    score = np.array(by)[:, kept] / root
+    along = score @ (root / np.linalg.norm(root))  # the part that changes the probability of the outcome
+    found: np.ndarray = cell * (score @ score.T - np.outer(along, along))
+    return found
 
 
 _Points = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]

@@ -1,10 +1,11 @@
 """The Fisher information of planned impacts: the covariance of the score of the fit's likelihood.
 
 An impact is seen as its outcome and, if it separates, its restitution with noise. With the scatter integrated out, the
-probability of a stick is p, and a separated outcome k has the density f_k(e) of the measured restitution; both depend
-on the free entries. The information is p' p'^T/p plus, for every separated outcome, the integral of f_k' f_k'^T/f_k
-over e. Lines, changes of outcome and interpolation along the lines are those of the likelihood, so f_k is a sum of
-normal densities at the points of its quadrature, with exact derivatives.
+probability of outcome k is p_k, and a separated one has the density f_k(e) of the measured restitution; both depend on
+the free entries. The outcome tells the sum of p_k' p_k'^T/p_k. If it is known, the restitution tells in addition, for
+every separated outcome, the integral of f_k' f_k'^T/f_k over e less p_k' p_k'^T/p_k. Lines, changes of outcome and
+interpolation along the lines are those of the likelihood, so f_k is a sum of normal densities at the points of its
+quadrature, with exact derivatives.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from ..settings import RTOL
 from .density import Curve, information_of
 from .directions import directions
 
-FINE = Resolution(lines=5, points=64)
+FINE = Resolution(points=64)
 FINEST = Resolution(lines=9, points=128), Resolution(lines=6, points=128)
 # with more lines, some would lie where impacts graze
 _STICK = OUTCOMES.index(STICK)
@@ -71,28 +72,26 @@ def information(
     lines = Lines.of(plan, directions(law, plan), np.full(plan.size, resolution.lines))
     found = boundaries.locate(law, lines, resolution.grid, resolution.within)
     size = plan.size
-    probability = np.zeros((size, len(OUTCOMES)))
-    slopes = np.zeros((size, len(OUTCOMES), len(names)))
-    total = np.zeros((size, len(names), len(names)))
     noise = plan.observed[_NOISE][1] if _NOISE in plan.observed else np.full(size, np.nan)
-    for k in range(len(OUTCOMES)):
-        segments, _ = Segments.of(lines, found, np.tile(np.arange(len(OUTCOMES)) == k, (size, 1)))
-        mass = segments.mass()
-        ends = moving_ends(law, lines, found, segments, mass > NEGLIGIBLE, resolution.quick)
-        share = segments.weight * mass
-        probability[:, k] = np.bincount(segments.row, share, size)
-        np.add.at(slopes[:, k], segments.row, share[:, None] * segments.mass_slopes(ends))
-        if k != _STICK:
-            dense = np.flatnonzero((mass > NEGLIGIBLE) & np.isfinite(noise[segments.row]))
-            for row, curves in _curves(law, lines, segments, ends, dense, resolution).items():
-                count = int(np.count_nonzero(lines.row == row))
-                total[row] += information_of(curves, count, float(noise[row]), resolution.points)
+    segments, _ = Segments.of(lines, found, np.ones((size, len(OUTCOMES)), bool))
+    kind = np.where(segments.from_change, np.append(found.after, 0)[segments.first], found.first[segments.line])
+    mass = segments.mass()
+    ends = moving_ends(law, lines, found, segments, mass > NEGLIGIBLE, resolution.quick)
+    share = segments.weight * mass
+    probability = np.zeros((size, len(OUTCOMES)))
+    slopes = np.zeros((*probability.shape, len(names)))
+    np.add.at(probability, (segments.row, kind), share)
+    np.add.at(slopes, (segments.row, kind), share[:, None] * segments.mass_slopes(ends))
+    given_outcome = np.zeros((size, len(names), len(names)))
+    dense = np.flatnonzero((mass > NEGLIGIBLE) & (kind != _STICK) & np.isfinite(noise[segments.row]))
+    counts = np.bincount(lines.row, minlength=size)
+    for (row, _), curves in _curves(law, lines, segments, kind, ends, dense, resolution).items():
+        given_outcome[row] += information_of(curves, int(counts[row]), float(noise[row]), resolution.points)
     outer = slopes[..., :, None] * slopes[..., None, :]
     single = np.where(probability[..., None, None] > NEGLIGIBLE, outer, 0.0)
     single /= np.maximum(probability, NEGLIGIBLE)[..., None, None]
     outcome = single.sum(axis=1)
-    total = np.where(np.isfinite(noise)[:, None, None], total + single[:, _STICK], outcome)
-    return Information(total, outcome, probability)
+    return Information(outcome + given_outcome, outcome, probability)
 
 
 def sure_information(
@@ -116,11 +115,12 @@ def _curves(
     law: BoundLaw,
     lines: Lines,
     segments: Segments,
+    outcome: np.ndarray,
     ends: tuple[np.ndarray, np.ndarray],
     which: np.ndarray,
     resolution: Resolution,
-) -> dict[int, list[Curve]]:
-    """Row -> the restitution on those of its segments that are among `which`."""
+) -> dict[tuple[int, int], list[Curve]]:
+    """Row and outcome -> the restitution on those of their segments that are among `which`."""
     kinds = (segments.from_change[which] + 2 * segments.to_change[which]).tolist()
     counts = [resolution.nodes * 3 // 2 if kind else resolution.nodes for kind in kinds]
     if not counts:
@@ -132,14 +132,15 @@ def _curves(
     by_speed, by_angle = lines.slopes(line, y)
     by_y = found.speed[0] * by_speed + found.angle[0] * by_angle
     slope = found.free[0] + by_y[:, None] * (ends[0][segment] * (1 - g)[:, None] + ends[1][segment] * g[:, None])
-    curves: dict[int, list[Curve]] = {}
+    curves: dict[tuple[int, int], list[Curve]] = {}
+    first_line = np.searchsorted(lines.row, segments.row)
     first = 0
     for k, kind, count in zip(which.tolist(), kinds, counts, strict=True):
         own = slice(first, first + count)
         first += count
         if np.isfinite(found.value[0, own]).all():  # every trajectory on the way was completed
             span = np.array([segments.low[k], segments.high[k]]), np.stack([ends[0][k], ends[1][k]])
-            number = int(segments.line[k]) - int(np.searchsorted(lines.row, segments.row[k]))
+            number = int(segments.line[k] - first_line[k])
             curve = Curve(kind, count, number, *span, found.value[0, own], slope[own])
-            curves.setdefault(int(segments.row[k]), []).append(curve)
+            curves.setdefault((int(segments.row[k]), int(outcome[k])), []).append(curve)
     return curves

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..fitting.free_entries import FreeEntries
 from ..fitting.measurements import Measurements
+from ..fitting.verdicts import COMBINED, IDENTIFIED, combinations
 from ..scene.scene import Scene
 from .information import Information, information, sure_information
 from .search import Found
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     import xarray
 
 _QUANTILE = 1.959963984540054
+_FROM_RANGE = 1.2  # growth of a standard deviation with the range of the search, from which it says nothing
 _ALONG, _ACROSS = 56, 40  # impacts of a map
 
 
@@ -61,7 +63,9 @@ class Planned:
         expected: of each free entry with these impacts and what was known before.
         before: the same without the impacts.
         against_grid: expected interval (in the logarithm for entries that vary so) over that of as many impacts evenly
-            over the window, `grid` by `grid` of them.
+            over the window.
+        grid: number of speeds and of angles of these, their square root each where both may be chosen.
+        combinations: sentences on products of powers that the impacts tell better than their entries.
         efficiency: least ratio of the criterion to that of any other choice among the candidates: of the volume's
             root for all entries, of the interval for one. None where it is not known.
         target: the entry that matters; None for all.
@@ -78,7 +82,8 @@ class Planned:
     expected: Mapping[str, Expected]
     before: Mapping[str, Expected]
     against_grid: Mapping[str, float]
-    grid: int
+    grid: tuple[int, int]
+    combinations: tuple[str, ...]
     efficiency: float | None
     target: str | None
     draws: int
@@ -98,18 +103,22 @@ class Planned:
         rates = np.outer(free.rates(values), free.rates(values))
         weak = np.diag((2.0 / (free.high - free.low)) ** 2)
         own = sure_information(window.scene, free.names, values, window.plan(points), rtol)
-        side = max(1, round(math.sqrt(size)))
-        even = window.grid(side, side)
+        side = max(1, round(math.sqrt(size))) if window.extends.all() else size
+        grid = tuple(np.where(window.extends, side, 1).tolist())
+        even = window.grid(*grid)
         others = sure_information(window.scene, free.names, values, window.plan(even), rtol).total.sum(axis=0)
-        spread = _spread(before + weak + rates * np.einsum("c,cij->ij", counts, own.total))
-        by_grid = _spread(before + weak + rates * others * size / len(even))
+        told = before + rates * np.einsum("c,cij->ij", counts, own.total)
+        expected = _expected(free, values, told, weak)
+        spread, by_grid = _spread(told + weak), _spread(before + weak + rates * others * size / len(even))
+        verdicts = [COMBINED if each.low is None and each.high is None else IDENTIFIED for each in expected.values()]
         grows = free.size if target is None else 2
         efficiency = None if found.bound is None else math.exp((found.value - found.bound) / grows)
         return cls(
             window, free, values, _impacts(window, points, counts, own),
-            _expected(free, values, spread), _expected(free, values, _spread(before + weak)),
-            dict(zip(free.names, (spread / by_grid).tolist(), strict=True)), side,
-            efficiency, target, draws, found.candidates, points, rtol, given,
+            expected, _expected(free, values, before, weak),
+            dict(zip(free.names, (spread / by_grid).tolist(), strict=True)), grid,
+            combinations(free, told, verdicts, "These impacts"), efficiency, target, draws, found.candidates,
+            points, rtol, given,
         )  # fmt: skip
 
     @property
@@ -157,14 +166,20 @@ def _spread(total: np.ndarray) -> np.ndarray:
     return found
 
 
-def _expected(free: FreeEntries, values: np.ndarray, spread: np.ndarray) -> dict[str, Expected]:
-    """Intervals to first order; open where they would end beyond the range of a search."""
+def _expected(free: FreeEntries, values: np.ndarray, told: np.ndarray, weak: np.ndarray) -> dict[str, Expected]:
+    """Intervals to first order; open where they would end beyond the range of a search, or follow from it alone.
+
+    Arguments:
+        told: information.
+        weak: that of the range of the search.
+    """
     found = {}
-    columns = zip(free.entries, values.tolist(), spread.tolist(), free.low, free.high, strict=True)
-    for each, value, sd, low, high in columns:
+    spread, wider = _spread(told + weak), _spread(told + weak / 4)  # of a range twice as wide
+    columns = zip(free.entries, values.tolist(), spread.tolist(), wider.tolist(), free.low, free.high, strict=True)
+    for each, value, sd, other, low, high in columns:
         inner = each.inner(value)
         ends = inner - _QUANTILE * sd, inner + _QUANTILE * sd
-        known = 2 * _QUANTILE * sd < high - low
+        known = 2 * _QUANTILE * sd < high - low and other < _FROM_RANGE * sd
         below = each.outer(ends[0]) if known and ends[0] > low else None
         found[each.name] = Expected(sd, below, each.outer(ends[1]) if known and ends[1] < high else None)
     return found

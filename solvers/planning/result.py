@@ -46,7 +46,8 @@ class Design(Planned):
             "expected": {name: asdict(each) for name, each in self.expected.items()},
             "before": {name: asdict(each) for name, each in self.before.items()},
             "against_grid": dict(self.against_grid),
-            "grid": self.grid,
+            "grid": list(self.grid),
+            "combinations": list(self.combinations),
             "efficiency": self.efficiency,
             "for": self.target,
             "draws": self.draws,
@@ -73,29 +74,35 @@ class Design(Planned):
     def __str__(self) -> str:
         scene, scatter = self.given, self.window.scatter
         names = self.free.names if self.target is None else (self.target,)
-        title = f"{self.size} impacts for {', '.join(names)}"
-        rows = [("times", "St", "speed", "angle", "S / SRS / B")]
+        title = f"{self.size} impact{'s' * (self.size > 1)} for {', '.join(names)}"
+        rows = [("times", "St", "speed", "angle", "S / SRS / B (%)")]
         for each in self.impacts:
-            shares = " / ".join(f"{share:.0%}" for share in each.probability)
+            shares = " / ".join(f"{100 * share:.0f}" for share in each.probability)
             angle = f"{math.degrees(each.angle):.1f} deg"
             rows.append((f"{each.count}", f"{each.stokes:.4g}", f"{each.speed:.4g} m/s", angle, shares))
-        entries = [("entry", "expected 95 % interval", "before", f"beside a {self.grid} x {self.grid} grid")]
+        speeds, angles = self.grid
+        entries = [("entry", "expected 95 % interval", "before", f"beside a {speeds} x {angles} grid")]
         for name, expected in self.expected.items():
             before = self.before[name]
             entries.append((
                 name, interval(scene, name, expected.low, expected.high),
                 interval(scene, name, before.low, before.high),
-                f"{self.against_grid[name]:.2f} of its interval",
+                "-" if expected.low is expected.high else f"{self.against_grid[name]:.2g} of its interval",
             ))  # fmt: skip
         noise = "outcomes only" if scatter.restitution is None else f"restitution to {scatter.restitution:.3g}"
         values = zip(self.free.names, self.values.tolist(), strict=True)
         now = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
         averaged = f", averaged over {self.draws} draws" if self.draws > 1 else ""
-        scattered = f"scatter {scatter.speed:.3g} of the speed, {math.degrees(scatter.angle):.3g} deg; {noise}"
+        scattered = f"scatter {100 * scatter.speed:.3g} % of the speed, {math.degrees(scatter.angle):.3g} deg; {noise}"
         said = [f"Planned for {now}{averaged}; {scattered}."]
+        combined = [name for name, each in self.expected.items() if each.low is each.high]
+        if self.combinations and combined:
+            said.append("Entries open at both ends are told in combination only; a prior on one may close the others.")
+        said += self.combinations
         if (self.efficiency or 0) > _TELLING:
             share = math.floor(100 * (self.efficiency or 0))
-            said.append(f"At least {share} % as good as any other {self.size} of {self.candidates} candidates.")
+            least = f"At least {share} % as good" if share < 100 else "As good"
+            said.append(f"{least} as any other {self.size} of {self.candidates} candidates.")
         return "\n".join([title, "", *_columns(rows), "", *_columns(entries), "", *said])
 
     def _repr_html_(self) -> str:

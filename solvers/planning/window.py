@@ -141,9 +141,9 @@ class Window:
         )  # fmt: skip
 
     def grid(self, along: int, across: int) -> np.ndarray:
-        """Points evenly over the square, its edges included; (points, 2), angle by angle."""
-        sizes = np.where(self.extends, (along, across), 1)
-        u, v = np.meshgrid(*(np.linspace(0, 1, int(n)) for n in sizes))
+        """Points evenly over the square, its edges included, or in the middle; (points, 2), angle by angle."""
+        sizes = np.where(self.extends, (along, across), 1).tolist()
+        u, v = np.meshgrid(*(np.linspace(0, 1, n) if n > 1 else np.array([0.5]) for n in sizes))
         return np.column_stack([u.ravel(), v.ravel()])
 
     def outcomes(self, points: np.ndarray, rtol: float) -> np.ndarray:

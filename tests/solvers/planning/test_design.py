@@ -90,7 +90,7 @@ def test_the_table_shows_the_impacts(found: Design) -> None:
     text = str(found)
     assert text.startswith("6 impacts for liquid.viscosity, liquid.film_thickness")
     assert all(f"{each.stokes:.4g}" in text for each in found.impacts)
-    assert "beside a 2 x 2 grid" in text
+    assert "beside a 6 x 1 grid" in text
     assert sum(each["count"] for each in found.to_dict()["impacts"]) == 6
 
 
