@@ -6,6 +6,7 @@ goes the way in which the results change fastest; across it a few Gauss-Hermite 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -71,6 +72,16 @@ class Lines:
             high = np.where(rises, np.fmin(high, ends[1]), np.where(falls, np.fmin(high, ends[0]), high))
         low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
         return cls(row, weights / (ndtr(high) - ndtr(low)), speed, angle, low, high, data.relative)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Lines], row: np.ndarray) -> Lines:
+        """The lines of several sets together, with rows given anew."""
+
+        def whole(name: str) -> np.ndarray:
+            return np.concatenate([getattr(each, name) for each in parts])
+
+        ends = whole("low"), whole("high")
+        return cls(row, whole("weight"), whole("speed"), whole("angle"), *ends, parts[0].relative)
 
     @property
     def size(self) -> int:
