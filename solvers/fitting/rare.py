@@ -53,9 +53,11 @@ class RareRows:
             for turn in _TURNS
         ]
         own = np.concatenate([each.row for each in fan])
-        names = ("weight", "speed", "angle", "low", "high")
-        joined = (np.concatenate([getattr(each, name) for each in fan]) for name in names)
-        lines = Lines(rows[own], *joined, relative=part.relative)
+        weight, speed, angle, low, high = (
+            np.concatenate([getattr(each, name) for each in fan])
+            for name in ("weight", "speed", "angle", "low", "high")
+        )
+        lines = Lines(rows[own], weight, speed, angle, low, high, part.relative)
         places = np.concatenate([-_FAR[::-1], _FAR])
         found = boundaries.locate(law, lines, np.clip(places, lines.low[:, None], lines.high[:, None]), within, True)
         least = np.where(np.arange(own.size) < rows.size, -ndtri(RARE), REACH)  # no likelier than by the integral
