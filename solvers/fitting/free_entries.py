@@ -131,6 +131,10 @@ def free_entries(
             raise InputError(labels[1], name, ", ".join(asked), "is not free")
     law = Law(scene, asked, data, rtol)
     start = np.array([float(scene.entries[name]) for name in asked])
+    for row in law.impossible(start)[:1].tolist():
+        given = ", ".join(f"{name} = {values[row]:.6g}" for name, values in data.columns.items())
+        field = f"data, {data.label(row)}, column {', '.join(data.columns)}"
+        raise InputError(field, given, "values that make a scene together with its other entries", "is impossible")
     found = []
     for k, name in enumerate(asked):
         entry = scene.fields[name]
@@ -155,9 +159,6 @@ def _feasible(law: Law, start: np.ndarray, k: int, end: float) -> float:
     if holds(end):
         return end
     good, bad = float(start[k]), end
-    if not holds(good):
-        name = law.names[k]
-        raise InputError("data", name, "columns with which the scene is possible", "make a row's scene impossible")
     for _ in range(_BISECTIONS):
         middle = math.sqrt(good * bad) if good > 0 and bad > 0 else (good + bad) / 2
         good, bad = (middle, bad) if holds(middle) else (good, middle)

@@ -87,15 +87,28 @@ class Law:
 
     def at(self, values: np.ndarray) -> BoundLaw | None:
         """The law with these values of the free entries; None where they make a row's scene impossible."""
+        by_quantity, slopes = self._mapped(values)
+        if not _possible(self.scene, by_quantity).all():
+            return None
+        rows = self.data.size if self.data.columns else 1
+        jac = slopes.reshape(len(self._quantities), rows, len(self.names))
+        return BoundLaw(self, values, by_quantity, dict(zip(self._quantities, jac, strict=True)))
+
+    def impossible(self, values: np.ndarray) -> np.ndarray:
+        """Indices of the rows whose scene is impossible with these values; row 0 stands for all without columns."""
+        return np.flatnonzero(~_possible(self.scene, self._mapped(values)[0]))
+
+    def _mapped(self, values: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
         rows = self.data.size if self.data.columns else 1
         given = [np.full(rows, value) for value in values.tolist()] + list(self.data.columns.values())
         mapped, slopes = self._map.map(rows)(np.array(given))
-        found, size = np.asarray(mapped.full()), len(self.names)
-        by_quantity = dict(zip(self._quantities, found, strict=True))
-        if not np.isfinite(found).all() or not admissible(self.scene, by_quantity).all():
-            return None
-        jac = np.asarray(slopes.full()).reshape(len(self._quantities), rows, size)
-        return BoundLaw(self, values, by_quantity, dict(zip(self._quantities, jac, strict=True)))
+        return dict(zip(self._quantities, np.asarray(mapped.full()), strict=True)), np.asarray(slopes.full())
+
+
+def _possible(scene: Scene, by_quantity: Mapping[str, np.ndarray]) -> np.ndarray:
+    finite = np.isfinite(list(by_quantity.values())).all(axis=0)
+    found: np.ndarray = finite & admissible(scene, by_quantity)
+    return found
 
 
 @dataclass(frozen=True)

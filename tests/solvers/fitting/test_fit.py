@@ -158,6 +158,13 @@ def test_a_prior_closes_an_interval():
     assert np.log(found.high / found.low) == pytest.approx(2 * 1.96 * 0.1, rel=0.03)
 
 
+def test_a_row_without_a_scene_is_named():
+    """A film thinner than the roughness is named by its row and column."""
+    data = {"stokes": [0.1, 0.1], "angle": [0.5, 0.5], "outcome": ["S", "S"], FILM: [8e-6, 1e-7]}
+    with pytest.raises(InputError, match="row 2, column liquid.film_thickness"):
+        fit("granulation", data, VISCOSITY)
+
+
 @pytest.mark.parametrize(
     ("free", "prior", "said"),
     [
