@@ -27,7 +27,7 @@ _OPTIONS = {
 @click.option(
     "--over",
     metavar="WINDOW",
-    help="Impacts that can be made: stokes=LO:HI,angle=LO:HI (degrees); also speed or relative_speed with units.",
+    help="Impacts that can be made: stokes=LO:HI,angle=LO:HI (degrees); also speed or relative_speed, with a unit.",
 )
 @click.option("-n", "size", metavar="N", help="Number of impacts [9].")
 @click.option("--for", "target", metavar="NAME", help="The entry that matters [all of --free alike].")
@@ -104,7 +104,7 @@ def command(
 
 
 def _window(text: str) -> dict[str, object]:
-    """The window of --over: names with LO:HI or one value; bare angles in degrees."""
+    """The window of --over: names with LO:HI or one value; bare angles in degrees, a unit at either end."""
     found: dict[str, object] = {}
     for part in text.split(","):
         name, equals, ends = part.partition("=")
@@ -113,8 +113,13 @@ def _window(text: str) -> dict[str, object]:
             problem = "is given twice" if equals else "has no ="
             raise InputError("--over", text, "stokes=LO:HI,angle=LO:HI", problem)
         entry = FIELDS.get(f"impact.{name}")
-        values = [value if entry is None else options.with_degrees(entry, value) for value in ends.split(":")]
-        found[name] = values if len(values) > 1 else values[0]
+        values = ends.split(":")
+        if entry is not None and len(values) == 2:
+            found[name] = options.entry_ends(entry, f"--over {name}")(*values)
+        elif entry is not None and len(values) == 1:
+            found[name] = options.with_degrees(entry, ends)
+        else:
+            found[name] = values
     return found
 
 

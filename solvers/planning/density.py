@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
-from scipy.signal import fftconvolve
+from scipy.signal import oaconvolve
 from scipy.special import ndtr, ndtri
 
 from ..fitting.interpolation import segment_map
@@ -21,7 +21,7 @@ _REACH = 4.5  # standard deviations of the scatter across the lines
 _APART = 0.5  # most that neighbouring points may be seen apart, in standard deviations of the noise
 _CELL = 1 / 16  # of the histogram of restitutions, in the same
 _BEYOND = 6.0  # where a density ends, in the same
-_MOST_LINES, _MOST_POINTS = 256, 512
+_MOST_LINES, _MOST_POINTS = 128, 512
 _FEWEST_LINES = 16
 _ROUGH = 2.0  # most of the complete information that interpolation may add
 _RARE = 1e-3  # probability of a sheet that is left out
@@ -61,10 +61,11 @@ def information_of(curves: Sequence[Curve], lines: int, noise: float, points: in
         noise: standard deviation of the measurement.
         points: least number of points of the quadrature along a segment.
     """
-    own = _joined([_points(each, noise, points) for each in _single(curves, lines)])
     sheets = _sheets(curves, lines)
     if not sheets:
         return np.zeros((curves[0].slope.shape[1],) * 2)
+    noise *= max(1.0, *(_gap(each, noise, points) for each in sheets))
+    own = _joined([_points(each, noise, points) for each in _single(curves, lines)])
     between = _joined([_points(each, noise, points) for each in sheets])
     smooth = (_complete(between, noise) <= _ROUGH * _complete(own, noise)).all()
     weight, slope, value, moves = between if smooth else own
@@ -83,10 +84,10 @@ def information_of(curves: Sequence[Curve], lines: int, noise: float, points: in
 
     off = np.arange(-int(_BEYOND / _CELL), int(_BEYOND / _CELL) + 1) * _CELL
     normal = np.exp(-(off**2) / 2) / (noise * np.sqrt(2 * np.pi))
-    f = fftconvolve(spread(weight), normal, mode="same")
+    f = oaconvolve(spread(weight), normal, mode="same")
     by = [
-        fftconvolve(spread(weight * slope[:, k]), normal, mode="same")
-        + fftconvolve(spread(weight * moves[:, k]), normal * off / noise, mode="same")
+        oaconvolve(spread(weight * slope[:, k]), normal, mode="same")
+        + oaconvolve(spread(weight * moves[:, k]), normal * off / noise, mode="same")
         for k in range(slope.shape[1])
     ]
     kept = f > max(_TINY, 1e-13 * float(f.max()))  # what is less is rounding of the convolution
@@ -172,15 +173,29 @@ def _stacked(those: Sequence[Curve], z: np.ndarray, span: tuple[float, float]) -
     return _Sheet(those[0].kind, those[0].nodes, z, span, *arrays)
 
 
+def _wanted(sheet: _Sheet, noise: float, points: int) -> tuple[float, float, float]:
+    """Numbers of points along and across a sheet that leave no gaps, and how far it reaches along, in `_APART`."""
+    along = segment_map(sheet.kind, sheet.nodes, points).interpolate @ sheet.value.T / (noise * _APART)
+    apart = float(np.abs(np.diff(along, axis=0)).max())
+    steepest = float(np.abs(np.diff(along, axis=1) / np.diff(sheet.z)).max(initial=0.0))
+    return points * apart, (sheet.span[1] - sheet.span[0]) * steepest, float(np.ptp(along, axis=0).min())
+
+
+def _gap(sheet: _Sheet, noise: float, points: int) -> float:
+    """The gaps between the most points that are made, over those that may be.
+
+    A density with gaps tells too much. With a noise as large as they are it tells at most what it should.
+    """
+    along, across, reach = _wanted(sheet, noise, points)
+    return max(along / _MOST_POINTS, across / _MOST_LINES / max(1.0, reach))
+
+
 def _points(sheet: _Sheet, noise: float, points: int) -> _Points:
     """The points of a sheet."""
-    along = segment_map(sheet.kind, sheet.nodes, points).interpolate @ sheet.value.T
-    apart = float(np.abs(np.diff(along, axis=0)).max()) / noise
-    mapping = segment_map(sheet.kind, sheet.nodes, _power(points * apart / _APART, points, _MOST_POINTS))
-    steepest = float(np.abs(np.diff(along, axis=1) / np.diff(sheet.z)).max(initial=0.0)) / noise
+    along, across, _ = _wanted(sheet, noise, points)
+    mapping = segment_map(sheet.kind, sheet.nodes, _power(along, points, _MOST_POINTS))
     low_z, high_z = sheet.span
-    count = _FEWEST_LINES if sheet.z.size > 1 else 1
-    count = _power((high_z - low_z) * steepest / _APART, count, _MOST_LINES)
+    count = _power(across, _FEWEST_LINES if sheet.z.size > 1 else 1, _MOST_LINES)
     z = low_z + (high_z - low_z) * (np.arange(count) + 0.5) / count
     weight = np.exp(-(z**2) / 2)
     weight *= (ndtr(high_z) - ndtr(low_z)) / weight.sum()

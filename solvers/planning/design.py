@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import norm, qmc
 
+from ...generated.automaton import OUTCOMES, STICK
 from ..errors import InputError
 from ..fitting.data import read_data
 from ..fitting.fit import RTOL, fit
@@ -111,7 +112,9 @@ def design(
     for name in entries.names if wanted is None else (wanted,):
         if told[name] < _NOTHING:
             accepted = "entries that outcome or restitution depend on in this window"
-            raise InputError("free", name, accepted, "changes nothing that is observed in the window")
+            one = set(window.outcomes(first, rtol).tolist()) == {OUTCOMES.index(STICK)}
+            why = "changes nothing that is observed in the window" + (", where all impacts stick" if one else "")
+            raise InputError("free", name, accepted, why)
     return Design.of(window, entries, values, before, found, wanted, size, rtol, len(ensemble), loaded)
 
 

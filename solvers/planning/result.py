@@ -99,7 +99,7 @@ class Design(Planned):
         if self.combinations and combined:
             said.append("Entries open at both ends are told in combination only; a prior on one may close the others.")
         said += self.combinations
-        if (self.efficiency or 0) > _TELLING:
+        if (self.efficiency or 0) > _TELLING and self.candidates > 1:
             share = math.floor(100 * (self.efficiency or 0))
             least = f"At least {share} % as good" if share < 100 else "As good"
             said.append(f"{least} as any other {self.size} of {self.candidates} candidates.")
