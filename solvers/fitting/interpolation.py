@@ -53,3 +53,19 @@ def segment_map(kind: int, nodes: int, points: int) -> SegmentMap:
     basis = np.polynomial.chebyshev.chebvander(2 * t - 1, nodes - 1)
     matrix = np.polynomial.chebyshev.chebvander(2 * s - 1, nodes - 1) @ np.linalg.inv(basis)
     return SegmentMap(g(t), g(s), rate(s), w, matrix)
+
+
+@lru_cache(maxsize=256)
+def extension(known: tuple[bool, ...], degree: int) -> np.ndarray:
+    """From values at some of the nodes to values at all of them, by a polynomial of this degree at most.
+
+    Arguments:
+        known: which of the nodes have a value.
+    """
+    nodes, kept = len(known), np.flatnonzero(known)
+    t = (1 - np.cos(np.pi * (np.arange(nodes) + 0.5) / nodes)) / 2
+    basis = np.polynomial.chebyshev.chebvander(2 * t - 1, min(degree, kept.size - 1))
+    found = np.zeros((nodes, nodes))
+    found[:, kept] = basis @ np.linalg.pinv(basis[kept])
+    found[kept] = np.eye(nodes)[kept]
+    return found

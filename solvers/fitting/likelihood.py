@@ -19,7 +19,7 @@ from ..errors import InputError
 from ..scene.scene import Scene
 from ..settings import RTOL
 from . import changes as boundaries
-from .interpolation import SegmentMap, segment_map
+from .interpolation import SegmentMap, extension, segment_map
 from .law import BoundLaw, Law
 from .lines import Lines
 from .measurements import Measurements
@@ -35,6 +35,10 @@ KNEE, TAIL = 12.0, 4.0
 deviations) contradicts the model; from there its log-likelihood falls with the logarithm of the distance."""
 
 
+_QUICK = 1000  # steps of a trajectory with derivatives, beyond which others' on the same segment stand for them
+_DEGREE = 4  # of the polynomial by which they do
+
+
 @dataclass(frozen=True)
 class Resolution:
     """How finely the scatter is integrated.
@@ -44,7 +48,7 @@ class Resolution:
         nodes: collisions on a segment; half as many more where it ends at a change.
         points: of the quadrature over the interpolated results.
         grid: points of a line at which the outcome is looked at.
-        quick: derivatives of changes beside slow saddles to 1e-4 only.
+        quick: derivatives beside slow saddles are approximate: of changes to 1e-4, of results from their neighbours.
         within: error of a probability from the place of a change.
     """
 
@@ -258,7 +262,11 @@ class Likelihood:
             places.append((low + (high - low) * each.at_nodes).ravel())
             on.append(np.repeat(segments.line[part], each.at_nodes.size))
         y, line = np.concatenate(places), np.concatenate(on)
-        found = law.results(self.of, lines.row[line], *lines.at(line, y))
+        row, at = lines.row[line], lines.at(line, y)
+        found = law.results(self.of, row, *at, budget=_QUICK if resolution.quick else None)
+        if resolution.quick:
+            late = np.flatnonzero(found.outcome < 0)
+            found.value[:, late] = law.plain(self.of, row[late], at[0][late], at[1][late])
         by_speed, by_angle = lines.slopes(line, y)
         by_y = found.speed * by_speed + found.angle * by_angle
         first = 0
@@ -273,6 +281,8 @@ class Likelihood:
                 found.free[:, own].reshape(-1, *shape, len(self.names))
                 + by_y[:, own].reshape(-1, *shape)[..., None] * moves
             )
+            if resolution.quick:
+                slope = _extended(slope, found.outcome[own].reshape(shape) >= 0)
             self._integrate(segments, part, each, value, slope, low_p, high_p, total, moments)
 
     def _integrate(
@@ -320,6 +330,19 @@ class Likelihood:
             gradient += np.einsum("sn,snp->sp", at_nodes, slope[k])
         kept = np.flatnonzero(whole > 0)
         total.add(row[kept], logs[kept], gradient[kept])
+
+
+def _extended(slope: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Slopes at all nodes of segments from those that are known, as they are smooth where the segment moves with them.
+
+    Arguments:
+        slope: (results, segments, nodes, free entries).
+        known: (segments, nodes).
+    """
+    odd = np.flatnonzero(~known.all(axis=1) & known.any(axis=1))
+    for k in odd.tolist():
+        slope[:, k] = np.einsum("mn,rnp->rmp", extension(tuple(known[k].tolist()), _DEGREE), slope[:, k])
+    return slope
 
 
 def limit(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
