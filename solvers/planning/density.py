@@ -192,10 +192,10 @@ def _gap(sheet: _Sheet, noise: float, points: int) -> float:
 
 def _points(sheet: _Sheet, noise: float, points: int) -> _Points:
     """The points of a sheet."""
-    along, across, _ = _wanted(sheet, noise, points)
+    along, steps, _ = _wanted(sheet, noise, points)
     mapping = segment_map(sheet.kind, sheet.nodes, _power(along, points, _MOST_POINTS))
     low_z, high_z = sheet.span
-    count = _power(across, _FEWEST_LINES if sheet.z.size > 1 else 1, _MOST_LINES)
+    count = _power(steps, _FEWEST_LINES if sheet.z.size > 1 else 1, _MOST_LINES)
     z = low_z + (high_z - low_z) * (np.arange(count) + 0.5) / count
     weight = np.exp(-(z**2) / 2)
     weight *= (ndtr(high_z) - ndtr(low_z)) / weight.sum()

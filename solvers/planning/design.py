@@ -26,6 +26,7 @@ from .window import Scatter, Window, check_over
 
 _SPACING = 20  # candidates to begin with, to either side
 _MOST, _MOST_DRAWS = 1000, 256
+_OTHERS = 0.1  # weight of all entries beside the one that matters
 _NOTHING = 1e-9  # information of an impact on an entry, in the variable of the search, that is none
 
 
@@ -54,7 +55,7 @@ def design(
         over: window of impacts, {"stokes": (0.02, 0.5), "angle": ("0 deg", "80 deg")}; also speed or relative_speed,
             and one value in place of two ends.
         n: number of impacts.
-        target: the entry that matters, of `free`; the others are then estimated only as far as that needs. None: all
+        target: the entry that matters, of `free`; the others are then estimated little more than that needs. None: all
             alike (D-optimal).
         data: impacts measured before, as of `fit`; they are fitted first, and what they tell counts.
         prior: what is known of free entries, as of `fit`.
@@ -103,7 +104,7 @@ def design(
     first = window.candidates(_SPACING, rtol)
     weak = np.diag((2.0 / (entries.high - entries.low)) ** 2)  # nothing is known beyond the range of a search
     known = np.broadcast_to(before + weak, (len(ensemble), *before.shape))
-    criterion = Criterion(None if wanted is None else entries.names.index(wanted))
+    criterion = Criterion(None) if wanted is None else Criterion(entries.names.index(wanted), _OTHERS)
     held = _Kept(evaluate)
     found = search(
         held, known, criterion, size, first, 1 / (_SPACING - 1), lambda points: evaluate(points, sure_information)

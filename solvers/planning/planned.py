@@ -67,7 +67,7 @@ class Planned:
         grid: number of speeds and of angles of these, their square root each where both may be chosen.
         combinations: sentences on products of powers that the impacts tell better than their entries.
         efficiency: least ratio of the criterion to that of any other choice among the candidates: of the volume's
-            root for all entries, of the interval for one. None where it is not known.
+            root for all entries, of the interval for one (with the part of the others). None where it is not known.
         target: the entry that matters; None for all.
         draws: values of the entries for which the impacts are the best on average.
         candidates: impacts among which they were chosen.
@@ -127,7 +127,7 @@ class Planned:
         return sum(each.count for each in self.impacts)
 
     def plan(self) -> Measurements:
-        """The impacts as rows of measurements without observations, as `fit` and synthetic data take them."""
+        """The impacts as rows of measurements; outcomes unknown, restitutions NaN with their standard deviation."""
         return self.window.plan(np.repeat(self.points, [each.count for each in self.impacts], axis=0))
 
     def map(self, along: int = _ALONG, across: int = _ACROSS) -> xarray.Dataset:

@@ -30,10 +30,17 @@ _TWO = 2.0
 class Criterion:
     """What is maximised, as a mean over draws of the entries' values.
 
-    The logarithm of the information matrix's determinant, or that of the precision of entry `target`.
+    The logarithm of the information matrix's determinant, or that of the precision of entry `target` plus a part of the
+    former. Without that part a design may leave the other entries open, wherever the target does not depend on them to
+    first order; they are then so uncertain that first order is not enough.
+
+    Attributes:
+        target: an entry, or None for all.
+        part: of the determinant's logarithm that counts beside the precision of `target`, by entry.
     """
 
     target: int | None
+    part: float = 0.0
 
     def value(self, total: np.ndarray) -> np.ndarray:
         """Of sums of information (draws, ..., entries, entries), (...)."""
@@ -41,6 +48,7 @@ class Criterion:
             found = np.linalg.slogdet(total)[1]
         else:
             found = -np.log(np.linalg.inv(total)[..., self.target, self.target])
+            found = found + self.part * np.linalg.slogdet(total)[1] / total.shape[-1]
         mean: np.ndarray = found.mean(axis=0)
         return mean
 
@@ -52,6 +60,7 @@ class Criterion:
         else:
             row = inverse[:, self.target]
             found = np.einsum("mi,mcij,mj->mc", row, single, row) / row[:, None, self.target]
+            found += self.part * np.einsum("mij,mcji->mc", inverse, single) / total.shape[-1]
         mean: np.ndarray = found.mean(axis=0)
         return mean
 

@@ -59,8 +59,8 @@ def experiment(seed: int, off: float) -> dict[str, object]:
         return told | {"refused": str(error)}
     told["seconds"] = time.process_time() - start
     told["foretold"], told["efficiency"] = planned.against_grid[target], planned.efficiency
-    side = planned.grid
-    for label, plan in (("designed", planned.plan()), ("grid", planned.window.plan(planned.window.grid(side, side)))):
+    grid = planned.window.grid(*planned.grid)
+    for label, plan in (("designed", planned.plan()), ("grid", planned.window.plan(grid))):
         told[label] = _width(guess, scene, plan, free, target, prior, seed, noise)
     return told
 

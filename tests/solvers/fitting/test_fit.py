@@ -74,6 +74,23 @@ def test_what_it_writes(pendulum, tmp_path):
     assert all(name in files[0].read_text() for name in found.estimates)
 
 
+def test_drawn_profiles_cross_the_ends_of_the_intervals(pendulum):
+    """In the picture the profile of the likelihood is 1.92 below its maximum where the interval ends."""
+    found, _ = pendulum
+    (axes,) = [each for each in found.plot().axes if each.get_xlabel() == "viscosity (Pa s)"]
+    x, y = axes.lines[0].get_data()
+    estimate = found.estimates[VISCOSITY]
+    assert np.interp([estimate.low, estimate.high], x, y) == pytest.approx(-1.92, abs=0.3)
+
+
+def test_choices_to_compare_are_checked_first():
+    """A wrong name in --compare is named before the data are read."""
+    found = run("fit", "granulation", "none.csv", "--free", VISCOSITY, "--compare", "bridge.lw")
+    assert found.exit_code == 2
+    assert found.stderr.startswith("--compare: ")
+    assert "did you mean bridge.law?" in found.stderr
+
+
 def test_command(tmp_path):
     """The command prints the JSON of INTERFACE, with null for an open end; all sticks tell bounds alone."""
     data = tmp_path / "sticks.csv"

@@ -18,6 +18,19 @@ from ...helpers.command import run
 FREE = ["liquid.viscosity", "liquid.film_thickness"]
 OVER = {"stokes": (0.06, 0.3), "angle": "30 deg"}
 
+POLYMER = """
+[particles]
+diameter = "6 mm"
+density = "1140 kg/m3"
+roughness = "3 um"
+dry_restitution = 0.85
+[partner]
+wall = true
+[liquid]
+viscosity = "100 mPa s"
+film_thickness = "200 um"
+"""
+
 
 @pytest.fixture(scope="module")
 def found() -> Design:
@@ -47,6 +60,33 @@ def test_curvature_is_measured_half_in_the_middle() -> None:
     order = np.argsort(made.points[:, 0])
     assert made.points[order, 0] == pytest.approx([0, 0.5, 1], abs=0.02)
     assert made.counts[order].tolist() == [2, 4, 2]
+
+
+def test_another_entry_is_not_left_open() -> None:
+    """The mean of a straight line is measured in its middle; with a part for the slope, also at the ends."""
+
+    def line(points: np.ndarray) -> np.ndarray:
+        x = np.stack([np.ones(len(points)), 2 * points[:, 0] - 1], axis=1)
+        return (x[:, :, None] * x[:, None, :] / (1 + 4 * x[:, 1] ** 2)[:, None, None])[None]
+
+    first, known = np.column_stack([np.linspace(0, 1, 9), np.zeros(9)]), 1e-4 * np.eye(2)[None]
+    alone = search(line, known, Criterion(0), 10, first, 1 / 8)
+    both = search(line, known, Criterion(0, 0.1), 10, first, 1 / 8)
+    assert alone.information[0, 1, 1] == pytest.approx(1e-4, rel=0.1)
+    assert both.information[0, 1, 1] > 0.1
+    assert both.information[0, 0, 0] > 0.8 * alone.information[0, 0, 0]
+
+
+def test_what_impacts_tell_in_combination_only_is_open() -> None:
+    """Without a criterion of rebound beside roughness, viscosity and film make one group; a prior on one parts them."""
+    scene = Scene.from_toml(POLYMER)
+    asked: dict[str, Any] = {"free": FREE, "over": {"stokes": (3, 15), "angle": 0.0}, "n": 4, "target": FREE[0]}
+    open_ = design(scene, **asked)
+    assert [(each.low, each.high) for each in open_.expected.values()] == [(None, None)] * 2
+    assert len(open_.combinations) == 1
+    assert "told in combination only" in str(open_)
+    closed = design(scene, **asked, prior={FREE[1]: "200 um +- 10 %"})
+    assert None not in (closed.expected[FREE[0]].low, closed.expected[FREE[0]].high)
 
 
 def test_a_design_beats_random_ones(found: Design) -> None:
@@ -83,6 +123,15 @@ def test_the_table_is_what_a_fit_reads(found: Design, tmp_path: Path) -> None:
     assert data.angle == pytest.approx(plan.angle, abs=1e-5)
     assert data.speed_sd == pytest.approx(plan.speed_sd, rel=1e-2)
     assert (data.outcome == 2).all()
+
+
+def test_the_command_writes_the_table_beside_what_it_prints(tmp_path: Path) -> None:
+    """With -o FILE.csv the file has a row for each impact, and what is printed stays; a unit stands at either end."""
+    file = tmp_path / "plan.csv"
+    window = ["--over", "speed=1:3 m/s,angle=0", "--restitution-sd", "none"]
+    told = run("design", "granulation", "--free", FREE[0], *window, "-n", 2, "-o", file)
+    assert told.stdout.startswith("2 impacts for liquid.viscosity")
+    assert len(file.read_text().splitlines()) == 3
 
 
 def test_the_table_shows_the_impacts(found: Design) -> None:

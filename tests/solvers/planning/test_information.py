@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.stats import norm
-from wetdoublet.solvers import Scene, boundary
+from wetdoublet.solvers import Scene, boundary, collide_many
 from wetdoublet.solvers.fitting.likelihood import Likelihood, Resolution
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
 from wetdoublet.solvers.planning.information import information
@@ -87,3 +87,37 @@ def test_far_from_a_boundary_restitution_tells_its_derivative() -> None:
     found = information(scene, (name,), np.array([scene.entries[name]]), plan)
     assert found.total[0, 0, 0] == pytest.approx((slope.gradient["restitution"][name] / NOISE) ** 2, rel=1e-3)
     assert found.outcome[0, 0, 0] == pytest.approx(0, abs=1e-6 * found.total[0, 0, 0])
+
+
+def test_a_restitution_beside_the_outcome_tells_no_less() -> None:
+    """Total less outcome has no negative eigenvalue, also where all three outcomes meet and integrals are uncertain."""
+    scene = Scene.load("granulation")
+    names = ("liquid.viscosity", "bridge.volume")
+    values = np.array([scene.entries[name] for name in names])
+    plan = planned(scene, [0.10, 0.11, 0.115, 0.12], [20.0, 24.0, 24.0, 30.0], 0.03, 1.5)
+    found = information(scene, names, values, plan)
+    assert ((found.probability > 1e-3).sum(axis=1) == 3).any()
+    added = (found.total - found.outcome) * np.outer(values, values)
+    scale = np.einsum("cii->c", found.total * np.outer(values, values))
+    assert (np.linalg.eigvalsh(added).min(axis=1) >= -1e-9 * scale).all()
+
+
+def test_gaps_of_a_density_are_no_information() -> None:
+    """Head-on, noise far below the spread: what is told agrees with a density on a much finer grid of speeds."""
+    scene = Scene.load("granulation")
+    name = "liquid.viscosity"
+    value = float(scene.entries[name])
+    plan = planned(scene, [0.25], [0.0], 0.06, 0.0)
+    plan = replace(plan, observed={"restitution": (plan.observed["restitution"][0], np.array([2e-4]))})
+    found = information(scene, (name,), np.array([value]), plan).total[0, 0, 0] * value**2
+    z = np.linspace(-5, 5, 20001)
+    speed, h = plan.speed[0] + plan.speed_sd[0] * z, 1e-4
+    low, mid, high = (
+        collide_many(scene.with_si({name: value * (1 + k * h)}), speed=speed, angle=0.0)["restitution"].values
+        for k in (-1, 0, 1)
+    )
+    rate, slope = np.gradient(mid, z), (high - low) / (2 * h)
+    moved = -slope / rate  # where an impact of the same restitution lies, as restitution rises with speed
+    score = -z * moved + np.gradient(moved, z)
+    expected = float(np.trapezoid(score**2 * norm.pdf(z), z))
+    assert 0.9 * expected < found < 1.001 * expected
