@@ -92,7 +92,16 @@ def magnitude(node: sp.Basic) -> sp.Basic:
         return sp.Mul(*map(magnitude, node.args))
     if isinstance(node, sp.Pow) and node.exp.is_Number and node.exp.is_positive:
         return magnitude(node.base) ** node.exp
-    return sp.Abs(node)
+    return sp.Abs(node, evaluate=False)  # sympy would look for its sign, in an expression that grows with every level
+
+
+# in place of sympy's Min and Max, which compare their arguments anew whenever something is put into one of them
+SMALLEST, LARGEST = sp.Function("smallest", real=True), sp.Function("largest", real=True)
+
+
+def inert(expression: Any) -> sp.Expr:
+    """The expression with no bound evaluated."""
+    return sp.sympify(expression).replace(sp.Min, SMALLEST).replace(sp.Max, LARGEST)
 
 
 Exact = Callable[..., list[mpmath.mpf]]
@@ -105,7 +114,8 @@ def exactly(arguments: list[sp.Symbol], expressions: list[sp.Expr]) -> Exact:
         return mpmath.sqrt(value) or mpmath.mpf(10) ** -200
 
     made = [*expressions, *map(magnitude, expressions)]
-    return sp.lambdify(arguments, made, modules=[{"sqrt": root}, "mpmath"], cse=True)
+    known = {"sqrt": root, SMALLEST.__name__: min, LARGEST.__name__: max}
+    return sp.lambdify(arguments, made, modules=[known, "mpmath"], cse=True)
 
 
 def compare(label: str, exact: Exact, found: list[float], arguments: list[float]) -> None:
@@ -197,8 +207,11 @@ def _filled(structure: Structure, choice: int) -> tuple[Model, dict[str, list[sp
     """Every function's outputs as closed expressions, with the Jacobian and the event rates by sympy's derivatives."""
     model = derive(structure)
     laws = {slot: _law(structure, choice, slot) for slot in model.slots}
+    whole: dict[sp.Symbol, sp.Expr] = {}
+    for symbol, value in model.definitions:
+        whole[symbol] = fill(inert(value).xreplace(whole), laws)
     columns = {
-        function.name: [fill(model.expanded(sp.sympify(value)), laws) for _, value in function.outputs]
+        function.name: [fill(inert(value).xreplace(whole), laws) for _, value in function.outputs]
         for function in model.functions
     }
     rates = columns["right_hand_side"]
