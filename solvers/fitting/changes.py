@@ -185,7 +185,7 @@ def _by_times(
     times = times_under(laws, np.tile(row, len(points)), *every).reshape(len(points), -1)
     time, second, third = times[:3]
     with np.errstate(invalid="ignore", divide="ignore"):
-        aside = np.interp((time - second) / (second - third), *_ASIDE)
+        aside = np.interp((time - second) / (second - third), *_ASIDE, left=np.nan, right=np.nan)  # or no saddle
         rate = np.log((4 + aside) / (1 + aside)) / (time - second)
     rate[~(rate > 0)] = np.nan
     nearer = side * distance * (1 + aside) * np.expm1(-rate * (times[3:] - time))  # minus the change of the distance

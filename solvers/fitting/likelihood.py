@@ -264,8 +264,8 @@ class Likelihood:
         y, line = np.concatenate(places), np.concatenate(on)
         row, at = lines.row[line], lines.at(line, y)
         found = law.results(self.of, row, *at, budget=_QUICK if resolution.quick else None)
-        if resolution.quick:
-            late = np.flatnonzero(found.outcome < 0)
+        late = np.flatnonzero(found.outcome < 0)
+        if late.size:
             found.value[:, late] = law.plain(self.of, row[late], at[0][late], at[1][late])
         by_speed, by_angle = lines.slopes(line, y)
         by_y = found.speed * by_speed + found.angle * by_angle
@@ -281,8 +281,7 @@ class Likelihood:
                 found.free[:, own].reshape(-1, *shape, len(self.names))
                 + by_y[:, own].reshape(-1, *shape)[..., None] * moves
             )
-            if resolution.quick:
-                slope = _extended(slope, found.outcome[own].reshape(shape) >= 0)
+            slope = _extended(slope, found.outcome[own].reshape(shape) >= 0)
             self._integrate(segments, part, each, value, slope, low_p, high_p, total, moments)
 
     def _integrate(

@@ -85,6 +85,17 @@ def _collided(found: Fitted, values: np.ndarray, speed: np.ndarray, angle: np.nd
     return collide_many(found.first, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
 
 
+def _emptiest_corner(axes: Axes, x: np.ndarray, y: np.ndarray) -> str:
+    """The corner in which a legend covers the fewest points, in words of matplotlib."""
+    across, up = axes.transAxes.inverted().transform(axes.transData.transform(np.column_stack([x, y]))).T
+    covered = {
+        "upper right": (across > 0.65) & (up > 0.7), "upper left": (across < 0.35) & (up > 0.7),
+        "lower right": (across > 0.65) & (up < 0.3), "lower left": (across < 0.35) & (up < 0.3),
+        "upper center": (np.abs(across - 0.5) < 0.18) & (up > 0.7),
+    }  # fmt: skip
+    return min(covered, key=lambda place: int(covered[place].sum()))
+
+
 def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
     data = found.data
     low, high = data.speed.min(), data.speed.max()
@@ -137,7 +148,8 @@ def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
     plain(axes.yaxis)
     axes.set_xlabel("impact angle (deg)")
     axes.set_ylabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
-    axes.legend(handles=present + handles, fontsize=6.5, loc="best", frameon=True, framealpha=0.9)
+    corner: Any = _emptiest_corner(axes, np.degrees(data.angle), data.speed)
+    axes.legend(handles=present + handles, fontsize=6.5, loc=corner, frameon=True, framealpha=0.9)
     axes.set_title("impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _own(found), fontsize=9)
 
 
