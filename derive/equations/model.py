@@ -100,16 +100,22 @@ class Model:
 
     def expanded(self, expression: sp.Expr) -> sp.Expr:
         """`expression` with every named intermediate substituted."""
-        return expression.xreplace(_whole(self.definitions))
+        return _expanded(sp.sympify(expression), dict(self.definitions), _whole(self.definitions))
 
 
 @cache
-def _whole(definitions: tuple[Definition, ...]) -> dict[sp.Symbol, sp.Expr]:
-    """Each intermediate without any other: one substitution a definition, as a chain of bounds grows with each."""
-    found: dict[sp.Symbol, sp.Expr] = {}
-    for symbol, value in definitions:
-        found[symbol] = sp.sympify(value).xreplace(found)
-    return found
+def _whole(_definitions: tuple[Definition, ...]) -> dict[sp.Basic, sp.Expr]:
+    """Intermediates without any other, as far as they have been asked for: bounds of bounds are costly to expand."""
+    return {}
+
+
+def _expanded(
+    expression: sp.Expr, definitions: Mapping[sp.Basic, sp.Expr], whole: dict[sp.Basic, sp.Expr]
+) -> sp.Expr:
+    """The expression with every intermediate substituted; those that it needs are added to `whole`."""
+    for symbol in (expression.free_symbols & definitions.keys()) - whole.keys():
+        whole[symbol] = _expanded(sp.sympify(definitions[symbol]), definitions, whole)
+    return expression.xreplace(whole)
 
 
 @cache

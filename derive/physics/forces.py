@@ -68,6 +68,7 @@ def force_laws(spread: bool = False) -> dict[sp.Symbol, sp.Expr]:
     }
 
 
+@cache
 def scaled_strings(oblique: bool) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """Dimensionless normal and tangential string force and squared swing over a^2; head-on beta = 0."""
     turn = beta if oblique else sp.Integer(0)

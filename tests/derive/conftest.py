@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import sys
 from collections.abc import Callable, Iterator
+from functools import cache
+from importlib.util import resolve_name
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -46,10 +50,31 @@ def _modules() -> list[ModuleType]:
     return [module for name, module in sys.modules.items() if name.startswith(_ROOT)]
 
 
-def _forget() -> None:
-    """Clear what is cached of forces and models."""
+@cache
+def _imports(name: str) -> set[str]:
+    """Modules of the derivation that a module imports anywhere in its text."""
+    module = sys.modules[name]
+    found = set()
+    for node in ast.walk(ast.parse(Path(str(module.__file__)).read_text())):
+        if isinstance(node, ast.ImportFrom):
+            source = resolve_name("." * node.level + (node.module or ""), str(module.__package__))
+            found |= {source, *(f"{source}.{alias.name}" for alias in node.names)}
+    return {each for each in found if each.startswith(_ROOT) and each in sys.modules}
+
+
+def _users(name: str) -> set[str]:
+    """A module and all that import it, directly or by others."""
+    users, before = {name}, 0
+    while len(users) > before:
+        before = len(users)
+        users |= {module.__name__ for module in _modules() if _imports(module.__name__) & users}
+    return users
+
+
+def _forget(users: set[str]) -> None:
+    """Clear what these modules remember of forces and models."""
     for module in _modules():
-        if module.__name__.removeprefix(f"{_ROOT}.").startswith(_DERIVED):
+        if module.__name__ in users and module.__name__.removeprefix(f"{_ROOT}.").startswith(_DERIVED):
             for value in list(vars(module).values()):
                 if hasattr(value, "cache_clear") and value.__module__ == module.__name__:
                     value.cache_clear()
@@ -58,14 +83,16 @@ def _forget() -> None:
 @pytest.fixture
 def mutate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[Any, Any], None]]:
     """Put a wrong function in place of a right one, in every module of the derivation that imported it."""
+    users: set[str] = set()
 
     def replace(right: Any, wrong: Any) -> None:
         places = [(module, name) for module in _modules() for name, value in vars(module).items() if value is right]
         assert places
+        users.update(_users(right.__module__))
+        _forget(users)
         for module, name in places:
             monkeypatch.setattr(module, name, wrong)
 
-    _forget()
     yield replace
     monkeypatch.undo()
-    _forget()
+    _forget(users)
