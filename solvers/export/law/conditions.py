@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 
 from ...errors import CheckFailed
 
-OPEN = ("LANES", "__GNUC__", "__AVX2__", "__AVX512DQ__", "__cplusplus")
+OPEN = ("LANES", "__GNUC__", "__AVX2__", "__AVX512DQ__", "__has_builtin", "__cplusplus")
 """Macros that are known when the exported file is compiled."""
 _DIRECTIVE = re.compile(r"^\s*#\s*(if|ifdef|ifndef|elif|else|endif|define|undef|pragma)\b\s*(.*)$")
 _TOKEN = re.compile(r"\s*(\d+|\w+|&&|\|\||[=!<>]=|[()!<>+*/%?:-])")

@@ -12,8 +12,13 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#if LANES > 1 && defined(__AVX2__)
-#include <immintrin.h>
+
+/* Two instructions of x86, under the compiler's own names: <immintrin.h> is eight times as much text as the kernel.
+   GCC before version 10 cannot be asked, and has them. */
+#if defined(__has_builtin)
+#define HAS_BUILTIN(name) __has_builtin(name)
+#else
+#define HAS_BUILTIN(name) 1
 #endif
 
 #if defined(__GNUC__)
@@ -195,14 +200,15 @@ static inline mask least(mask a, mask b)
 /* The lanes of a mask as bits. */
 static inline unsigned bits(mask m)
 {
-#if LANES == 8 && defined(__AVX512DQ__)
-    return _mm512_movepi64_mask((__m512i)m);
-#elif LANES == 16 && defined(__AVX512DQ__)
-    __m512i half[2];
-    memcpy(half, &m, sizeof m);
-    return _mm512_movepi64_mask(half[0]) | (unsigned)_mm512_movepi64_mask(half[1]) << 8;
-#elif LANES == 4 && defined(__AVX2__)
-    return (unsigned)_mm256_movemask_pd((__m256d)m);
+#if LANES >= 8 && defined(__AVX512DQ__) && HAS_BUILTIN(__builtin_ia32_cvtq2mask512)
+    typedef long long eight __attribute__((vector_size(64)));
+    eight part[LANES/8];
+    unsigned found = 0;
+    memcpy(part, &m, sizeof m);
+    for (int k = 0; k < LANES/8; k++) found |= (unsigned)__builtin_ia32_cvtq2mask512(part[k]) << (8*k);
+    return found;
+#elif LANES == 4 && defined(__AVX2__) && HAS_BUILTIN(__builtin_ia32_movmskpd256)
+    return (unsigned)__builtin_ia32_movmskpd256((vec)m);
 #else
     unsigned found = 0;
     EACH_LANE(lane) found |= (unsigned)(LANE(m, lane) != 0) << lane;
