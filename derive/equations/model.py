@@ -109,9 +109,7 @@ def _whole(_definitions: tuple[Definition, ...]) -> dict[sp.Basic, sp.Expr]:
     return {}
 
 
-def _expanded(
-    expression: sp.Expr, definitions: Mapping[sp.Basic, sp.Expr], whole: dict[sp.Basic, sp.Expr]
-) -> sp.Expr:
+def _expanded(expression: sp.Expr, definitions: Mapping[sp.Basic, sp.Expr], whole: dict[sp.Basic, sp.Expr]) -> sp.Expr:
     """The expression with every intermediate substituted; those that it needs are added to `whole`."""
     for symbol in (expression.free_symbols & definitions.keys()) - whole.keys():
         whole[symbol] = _expanded(sp.sympify(definitions[symbol]), definitions, whole)
