@@ -185,7 +185,7 @@ def test_a_worker_of_another_arithmetic_is_refused(serial, cluster):
         with pytest.raises(ComputationError, match="workers differ: .* its WETDOUBLET_CFLAGS is -DO.*, not -DO"):
             regime_map("granulation", **GRID, client=cluster)
     finally:
-        cluster.run(flags, "")
+        cluster.run(flags, os.environ["WETDOUBLET_CFLAGS"])
 
 
 def test_an_unreachable_scheduler_is_bad_input(tmp_path):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -33,17 +32,6 @@ pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), py
 NAMES = [case.name for case in CASES]
 OF = ("restitution", "rotation", "contact_time", "smallest_gap")
 SEPARATRIX = 0.049117734419372415  # St of granulation at 45 deg, by bisection at rtol 1e-13
-
-
-@pytest.fixture(scope="module", autouse=True)
-def quickly() -> Iterator[None]:
-    """Compile without much optimization: same results but for rounding, and kernels with derivatives are long."""
-    whole = library.FLAGS
-    library.kernel.cache_clear()
-    library.FLAGS = tuple("-O1" if flag == "-O2" else flag for flag in whole)
-    yield
-    library.FLAGS = whole
-    library.kernel.cache_clear()
 
 
 @cache

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -28,6 +29,16 @@ VARIANTS: list[tuple[str, dict[str, Any]]] = [
     ("granulation", {"model.arm": "surface"}),
     ("pendulum", {"model.tangential": "film", "pendulum.law": "small-angle", "model.glass": "film-corrected"}),
 ]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def shipped() -> Iterator[None]:
+    """Compile as users do, not with the flags of the other tests."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delenv("WETDOUBLET_CFLAGS")
+        library.kernel.cache_clear()
+        yield
+    library.kernel.cache_clear()
 
 
 def _impacts(preset: str, count: int) -> tuple[np.ndarray, np.ndarray]:
