@@ -28,6 +28,8 @@ from ..settings import STEPS
 from .measurements import Measurements
 
 UNDECIDED = -1
+_ENDLESS = (Status.NO_BUDGET, Status.CHATTER)  # the other engines' budget of steps is the same
+_HEAD_ON = 1e-12  # angle (rad) below which an impact is head-on; the results change with its square
 _ANGLE = np.radians(89.5)  # largest impact angle at which a scattered impact is computed
 _PLACES: dict[str, tuple[int, int | str]] = {  # column of the derivative, field of the value
     "restitution": (0, 0),
@@ -134,7 +136,7 @@ class BoundLaw:
     def outcomes(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
         """Outcomes at normal speeds (m/s) and angles (rad; a negative one is its mirror image) of these rows.
 
-        Doublets that rebound again and again, and whatever no engine follows to the end, are UNDECIDED.
+        What the kernel follows until its budget of steps ends, and whatever no engine follows to the end, is UNDECIDED.
         """
         impacts = self.impacts(row, speed, angle)
         found = run_kernel(impacts, self.law.rtol, jumps=2)
@@ -143,7 +145,7 @@ class BoundLaw:
         outcome: np.ndarray = found["outcome"].astype(np.int8)
         late = np.flatnonzero(found["status"] > LAST_ANSWER)
         outcome[late] = UNDECIDED
-        late = late[found["status"][late] != Status.CHATTER]  # no engine decides what rebounds that often
+        late = late[~np.isin(found["status"][late], _ENDLESS)]
         if late.size:
             outcome[late] = self._completed(row[late], impacts.part(late))
         return outcome
@@ -275,7 +277,8 @@ class BoundLaw:
             spin = self.quantities.get(name)
             if spin is not None and spin.any() and (angle < 0).any():
                 others[name] = (spin[row] if spin.size > 1 else np.full(row.size, spin[0])) * mirrored
-        return Impacts(scene, speed, np.minimum(np.abs(angle), _ANGLE), others)
+        size = np.abs(angle)
+        return Impacts(scene, speed, np.where(size < _HEAD_ON, 0.0, np.minimum(size, _ANGLE)), others)
 
     def _completed(self, row: np.ndarray, impacts: Impacts) -> np.ndarray:
         """Outcomes of collisions that the kernel hands over, by the engines that finish them."""

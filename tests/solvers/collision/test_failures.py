@@ -26,7 +26,8 @@ from wetdoublet.solvers.model.model import Model
 
 # the command, made to collide the same spheres for ever, and to say when it has begun
 LONG = """
-import sys
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background may have been begun without it
 from wetdoublet.solvers.collision import collide as simulate
 from wetdoublet.solvers.commands.cli import main
 once = simulate.collide
