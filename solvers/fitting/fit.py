@@ -253,7 +253,7 @@ def _remarks(
         worst = int(np.argmax(undecided))
         said.append(
             f"Of the scatter of an impact ({data.label(worst)}), {100 * undecided[worst]:.2g} % has no outcome: "
-            "they take more steps than an integration may. This part counts as not observed."
+            "its collisions take more steps than an integration may. This part counts as not observed."
         )
     for name, residual in rows.residual.items():
         known = residual[np.isfinite(residual)]

@@ -29,7 +29,7 @@ from .measurements import Measurements
 
 UNDECIDED = -1
 _ENDLESS = (Status.NO_BUDGET, Status.CHATTER)  # the other engines' budget of steps is the same
-_HEAD_ON = 1e-12  # angle (rad) below which an impact is head-on; the results change with its square
+_HEAD_ON = 1e-12  # angle (rad) below which an impact is head-on: rounding on a line along the speeds
 _ANGLE = np.radians(89.5)  # largest impact angle at which a scattered impact is computed
 _PLACES: dict[str, tuple[int, int | str]] = {  # column of the derivative, field of the value
     "restitution": (0, 0),

@@ -151,9 +151,10 @@ class Fit:
         first = [CONTRADICTED, ""] if self.rows.contradicted else []
         lines = [f"{count}, log-likelihood {self.log_likelihood:.3f}", "", *first]
         lines += ["  ".join(cell.ljust(size) for cell, size in zip(row, widths)).rstrip() for row in (head, *rows)]
-        for title, said in (("", self.combinations), ("", self.remarks[len(first) // 2 :])):
+        remarks = [each for each in self.remarks if each not in first]
+        for said in (self.combinations, remarks):
             if said:
-                lines += ["", *([title] if title else []), *said]
+                lines += ["", *said]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:

@@ -51,7 +51,7 @@ def experiment(seed: int) -> dict[str, object]:
     start, wall = time.process_time(), time.perf_counter()
     found = fit(preset, data, free)
     told["seconds"], told["wall"] = time.process_time() - start, time.perf_counter() - wall
-    told["evaluations"], told["quadrature"] = found.objective.evaluations, found.quadrature
+    told["quadrature"] = found.quadrature
     told["remarks"] = found.remarks
     told["estimates"] = {name: each.to_dict() for name, each in found.estimates.items()}
     told["below"] = float(found.objective.value(found.best) - found.objective.value(_inner(found, truth)))

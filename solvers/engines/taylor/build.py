@@ -48,7 +48,7 @@ FLAGS = (
     "-std=gnu11",
     "-w",
 )
-# For a few collisions: half the compile time, the same arithmetic, about 5 % slower (docs/engineering/kernel.md).
+# For a few collisions: compiles faster, the same results to rounding, about 5 % slower (docs/engineering/kernel.md).
 FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
 _ONCE = "#pragma once"
 # What only kernels of models with declared events contain is taken out of the others' text, and so out of their digest.

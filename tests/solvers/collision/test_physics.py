@@ -124,7 +124,7 @@ def test_slow_escape_follows_the_one_fifth_power() -> None:
     mass=st.floats(0.01, 100),
     time=st.floats(0.01, 100),
     stokes=st.floats(0.01, 0.3),
-    angle=st.just(0.0) | st.floats(1e-9, 1.4),  # smaller ones leave the range of doubles and are refused
+    angle=st.just(0.0) | st.floats(1e-9, 1.4),  # the smallest doubles are refused
 )
 def test_similarity(length: float, mass: float, time: float, stokes: float, angle: float) -> None:
     """A scene measured in other units of mass, length and time collides alike: only the groups matter."""
