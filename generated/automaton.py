@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 6c8a4632e33fe9268e9440c67f6b559d920d4f1c21e700b93e89edf6de0e4354
+# Automaton sha256 3ee32522a5e57490ec0d430d478e23e9187623055d83b8d9b2eb87687555a870
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -101,6 +101,7 @@ class Status(IntEnum):
     TOO_OBLIQUE = 5  # the centrifugal force is beyond MOST_OBLIQUE
     RESTS_IN_FRICTION = 6  # resting contact with friction, whose modes this kernel does not integrate
     ESCAPED = 7  # a stick that is proved separates when it is followed on: a defect
+    WITHIN_ROUNDING = 8  # the doublet separates at less than LEAST_PARTING
 
 
 LAST_ANSWER = Status.PROVED_AT_TOUCH
@@ -121,6 +122,7 @@ LOOSEST = 1e-06  # largest relative tolerance; a larger one is reduced to it, as
 SAFETY = 30.0  # least margin of a certificate in tolerances of the largest energy: errors of the fastest motion persist in the energy, and errors of many steps add up
 STILL = 1e-09  # in v0: a slower motion is at a turning point
 NO_SLIP = 1e-12  # in units of the tangential velocity: a smaller slip in resting contact is none
+CREEP = 1e-10  # the same in space, where friction is less by s/sqrt(s^2 + CREEP^2) at the slip s: rolling surfaces creep
 CHATTER_PHASES = 100  # number of phases beyond which a trajectory is treated as chatter
 CYCLES = 20  # successive maxima of the gap, none above the one before, that count as chatter
 FILM_DEPTHS = 16  # gaps in geometric sequence down to contact at which the film certificate bounds the pressure
@@ -128,7 +130,9 @@ ATTRACTED_FILM_DEPTHS = 48  # the same with an attraction, which grows at small 
 APPROACH_PARTS = 24  # parts of the film, in geometric sequence, of the approach certificate
 DEEPEST_PART = 0.01  # where they end, over x0, unless solid contact is above
 TUMBLES = 0.001  # in space: a doublet tumbles as one body where all other motion has less than this part of the energy of rigid rotation
+TURNLESS = 3.552713678800501e-15  # in space: a component that is a smaller part of the largest vector of its kind is rounding, and where all are, nothing rotates
 LEAST_SLIP = 1e-12  # in the scale of tangential speeds: below it at initial contact no ratio of slips is formed
+LEAST_PARTING = 1.4210854715202004e-14  # in the scale of tangential speeds times sqrt(x0/a): a slower separation is what rounding of the angular momentum alone sets off, and decides nothing
 LEAST_DEPTH = 1e-40  # least gap, relative to the present one, of the film certificate without contact
 
 

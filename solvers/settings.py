@@ -8,14 +8,27 @@ from .scene.schema import Field, Range
 CASADI_ENGINES = ("cvodes", "rosenbrock")  # plugins of CasADi's `integrator`
 ENGINES = (*CASADI_ENGINES, "taylor")
 RTOL = 1e-9  # default
-# Most steps of one collision in one attempt, for every engine; beyond it a ComputationError names the phase and state.
-STEPS = 100_000
-CALL = 25  # least number of steps that an integrator call counts for; bounds chatter, which makes many short calls
-FEW = 100  # up to this many collisions, compiling the kernel does not pay
+# Budget of one collision for all engines that try it, about a second on one core, in steps of the planar kernel. Beyond
+# it a ComputationError says where the collision stands, or a status of the exported law that it is undecided.
+STEPS = 300_000
+STEPS_IN_SPACE = STEPS // 3  # the same time in steps of the kernel in space
+CASADI_STEPS, CASADI_STEPS_IN_SPACE = STEPS // 20, STEPS // 30  # and in steps of CasADi's Rosenbrock
+KERNEL_STEPS, KERNEL_STEPS_IN_SPACE = STEPS // 2, STEPS_IN_SPACE // 2  # of the kernel, where CasADi has the other half
+CALL = 25  # least number of steps that a CasADi call counts for; bounds chatter, which makes many short calls
+FEW = 100  # up to this many collisions, a second core does not pay
 TOLERANCE = Field(
     "rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", 1e-13, 1e-3, low_open=False, high_open=False)
 )
 UNTIL = Field("until", "a time after initial contact", '"5 ms"', unit="s")  # to which a stick is followed on
+
+
+def casadi_steps(rtol: float, space: bool = False, after_kernel: bool = False) -> int:
+    """Most steps of one collision by CasADi: of all its budget, or of what the kernel leaves.
+
+    Below the default tolerance they are more in the ratio of the step lengths of Rosenbrock, of order 5.
+    """
+    most = (CASADI_STEPS_IN_SPACE if space else CASADI_STEPS) // (2 if after_kernel else 1)
+    return round(most * max(1.0, float((RTOL / rtol) ** (1 / 5))))
 
 
 def check_rtol(rtol: object, label: str = "rtol") -> float:

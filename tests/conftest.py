@@ -10,7 +10,6 @@ from hypothesis import HealthCheck, settings
 
 from .helpers.data import BOUNDARIES, COLLISIONS
 
-os.environ["WETDOUBLET_BACKGROUND"] = "off"  # nothing outlives the tests but where that is tested
 # Some 250 kernels are compiled with little optimization: the same results but for rounding. What users get is compiled
 # by `test_kernel.py`, which integrates every reference collision.
 os.environ.setdefault("WETDOUBLET_CFLAGS", "-O1 -fno-unroll-loops -fno-expensive-optimizations -fno-tree-pre -fno-gcse")

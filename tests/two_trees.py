@@ -213,7 +213,7 @@ class Tree:
         environment = {key: value for key, value in os.environ.items() if not key.startswith("WETDOUBLET_")}
         environment |= {
             "PYTHONPATH": str(self.work / "path"), "XDG_CACHE_HOME": str(cache), "WETDOUBLET_CFLAGS": flags,
-            "MPLBACKEND": "agg", "PYTHONHASHSEED": "0", "WETDOUBLET_BACKGROUND": "off",
+            "MPLBACKEND": "agg", "PYTHONHASHSEED": "0",
         }  # fmt: skip
         task = {"source": str(self.source), "kind": kind, "seed": options.seed, "quick": options.quick}
         task |= {"collisions": options.collisions, "conditioning": not flags and self.name == "before"}

@@ -21,6 +21,7 @@ from .conservation import energy
 from .dimensions import dimension_checks
 from .dissipation import arms, bridge_does_work, film_dissipates, rebound_dissipates
 from .emitted import emitted
+from .floating import floating_doublets
 from .friction import friction_checks
 from .groups import (
     centrifugal_number,
@@ -101,6 +102,7 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     yield from films_fall([*of("film"), *of("shear")])
     yield from _once(approach_certificate)
     yield from _once(spin_down_certificate)
+    yield from _once(floating_doublets)
     yield from certificates(own)
     yield from _once(groups_span_the_nullspace)
     yield from _once(groups_are_the_papers)

@@ -2,19 +2,37 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import sympy as sp
 
-from ..equations.friction import COMPLIANCE, DRY_SLIP, IMPULSE, ROLLING, SLIDING
+from ..equations.friction import COMPLIANCE, DRY_SLIP, DRY_SLIPS, IMPULSE, LEAST_DIRECTION, ROLLING, SLIDING
 from ..equations.intermediates import MOMENTUM
 from ..equations.model import Model, derive
 from ..physics.contact_friction import beside_wall, equal_spheres, unequal_spheres
 from ..physics.laws import LAWS
 from ..physics.mechanics import arm
-from ..physics.partners.pair import LEVER
+from ..physics.partners.bodies import CENTRES
+from ..physics.partners.pair import LEVER, ORBITAL_RATE, PARTNER_RADIUS, RADIUS
+from ..physics.partners.space import PARTNER_SLIPS, PARTNER_TWIST, SLIPS, TWIST
+from ..physics.partners.vectors import dot, on_the_sphere
 from ..physics.structure import Partner, Structure
-from ..vocabulary.quantities import a, aspect, beta_0, decay, gap, m
+from ..vocabulary.quantities import (
+    a,
+    aspect,
+    beta_0,
+    decay,
+    gap,
+    m,
+    normal,
+    orbital_momenta,
+    orbital_momentum,
+    partner_spin,
+    partner_spins,
+    spin,
+    spins,
+)
 from .base import Check, vanishing
 from .closed import filled
 from .signs import nonnegative
@@ -106,6 +124,42 @@ def resting_contact() -> tuple[Check, ...]:
     )
 
 
+def in_space() -> tuple[Check, ...]:
+    """The slip lies across n, and the impulse along it, within the cone, with the plane's answer in each component.
+
+    Energy and angular momentum are those of the plane for each component, so what is shown there holds in space.
+    """
+    model, pair = derive(replace(_FREE[1], partner="space")), derive(_FREE[1])
+    jump, planar = (dict(each["rubbed"].outputs) for each in (model, pair))
+    midgap = {LEVER: dict(model.definitions)[LEVER]}
+    twist = [RADIUS * TWIST + PARTNER_RADIUS * PARTNER_TWIST]
+    slips = [dict(model.definitions)[each] for each in DRY_SLIPS]
+    flat = dict(pair.definitions)[DRY_SLIP].subs(midgap)
+    size, left = sp.sqrt(dot(DRY_SLIPS, DRY_SLIPS) + LEAST_DIRECTION**2), []
+    across = on_the_sphere(
+        dot(slips, normal).subs({TWIST: dot(SLIPS, normal), PARTNER_TWIST: dot(PARTNER_SLIPS, normal)}),
+        normal,
+        orbital_momenta,
+    )
+    for k, slip in enumerate(slips):
+        of_plane = {
+            ORBITAL_RATE: SLIPS[k] + spins[k],
+            spin: spins[k],
+            partner_spin: SLIPS[k] + spins[k] - PARTNER_SLIPS[k],
+        }
+        there = sp.expand(flat.subs(of_plane, simultaneous=True) - midgap[LEVER] * twist[0] * normal[k])
+        left.append((slip - there).subs(CENTRES, RADIUS + PARTNER_RADIUS))
+        for vector, state in ((orbital_momenta, orbital_momentum), (spins, spin), (partner_spins, partner_spin)):
+            change = (planar[state.name] - state) * DRY_SLIPS[k] / size
+            left.append(jump[vector[k].name] - vector[k] - change)
+    part = sp.factor(1 - dot(DRY_SLIPS, DRY_SLIPS) / size**2)
+    return (
+        vanishing("friction in space: direction", "the slip lies across the line of centres", [across]),
+        vanishing("friction in space: answer", "each component of slip and impulse is the plane's", left),
+        Check("friction in space: cone", "|impulse| <= Coulomb's limit", part.is_nonnegative, str(part)),
+    )
+
+
 @cache
 def friction_checks() -> tuple[Check, ...]:
     """All of them."""
@@ -116,4 +170,5 @@ def friction_checks() -> tuple[Check, ...]:
         never_gains(),
         *angular_momentum(),
         *resting_contact(),
+        *in_space(),
     )

@@ -176,6 +176,27 @@ def outward_at_smaller_gaps() -> Check:
     return check if positive else replace(check, ok=False, figure=f"not all positive: {falls}")
 
 
+def rebounds_do_not_come_back() -> Check:
+    """The balance by which `solvers.certificates.rebounds` excludes that a maximum of the gap is reached again.
+
+    Along the line of centres u^2/2 changes at the rate u (C - P - film), P the attraction and C the centrifugal force:
+    what is not the inward force P - C is linear in u, a resistance, and only takes energy. From a maximum, the
+    attraction's work W down to a rebound a depth below is at least P depth where it falls with the gap, say P depth +
+    s. The rebound leaves e^2 W at most; the way back takes W - C depth at least. With (1 - e^2) P = C + d the lack is d
+    depth + (1 - e^2) s: positive.
+    """
+    model = derive(_SPACE)
+    rate, inward = (dict(model[each].outputs) for each in ("right_hand_side", "inward_force"))
+    film = sp.expand(opened(model, rate[normal_velocity.name] + inward["inward_force"]))
+    left = [film.subs(normal_velocity, 0), film.diff(normal_velocity, 2)]
+    depth, surplus, spare, centrifugal, lost = sp.symbols("depth surplus spare centrifugal lost", positive=True)
+    work = (centrifugal + spare) / lost * depth + surplus  # lost = 1 - e^2
+    lack = sp.expand(work - centrifugal * depth - (1 - lost) * work)
+    left.append(lack - spare * depth - lost * surplus)
+    statement = "e^2 W < W - C depth if C < (1 - e^2) P and P falls with the gap"
+    return vanishing("space: no return", statement, left)
+
+
 def reduced_in_space() -> Check:
     """The form without the partner's spin has the rates of the full one."""
     reduced, full = derive(replace(_SPACE, reduced=True)), derive(_SPACE)
@@ -239,6 +260,7 @@ def space_checks() -> tuple[Check, ...]:
         friction_in_space_dissipates(),
         least_energy_in_space(),
         outward_at_smaller_gaps(),
+        rebounds_do_not_come_back(),
         reduced_in_space(),
         plane_in_space(),
     )

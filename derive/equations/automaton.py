@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 CLOSING, OPENING = -1, 1
 APPROACH_PARTS, DEEPEST_PART = 24, 0.01
+CREEP = 1e-10
 
 
 @dataclass(frozen=True)
@@ -231,9 +232,11 @@ RULES = (
          "the gap is held in contact; the energy of the rebound is booked as dry contact", ("rests",)),
     Rule("friction", "a rebound of a scene with friction, by solid contact or, if asked for, by glass",
          "a tangential impulse that reverses the slip times contact_tangential_restitution (it sticks), or Coulomb's "
-         "limit if that is less (it slides)"),
+         "limit if that is less (it slides). If the doublet comes to rest, the limit is that of the approach alone"),
     Rule("grip", "a rebound of a scene with friction rests",
-         "it slides; if it has no slip (less than NO_SLIP) and friction can hold the surfaces, it rolls", ("rolls",)),
+         "it slides; if it has no slip (less than NO_SLIP) and friction can hold the surfaces, it rolls. In space "
+         "it slides in the direction of the slip, which may turn, and rolls where that is less than CREEP", ("rolls",)),
+    Rule("parting", "the doublet ruptures at a normal velocity below LEAST_PARTING", "no outcome is decided"),
     Rule("opening", "the doublet opens on the edge of the film or of the tangential force", "it is beyond that edge"),
     Rule("obliqueness", "the centrifugal force exceeds MOST_OBLIQUE times v0^2/x0", "the collision is refused"),
 )  # fmt: skip
@@ -277,6 +280,7 @@ STATUSES = (
     Status("TOO_OBLIQUE", "the centrifugal force is beyond MOST_OBLIQUE"),
     Status("RESTS_IN_FRICTION", "resting contact with friction, whose modes this kernel does not integrate"),
     Status("ESCAPED", "a stick that is proved separates when it is followed on: a defect"),
+    Status("WITHIN_ROUNDING", "the doublet separates at less than LEAST_PARTING"),
 )  # fmt: skip
 
 
@@ -314,6 +318,10 @@ CONSTANTS = (
              "motion persist in the energy, and errors of many steps add up"),
     Constant("STILL", 1e-9, "in v0: a slower motion is at a turning point"),
     Constant("NO_SLIP", 1e-12, "in units of the tangential velocity: a smaller slip in resting contact is none"),
+    Constant(
+        "CREEP", CREEP,
+        "the same in space, where friction is less by s/sqrt(s^2 + CREEP^2) at the slip s: rolling surfaces creep",
+    ),
     Constant("CHATTER_PHASES", 100, "number of phases beyond which a trajectory is treated as chatter"),
     Constant("CYCLES", 20, "successive maxima of the gap, none above the one before, that count as chatter"),
     Constant("FILM_DEPTHS", 16, "gaps in geometric sequence down to contact at which the film certificate bounds the "
@@ -323,7 +331,11 @@ CONSTANTS = (
     Constant("DEEPEST_PART", DEEPEST_PART, "where they end, over x0, unless solid contact is above"),
     Constant("TUMBLES", 1e-3, "in space: a doublet tumbles as one body where all other motion has less than this part "
              "of the energy of rigid rotation"),
+    Constant("TURNLESS", 16 * 2.0**-52, "in space: a component that is a smaller part of the largest vector of its "
+             "kind is rounding, and where all are, nothing rotates"),
     Constant("LEAST_SLIP", 1e-12, "in the scale of tangential speeds: below it at initial contact no ratio of slips is "
              "formed"),
+    Constant("LEAST_PARTING", 2.0**-46, "in the scale of tangential speeds times sqrt(x0/a): a slower separation is "
+             "what rounding of the angular momentum alone sets off, and decides nothing"),
     Constant("LEAST_DEPTH", 1e-40, "least gap, relative to the present one, of the film certificate without contact"),
 )  # fmt: skip

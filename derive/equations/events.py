@@ -55,7 +55,7 @@ def events(structure: Structure) -> dict[str, sp.Expr]:
         functions["tangential_edge"] = slot_call("shear", "edge", aspect) - gap
     if structure.oblique and structure.partner != "wall":  # beside a wall there is no centrifugal force
         functions["release"] = inward_force(structure)
-    if structure.friction:
+    if structure.friction and structure.partner != "space":
         functions["slipping"] = friction.DRY_SLIP
         functions["rolling"] = friction.GRIP**2 - friction.HOLDING_FORCE**2
     if structure.oblique and structure.strings:

@@ -6,7 +6,10 @@ import sympy as sp
 
 from ..physics.contact_friction import rubbing
 from ..physics.laws.base import Definition
-from ..physics.partners import wall
+from ..physics.partners import space, wall
+from ..physics.partners.bodies import CENTRES
+from ..physics.partners.pair import LEVER
+from ..physics.partners.vectors import dot
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import (
@@ -18,10 +21,16 @@ from ..vocabulary.quantities import (
     last_slide,
     mu_f,
     normal_velocity,
+    orbital_momenta,
     orbital_momentum,
+    partner_spin,
+    partner_spins,
     roll,
     slide,
+    spin,
+    spins,
 )
+from .automaton import CREEP
 from .intermediates import ORBITAL_RATE
 from .rates import rates
 
@@ -30,6 +39,8 @@ IMPULSE = sp.Symbol("impulse", real=True)
 # Flags of resting contact, named as in emitted code: the sign of the slip (0: it does not slide), and whether it rolls
 SLIDING, ROLLING = sp.symbols("sliding rolling", real=True)
 DRY_SLIP, HOLDING_FORCE, DRY_FORCE = sp.symbols("dry_slip holding_force dry_force", real=True)
+DRY_SLIPS = space.named("dry_slip")
+LEAST_DIRECTION = sp.Float("1e-150")  # no slip has no direction: below it an impulse has none
 COMPLIANCE, GRIP = sp.symbols("tangential_compliance grip", positive=True)
 
 
@@ -40,6 +51,14 @@ def definitions(structure: Structure, reaction: sp.Expr) -> tuple[Definition, ..
         reaction: normal force of resting contact, over m v0^2/x0.
     """
     contact = rubbing(structure.partner)
+    if structure.partner == "space":
+        return (
+            (LEVER, DISTANCE / CENTRES),  # at mid-gap
+            (COMPLIANCE, contact.compliance),
+            *zip(DRY_SLIPS, space.surface_slips(), strict=True),
+            (DRY_SLIP, sp.sqrt(dot(DRY_SLIPS, DRY_SLIPS))),
+            (GRIP, mu_f * contact.grip * reaction),
+        )
     held = _smooth_rates(structure)
     slip = contact.slip.subs(ORBITAL_RATE, orbital_momentum / DISTANCE**2)
     slipping = sum((slip.diff(state) * rate for state, rate in held.items()), _ZERO)  # the gap is held
@@ -61,18 +80,26 @@ def _smooth_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
 
 
 def at_rebound(structure: Structure) -> dict[str, sp.Expr]:
-    """Slip before a rebound, the impulse that would make it stick, and Coulomb's limit of its magnitude."""
-    normal = (1 + e_dry) * -normal_velocity
+    """Slip before a rebound, the impulse that would make it stick, and Coulomb's limit of its magnitude.
+
+    Where the doublet comes to rest instead (`rest_most`), the contact has stopped the approach only: the rebounds that
+    are left out press as hard in the mean as resting contact, which begins at once.
+    """
+    stopping = mu_f * rubbing(structure.partner).grip * -normal_velocity
     return {
         "slip": DRY_SLIP,
         "sticking": (1 + beta_0) * DRY_SLIP / COMPLIANCE,
-        "most": mu_f * rubbing(structure.partner).grip * normal,
+        "most": (1 + e_dry) * stopping,
+        "rest_most": stopping,
     }
 
 
 def rubbed(structure: Structure, states: tuple[sp.Symbol, ...]) -> dict[sp.Symbol, sp.Expr]:
     """State just after `IMPULSE`; the normal velocity is as before."""
     contact = rubbing(structure.partner)
+    if structure.partner == "space":
+        pushed = _along_the_slip(IMPULSE, LEAST_DIRECTION)
+        return {state: state + pushed.get(state, _ZERO) for state in states}
     if structure.partner == "wall":
         return {
             **{state: state for state in states},
@@ -83,6 +110,21 @@ def rubbed(structure: Structure, states: tuple[sp.Symbol, ...]) -> dict[sp.Symbo
     return {state: state + contact.changes.get(state, _ZERO) * IMPULSE for state in states}
 
 
+def _along_the_slip(size: sp.Expr, least: sp.Expr | float) -> dict[sp.Symbol, sp.Expr]:
+    """Changes of the vectors in space by an impulse, or a force, of this size against the slip.
+
+    Where the slip is less than `least` it is as much smaller than `size`.
+    """
+    answer = rubbing("space").changes
+    vectors = ((orbital_momentum, orbital_momenta), (spin, spins), (partner_spin, partner_spins))
+    share = size / sp.sqrt(dot(DRY_SLIPS, DRY_SLIPS) + least**2)
+    return {
+        state: answer[planar] * share * slip
+        for planar, vector in vectors
+        for state, slip in zip(vector, DRY_SLIPS, strict=True)
+    }
+
+
 def loss(structure: Structure) -> sp.Expr:
     """Energy that `IMPULSE` takes from the tangential motion, over m v0^2: the impulse times the mean slip."""
     return rubbing(structure.partner).energy * IMPULSE * (DRY_SLIP - COMPLIANCE * IMPULSE / 2)
@@ -91,6 +133,9 @@ def loss(structure: Structure) -> sp.Expr:
 def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """Rates of the states in resting contact, with friction."""
     contact, held = rubbing(structure.partner), _smooth_rates(structure)
+    if structure.partner == "space":
+        pushed = _along_the_slip(SLIDING * GRIP, CREEP)
+        return {**{s: rate + pushed.get(s, _ZERO) for s, rate in held.items()}, gap: _ZERO, normal_velocity: _ZERO}
     if structure.partner == "wall":  # since the rebound, `decay` is zero
         return {
             gap: _ZERO,
@@ -105,4 +150,8 @@ def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
 
 def resting_power(structure: Structure) -> sp.Expr:
     """Energy taken by sliding in resting contact per x0/v0, over m v0^2."""
-    return rubbing(structure.partner).energy * SLIDING * GRIP * DRY_SLIP
+    contact = rubbing(structure.partner)
+    if structure.partner == "space":
+        square = dot(DRY_SLIPS, DRY_SLIPS)
+        return contact.energy * SLIDING * GRIP * square / sp.sqrt(square + CREEP**2)
+    return contact.energy * SLIDING * GRIP * DRY_SLIP

@@ -220,7 +220,7 @@ def _friction(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mode
         ModelFunction(
             "dry_slip",
             "Friction of a rebound that starts from this state: the slip of the surfaces, the impulse with which they "
-            "stick, and the largest impulse, with which they slide.",
+            "stick, and the largest impulse, with which they slide, also where the doublet comes to rest.",
             tuple(friction.at_rebound(structure).items()),
         ),
         ModelFunction(
@@ -235,13 +235,18 @@ def _friction(structure: Structure, states: tuple[sp.Symbol, ...]) -> tuple[Mode
             (("dry_friction", friction.loss(structure)),),
             given=(friction.IMPULSE,),
         ),
-        ModelFunction(
-            "dry_forces",
-            "Forces of resting contact, over the unit of the tangential impulse per x0/v0: Coulomb's limit, and the "
-            "force that holds the surfaces together where they roll.",
-            (("limit", friction.GRIP), ("holding", friction.HOLDING_FORCE)),
-            regional=True,
-        ),
+    ) + (
+        ()
+        if structure.partner == "space"
+        else (
+            ModelFunction(
+                "dry_forces",
+                "Forces of resting contact, over the unit of the tangential impulse per x0/v0: Coulomb's limit, and "
+                "the force that holds the surfaces together where they roll.",
+                (("limit", friction.GRIP), ("holding", friction.HOLDING_FORCE)),
+                regional=True,
+            ),
+        )
     )
 
 

@@ -102,7 +102,10 @@ def beside_wall() -> Answer:
 
 
 def rubbing(partner: str) -> Rubbing:
-    """The dry contact of a structure with this partner ("" for an equal sphere)."""
+    """The dry contact of a structure with this partner ("" for an equal sphere).
+
+    In space that of a pair, for each component across the line of centres: spheres answer alike in all of them.
+    """
     if partner == "wall":
         return _beside_wall()
     return _pair() if partner else _equal()

@@ -42,8 +42,8 @@ class Structure:
             raise ValueError("a film of constant volume needs the bridge whose volume it is")
         if self.partner and (not self.oblique or self.strings):
             raise ValueError("another partner than an equal is oblique (head-on it makes no difference) and free")
-        if self.friction and (not self.oblique or self.reduced or self.partner == "space"):
-            raise ValueError("friction is oblique and planar, and acts on the spin, which stays a state")
+        if self.friction and (not self.oblique or self.reduced):
+            raise ValueError("friction is oblique, and acts on the spin, which stays a state")
         if self.reduced and self.partner not in ("", "space"):
             raise ValueError("a spin of an unequal pair in the plane is not eliminated")
 
@@ -72,8 +72,8 @@ def known() -> tuple[Structure, ...]:
     extended = []
     for attraction, spread in product(_EITHER, repeat=2):
         extended += [replace(s, attraction=attraction, spread=spread) for s in shapes if s.bridge or not spread]
-    planar = [s for s in extended if s.oblique and not s.reduced and s.partner != "space"]
-    rough = [replace(s, friction=friction) for friction in _FRICTIONS for s in planar]
+    spun = [s for s in extended if s.oblique and not s.reduced]
+    rough = [replace(s, friction=friction) for friction in _FRICTIONS for s in spun]
     return (*extended, *rough)
 
 

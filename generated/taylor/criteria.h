@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 6c8a4632e33fe9268e9440c67f6b559d920d4f1c21e700b93e89edf6de0e4354
+ * Automaton sha256 3ee32522a5e57490ec0d430d478e23e9187623055d83b8d9b2eb87687555a870
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

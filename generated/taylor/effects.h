@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 6c8a4632e33fe9268e9440c67f6b559d920d4f1c21e700b93e89edf6de0e4354
+ * Automaton sha256 3ee32522a5e57490ec0d430d478e23e9187623055d83b8d9b2eb87687555a870
  *
  * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
  * known. */
@@ -22,7 +22,7 @@ static void act(queue *q, lanes *l, fixed *f, int lane, int event)
         break;
     case AT_RUPTURE:
         LANE(l->y[GAP], lane) = LANE(f->end, lane);
-        separated(q, l, f, lane);
+        parts(q, l, f, lane);
         break;
     case AT_FILM_EDGE:
         note(q, LANE(l->index, lane), KIND_FILM_EDGE, LANE(l->time, lane));

@@ -104,7 +104,7 @@ def _apart(mean: np.ndarray) -> np.ndarray:
 def to_csv(data: xarray.Dataset) -> str:
     """The table of averages: a row for each pair; derivatives in columns `d(QUANTITY)/d(ENTRY)`, SI.
 
-    Numbers round-trip; a field is empty where a result is not defined.
+    The column `relative_speeds` says which, as text. Numbers round-trip; a field is empty where a result is not defined.
     """
     dims = [str(name) for name in data["stick_probability"].dims]
     shape = data["stick_probability"].shape
@@ -112,6 +112,7 @@ def to_csv(data: xarray.Dataset) -> str:
     for k, name in enumerate(dims):
         axis = data[name].values.reshape([-1 if j == k else 1 for j in range(len(dims))])
         columns[f"{name} [m]"] = np.broadcast_to(axis, shape).ravel()
+    columns["relative_speeds"] = np.full(data["stick_probability"].size, data.attrs["speeds"])
     plain = [str(name) for name in data.data_vars if data[name].dims == data["stick_probability"].dims]
     columns |= {name: data[name].values.ravel() for name in sorted(plain, key=lambda name: name == "reason")}
     for variable, said in (("gradient", ""), ("gradient_error", " error")) if "gradient" in data else ():

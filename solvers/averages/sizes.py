@@ -15,7 +15,7 @@ from ..errors import ComputationError
 from ..host.cores import usable_cores
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
-from ..settings import FEW, STEPS
+from ..settings import FEW, KERNEL_STEPS
 
 FIXED, PROPORTIONAL = FILMS = ("fixed", "proportional")
 STICK = 0  # label of every stick
@@ -95,7 +95,7 @@ class Pairs:
         within = np.minimum(angle, STEEPEST)
         impacts = Impacts(self.scenes[0], speed * np.cos(within), within, others)
         threads = usable_cores() if angle.size > FEW else 1
-        found = run_kernel(impacts, rtol, threads=threads, budget=_BUDGET if locating else STEPS, jumps=1)
+        found = run_kernel(impacts, rtol, threads=threads, budget=_BUDGET if locating else KERNEL_STEPS, jumps=1)
         if found is None:
             raise ComputationError(
                 "averages need the compiled kernel, which this scene or machine does not have",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..engines.choice import boundary_engine
+from ..engines.choice import collision_engine
 from ..errors import InputError
 from ..host.arguments import check_function, check_whole
 from ..host.cores import usable_cores
@@ -17,9 +17,10 @@ from ..many.batch import checked_numbers, checked_span
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import RTOL, check_rtol
-from .found import LINES, STOKES, Curves, Lines
+from .found import LINES, Curves, Lines
 from .plane import ANGLE, check_plane
 from .trace import Traced, traces
+from .window import stokes_range
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -48,12 +49,14 @@ class Boundaries(Lines):
         return dataset(self)
 
     def to_pandas(self) -> pd.DataFrame:
-        """A row for each change of outcome: angle (rad), stokes, centrifugal, before, after and kind."""
+        """A row for each change: angle (rad), stokes, centrifugal, normal and relative speed (m/s), outcomes, kind."""
         from ..formatting.frames import frame
 
         pairs = [(angle, one) for angle, line in zip(self.angles, self.changes, strict=True) for one in line]
-        names = ("stokes", "centrifugal", "before", "after", "kind")
-        columns = {name: [getattr(one, name) for _, one in pairs] for name in names}
+        rows = [self.change_dict(one, angle) for angle, one in pairs]
+        names = ("stokes", "centrifugal", "speed", "relative_speed")
+        columns = {name: [row.get(name) for row in rows] for name in names}
+        columns |= {name: [getattr(one, name) for _, one in pairs] for name in ("before", "after", "kind")}
         return frame({"angle": [angle for angle, _ in pairs], **columns})
 
     def _repr_html_(self) -> str:
@@ -105,7 +108,7 @@ def boundary(
     scene: Scene | str | FilePath,
     *,
     angle: Any = None,
-    stokes: tuple[float, float] = STOKES,
+    stokes: tuple[float, float] | None = None,
     rtol: float = RTOL,
     progress: Callable[[int], None] | None = None,
 ) -> Boundaries:
@@ -114,7 +117,7 @@ def boundary(
     Arguments:
         scene: a Scene, a path or a preset's name.
         angle: impact angles in rad, a number or 1-D; default the scene's. Traced in ascending order.
-        stokes: lowest and highest Stokes number.
+        stokes: lowest and highest Stokes number; None for 1e-4 to 100, or more where closed forms ask for it.
         rtol: relative tolerance of the integrations.
         progress: called with the number of angles done.
 
@@ -131,13 +134,13 @@ def boundary(
     """
     loaded = Scene.load(scene)
     angles = checked_numbers("impact.angle", loaded.angle if angle is None else angle).reshape(-1)
-    low, high = checked_span("impact.stokes", stokes)
+    low, high = stokes_range(loaded, {*angles.tolist()}) if stokes is None else checked_span("impact.stokes", stokes)
     if low < 1 / _LARGEST or high > _LARGEST:
         raise InputError("impact.stokes", f"{low}:{high}", f"from {1 / _LARGEST:g} to {_LARGEST:g}", "is too far off")
     rtol, tell = check_rtol(rtol), check_function(progress, "progress") or (lambda _done: None)
     warn(loaded)
     order = np.argsort(angles, kind="stable")
-    worth = _WORTH_BY_KERNEL if boundary_engine(loaded) == "taylor" else _WORTH
+    worth = _WORTH_BY_KERNEL if collision_engine(loaded) == "taylor" else _WORTH
     cores = min(usable_cores(), max(1, angles.size // worth))
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0, 0.0)
@@ -165,7 +168,7 @@ def atlas(
     *,
     over: str = ANGLE,
     span: Sequence[Any],
-    stokes: tuple[float, float] = STOKES,
+    stokes: tuple[float, float] | None = None,
     lines: int = LINES,
     rtol: float = RTOL,
     progress: Callable[[int, int], None] | None = None,
@@ -180,7 +183,7 @@ def atlas(
         scene: a Scene, a path or a preset's name.
         over: dotted name of the entry on the x axis: the impact angle, or a numeric entry at the scene's angle.
         span: its lowest and highest value, SI (rad) or text with a unit.
-        stokes: lowest and highest Stokes number.
+        stokes: lowest and highest Stokes number; None for 1e-4 to 100, or more where closed forms ask for it.
         lines: number of lines of constant x to trace as well, including both edges.
         rtol: relative tolerance of the integrations.
         progress: called with (lines traced, lines in all).

@@ -8,17 +8,19 @@ from typing import Any
 
 import numpy as np
 
+from ...generated import scaling
 from ...generated.automaton import OUTCOMES
 from ..scene.origin import origin
+from ..scene.quantities import quantities
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS
+from ..scene.schema import FIELDS, MEETING
 from ..settings import RTOL
 from .arcs import CHORD, Arc
 from .changes import MERGED, Change
 from .plane import ANGLE
 from .regions import Slab, labelled, slabs
+from .window import STOKES
 
-STOKES = (1e-4, 100.0)  # default range of Stokes numbers
 LINES = 33  # default number of seed lines of an atlas
 LATTICE = (65, 193)  # columns and rows of the search lattice, with a kernel
 
@@ -52,13 +54,37 @@ class Lines:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --json`."""
-        changes = [[one.to_dict() for one in line] for line in self.changes]
+        lines = zip(self.angles, self.changes, strict=True)
+        changes = [[self.change_dict(one, angle) for one in line] for angle, line in lines]
         return {"angles": list(self.angles), "changes": changes} | self.origin(angles="rad")
 
+    def change_dict(self, change: Change, angle: float) -> dict[str, Any]:
+        """A change on the line of an angle (rad) as in the JSON objects: with its speeds, of boundaries of a scene."""
+        found = change.to_dict() | {"angle": angle}
+        if self.scene is None:
+            return found
+        speed = self.scene.speed_of(change.stokes)
+        return found | {"speed": speed, "relative_speed": speed / math.cos(angle)}
+
+    @property
+    def range_text(self) -> str:
+        """The range of the search in words: Stokes numbers, and normal speeds where the boundaries are of a scene."""
+        low, high = self.window
+        numbers = f"St {low:g} to {high:g}"
+        if self.scene is None or self._scale_varies:
+            return numbers
+        return f"{numbers} (normal speed {self.scene.speed_of(low):.4g} to {self.scene.speed_of(high):.4g} m/s)"
+
+    @property
+    def _scale_varies(self) -> bool:
+        """Whether a Stokes number means another speed from line to line."""
+        return False
+
     def origin(self, **units: str) -> dict[str, Any]:
-        """What the JSON objects say of where their numbers come from; `units` by key, St and Ce beside them."""
+        """What the JSON objects say of where their numbers come from; `units` by key, beside those of changes."""
         known = {} if self.scene is None else origin(self.scene)
-        return {"rtol": self.rtol, "units": {**units, "stokes": "1", "centrifugal": "1"}} | known
+        always = {"stokes": "1", "centrifugal": "1", "speed": "m/s", "relative_speed": "m/s", "angle": "rad"}
+        return {"rtol": self.rtol, "searched": list(self.window), "units": {**units, **always}} | known
 
     def __str__(self) -> str:
         lines = [f"angle (deg)   St              Ce          {self.speed_heading:<18} change"]
@@ -68,13 +94,18 @@ class Lines:
                 change = f"{self.speed_at(one.stokes, angle):<18.6g} {one.before} -> {one.after}"
                 lines.append(f"{math.degrees(angle):<13.6g} {one.stokes:<15.10g} {ce:<11} {change}")
             if not changes:
-                failure = next((reason for at, reason in self.failed if at == angle), "no change")
+                failure = next(
+                    (reason for at, reason in self.failed if at == angle), f"no change for {self.range_text}"
+                )
                 lines.append(f"{math.degrees(angle):<13.6g} {failure}")
         points = sum(len(changes) for changes in self.changes)
         merged = sum(one.merged for line in self.changes for one in line)
         lines += [f"{merged} of the changes stand for several closer than {MERGED:g}"] if merged else []
-        found = f"{points} change{'s' * (points != 1)} from {self.collisions} collisions"
-        return "\n".join([*lines, f"{found}; strips narrower than {self.resolution:.1%} in St may be missed"])
+        found = f"{points} change{'s' * (points != 1)} from " + (
+            f"{self.collisions} collisions" if self.collisions else "proofs at initial contact, without a collision"
+        )
+        lines.append(f"{found} for {self.range_text}; strips narrower than {self.resolution:.1%} in St may be missed")
+        return "\n".join(lines)
 
     @property
     def speed_heading(self) -> str:
@@ -160,13 +191,27 @@ class Curves(Lines):
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --angle LO:HI --json`."""
         found = {
-            "curves": [one.to_dict() for one in self.curves],
-            "points": [one.to_dict() for one in self.points],
+            "curves": [one.to_dict() | self._speeds(one.x, one.stokes) for one in self.curves],
+            "points": [one.to_dict() | self._speeds(one.x, one.stokes) for one in self.points],
             "resolution": self.sought,
         }
         if self.unsettled:
             found["unsettled"] = [{"x": x, "stokes": stokes, "reason": why} for x, stokes, why in self.unsettled]
         return found | self.origin(x=(self.scene.fields if self.scene else FIELDS)[self.over].unit or "1")
+
+    def _speeds(self, x: Any, stokes: Any) -> dict[str, Any]:
+        """Normal and relative speeds (m/s) of points of the plane, for JSON; empty without a scene."""
+        if self.scene is None:
+            return {}
+        entries: dict[str, Any] = {name: value for name, value in self.scene.si if name not in MEETING}
+        angle = np.asarray(x if self.over == ANGLE else self.scene.angle)
+        of = quantities(entries | ({} if self.over == ANGLE else {self.over: np.asarray(x)}), self.scene.ways)
+        speed = np.asarray(stokes) / scaling.stokes(of["reduced_radius"], of["reduced_mass"], of["viscosity"], 1.0)
+        return {"speed": speed.tolist(), "relative_speed": (speed / np.cos(angle)).tolist()}
+
+    @property
+    def _scale_varies(self) -> bool:
+        return self.over != ANGLE
 
     @property
     def sought(self) -> dict[str, float | str]:
@@ -216,7 +261,7 @@ class Curves(Lines):
         for one in self.curves:
             ends = " ... ".join(f"{shown(one.x[k]):.6g}, {one.stokes[k]:.6g}" for k in (0, -1))
             lines.append(f"{one.before + ' -> ' + one.after:<42} {one.kind:<16} {ends}")
-        lines += [] if self.curves else [f"none: {self.background} everywhere"]
+        lines += [] if self.curves else [f"none: {self.background} everywhere, for {self.range_text}"]
         if self.points:
             lines += ["", f"{'point':<24} {name:<18} St"]
             lines += [f"{one.kind:<24} {shown(one.x):<18.10g} {one.stokes:.10g}" for one in self.points]
@@ -224,9 +269,10 @@ class Curves(Lines):
         sought, spacing = self.sought, self.sought["line_spacing"]
         assert isinstance(spacing, float)
         told = (
-            f"from {len(self.at)} lines, {shown(spacing):.3g} apart, sampled every {self.resolution:.2%} in St; "
+            f"{self.range_text}; from {len(self.at)} lines, {shown(spacing):.3g} {'deg' if angle else '(SI)'} apart, "
+            f"sampled every {self.resolution:.2%} in St; "
             f"{self.collisions} collisions; straight lines between the points of a curve are within "
-            f"{sought['chord_stokes']:.1e} of St"
+            f"{sought['chord_stokes']:.1e} of St, relative"
         )
         if self.lattice != LATTICE:
             told += (

@@ -44,7 +44,11 @@ def dataset(found: Lines) -> xarray.Dataset:
     coordinates: dict[str, Any] = {
         "angle": ("line", np.array(found.angles), {"units": "rad", "long_name": "impact angle"})
     }
-    attributes: dict[str, Any] = {"resolution": found.resolution, "collisions": found.collisions}
+    attributes: dict[str, Any] = {
+        "resolution": found.resolution,
+        "collisions": found.collisions,
+        "searched": found.range_text,
+    }
     if found.scene is not None:
         attributes["scene"] = found.scene.to_toml()
     if isinstance(found, Curves):

@@ -18,7 +18,7 @@ from ...generated.automaton import CLOSING, KINDS, EventKind
 from ..certificates import Barrier, energy_proof
 from ..engines.casadi.integrators import IntegrationFailed, locator, tolerance_for
 from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, EventLocator, EventSequence
-from ..engines.choice import boundary_engine
+from ..engines.choice import collision_engine
 from ..engines.taylor.build import compile_all
 from ..engines.taylor.call import variant
 from ..errors import ComputationError
@@ -46,7 +46,7 @@ _GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # parts o
 
 def ready(scenes: Iterable[Scene]) -> None:
     """Compile the kernels for boundaries of these scenes, on all cores."""
-    known = (scene for scene in scenes if boundary_engine(scene) == "taylor")
+    known = (scene for scene in scenes if collision_engine(scene) == "taylor")
     wanted = (variant(scene, select_model(scene, True), RTOL, True, trajectory=True) for scene in known)
     needed = set(wanted)
     if len(needed) > 1:  # a single one is compiled where it is needed
@@ -79,7 +79,7 @@ class Line:
 
     def __post_init__(self) -> None:
         """Determine once whether the kernel supports the scene."""
-        self.kernel = boundary_engine(self.scene) == "taylor" if self.kernel is None else self.kernel
+        self.kernel = collision_engine(self.scene) == "taylor" if self.kernel is None else self.kernel
 
     def numbers(self, stokes: float) -> DimensionlessGroups:
         """Dimensionless groups at a Stokes number."""

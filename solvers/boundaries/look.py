@@ -9,14 +9,14 @@ import numpy as np
 
 from ...generated.automaton import KINDS, OUTCOMES, Purpose
 from ..engines.casadi.locate import EventLocator
-from ..engines.choice import boundary_engine
+from ..engines.choice import collision_engine
 from ..errors import ComputationError, InputError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
 from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, si_values
 from ..scene.scene import Scene
-from ..settings import STEPS
+from ..settings import KERNEL_STEPS
 from . import by_kernel
 from .samples import SAMPLE
 
@@ -43,7 +43,7 @@ class Look:
 
     def __post_init__(self) -> None:
         """Determine once whether the kernel supports the scene."""
-        self.kernel = boundary_engine(self.scene) == "taylor" if self.kernel is None else self.kernel
+        self.kernel = collision_engine(self.scene) == "taylor" if self.kernel is None else self.kernel
 
     @property
     def per_decade(self) -> int:
@@ -74,7 +74,9 @@ class Look:
         Arguments:
             kernel_only: leave collisions undecided that the kernel does not complete with the steps of a sample.
         """
-        told = self._told(angle, stokes, by_kernel.LOOK_BUDGET if kernel_only else STEPS) if self.kernel else None
+        told = (
+            self._told(angle, stokes, by_kernel.LOOK_BUDGET if kernel_only else KERNEL_STEPS) if self.kernel else None
+        )
         if told is None:
             return self.by_rosenbrock(angle, stokes)
         if kernel_only:
@@ -89,7 +91,8 @@ class Look:
     def _give_up(self, angle: float, stokes: float, told: np.void) -> None:
         n = nondimensionalise(self.scene, self.scene.speed_of(stokes), angle)
         self.reasons[angle, stokes] = (
-            f"{STEPS} steps do not decide the outcome: {told['events']} events by t = {told['time'] * n.time:.6g} s, "
+            f"{KERNEL_STEPS} steps do not decide the outcome: {told['events']} events by "
+            f"t = {told['time'] * n.time:.6g} s, "
             f"now at a gap of {told['final_gap'] * n.length:.6g} m; try another --rtol, or a collision further off"
         )
 

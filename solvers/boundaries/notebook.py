@@ -23,9 +23,10 @@ def html(found: Lines) -> str:
              f"{found.speed_at(one.stokes, angle):.6g}", f"{one.before} → {one.after}", one.kind)
             for one in line
         ]  # fmt: skip
-        rows += [] if line else [(at, failure or "no change", "", "", "", "")]
+        rows += [] if line else [(at, failure or f"no change for {found.range_text}", "", "", "", "")]
     head = ("angle (deg)", "St", "Ce", found.speed_heading, "change", "kind")
-    return view(f"{name}: boundaries between outcomes", rows, head, [f"{found.collisions} collisions"])
+    notes = [f"{found.collisions} collisions, {found.range_text}"]
+    return view(f"{name}: boundaries between outcomes", rows, head, notes)
 
 
 def _failures(found: Lines) -> tuple[str, ...]:

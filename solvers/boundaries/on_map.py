@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..engines.choice import boundary_engine
+from ..engines.choice import collision_engine
 from ..errors import ComputationError, InputError, ModelWarning
 from ..many.plot_map import Curve, panels
 from ..many.regime_map import impact_axis, scene_of
@@ -61,7 +61,7 @@ def map_curves(data: xarray.Dataset, package: Package | None = None) -> dict[int
 
 
 def _curves(scene: Scene, angles: np.ndarray, values: np.ndarray, impact: str, rtol: float) -> list[Curve]:
-    if boundary_engine(scene) != "taylor":
+    if collision_engine(scene) != "taylor":
         return []
     unit = np.array(1.0 if impact == "stokes" else scene.stokes_per_speed)
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, Purpose
-from ..engines.choice import boundary_engine
+from ..engines.choice import collision_engine
 from ..engines.taylor.call import run_kernel
 from ..engines.taylor.record import run_recorded
 from ..errors import InputError
@@ -18,7 +18,8 @@ from ..many.batch import Batch, checked_numbers, checked_vary
 from ..many.by_casadi import run
 from ..many.by_kernel import impacts_of
 from ..scene.scene import Scene
-from ..settings import STEPS
+from ..settings import KERNEL_STEPS
+from .window import STOKES, stokes_range
 
 ANGLE = "impact.angle"
 # rad; lower limit for a plane that starts head-on, so that collisions stay oblique; St* depends on the square of the
@@ -55,7 +56,7 @@ class Plane:
 
     def __post_init__(self) -> None:
         """Determine once whether the kernel supports the scene; start where collisions are oblique."""
-        self.kernel = boundary_engine(self.scene) == "taylor"
+        self.kernel = collision_engine(self.scene) == "taylor"
         self.edge = self.span[0]
         if self.over == ANGLE:
             self.span = max(self.edge, min(_least(self.scene), 0.5 * self.span[1])), self.span[1]
@@ -129,8 +130,8 @@ class Plane:
         if self.kernel:
             impacts, sound = impacts_of(self._request(points))
             oblique = bool(impacts.angle[0] > 0)
-            told = run_recorded(impacts, oblique, self.rtol, trajectory=True, budget=STEPS, purpose=Purpose.ESCAPE,
-                            keep=False, fold=False)  # fmt: skip
+            told = run_recorded(impacts, oblique, self.rtol, trajectory=True, budget=KERNEL_STEPS,
+                            purpose=Purpose.ESCAPE, keep=False, fold=False)  # fmt: skip
             if told is not None:
                 known = told.answers["status"] <= LAST_ANSWER
                 found[np.flatnonzero(sound)] = np.where(known, told.answers["reversal"], -2)
@@ -170,11 +171,12 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, la
     """The validated plane of a scene; InputError for invalid arguments.
 
     Arguments:
+        stokes: lowest and highest Stokes number; None for what the scenes at both ends of the span may meet.
         label: name of the argument or option of `over` and `span`.
     """
     if not isinstance(over, str):
         raise InputError(label, over, "the dotted name of an entry", "is not a name")
-    ends = _ascending("stokes", checked_numbers("impact.stokes", stokes))
+    ends = STOKES if stokes is None else _ascending("stokes", checked_numbers("impact.stokes", stokes))
     if scene.package is not None and scene.package.events:  # the kinds of its curves would be told wrongly
         accepted = "boundaries along lines, or a model without declared events"
         raise InputError(label, over, accepted, "spans no atlas of a model that declares events")
@@ -187,6 +189,9 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, la
             raise InputError("impact.angle", None, 'an angle, as angle = "60 deg" in [impact] or --set impact.angle')
         for x in plane.span:
             plane.scene_at(x)  # the scene validates the values
+    if stokes is None:
+        low, high = zip(*(stokes_range(at, [angle]) for at, angle in map(plane.scene_at, plane.span)))
+        plane.stokes = min(low), max(high)
     return plane
 
 

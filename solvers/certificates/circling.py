@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..scene.contact import contact_gap
+from .floating import inward, works
 from .orbital_momentum import OrbitalMomentumCertificate
 from .quadrature import panels
 
@@ -57,7 +58,7 @@ def _turn(proof: OrbitalMomentumCertificate, y: np.ndarray) -> _Turn | None:
         return None
     state = np.array([edge, 0.0, *y[2 : len(model.state)]])
     settled = np.array(list(model.values("rigid_rotation", state, proof.p).values()))
-    outward = -_inward(proof, np.array([edge]), settled)[0]
+    outward = -inward(model, proof.p, np.array([edge]), settled)[0]
     contact = contact_gap(proof.groups)
     radial = float(y[1]) ** 2 / 2 - _work(proof, y, float(y[0]), edge)
     if not outward > 0 or not 0 <= radial < _SHALLOW * outward * (edge - contact):
@@ -66,30 +67,21 @@ def _turn(proof: OrbitalMomentumCertificate, y: np.ndarray) -> _Turn | None:
     return _Turn(radial, barrier, _barrier(proof, y, edge) - barrier)
 
 
-def _inward(proof: OrbitalMomentumCertificate, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Inward force at these gaps, with the momenta of a state."""
-    states = np.repeat(y[: len(proof.model.state), None], gaps.size, axis=1)
-    states[0] = gaps
-    force: np.ndarray = np.asarray(proof.model.function("inward_force")(states, proof.p).full())[0]
-    return force
-
-
 def _work(proof: OrbitalMomentumCertificate, y: np.ndarray, start: float, end: float) -> float:
     """Work against the inward force from gap `start` to `end`."""
-    edges = start + (end - start) * np.linspace(0.0, 1.0, 9)
-    return float(np.sum(panels(lambda gaps: _inward(proof, gaps, y), edges)))
+    return float(np.sum(works(proof.model, proof.p, y, start, end)))
 
 
 def _barrier(proof: OrbitalMomentumCertificate, y: np.ndarray, edge: float) -> float:
     """The largest work against the inward force from the edge to any larger gap."""
     gaps = np.geomspace(edge, proof.end, _GAPS)
-    work = np.concatenate([[0.0], np.cumsum(panels(lambda at: _inward(proof, at, y), gaps))])
+    work = np.concatenate([[0.0], np.cumsum(panels(lambda at: inward(proof.model, proof.p, at, y), gaps))])
     top = 1 + int(np.argmax(work[1:]))
     if top == work.size - 1:
         return float(work[top])
     low, high = float(gaps[top - 1]), float(gaps[top + 1])
     parts = np.linspace(low, high, _GAPS)
-    pull = _inward(proof, parts, y)
+    pull = inward(proof.model, proof.p, parts, y)
     turns = np.flatnonzero((pull[:-1] > 0) & (pull[1:] <= 0))
     summit = float(parts[turns[0]]) if turns.size else float(gaps[top])  # an error of second order
     return float(work[top - 1]) + _work(proof, y, low, summit)

@@ -19,6 +19,7 @@ from ..model.phases import Phase
 from ..scene.contact import contact_gap
 from .approach import Approach, starts
 from .base import BEYOND, Certainty
+from .floating import floats
 from .quadrature import panels
 
 
@@ -62,6 +63,8 @@ class EnergyCertificate:
         return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        if not phase.resting and floats(self.model, self.p, y, SAFETY * self.rtol):
+            return Certainty.PROVED
         return Certainty.of(self._below(y, phase), self.theorem)
 
     def _below(self, y: np.ndarray, phase: Phase) -> bool:

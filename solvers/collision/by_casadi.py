@@ -41,6 +41,7 @@ def by_casadi(
     control: ToleranceFor = tolerance_for,
     replay: Callable[..., Replay] = replay,
     until: float | None = None,
+    steps: int | None = None,
 ) -> Collision:
     """One collision by CVODES or Rosenbrock; the implementation of `collide` for these engines.
 
@@ -49,8 +50,10 @@ def by_casadi(
         control: integrator tolerances of an engine at a given `rtol`.
         replay: integrates the located phases.
         until: time (s) to which a stick is followed on after its proof, located as usual.
+        steps: most steps to locate the events; None for those of `settings`.
     """
-    find = find if until is None else partial(locate, until=until / n.time)
+    if until is not None or steps is not None:
+        find = partial(locate, until=0.0 if until is None else until / n.time, steps=steps)
     found = _compute(scene, n, rtol, plugin, ledger, trajectory, find, control, replay)
     return _result(scene, n, *found, trajectory, rtol)
 

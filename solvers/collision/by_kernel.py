@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOMES
+from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOMES, Status
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, Steps, run_recorded
 from ..model.dimensionless import DimensionlessGroups
@@ -14,7 +14,7 @@ from ..model.model import load, select_model
 from ..model.phases import Phase
 from ..model.rebound import rebounded
 from ..scene.scene import Scene
-from ..settings import STEPS
+from ..settings import KERNEL_STEPS
 from .assemble import Finding, assembled
 from .outcome import Energy
 from .result import Collision
@@ -44,9 +44,9 @@ def collision(
     rtol: float,
     ledger: bool = False,
     trajectory: bool = False,
-    budget: int = STEPS,
-) -> Collision | None:
-    """The collision by one call of the kernel; None if the kernel cannot complete it or is not available.
+    budget: int = KERNEL_STEPS,
+) -> Collision | str:
+    """The collision by one call of the kernel; the reason if the kernel cannot complete it or is not available.
 
     Arguments:
         ledger: include the energy ledger and the drift of angular momentum.
@@ -54,14 +54,18 @@ def collision(
     """
     impacts = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
     recorded = run_recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
-    if recorded is None or recorded.answers["status"][0] > LAST_ANSWER or recorded.answers["events"][0] > _MOST_EVENTS:
-        return None
-    energy = None if recorded.ledger is None else _energy(scene, n, recorded.ledger[0])
+    if recorded is None:
+        return "no Taylor kernel can be compiled for this scene here"  # a remark has said why
     found = recorded.answers[0]
+    if found["status"] > LAST_ANSWER:
+        return f"the Taylor kernel gave up: {Status(found['status']).name.lower().replace('_', ' ')}"
+    if found["events"] > _MOST_EVENTS:
+        return f"the Taylor kernel gave up: more than {_MOST_EVENTS} events"
+    energy = None if recorded.ledger is None else _energy(scene, n, recorded.ledger[0])
     outcome, reversal = kind_of(found)
     separated = bool(found["outcome"])
     if energy is not None and separated and energy.is_open(rtol):
-        return None  # the energy budget does not close, so the trajectory is wrong
+        return "the Taylor kernel gave up: its energy ledger is open"  # so the trajectory is wrong
     happened = recorded.events[0, : found["events"]]
     model = load(select_model(scene, n.oblique, fold=True))
     words = words_of(scene)

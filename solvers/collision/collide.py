@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path as FilePath
 
 from ...generated.automaton import STICK
-from ..engines.choice import single_engine
 from ..host.arguments import check_flag
 from ..model.dimensionless import nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
-from ..settings import UNTIL, check_engine, check_rtol
+from ..settings import UNTIL, casadi_steps, check_engine, check_rtol
 from .by_casadi import by_casadi
 from .by_kernel import collision
 from .result import Collision
@@ -39,8 +39,8 @@ def collide(
         relative_speed: magnitude of the relative velocity, m/s or a string with its unit.
         angle: impact angle, rad or a string with its unit.
         rtol: relative tolerance of the integrators, 1e-13..1e-3.
-        engine: "cvodes", "rosenbrock" or "taylor" (compiled on first use; rosenbrock where unsupported); None is
-            taylor if its kernel is compiled, else cvodes, while a background process compiles it for later processes.
+        engine: "taylor" (default; compiled on first use), "rosenbrock" (also where taylor cannot answer: the result's
+            `engine_reason` says why) or "cvodes".
         ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
         trajectory: keep the trajectory as an xarray Dataset.
         until: time after initial contact, s or a string with its unit. A stick is integrated up to this time, beyond
@@ -68,10 +68,14 @@ def collide(
     v0, theta0 = loaded.need_impact()
     dimensionless = nondimensionalise(loaded, v0, theta0)
     warn(loaded)
-    plugin = single_engine(asked, loaded, dimensionless.oblique, rtol, ledger, trajectory)
-    if plugin == "taylor":
-        found = collision(loaded, dimensionless, rtol, ledger, trajectory)
-        if found is not None and (last is None or found.outcome != STICK):
+    if asked not in (None, "taylor"):
+        return by_casadi(loaded, dimensionless, rtol, asked, ledger, trajectory, until=last)
+    found = collision(loaded, dimensionless, rtol, ledger, trajectory)
+    if isinstance(found, Collision):
+        if last is None or found.outcome != STICK:
             return found
-        plugin = "cvodes" if asked is None else "rosenbrock"  # it was not completed, or a stick is followed on
-    return by_casadi(loaded, dimensionless, rtol, plugin, ledger, trajectory, until=last)
+        found, steps = "the Taylor kernel does not follow a stick beyond its proof", None
+    else:
+        steps = casadi_steps(rtol, after_kernel=True)
+    other = by_casadi(loaded, dimensionless, rtol, "rosenbrock", ledger, trajectory, until=last, steps=steps)
+    return replace(other, engine_reason=found)

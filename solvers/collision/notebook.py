@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..formatting.notebook import view
 from .outcome import Outcome
-from .text import degrees, name_of, plain, quantity, reason
+from .text import assumed, degrees, name_of, plain, quantity, reason
 
 
 def html(one: Outcome) -> str:
@@ -31,4 +31,5 @@ def html(one: Outcome) -> str:
     if one.energy is not None:
         end = f"{quantity(one.energy.final, 'J')} at the end; residual {one.energy.residual:.1e} J"
         rows.append(("energy", f"{quantity(one.energy.initial, 'J')} at contact", end))
-    return view(name_of(one.scene), rows, notes=[*one.validity, *one.scene.assumed, f"{one.engine}, {one.steps} steps"])
+    engine = f"{one.engine}, {one.steps} steps" + (f" ({one.engine_reason})" if one.engine_reason else "")
+    return view(name_of(one.scene), rows, notes=[*one.validity, *assumed(one.scene), engine])

@@ -109,6 +109,7 @@ class Outcome:
         certified: True if a certificate proves the stick.
         reversal: the first rebound criterion met, if any.
         rtol: relative tolerance that was asked for.
+        engine_reason: why the Taylor kernel did not answer; "" where it did, or another engine was requested.
         trajectory: Dataset over `time`, if requested.
     """
 
@@ -139,6 +140,7 @@ class Outcome:
     rtol: float
     generalised_centrifugal: float | None = None
     final_spin_partner: float | None = None
+    engine_reason: str = field(default="", compare=False)
     scene: Scene = field(repr=False, compare=False)
     trajectory: xarray.Dataset | None = field(default=None, repr=False, compare=False)
 
@@ -166,4 +168,6 @@ class Outcome:
         result["energy"] = self.energy.to_dict() if self.energy else None
         result["angular_momentum_drift"] = self.angular_momentum_drift
         result |= {"engine": self.engine, "steps": self.steps, "rtol": self.rtol, "validity": list(self.validity)}
+        if self.engine_reason:
+            result["engine_reason"] = self.engine_reason
         return result | {"units": {key: UNITS[key] for key in result if key in UNITS}} | origin(self.scene)

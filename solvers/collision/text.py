@@ -155,7 +155,7 @@ def table(collision: Outcome) -> str:
     lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
     lines += [*_energy(collision), "", *_numerics(collision)]
     remarks = [line for said in collision.validity for line in wrap(f"note: {said}", WIDTH, break_on_hyphens=False)]
-    return "\n".join([*lines, *_model(collision.scene), *_assumed(collision.scene), *remarks])
+    return "\n".join([*lines, *_model(collision.scene), *assumed(collision.scene), *remarks])
 
 
 def _line(name: str, value: str, note: str = "") -> str:
@@ -187,7 +187,7 @@ def _outcome(collision: Outcome) -> list[str]:
         lines.append(_line("partner", _partner(collision.scene)))
     speed = (plain if collision.speed >= 0.01 else quantity)(collision.speed, "m/s")
     lines += [
-        _line("approach speed", speed, "normal component"),
+        _line("approach speed", speed, _speed_note(collision)),
         *_first_spins(collision.scene),
         _line("restitution e_n", plain(restitution), gained),
     ]
@@ -214,6 +214,13 @@ def _outcome(collision: Outcome) -> list[str]:
         _line("final rotation rate", plain(collision.final_rotation_rate, "rad/s"), "omega, of the line of centres"),
         *_spins(collision.scene, "final spin", collision.final_spin, collision.final_spin_partner),
     ]
+
+
+def _speed_note(collision: Outcome) -> str:
+    """Which speed the approach speed is."""
+    relative = collision.scene.impact.relative_speed
+    whole = "" if relative is None else f" of the relative speed {plain(relative, 'm/s')}"
+    return f"normal component{whole}"
 
 
 def _slip(collision: Outcome) -> list[str]:
@@ -314,9 +321,9 @@ def _model(scene: Scene) -> list[str]:
     return [_line("model" if line == lines[0] else "", line) for line in lines]
 
 
-def _assumed(scene: Scene) -> list[str]:
-    """Lines that name the scene's assumed values."""
-    return [_cut(line, WIDTH) for line in scene.assumed]
+def assumed(scene: Scene) -> list[str]:
+    """Lines that name the scene's assumed values, and what was held when its entries changed."""
+    return [_cut(line, WIDTH) for line in (*scene.assumed, scene.held) if line]
 
 
 def _numerics(collision: Outcome) -> list[str]:
@@ -328,4 +335,5 @@ def _numerics(collision: Outcome) -> list[str]:
         lines = [_line("angular momentum", "-", "not conserved: the wall takes from it")]
     elif collision.scene.pendulum is not None:
         lines = [_line("angular momentum", "-", "not conserved: the strings take from it")]
-    return [*lines, _line("engine", f"{collision.engine}, {collision.steps} steps")]
+    lines.append(_line("engine", f"{collision.engine}, {collision.steps} steps"))
+    return [*lines, *([_line("", collision.engine_reason)] if collision.engine_reason else [])]

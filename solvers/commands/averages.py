@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
 @click.command("averages", short_help="Means over impact geometry and speeds, for pairs of sizes.")
 @options.scene_argument
-@click.option("--speeds", metavar="SPEEDS", help='Relative speeds: "1 m/s", "maxwell:0.3 m/s", or a table FILE.csv.')
+@click.option(
+    "--speeds", metavar="SPEEDS",
+    help='Relative speeds: "1 m/s", "maxwell:0.3 m/s", or a table FILE.csv [impact.relative_speed].',
+)  # fmt: skip
 @click.option("--radii", metavar="RANGE", help='Radii of both spheres, as "log:20:200 um:16" [the scene\'s pair].')
 @click.option("--films", metavar="RULE", help="Film and roughness of other sizes: fixed or proportional [fixed].")
 @click.option("--tolerance", metavar="E", help="Error of the quadrature, 1e-9..1e-2 [1e-6].")

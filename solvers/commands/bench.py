@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 
 import click
 
@@ -17,9 +16,7 @@ _WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 an
 
 @click.command("bench", short_help="Run time against error of the engines for a scene, and a recommendation.")
 @click.argument("source", metavar="[SCENE]", required=False)
-@options.impact
-@options.changes
-@options.model
+@options.of_scene
 @click.option("--error", metavar="E", help=f"Wanted: largest absolute error of e_n [{_ERROR:g}].")
 @options.as_json
 @options.plot
@@ -27,13 +24,7 @@ _WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 an
 @click.option("--out", metavar="DIR", help="Folder for bench.txt, bench.json and bench.png.")
 @options.debug
 def command(
-    source: str | None,
-    stokes: str | None,
-    speed: str | None,
-    relative_speed: str | None,
-    angle: str | None,
-    changes: Sequence[str],
-    model: str | None,
+    request: options.SceneRequest,
     error: str | None,
     as_json: bool,
     plot: str | None,
@@ -55,8 +46,7 @@ def command(
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
     folder = options.check_folder(out)
-    asked = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model)
-    scene = asked.optional_scene()
+    scene = request.optional_scene()
 
     from ..scene.scene import Scene
     from ..verify.work_precision import work_precision

@@ -31,7 +31,7 @@ _ENTRY = FIELDS["impact.angle"]
 @options.scene_argument
 @click.option("--angle", metavar="RANGE", help="Impact angles (degrees): 40, lines 20:65:10, a plane 20:65.")
 @click.option("--over", metavar="NAME=LO:HI", help='A plane of this entry, as liquid.viscosity="1:4 Pa s".')
-@click.option("--stokes", metavar="LO:HI", help="Range of Stokes numbers to search [1e-4:100].")
+@click.option("--stokes", metavar="LO:HI", help="Stokes numbers to search [1e-4:100, or more by the scene].")
 @click.option("--wrt", metavar="NAMES", help="Derivatives as well, in bridge.volume,liquid.viscosity, or all.")
 @options.changes
 @options.model
@@ -65,13 +65,12 @@ def command(
       wetdoublet boundary granulation --over particles.roughness="0.1:6 um" --set impact.angle=60
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..boundaries.boundary import boundary
-    from ..boundaries.found import STOKES
 
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
-    span = STOKES if stokes is None else _span(stokes)
+    span = None if stokes is None else _span(stokes)
     asked = options.SceneRequest.check(source, changes, model=model)
     plane = _plane(angle, over, wrt, asked)
     angles = None if angle is None or plane else options.entry_range(_ENTRY, angle, "--angle", most=_MOST)
@@ -152,7 +151,7 @@ def _show_atlas(
     scene: Scene,
     over: str,
     across: tuple[float, float] | tuple[str, str],
-    span: tuple[float, float],
+    span: tuple[float, float] | None,
     rtol: float,
     as_json: bool,
     picture: Path | None,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 
 import click
 
@@ -13,20 +12,12 @@ from . import options
 
 @click.command("cite", short_help="BibTeX of the paper and of each law that a scene uses.")
 @options.scene_argument
-@options.impact
-@options.changes
-@options.model
+@options.of_scene
 @options.as_json
 @options.output
 @options.debug
 def command(
-    source: str | None,
-    stokes: str | None,
-    speed: str | None,
-    relative_speed: str | None,
-    angle: str | None,
-    changes: Sequence[str],
-    model: str | None,
+    request: options.SceneRequest,
     as_json: bool,
     output: str | None,
 ) -> None:
@@ -37,7 +28,7 @@ def command(
       wetdoublet cite granulation --set bridge.law=willett -o references.bib
     """  # noqa: D301 # click wants the character itself
     file = options.check_file(output, "-o")
-    scene = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
+    scene = request.scene()
 
     from ..export.citations import as_bibtex, citations
 

@@ -53,7 +53,10 @@ class Commands(click.Group):
         if args[0] not in COMMANDS and not args[0].startswith("-"):
             hint = did_you_mean(args[0], COMMANDS)
             raise InputError("COMMAND", args[0], ", ".join(COMMANDS), "is not known" + hint)
-        return super().resolve_command(ctx, args)
+        name, command, rest = super().resolve_command(ctx, args)
+        if command is not None:
+            _check_once(click.Context(command, parent=ctx, info_name=name), rest)
+        return name, command, rest
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; an interrupt and a closed pipe set the exit status and print no error."""
@@ -100,6 +103,17 @@ class Commands(click.Group):
             line = " ".join(f"internal error: {type(error).__name__}: {error}".split())
             status = _report(f"{line} (--debug shows where; please report it)", 1, error, arguments)
         sys.exit(status or 0)
+
+
+def _check_once(ctx: click.Context, args: list[str]) -> None:
+    """Raise InputError for an option that takes one value and is given several, of which click keeps the last."""
+    try:
+        values, _, order = ctx.command.make_parser(ctx).parse_args(list(args))
+    except click.UsageError:
+        return  # reported when the command is called
+    for option in (each for each in order if isinstance(each, click.Option) and not (each.multiple or each.is_flag)):
+        if order.count(option) > 1:
+            raise InputError(option.opts[0], str(values[str(option.name)]), "a single value", "is given twice or more")
 
 
 def _settle_streams() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 
 import click
 
@@ -13,9 +12,7 @@ from . import options
 
 @click.command("collide", short_help="One collision, from initial contact to its outcome.")
 @options.scene_argument
-@options.impact
-@options.changes
-@options.model
+@options.of_scene
 @options.rtol
 @options.engine
 @click.option("--until", metavar="TIME", help='Follow a stick on after its proof, as "5 ms" after initial contact.')
@@ -24,13 +21,7 @@ from . import options
 @options.output
 @options.debug
 def command(
-    source: str | None,
-    stokes: str | None,
-    speed: str | None,
-    relative_speed: str | None,
-    angle: str | None,
-    changes: Sequence[str],
-    model: str | None,
+    request: options.SceneRequest,
     rtol: str | None,
     engine: str | None,
     until: str | None,
@@ -45,7 +36,7 @@ def command(
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
-    scene = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
+    scene = request.scene()
     scene.need_impact()
 
     from ..collision.collide import collide

@@ -40,8 +40,8 @@ def command(
 ) -> None:
     """Compile the kernels of each SCENE into the cache: for one collision, many, maps and boundaries.
 
-    Without it the first processes are answered by other engines while a background process compiles. Kernels depend on
-    the terms and laws of a scene and not on its numbers.
+    Without it the first collision of each kind waits some seconds for its kernel. Kernels depend on the terms and laws
+    of a scene and not on its numbers.
 
     \b
     Examples:

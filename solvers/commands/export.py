@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import click
 
 from ..errors import InputError, did_you_mean
@@ -17,20 +15,12 @@ KINDS = ("c", "casadi", "latex")
 @options.scene_argument
 @click.option("--to", "kind", metavar="KIND", help="c, casadi or latex.")
 @click.option("--out", metavar="DIR", help="Folder to write into.")
-@options.impact
-@options.changes
-@options.model
+@options.of_scene
 @options.debug
 def command(
-    source: str | None,
+    request: options.SceneRequest,
     kind: str | None,
     out: str | None,
-    stokes: str | None,
-    speed: str | None,
-    relative_speed: str | None,
-    angle: str | None,
-    changes: Sequence[str],
-    model: str | None,
 ) -> None:
     """Write the law of SCENE, or its model, into DIR.
 
@@ -46,7 +36,7 @@ def command(
     if kind is not None and kind not in KINDS:
         raise InputError("--to", kind, ", ".join(KINDS), "is not known" + did_you_mean(kind, KINDS))
     folder = options.check_folder(out)
-    scene = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
+    scene = request.scene(remark=True)
     if kind is None:
         raise InputError("--to", None, "one of " + ", ".join(KINDS))
     if folder is None:

@@ -28,6 +28,7 @@ _OPTIONS = {"free": "--free", "prior": "--prior", "over": "--compare"}
 @click.option("--write", "written", metavar="FILE.toml", help="Write the fitted scene, intervals as comments.")
 @click.option("--report", "folder", metavar="DIR", help="Write report.md, report.html and their picture.")
 @options.changes
+@options.hold
 @options.model
 @options.rtol
 @options.as_json
@@ -43,6 +44,7 @@ def command(
     written: str | None,
     folder: str | None,
     changes: Sequence[str],
+    hold: str | None,
     model: str | None,
     rtol: str | None,
     as_json: bool,
@@ -74,10 +76,10 @@ def command(
         accepted = "entries to estimate, as --free particles.roughness,liquid.viscosity"
         raise InputError("--free", None, accepted)
     names = [name.strip() for name in free.split(",") if name.strip()]
-    asked = options.SceneRequest.check(source, changes, model=model)
+    asked = options.SceneRequest.check(source, changes, model=model, hold=hold)
     if data is None:
         raise InputError("DATA.csv", None, "a CSV file with a row for each impact")
-    scene = asked.scene()
+    scene = asked.scene(remark=True)
     table = None
     with options.arguments_as_options(_OPTIONS):
         over = None if compare is None else check_choices(scene, [name.strip() for name in compare.split(",")])

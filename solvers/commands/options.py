@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ import click
 from ..errors import InputError, shown
 from ..host import files, outputs
 from ..scene import units
+from ..scene.held import check_hold
 from ..scene.ranges import MOST, Ends, parse_range
 from ..scene.schema import FIELDS, SPEEDS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from ..scene.scene import Scene
 
 Command = Callable[..., Any]
+_CHANGE = 'NAME=VALUE, such as liquid.viscosity="3 Pa s"'
 PICTURES = outputs.PICTURES
 
 # Not required by click, so that a bad option is reported before a missing scene.
@@ -49,6 +52,12 @@ changes = click.option(
     multiple=True,
     help='Another entry, as liquid.viscosity="3 Pa s"; repeatable.',
 )
+hold = click.option(
+    "--hold",
+    metavar="WHAT",
+    help="What the impact keeps when entries change: speed, stokes, relative_speed [the kind of speed that it "
+    "is given by; of a Stokes number the normal speed].",
+)
 
 
 def impact(command: Command) -> Command:
@@ -69,6 +78,7 @@ class SceneRequest:
     entries: Mapping[str, str]
     impact: Mapping[str, str]  # texts with units, as given
     package: Package | None = None
+    hold: str | None = None
 
     @classmethod
     def check(
@@ -80,12 +90,14 @@ class SceneRequest:
         angle: str | None = None,
         relative_speed: str | None = None,
         model: str | None = None,
+        hold: str | None = None,
     ) -> SceneRequest:
         """Return the checked request; InputError naming the first wrong option."""
         given = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
         read = {key: with_degrees(FIELDS[f"impact.{key}"], text) for key, text in given.items() if text is not None}
         for key, text in read.items():
             FIELDS[f"impact.{key}"].number(text, label=_option(key))
+        held = None if hold is None else check_hold(hold, "--hold")
         first, *more = [key for key in read if key != "angle"] or [""]
         if more:
             options_ = ", ".join(_option(name.partition(".")[2]) for name in SPEEDS)
@@ -99,69 +111,102 @@ class SceneRequest:
                 if entry in entries:
                     problem = f"is given together with --set {entry} = {shown(entries[entry])}"
                     raise InputError(_option(key), given[key], "only one of the two", problem)
-        return cls(source, entries, read, package)
+        return cls(source, entries, read, package, held)
+
+    @property
+    def options(self) -> dict[str, str]:
+        """The texts of the options that are present."""
+        texts = {_option(key): text for key, text in self.impact.items()}
+        if self.entries:
+            texts["--set"] = "; ".join(f"{name}={value}" for name, value in self.entries.items())
+        if self.hold is not None:
+            texts["--hold"] = self.hold
+        if self.package is not None:
+            texts["--model"] = str(self.package.folder)
+        return texts
 
     def optional_scene(self) -> Scene | None:
         """Read the scene if one is named; InputError for an option that needs a scene."""
-        if self.source is None:
-            for option, value in (
-                *((_option(key), text) for key, text in self.impact.items()),
-                *(("--set", f"{name}={value}") for name, value in self.entries.items()),
-            ):
-                raise InputError(option, value, f"a SCENE with {option}", "needs a SCENE")
-            if self.package is not None:
-                raise InputError("--model", str(self.package.folder), "a SCENE with --model", "needs a SCENE")
-            return None
-        return self.scene()
+        if self.source is not None:
+            return self.scene(remark=True)
+        for option, text in self.options.items():
+            raise InputError(option, text, f"a SCENE with {option}", "needs a SCENE")
+        return None
 
-    def scene(self) -> Scene:
-        """Read the scene and apply the changes; InputError for any wrong entry."""
+    def scene(self, remark: bool = False) -> Scene:
+        """Read the scene and apply the changes; InputError for any wrong entry.
+
+        Arguments:
+            remark: write what was held of the impact to standard error, for commands that show no impact.
+        """
         from ..scene.scene import Scene
         from ..scene.scenefile import PRESETS
 
         if self.source is None:
             raise InputError("SCENE", None, "a scene file (TOML) or a preset: " + ", ".join(PRESETS))
-        changed = Scene.load(self.source, self.package).with_entries(self.entries).with_impact(**self.impact)
+        loaded = Scene.load(self.source, self.package)
+        changed = loaded.with_entries(self.entries, self.hold).with_impact(**self.impact)
+        if remark and changed.held:
+            click.echo(changed.held, err=True)
         return Scene.load(changed)  # checks the entries that a user's model requires
+
+
+def of_scene(command: Command) -> Command:
+    """Add the impact's options, --set, --hold and --model; the command receives them and SCENE as `request`."""
+
+    @impact
+    @changes
+    @hold
+    @model
+    @wraps(command)
+    def with_request(
+        source: str | None,
+        changes: Sequence[str],
+        stokes: str | None,
+        speed: str | None,
+        angle: str | None,
+        relative_speed: str | None,
+        model: str | None,
+        hold: str | None,
+        **others: Any,
+    ) -> Any:
+        request = SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model, hold)
+        return command(request, **others)
+
+    return with_request
 
 
 def _entries(changes: Sequence[str], package: Package | None = None) -> dict[str, str]:
     """Return the entries of --set by dotted name, each checked by itself."""
-    entries, known = {}, fields(package)
-    for change in changes:
-        name, equals, value = change.partition("=")
-        name = name.strip()
-        if not equals:
-            raise InputError("--set", change, 'NAME=VALUE, such as liquid.viscosity="3 Pa s"', "has no =")
+    found, known = assigned(changes, "--set", _CHANGE), fields(package)
+    for name, value in found.items():
         if name != "name":
             if name not in known:
                 raise unknown(name, value, package) or unknown_entry(name, value)
-            value = with_degrees(known[name], value)
-            known[name].read(value)
-        entries[name] = value
-    return entries
+            found[name] = with_degrees(known[name], value)
+            known[name].read(found[name])
+    return found
 
 
 def entries(changes: Sequence[str]) -> dict[str, str]:
     """Return the entries of --set by dotted name, unchecked; each applies to a scene that is read later."""
-    found = {}
-    for change in changes:
-        name, equals, value = change.partition("=")
-        if not equals:
-            raise InputError("--set", change, 'NAME=VALUE, such as liquid.viscosity="3 Pa s"', "has no =")
-        name = name.strip()
-        found[name] = with_degrees(FIELDS[name], value) if name in FIELDS else value
-    return found
+    return typed(assigned(changes, "--set", _CHANGE))
+
+
+def typed(found: Mapping[str, str]) -> dict[str, str]:
+    """Entries by dotted name, a bare angle in degrees."""
+    return {name: with_degrees(FIELDS[name], value) if name in FIELDS else value for name, value in found.items()}
 
 
 def assigned(given: Sequence[str], label: str, accepted: str) -> dict[str, str]:
-    """The texts of a repeatable option NAME=TEXT, by name."""
-    found = {}
+    """The texts of a repeatable option NAME=TEXT, by name; InputError for a name that is given twice."""
+    found: dict[str, str] = {}
     for text in given:
         name, equals, value = text.partition("=")
-        if not equals:
-            raise InputError(label, text, accepted, "has no =")
-        found[name.strip()] = value
+        name = name.strip()
+        if not equals or name in found:
+            raise InputError(label, text, accepted, "is given twice: every name once" if equals else "has no =")
+        found[name] = value
     return found
 
 

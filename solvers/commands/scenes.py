@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -14,22 +13,14 @@ from . import options
 
 
 @click.command("scenes", short_help="List the presets, or print one as TOML.")
-@click.argument("name", metavar="[NAME]", required=False)
+@click.argument("source", metavar="[NAME]", required=False)
 @click.option("--new", "new", metavar="NAME", help="Write NAME.toml, a commented scene to be filled in.")
-@options.impact
-@options.changes
-@options.model
+@options.of_scene
 @options.output
 @options.debug
 def command(
-    name: str | None,
+    request: options.SceneRequest,
     new: str | None,
-    stokes: str | None,
-    speed: str | None,
-    relative_speed: str | None,
-    angle: str | None,
-    changes: Sequence[str],
-    model: str | None,
     output: str | None,
 ) -> None:
     """List the presets, or print the scene NAME as TOML, ready to be saved and edited.
@@ -38,19 +29,18 @@ def command(
     """
     file = options.check_file(output, "-o")
     begun = None if new is None else _new(new)
-    asked = options.SceneRequest.check(name, changes, stokes, speed, angle, relative_speed, model)
     if begun is not None:
-        for option, given in (("NAME", name), ("-o", output), ("--model", model), ("--set", asked.entries or None)):
-            if given is not None or asked.impact:
+        for option, text in {"NAME": request.source, **request.options, "-o": output}.items():
+            if text is not None:
                 raise InputError("--new", new, "--new NAME alone", f"is given together with {option}")
         files.write(begun, template(begun.stem))
         click.echo(str(begun))
         return
-    scene = asked.optional_scene()
+    scene = request.optional_scene()
     if scene is None:
         options.put(_listing(), file)
-    elif name in PRESETS and not (asked.entries or asked.impact or model):
-        options.put(read_text(str(name))[0].rstrip("\n"), file)
+    elif request.source in PRESETS and not request.options:
+        options.put(read_text(str(request.source))[0].rstrip("\n"), file)
     else:
         options.put(scene.to_toml().rstrip("\n"), file)
 

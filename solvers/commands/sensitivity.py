@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError
+from ..scene.held import NAMES
 from ..scene.schema import FIELDS
 from ..settings import RTOL, check_engine, check_rtol
 from . import options
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
 )
 @click.option("--wrt", metavar="NAMES", help="Parameters, as liquid.viscosity,impact.angle [all of the scene].")
 @click.option("--method", metavar="M", help="forward or adjoint [forward].")
-@click.option("--hold", metavar="WHAT", help="Quantity to hold: speed, stokes, relative_speed [as given].")
 @click.option(
     "--uncertainty",
     "uncertain",
@@ -42,9 +42,7 @@ if TYPE_CHECKING:
 )
 @click.option("--over-time", is_flag=True, help="Derivatives of the whole trajectory; --plot draws them.")
 @click.option("--hessian", is_flag=True, help="Second derivatives as well.")
-@options.impact
-@options.changes
-@options.model
+@options.of_scene
 @options.rtol
 @options.engine
 @options.as_json
@@ -52,21 +50,14 @@ if TYPE_CHECKING:
 @options.output
 @options.debug
 def command(
-    source: str | None,
+    request: options.SceneRequest,
     of: str | None,
     wrt: str | None,
     method: str | None,
-    hold: str | None,
     uncertain: Sequence[str],
     over: str | None,
     over_time: bool,
     hessian: bool,
-    stokes: str | None,
-    speed: str | None,
-    relative_speed: str | None,
-    angle: str | None,
-    changes: Sequence[str],
-    model: str | None,
     rtol: str | None,
     engine: str | None,
     as_json: bool,
@@ -81,7 +72,7 @@ def command(
       wetdoublet sensitivity granulation --uncertainty liquid.viscosity="5 %" --over angle=40:80:17 --plot band.png
       wetdoublet sensitivity granulation --wrt liquid.viscosity,impact.speed --over-time --plot trajectory.png
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
-    from ..sensitivity.parameters import check_hold, check_wrt
+    from ..sensitivity.parameters import check_wrt
     from ..sensitivity.results import check_quantities
     from ..sensitivity.sensitivities import check_method, sensitivities
     from ..sensitivity.uncertainty import deviations, first_order, spoken
@@ -89,7 +80,6 @@ def command(
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     chosen = check_engine(engine, "--engine")
     how = "forward" if method is None else check_method(method, "--method")
-    held = None if hold is None else check_hold(hold, "--hold")
     asked = ("restitution",) if of is None else check_quantities(_names(of), "--of")
     if hessian and chosen in ("cvodes", "taylor"):
         raise InputError("--engine", chosen, "rosenbrock with --hessian", "has no second derivatives")
@@ -98,17 +88,17 @@ def command(
     picture = options.check_file(plot, "--plot", options.PICTURES)
     file = options.check_file(output, "-o")
     options.check_apart(file, "-o", picture, "--plot")
-    scene = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model).scene()
+    scene = request.scene()
     if over is not None or over_time:
-        given = {"--hessian": "given" * hessian, "--method": method or "", "--hold": "" if over_time else hold or ""}
+        given = {"--hessian": "given" * hessian, "--method": method or ""}
         given |= {"--over": over or "", "--of": of or "", "--uncertainty": " ".join(uncertain)} if over_time else {}
         given |= {} if over_time else {"--wrt": wrt or "", "--engine": engine or ""}
         for name, value in given.items():
             if value:
                 accepted = f"no {name} with {'--over-time' if over_time else '--over'}"
                 raise InputError(name, value, accepted, "is not for this")
-        data, text = _trajectory(scene, wrt, tolerance, engine, held) if over_time else _band(
-            scene, over or "", uncertain, asked, None if rtol is None else tolerance
+        data, text = _trajectory(scene, wrt, tolerance, engine, request.hold) if over_time else _band(
+            scene, over or "", uncertain, asked, None if rtol is None else tolerance, request.hold
         )  # fmt: skip
         options.put(json.dumps(_plain(data.to_dict()), indent=2, allow_nan=False) if as_json else text, file)
         if picture is not None:
@@ -120,7 +110,9 @@ def command(
     if names is not None:
         names = tuple(dict.fromkeys((*names, *deviation)))
 
-    found = sensitivities(scene, asked, names, method=how, rtol=tolerance, engine=chosen, hold=held, hessian=hessian)
+    found = sensitivities(
+        scene, asked, names, method=how, rtol=tolerance, engine=chosen, hold=request.hold, hessian=hessian
+    )
     spread = first_order(found, deviation) if deviation else {}
     if as_json:
         object_ = found.to_dict() | ({"standard_deviation": spread} if deviation else {})
@@ -152,7 +144,7 @@ def _trajectory(
 
 
 def _band(
-    scene: Scene, over: str, uncertain: Sequence[str], of: Sequence[str], rtol: float | None
+    scene: Scene, over: str, uncertain: Sequence[str], of: Sequence[str], rtol: float | None, hold: str | None
 ) -> tuple[xarray.Dataset, str]:
     """The band of one result, and its table."""
     from ..sensitivity.uncertainty import band
@@ -169,8 +161,8 @@ def _band(
     entry = FIELDS[f"impact.{name}"]
     values = options.entry_range(entry, text, "--over")
     more: Any = {} if rtol is None else {"rtol": rtol}
-    found = band(scene, _assigned(uncertain), entry.name, values, of=of[0], **more)
-    label = f"{name.replace('_', ' ')}{units[name]}"
+    found = band(scene, _assigned(uncertain), entry.name, values, of=of[0], hold=hold, **more)
+    label = f"{NAMES.get(name, name)}{units[name]}"
     lines = [f"{label:<20} {of[0]:>16} {'± (first order)':>16} {'2.5 %':>12} {'97.5 %':>12}"]
     columns = (found[of[0]], found.first_order, found.low, found.high)
     for k, value in enumerate(values):
@@ -194,11 +186,5 @@ def _names(text: str) -> list[str]:
 
 
 def _assigned(given: Sequence[str]) -> dict[str, str]:
-    found = {}
-    for text in given:
-        name, equals, value = text.partition("=")
-        if not equals:
-            raise InputError("--uncertainty", text, 'NAME=VALUE, such as liquid.viscosity="5 %"', "has no =")
-        name = name.strip()
-        found[name] = options.with_degrees(FIELDS[name], value) if name in FIELDS else value
-    return found
+    accepted = 'NAME=VALUE, such as liquid.viscosity="5 %"'
+    return options.typed(options.assigned(given, "--uncertainty", accepted))

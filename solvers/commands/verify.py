@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import click
 
 from ..errors import CheckFailed, InputError
@@ -13,9 +11,7 @@ from .stress import SCENES, Counted, check_alone, count_of, stress_test
 
 @click.command("verify", cls=Counted, short_help="Check the laws: symbolic identities and numbers.")
 @click.argument("source", metavar="[SCENE]", required=False)
-@options.impact
-@options.changes
-@options.model
+@options.of_scene
 @click.option("-o", "output", metavar="FILE.md", help="Write the report as Markdown to FILE.md as well.")
 @click.option("--plot", metavar="FILE.png", help="Draw the region e_n > 1 and its energy budget: .png, .pdf or .svg.")
 @click.option(
@@ -29,13 +25,7 @@ from .stress import SCENES, Counted, check_alone, count_of, stress_test
 @click.option("--recompute", is_flag=True, help="Make the symbolic verdicts again, though they are kept.")
 @options.debug
 def command(
-    source: str | None,
-    stokes: str | None,
-    speed: str | None,
-    relative_speed: str | None,
-    angle: str | None,
-    changes: Sequence[str],
-    model: str | None,
+    request: options.SceneRequest,
     output: str | None,
     plot: str | None,
     stress: str | None,
@@ -51,10 +41,8 @@ def command(
     explained by a boundary within their error, or makes the exit status 1.
     """
     count = None if stress is None else count_of(stress)
-    others = {"SCENE": source, "--stokes": stokes, "--speed": speed, "--angle": angle, "--set": "; ".join(changes)}
-    check_alone(
-        stress, out, others | {"--model": model, "-o": output, "--plot": plot, "--recompute": "given" * recompute}
-    )
+    others = {"SCENE": request.source, **request.options, "-o": output, "--plot": plot}
+    check_alone(stress, out, others | {"--recompute": "given" * recompute})
     if count is not None:
         folder = options.check_folder(out or "stress")
         assert folder is not None  # it has a name
@@ -63,8 +51,7 @@ def command(
     file = options.check_file(output, "-o", (".md",))
     picture = options.check_file(plot, "--plot", options.PICTURES)
     options.check_apart(file, "-o", picture, "--plot")
-    asked = options.SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model)
-    scene = asked.optional_scene()
+    scene = request.optional_scene()
     if scene is None and picture is not None:
         raise InputError("--plot", plot, "a SCENE with --plot", "needs a SCENE")
 

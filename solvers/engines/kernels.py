@@ -56,7 +56,7 @@ def compile_kernels(
     derivatives: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> tuple[CompiledKernel, ...]:
-    """Compile the kernels of scenes, on all cores, so that no later process waits for them or uses another engine.
+    """Compile the kernels of scenes, on all cores, so that no later process waits for them.
 
     Those of `collide` with and without ledger and trajectory, `collide_many`, `regime_map` and `boundary`, for oblique
     and for head-on collisions. Kernels depend on the terms and laws of a scene and not on its numbers.

@@ -14,6 +14,7 @@ from ...generated import scaling
 from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..errors import InputError, did_you_mean
 from ..scene import units
+from ..scene.held import NAMES
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
@@ -35,6 +36,7 @@ SPEED_SD, ANGLE_SD = 0.02, math.radians(1.0)
 """Scatter of single impacts where the data do not say it: of the speed, relative; of the angle."""
 RESULT_SD = {"restitution": 0.02, "tangential_restitution": 0.02, "contact_time": 0.05, "rotation": math.radians(2.0)}
 """Standard deviation of measured results where the data do not say it; of the contact time relative."""
+_NOISE = 5.0  # standard deviations by which a measured restitution may lie below 0
 _WIDEST = 1 / 3  # relative scatter of a speed
 
 
@@ -144,7 +146,10 @@ class _Table:
         seen = observed.get("restitution")
         if seen is not None:
             outcome = np.where((outcome == UNKNOWN) & (seen[0] == 0), _WORDS[STICK], outcome)
-            for row in np.flatnonzero((outcome == _WORDS[STICK]) & (seen[0] > 0)).tolist():
+            for row in np.flatnonzero((outcome == UNKNOWN) & (seen[0] < 0)).tolist():
+                said = "an outcome beside a restitution below 0, which may be a stick's"
+                raise InputError(self._where(row, "restitution"), float(seen[0][row]), said, "is noise about 0")
+            for row in np.flatnonzero((outcome == _WORDS[STICK]) & (np.abs(seen[0]) > 0)).tolist():
                 said = "a stick has restitution 0, or an empty cell"
                 raise InputError(self._where(row, "restitution"), float(seen[0][row]), said, "contradicts the outcome")
         stuck = outcome == _WORDS[STICK]
@@ -198,7 +203,7 @@ class _Table:
         if not given:
             if self.scene.speed is None:
                 raise InputError(self.label, None, "a column speed [m/s], or a speed in the scene", "has no speed")
-            self.remarks.append(f"Speeds are the scene's, {self.scene.speed:.6g} m/s along the line of centres.")
+            self.remarks.append(f"Normal speeds are the scene's, {self.scene.speed:.6g} m/s.")
             return np.full(self.size, self.scene.speed), False, "speed"
         name = given[0]
         found = self._numbers(name, _IMPACT[name], lambda v: v > 0, "a number > 0")
@@ -207,7 +212,7 @@ class _Table:
             own: dict[str, Any] = {entry: value for entry, value in self.scene.si if entry not in MEETING}
             of = quantities(own | dict(columns), self.scene.ways)
             found = found / scaling.stokes(of["reduced_radius"], of["reduced_mass"], of["viscosity"], 1.0)
-            self.remarks.append("Speeds are those of the Stokes numbers with the scene's own entries.")
+            self.remarks.append("Normal speeds are those of the Stokes numbers with the scene's own entries.")
         return np.broadcast_to(found, self.size).copy(), name == "relative_speed", name
 
     def _scatter(self, speed: np.ndarray, of_speed: str) -> tuple[np.ndarray, np.ndarray]:
@@ -221,7 +226,7 @@ class _Table:
         else:
             speed_sd = np.full(self.size, np.nan)
         if np.isnan(speed_sd).any():
-            self.remarks.append(f"Scatter of the speed, where it is not given: {100 * SPEED_SD:g} %.")
+            self.remarks.append(f"Scatter of the {NAMES[of_speed]}, where it is not given: {100 * SPEED_SD:g} %.")
             speed_sd = np.where(np.isnan(speed_sd), SPEED_SD * speed, speed_sd)
         angle_sd = np.full(self.size, np.nan)
         if "angle_sd" in self.by_name:
@@ -267,7 +272,7 @@ class _Table:
                         f"{self.label}, header", f"{name}_sd", f"a column {name} beside it", "stands alone"
                     )
                 continue
-            signed = name in ("tangential_restitution", "rotation")
+            signed = name != "contact_time"
             words = "a number" if signed else "a number >= 0"
             values = self._numbers(name, _UNITS[name], _any if signed else _not_negative, words)
             sd = np.full(self.size, np.nan)
@@ -285,7 +290,11 @@ class _Table:
                 sd = np.where(np.isnan(sd), default, sd)
             for row in np.flatnonzero(~(sd > 0) & np.isfinite(values) & (values != 0)).tolist():
                 raise InputError(self._where(row, f"{name}_sd"), float(sd[row]), "a standard deviation > 0")
-            found[name] = values, np.where(sd > 0, sd, RESULT_SD[name])
+            sd = np.where(sd > 0, sd, RESULT_SD[name])
+            for row in np.flatnonzero(values < -_NOISE * sd).tolist() if name == "restitution" else ():
+                accepted = f"a number >= 0, or below by up to {_NOISE:g} standard deviations of noise"
+                raise InputError(self._where(row, name), float(values[row]), accepted, "is out of range")
+            found[name] = values, sd
         return found
 
 

@@ -19,19 +19,19 @@ from .data import read_data
 from .estimates import CONTRADICTED, Estimate, Rows
 from .free_entries import FreeEntries, free_entries
 from .likelihood import Likelihood, Resolution
-from .measurements import Measurements
+from .measurements import UNKNOWN, Measurements
 from .objective import Objective, whitening
 from .optimise import Optimum, optimise, settled
 from .profiles import DROP, End, beyond, checked, end
 from .result import Fit, log_density
 from .shown import in_unit
-from .verdicts import NOT_AT_ALL, combinations, judged
+from .verdicts import IDENTIFIED, NOT_AT_ALL, combinations, judged
 
 RTOL = 1e-8
 """Relative tolerance of the collisions of a fit."""
 _RESTARTS = 3  # times that a more likely point, met on a profile, replaces the maximum
 _ROUNDS = 5  # in which ends are moved beyond likely points
-_ONE_SIDED = "Such data can bound an entry from one side; within the bounds no value is better than another."
+_ONE_OUTCOME = "Such data can only bound an entry; within the bounds no value is better than another."
 _ODD = 1e-3  # probability of residuals as large as found below which they are remarked on
 _UNDECIDED = 1e-3  # probability of impacts without an outcome that is remarked on
 _COARSE = 0.05  # error of the log-likelihood by quadrature that is remarked on
@@ -190,6 +190,9 @@ def _result(
     white = whitening(objective, inner)
     rows = _rows(data, likelihood, free, objective, inner, white)
     verdicts = [NOT_AT_ALL if rows.contradicted else judged(objective, inner, k, *both) for k, both in enumerate(ends)]
+    if _only_outcome(data) is not None:
+        flat = [verdict == IDENTIFIED and each.prior is None for verdict, each in zip(verdicts, free.entries)]
+        verdicts = [NOT_AT_ALL if each else verdict for each, verdict in zip(flat, verdicts)]
     estimates = {}
     for k, (name, (below, above)) in enumerate(zip(free.names, ends, strict=True)):
         low, high = (None if each.open else float(free.values(each.inner)[k]) for each in (below, above))
@@ -214,6 +217,12 @@ def _result(
     )  # fmt: skip
 
 
+def _only_outcome(data: Measurements) -> str | None:
+    """The outcome of all impacts, if they have one and nothing else was measured."""
+    codes = set(data.outcome.tolist())
+    return None if len(codes) > 1 or UNKNOWN in codes or data.separated.any() else OUTCOMES[codes.pop()]
+
+
 def _rows(
     data: Measurements, likelihood: Likelihood, free: FreeEntries, objective: Objective, inner: np.ndarray,
     white: np.ndarray,
@@ -236,11 +245,9 @@ def _remarks(
     others: tuple[tuple[dict[str, float], float], ...],
 ) -> list[str]:  # fmt: skip
     said = []
-    codes = set(data.outcome.tolist())
-    if codes == {OUTCOMES.index(STICK)}:
-        said.append(f"All impacts stick. {_ONE_SIDED}")
-    elif len(codes) == 1 and -1 not in codes and not data.separated.any():
-        said.append(f"All impacts have the outcome {OUTCOMES[codes.pop()]}, and no result was measured. {_ONE_SIDED}")
+    if (word := _only_outcome(data)) is not None:
+        alike = "stick" if word == STICK else f"have the outcome {word}, and no result was measured"
+        said.append(f"All impacts {alike}. {_ONE_OUTCOME}")
     odd = rows.contradicting
     if odd.size:
         names = ", ".join(data.label(k) for k in odd[:8].tolist()) + (" ..." if odd.size > 8 else "")

@@ -24,7 +24,7 @@ from ..many.dataset import empty, fill
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPINS
-from ..settings import STEPS
+from ..settings import KERNEL_STEPS
 from .measurements import Measurements
 
 UNDECIDED = -1
@@ -178,7 +178,7 @@ class BoundLaw:
         for oblique in (True, False):
             which = np.flatnonzero(turns == oblique)
             if which.size:
-                self._fill(found, of, row, impacts, which, oblique, forward, budget or STEPS)
+                self._fill(found, of, row, impacts, which, oblique, forward, budget or KERNEL_STEPS)
         found.angle[:] *= np.where(angle < 0, -1.0, 1.0)
         if "rotation" in of:
             mirrored = angle < 0

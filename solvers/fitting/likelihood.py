@@ -17,6 +17,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..scene.scene import Scene
+from ..scene.schema import SPINS
 from ..settings import RTOL
 from . import changes as boundaries
 from .interpolation import SegmentMap, extension, segment_map
@@ -35,6 +36,8 @@ KNEE, TAIL = 12.0, 4.0
 deviations) contradicts the model; from there its log-likelihood falls with the logarithm of the distance."""
 
 
+_BEYOND = 6.0  # standard deviations of noise and angle beyond which a restitution is impossible
+_NAMED = 8  # rows in a message
 _QUICK = 1000  # steps of a trajectory with derivatives, beyond which others' on the same segment stand for them
 _DEGREE = 4  # of the polynomial by which they do
 
@@ -94,6 +97,26 @@ class Evaluation:
         return float(self.rows.sum())
 
 
+def _check_energy(scene: Scene, names: tuple[str, ...], data: Measurements) -> None:
+    """InputError for restitutions that no values of the entries give: e_n^2 <= 1 + tan^2 of the impact angle.
+
+    That is the kinetic energy of the impact, of which no law of the library but the strings' gives back more. Not
+    looked at with spins, which bring energy of their own, and a user's laws.
+    """
+    spinning = {*names, *data.columns, *(name for name, value in scene.si if value)} & set(SPINS)
+    if "restitution" not in data.observed or spinning or scene.pendulum is not None or scene.package is not None:
+        return
+    values, noise = data.observed["restitution"]
+    steepest = np.minimum(data.angle + _BEYOND * data.angle_sd, np.pi / 2)
+    with np.errstate(invalid="ignore"):
+        rows = np.flatnonzero((values - _BEYOND * noise) * np.cos(steepest) > 1)
+    if rows.size:
+        k, more = int(rows[0]), ", ..." if rows.size > _NAMED else ""
+        where = ", ".join(data.label(each) for each in rows[:_NAMED].tolist()) + more
+        most = f"at most 1/cos(angle) = {1 / np.cos(data.angle[k]):.4g} there, and {_BEYOND:g} standard deviations"
+        raise InputError("restitution", float(values[k]), most, f"is more than the impact's energy allows ({where})")
+
+
 class Likelihood:
     """The log-likelihood of measurements as a function of the free entries' values.
 
@@ -104,6 +127,7 @@ class Likelihood:
 
     def __init__(self, scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float = RTOL) -> None:
         self.data, self.names = data, names
+        _check_energy(scene, names, data)
         self.of = tuple(name for name, (values, _) in data.observed.items() if np.isfinite(values).any())
         self.law = Law(scene, names, data, rtol)
         self.direction = np.zeros(data.size)

@@ -42,6 +42,11 @@ class Measurements:
     labels: tuple[str, ...] = ()
 
     @property
+    def speed_name(self) -> str:
+        """Which speed `speed` is, as entries of an impact are named."""
+        return "relative_speed" if self.relative else "speed"
+
+    @property
     def size(self) -> int:
         return int(self.speed.size)
 

@@ -14,6 +14,7 @@ from ...generated.automaton import OUTCOMES
 from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, patch, picture
 from ..formatting.ticks import plain
 from ..many.collide_many import collide_many
+from ..scene.held import AXIS_LABELS
 from .estimates import Fitted
 from .objective import whitening
 from .profiles import DROP, profile_point
@@ -81,7 +82,7 @@ def _collided(found: Fitted, values: np.ndarray, speed: np.ndarray, angle: np.nd
     vary = {}
     for k, name in enumerate(found.free.names):
         vary[name] = found.first.as_given(name, np.repeat(values[:, k], size))
-    kind: dict[str, Any] = {"relative_speed" if found.data.relative else "speed": np.tile(speed, count)}
+    kind: dict[str, Any] = {found.data.speed_name: np.tile(speed, count)}
     return collide_many(found.first, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
 
 
@@ -147,7 +148,7 @@ def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
     axes.set_yscale("log")
     plain(axes.yaxis)
     axes.set_xlabel("impact angle (deg)")
-    axes.set_ylabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
+    axes.set_ylabel(AXIS_LABELS[data.speed_name])
     corner: Any = _emptiest_corner(axes, np.degrees(data.angle), data.speed)
     axes.legend(handles=present + handles, fontsize=6.5, loc=corner, frameon=True, framealpha=0.9)
     axes.set_title("impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _own(found), fontsize=9)
@@ -183,7 +184,7 @@ def _results(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
             axes.plot(data.speed[own], found.rows.expected[name][own], "_", color=colour, markersize=10)
     axes.set_xscale("log")
     plain(axes.xaxis)
-    axes.set_xlabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
+    axes.set_xlabel(AXIS_LABELS[data.speed_name])
     axes.set_ylabel(_LABELS[name])
     axes.legend(title="mean angle of the group", fontsize=7, title_fontsize=7)
     dashes = ";\ndashes: the fit with each impact's own entries" if data.columns else ""
@@ -199,9 +200,9 @@ def _own(found: Fitted) -> str:
 
 def _by_angle(angle: np.ndarray) -> list[np.ndarray]:
     """Indices of at most three groups of neighbouring angles."""
-    groups = min(len(_LINES), np.unique(np.round(angle, 4)).size)
-    order = np.argsort(angle)
-    return [part for part in np.array_split(order, groups) if part.size]
+    distinct, which = np.unique(np.round(angle, 4), return_inverse=True)
+    parts = np.array_split(np.arange(distinct.size), min(len(_LINES), distinct.size))
+    return [np.flatnonzero(np.isin(which, part)) for part in parts]
 
 
 def _profile(axes: Axes, found: Fitted, k: int) -> None:
@@ -268,7 +269,7 @@ def _residuals(axes: Axes, found: Fitted) -> None:
         )
     axes.set_xscale("log")
     plain(axes.xaxis)
-    axes.set_xlabel("relative speed (m/s)" if data.relative else "normal speed (m/s)")
+    axes.set_xlabel(AXIS_LABELS[data.speed_name])
     axes.set_ylabel("residual (standard deviations)")
     axes.legend(fontsize=6.5)
     axes.set_title("residuals", fontsize=9)

@@ -17,6 +17,7 @@ from .objective import Objective, whitening
 
 DROP = 1.920729410347062  # half the 95 % quantile of chi-squared with one degree of freedom
 _WITHIN = 0.02  # of the root of twice DROP, that an end may miss
+_FLAT = 0.1  # of the distance from the maximum, that is left at the last slope of a profile that has flattened
 _BETTER = 0.05  # of DROP, by which a point must be more likely to replace the maximum
 _STEPS = 25
 _NARROW = 1e-6  # of the way to the bound, width of a bracket in which the profile jumps
@@ -89,8 +90,11 @@ def end(
         root = np.sqrt(2 * max(top - height, 0.0)) if possible else np.inf
         if root < goal * (1 + _WITHIN) and step == most:
             return End(point, True)
+        flat = False  # a profile that flattens just below the goal may never reach it
         if abs(root - goal) < _WITHIN * goal:
-            return End(point, False)
+            flat = outside[0] == np.inf and (goal - root) * (step - inside[0]) > _FLAT * step * (root - inside[1])
+            if not flat:
+                return End(point, False)
         if root < goal:
             inside = step, root
         else:
@@ -98,7 +102,7 @@ def end(
         if possible:
             tangent, at = (point - best) / step, point
         wall = not np.isfinite(outside[1]) and np.isfinite(outside[0])
-        step = _next(inside, outside, goal, tried % 3 == 2)
+        step = step * _FARTHER if flat else _next(inside, outside, goal, tried % 3 == 2)
         if outside[0] - inside[0] < (_AT_WALL * outside[0] if wall else _NARROW * most):
             return End(at, wall, wall=wall)
     return End(at, not np.isfinite(outside[0]))

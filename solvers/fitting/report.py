@@ -12,6 +12,7 @@ from ...generated.automaton import OUTCOMES
 from ..formatting.markdown import table
 from ..host import files
 from ..host.outputs import check_folder
+from ..scene.held import NAMES
 from .estimates import CONTRADICTED, Fitted
 from .shown import in_unit, interval
 
@@ -81,7 +82,7 @@ def _correlation(found: Fitted) -> Table | list[str]:
 def _rows(found: Fitted) -> Table:
     data, rows = found.data, found.rows
     names = list(rows.expected)
-    head = ["impact", "speed (m/s)", "angle (deg)", "outcome", "probability"]
+    head = ["impact", f"{NAMES[data.speed_name]} (m/s)", "angle (deg)", "outcome", "probability"]
     head += [f"{name} (expected)" for name in names] + ["pull"]
     cells = []
     for k in np.argsort(-rows.pull)[:_MOST].tolist():

@@ -127,7 +127,7 @@ class Fit:
 
         data = self.data
         columns: dict[str, Any] = {
-            "row": [data.label(k) for k in range(data.size)], "speed": data.speed, "angle": data.angle,
+            "row": [data.label(k) for k in range(data.size)], data.speed_name: data.speed, "angle": data.angle,
             "outcome": [OUTCOMES[code] if code >= 0 else "" for code in data.outcome],
             "probability": self.rows.probability,
         }  # fmt: skip

@@ -94,24 +94,6 @@ def compiler() -> Compiler | None:
     return None
 
 
-def is_named() -> bool:
-    """True if there is a program that may be a C compiler; it is not run."""
-    names = (os.environ.get("CC", "").strip(), *_COMPILERS)
-    return _GIVEN_UP not in os.environ and any(name and _command(name) is not None for name in names)
-
-
-def compiles() -> bool:
-    """True if the compiler compiles the trial program at this moment."""
-    found = compiler()
-    if found is None:
-        return False
-    try:
-        _try(found.command, min(_limit(), _TRIAL_LIMIT))
-    except (CannotCompile, subprocess.TimeoutExpired, OSError):
-        return False
-    return True
-
-
 def key(source: str, flags: Sequence[str], machine: str = "") -> str:
     """Digest of everything that a compiled library depends on: source, flags and the compiler's version.
 

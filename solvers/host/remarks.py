@@ -9,6 +9,8 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
+import threading
+from collections.abc import Iterator
 from functools import cache
 
 from ..errors import one_line
@@ -25,6 +27,23 @@ def say(line: str, only_here: bool = False) -> None:
     if (only_here or not is_silent()) and sys.stderr is not None:
         with contextlib.suppress(OSError, ValueError):
             sys.stderr.write(f"{one_line(line)}\n")
+
+
+@contextlib.contextmanager
+def say_after(seconds: float, line: str) -> Iterator[None]:
+    """Write a remark on a terminal, once in a process, if what is done here takes longer than that."""
+
+    def late() -> None:
+        if sys.stderr is not None and sys.stderr.isatty():
+            say_once(line)
+
+    timer = threading.Timer(seconds, late)
+    timer.daemon = True  # an interrupt is not held up by it
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 @cache

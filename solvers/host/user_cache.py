@@ -34,7 +34,6 @@ Loaded = TypeVar("Loaded")
 
 _NAMED = "WETDOUBLET_CACHE"
 _PRIVATE = "WETDOUBLET_PRIVATE_CACHE"  # environment variable that passes the folder of this run to workers
-_LOCKED = ".background"  # file whose lock says that a background process is at work
 _MAKING = ".making-"  # prefix of temporary files
 _DIGITS = 32  # hexadecimal digits of the digest in a name
 _LARGEST = 1 << 28  # bytes; larger than any entry
@@ -144,16 +143,6 @@ def room() -> Iterator[Path]:
         else:
             raise OSError(errno.ENOSPC, "no room to compile in", str(own))
         yield path
-
-
-def lock_file() -> int | None:
-    """Descriptor of the file in the user's folder that background processes lock; None if it cannot be written."""
-    place = folder()
-    try:
-        place.mkdir(mode=0o700, parents=True, exist_ok=True)
-        return os.open(place / _LOCKED, os.O_RDWR | os.O_CREAT, 0o600) if _private(place) else None
-    except OSError:
-        return None
 
 
 # ---- reading

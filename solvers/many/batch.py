@@ -11,24 +11,25 @@ from typing import Any
 
 import numpy as np
 
-from ..engines.choice import bulk_engine
+from ..engines.choice import collision_engine
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..model.validity import NEEDS
-from ..scene.groups import sideways
+from ..scene.held import HOLDS, held_quantity, impact_quantity, impact_value
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
 from ..settings import check_engine, check_rtol
-from .results import LEDGER, MAPPED, VALIDITY
+from .results import MAPPED, VALIDITY
 
 
 @dataclass(frozen=True)
 class Batch:
     """A scene, its impacts, the entries that vary and the quantities to keep; SI arrays of one length.
 
+    `held` says what the collisions share of the scene's impact where entries vary (`scene.held`).
     `texts` are choices that vary; they are split into one batch for each scene before anything is computed (`by_text`),
     and the engine is chosen for each. `asked` is the requested engine.
     A chunk of a request has the number of collisions of the whole in `whole`, and keeps the whole's engines: `engine`,
@@ -44,6 +45,7 @@ class Batch:
     engine: str
     of: tuple[str, ...]
     asked: str | None = None
+    held: str = ""
     texts: dict[str, np.ndarray] = field(default_factory=dict)
     whole: int = 0
     engines: Mapping[tuple[str, ...], str] = field(default_factory=dict)
@@ -51,11 +53,6 @@ class Batch:
     @property
     def size(self) -> int:
         return int(self.angle.size)
-
-    @property
-    def count(self) -> int:
-        """Number of collisions of the request that this batch is a chunk of, or of the batch itself."""
-        return self.whole or self.size
 
     def scene_of(self, k: int) -> Scene:
         """The scene of collision k; InputError if the varied entries make it impossible."""
@@ -90,7 +87,7 @@ class Batch:
             try:
                 scene = self.scene.with_entries(dict(zip(self.texts, row, strict=True)))
                 part = replace(self.part(which), scene=scene, texts={})
-                part = replace(part, engine=self.engines.get(row) or engine_for(part, self.count))
+                part = replace(part, engine=self.engines.get(row) or collision_engine(scene, self.asked))
             except InputError as error:
                 yield which, error
             else:
@@ -140,25 +137,7 @@ def batch(scene: Scene, columns: dict[str, np.ndarray], rtol: float, engine: str
         asked=asked,
         texts={name: column for name, column in columns.items() if column.dtype.kind != "f"},
     )
-    return made if made.texts else replace(made, engine=engine_for(made, made.size))
-
-
-def engine_for(request: Batch, count: int) -> str:
-    """The engine for a batch that is one scene's part of `count` collisions."""
-    spins = {FIELDS[name].quantity: request.vary[name] for name in SPINS if name in request.vary}
-    if "impact_spin" in spins and not request.scene.pair:
-        spins["impact_partner_spin"] = spins["impact_spin"]
-    turns = sideways(request.scene, request.angle, spins)
-    return bulk_engine(
-        request.asked,
-        count,
-        request.scene,
-        request.rtol,
-        {bool(each) for each in (turns.any(), turns.all())} if turns.size else (),
-        rotation="rotation" in request.of,
-        ledger=any(name in LEDGER for name in request.of),
-        varied=bool(request.vary),
-    )
+    return made if made.texts else replace(made, engine=collision_engine(scene, asked))
 
 
 def of_one_length(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -180,23 +159,37 @@ def check_outputs(of: Sequence[str], known: Sequence[str] = MAPPED) -> tuple[str
     return tuple(dict.fromkeys((*kept, *NEEDS))) if VALIDITY in kept else kept
 
 
-def checked_impact(scene: Scene, impact: Mapping[str, Any], most: int | None = 1) -> dict[str, np.ndarray]:
-    """Impacts by dotted name, SI; defaults are the scene's. InputError if the scene has none."""
+def checked_impact(
+    scene: Scene, impact: Mapping[str, Any], most: int | None = 1, hold: str | None = None
+) -> dict[str, np.ndarray]:
+    """Impacts by dotted name, SI; defaults are the scene's. InputError if the scene has none.
+
+    Arguments:
+        hold: the quantity of the scene's impact, "speed", "stokes" or "relative_speed"; None: as the scene gives it.
+    """
     asked = {name: values for name, values in impact.items() if name != "angle" and values is not None}
     names = [name.partition(".")[2] for name in SPEEDS]
     if len(asked) > 1:
         first, second, *_ = asked
         raise InputError(second, asked[second], f"only one of {', '.join(names)}", f"is given together with {first}")
     if not asked:
-        own = {name: getattr(scene.impact, name) for name in names}
-        asked = {name: value for name, value in own.items() if value is not None}
-        if not asked:
+        quantity = hold or impact_quantity(scene)
+        value = None if quantity is None else impact_value(scene, quantity)
+        if quantity is None or value is None:
             raise InputError("stokes", None, "Stokes numbers, speed or relative_speed, or an [impact] in the scene")
+        asked = {quantity: value}
     angle = scene.angle if impact.get("angle") is None else impact["angle"]
     if angle is None:
         raise InputError("angle", None, "angles in rad, or an [impact] in the scene")
     given = {f"impact.{name}": values for name, values in asked.items()} | {"impact.angle": angle}
     return {name: checked_numbers(name, values, most=most) for name, values in given.items()}
+
+
+def held_by_default(scene: Scene, impact: Mapping[str, Any], vary: Mapping[str, Any], hold: str | None) -> str | None:
+    """What the scene's impact keeps while entries vary; None where nothing does, or speeds are arguments."""
+    quantity = held_quantity(scene, hold)
+    replaced = any(impact.get(name) is not None for name in HOLDS)
+    return None if replaced or not (vary or hold) else quantity
 
 
 def checked_vary(

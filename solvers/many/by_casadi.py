@@ -13,6 +13,7 @@ from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model, slip_restitution
 from ..scene.scene import Scene
+from ..settings import casadi_steps
 from .batch import Batch
 from .dataset import empty
 from .results import FAILED, INTEGRATED, LEDGER, NONE, RATES, REVERSALS, Block
@@ -38,7 +39,7 @@ def _one(request: Batch, k: int, machine_code: bool) -> dict[str, Any]:
         turns = model.has("turning_rate") and not model.strings
         quadrature = ("rotation",) if "rotation" in request.of and turns else ()
         try:
-            path = locate(model, n.groups, request.rtol, quadrature, machine_code)
+            path = locate(model, n.groups, request.rtol, quadrature, machine_code, 0.0, _steps(request))
         except ComputationError as error:
             raise n.in_si(error) from None
         return _kept(scene, request.of, path, n)
@@ -46,6 +47,11 @@ def _one(request: Batch, k: int, machine_code: bool) -> dict[str, Any]:
         return {"outcome": FAILED, "reason": str(error)}
     except Exception as error:  # noqa: BLE001 # a defect of ours spoils one collision, not the others
         return {"outcome": FAILED, "reason": " ".join(f"internal error: {type(error).__name__}: {error}".split())}
+
+
+def _steps(request: Batch) -> int:
+    """Most steps of a collision; after the kernel, what that leaves of the budget."""
+    return casadi_steps(request.rtol, after_kernel=request.engine == "taylor")
 
 
 def _kept(scene: Scene, of: Sequence[str], path: EventSequence, n: DimensionlessGroups) -> dict[str, Any]:
@@ -83,7 +89,7 @@ def _chained(request: Batch, scene: Scene, speed: float, angle: float, plugin: s
 
     n = nondimensionalise(scene, speed, angle)
     ledger = any(name in LEDGER for name in request.of)
-    one = by_casadi(scene, n, request.rtol, plugin, ledger=ledger, trajectory=False)
+    one = by_casadi(scene, n, request.rtol, plugin, ledger, False, steps=_steps(request))
     found: dict[str, Any] = {"outcome": OUTCOMES.index(one.outcome), "certified": one.certified}
     for name in ("restitution", *(name for name in request.of if name in INTEGRATED)):
         table, _, term = name.rpartition(".")

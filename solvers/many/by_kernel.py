@@ -19,7 +19,6 @@ from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, rate_scales, si_values
 from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
-from ..settings import FEW
 from .batch import Batch
 from .columns import varied_columns
 from .results import LEDGER as OF_LEDGER
@@ -64,9 +63,7 @@ def collide_by_kernel(
             both = run_with_books(impacts, request.rtol, threads)
             found, books = both if both is not None else (None, None)
         else:
-            found = run_kernel(
-                impacts, request.rtol, "rotation" in request.of, threads, few=request.count <= FEW, jumps=jumps
-            )
+            found = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps)
         if found is None:
             if request.whole:  # other chunks may have been computed by the kernel
                 advice = 'look at what the compiler reports, or choose another engine, as "rosenbrock"'
@@ -148,10 +145,10 @@ def block_of(request: Batch, found: np.ndarray, impacts: Impacts, books: np.ndar
     columns: dict[str, Callable[[], np.ndarray]] = {
         "tangential_restitution": lambda: where(separated & (impacts.angle > 0), found["shown"][:, 1]),
         "slip_restitution": lambda: where(separated & impacts.oblique, found["slip"]),
-        "contact_time": lambda: where(separated, found["time"] * thickness() / impacts.speed),
+        "contact_time": lambda: where(separated, found["time"] * (thickness() / impacts.speed)),
         "smallest_gap": lambda: where(separated, found["smallest_gap"] * thickness()),
         "rotation": lambda: where(separated, found["turned"]),
-        "until": lambda: where(~separated, found["time"] * thickness() / impacts.speed),
+        "until": lambda: where(~separated, found["time"] * (thickness() / impacts.speed)),
         "reversal": lambda: _CODES[found["reversal"]],
         "steps": lambda: found["steps"].astype(float),
     }

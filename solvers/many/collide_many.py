@@ -13,9 +13,19 @@ import numpy as np
 
 from ..errors import InputError
 from ..model.validity import warn
+from ..scene.held import held_text
 from ..scene.scene import Scene
 from ..settings import RTOL
-from .batch import Batch, batch, check_outputs, check_some_scene, checked_impact, checked_vary, of_one_length
+from .batch import (
+    Batch,
+    batch,
+    check_outputs,
+    check_some_scene,
+    checked_impact,
+    checked_vary,
+    held_by_default,
+    of_one_length,
+)
 from .broadcast import Layout, laid_out
 from .chunks import chunks
 from .compute import complete, complete_by_choices, computed_chunk
@@ -37,6 +47,7 @@ def collide_many(
     angle: Any = None,
     relative_speed: Any = None,
     vary: Mapping[str, Any] | None = None,
+    hold: str | None = None,
     rtol: float = RTOL,
     engine: str | None = None,
     of: Sequence[str] = ("outcome", "restitution"),
@@ -51,9 +62,10 @@ def collide_many(
             m/s; default the scene's.
         angle: impact angles in rad; default the scene's.
         vary: other entries by dotted name: SI numbers, or the names of laws and other choices.
+        hold: what the scene's impact keeps where other entries vary, as for `Scene.with_entries`; without effect where
+            speeds or Stokes numbers are arguments.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "taylor" (default where its kernel is compiled, and for more than 100 collisions where there is a C
-            compiler), "rosenbrock" or "cvodes".
+        engine: "taylor" (default; compiled on first use), "rosenbrock" (also where there is no C compiler) or "cvodes".
         of: what to keep besides outcome and restitution: any number that a `Collision` has, terms of its ledger as
             "energy.capillary" (the ledger is then integrated too, which takes longer), and validity (flags of where the
             model leaves its range, with the results that these need). For contact_time, rotation and until the kernel
@@ -83,14 +95,16 @@ def collide_many(
         >>> laws.restitution.shape
         (2,)
     """
-    loaded, kept = Scene.load(scene), check_outputs(of, RESULTS)
+    loaded, names = Scene.load(scene), check_outputs(of, RESULTS)
     file = check_places(client, store)
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     vary = {} if vary is None else vary
     loaded, varied = checked_vary(loaded, vary, most=None, texts=True)
-    arrays = checked_impact(loaded, impact, None) | varied
+    kept = held_by_default(loaded, impact, varied, hold)
+    arrays = checked_impact(loaded, impact, None, kept) | varied
     layout = laid_out(arrays, {**{f"impact.{name}": values for name, values in impact.items()}, **vary})
-    request = batch(loaded, of_one_length(arrays) if layout is None else layout.columns, rtol, engine, kept)
+    request = batch(loaded, of_one_length(arrays) if layout is None else layout.columns, rtol, engine, names)
+    request = replace(request, held=held_text(loaded, kept)) if kept else request
     if client is not None or file is not None:
         return _in_chunks(request, layout, client, file)
     results = empty(request.size, request.of)

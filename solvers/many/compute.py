@@ -24,7 +24,7 @@ from .of_impact import of_impact
 from .results import FAILED, OF_IMPACT, VALIDITY, Block
 
 _BLOCK = 50  # collisions in a block for a worker
-_ALONE = FEW  # fewer collisions are not worth starting workers for
+_ALONE = FEW
 _SLOW_ALONE = 20  # the same for collisions that the kernel did not complete; they take up to seconds each
 
 Finished = Callable[[np.ndarray, Block], None]

@@ -88,6 +88,8 @@ def as_dataset(
         if name not in variables:
             variables[name] = along, values, flag_attributes() if name == VALIDITY else attributes(name)
     said = {"scene": request.scene.to_toml(), "rtol": request.rtol, "engine": engine or request.engine}
+    if request.held:
+        said["held"] = request.held
     if request.scene.package is not None:
         said["model"] = request.scene.package.text
     if layout is not None:

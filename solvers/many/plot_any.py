@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from ...generated.automaton import OUTCOMES, ROTATE
 from ..collision.text import name_of
 from ..formatting.style import EDGES, FILLS, picture
+from ..scene.held import AXIS_LABELS
 from .plot_map import draw_map
 from .regime_map import scene_of
 from .results import FAILED
@@ -45,7 +46,7 @@ def _points(data: xarray.Dataset) -> Figure:
         axes.scatter(np.degrees(x[failed]), y[failed], s=30, c="#C00000", marker="x", label=f"failed ({failed.sum()})")
     if y.size and y.min() > 0 and y.max() > 20 * y.min():
         axes.set_yscale("log")
-    axes.set(xlabel="impact angle (deg)", ylabel="Stokes number St" if impact == "stokes" else "normal speed (m/s)")
+    axes.set(xlabel="impact angle (deg)", ylabel=AXIS_LABELS[impact])
     name = name_of(scene_of(data)).replace("$", r"\$")
     axes.set_title(f"{name}: outcomes of {outcome.size} collisions", fontsize=11)
     axes.spines[["top", "right"]].set_visible(False)

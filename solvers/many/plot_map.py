@@ -17,10 +17,11 @@ from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator
 
 from ...generated.automaton import OUTCOMES
-from ..collision.text import against, name_of, quantity
+from ..collision.text import against, name_of, plain, quantity
 from ..formatting import ticks
 from ..formatting.style import EDGES, FILLS, HATCHES, INK, LETTERS, NOTE, NOTHING, halo, patch, picture, plain_text
 from ..model.validity import counted
+from ..scene.held import NAMES
 from ..scene.scene import Scene
 from .regime_map import IMPACTS, impact_axis, scene_of
 from .results import FAILED, VALIDITY
@@ -50,13 +51,14 @@ def draw_map(data: xarray.Dataset, curves: Curves | None = None) -> Figure:
         curves: exact boundaries to draw over the cells, as `boundaries.on_map.map_curves` finds them.
     """
     scene = scene_of(data)
-    varied = [str(name) for name in data["outcome"].dims if name not in ("angle", *IMPACTS)]
+    data, alone = _without_impact_axis(data)
+    varied = [str(name) for name in data["outcome"].dims if name not in ("angle", _vertical(data))]
     if varied:
         figure, notes = _multiples(data, varied, curves or {})
         title = "outcomes"
     else:
         figure, notes = _pair(data, curves or {}), []
-        title = "outcome and normal restitution"
+        title = f"outcome and normal restitution{alone}"
     across = figure.get_figwidth()
     figure.suptitle(textwrap.fill(f"{plain_text(name_of(scene))}{against(scene)}: {title}", int(11 * across)))
     notes += [_counts(data), _variant(scene), *_range(data)]
@@ -65,6 +67,22 @@ def draw_map(data: xarray.Dataset, curves: Curves | None = None) -> Figure:
     lines += [textwrap.shorten(line, int(across / _NOTES)) for line in assumed]
     figure.supxlabel("\n".join(plain_text(line) for line in lines), color=NOTE)
     return figure
+
+
+def _without_impact_axis(data: xarray.Dataset) -> tuple[xarray.Dataset, str]:
+    """The map without an impact axis of length 1, if just one entry varies, and that impact as text."""
+    impact = impact_axis(data)
+    varied = [name for name in data["outcome"].dims if name not in ("angle", impact)]
+    if data.sizes[impact] > 1 or len(varied) != 1 or data.sizes[varied[0]] < 2:
+        return data, ""
+    unit = "" if impact == "stokes" else " m/s"
+    return data.isel({impact: 0}), f" at {NAMES[impact]} {float(data[impact][0]):.4g}{unit}"
+
+
+def _vertical(data: xarray.Dataset) -> str:
+    """The dimension that is drawn upwards: the impact's, or the entry that varies in its place."""
+    dims = [str(name) for name in data["outcome"].dims if name != "angle"]
+    return next((name for name in dims if name in IMPACTS), dims[0])
 
 
 def _variant(scene: Scene) -> str:
@@ -172,13 +190,13 @@ def _value(part: xarray.Dataset, name: str) -> str:
     if unit == "rad":
         text = f"{math.degrees(value):.4g}°"
     else:
-        text = f"{value:.4g}" if unit == "1" else quantity(value, unit)
+        text = f"{value:.4g}" if unit == "1" else (plain if abs(value) >= 1 else quantity)(value, unit)
     return f"{name.rpartition('.')[2].replace('_', ' ')} {text.replace(' u', ' µ')}"
 
 
 def _upright(data: xarray.Dataset, name: str) -> np.ndarray:
     """A variable as a 2-D array, with a row for each Stokes number or speed."""
-    return np.asarray(data[name].transpose(impact_axis(data), "angle").values)
+    return np.asarray(data[name].transpose(_vertical(data), "angle").values)
 
 
 def _restitution(data: xarray.Dataset) -> np.ndarray:
@@ -227,14 +245,14 @@ def _failed(axes: Axes, data: xarray.Dataset) -> None:
     outcome = _upright(data, "outcome")
     rows, columns = np.nonzero(outcome == FAILED)
     if rows.size:
-        x, y = np.degrees(data["angle"].values)[columns], data[impact_axis(data)].values[rows]
+        x, y = np.degrees(data["angle"].values)[columns], data[_vertical(data)].values[rows]
         axes.plot(x, y, clip_on=False, zorder=5, **_CROSS | {"markersize": max(2.0, min(6.0, 90 / max(outcome.shape)))})
 
 
 def _letters(axes: Axes, data: xarray.Dataset) -> None:
     """Draw the name of each region where it is widest."""
     outcome = _upright(data, "outcome")
-    angles, values = np.degrees(data["angle"].values), data[impact_axis(data)].values
+    angles, values = np.degrees(data["angle"].values), data[_vertical(data)].values
     for k, name in enumerate(OUTCOMES):
         inside = np.pad(outcome == k, 1)
         depth = np.zeros(inside.shape)
@@ -256,7 +274,7 @@ def _letters(axes: Axes, data: xarray.Dataset) -> None:
 def draw_contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float]) -> None:
     """Draw labelled contours of restitution, separately for each outcome because it jumps between them."""
     outcome, restitution = _upright(data, "outcome"), _upright(data, "restitution")
-    x, y = np.degrees(data["angle"].values), data[impact_axis(data)].values
+    x, y = np.degrees(data["angle"].values), data[_vertical(data)].values
     taken: list[np.ndarray] = []
     for k in (1, 2):
         values = np.ma.masked_where(outcome != k, restitution)
@@ -297,7 +315,7 @@ def _label(axes: Axes, text: str, pieces: Sequence[np.ndarray], taken: list[np.n
 
 def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = True) -> None:
     """Set scales, ticks and labels."""
-    name = impact_axis(data)
+    name = _vertical(data)
     if _logarithmic(data[name].values):
         axes.set_yscale("log")
         ticks.plain(axes.yaxis)
@@ -314,7 +332,9 @@ def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = Tru
             "speed": "normal approach speed $v_0$ (m/s)",
             "relative_speed": r"relative speed $v_0/\cos\theta_0$ (m/s)",
         }
-        axes.set_ylabel(labels[name])
+        unit = data[name].attrs.get("units", "1")
+        entry = f"{name.rpartition('.')[2].replace('_', ' ')}{'' if unit == '1' else f' ({unit})'}"
+        axes.set_ylabel(labels.get(name, entry))
 
 
 def _handles(data: xarray.Dataset, curves: Curves) -> list[Any]:
@@ -330,7 +350,7 @@ def _handles(data: xarray.Dataset, curves: Curves) -> list[Any]:
 
 def _edges(data: xarray.Dataset) -> tuple[np.ndarray, np.ndarray]:
     """Edges of the cells in both directions: midway between points, and the first and last point."""
-    values = data[impact_axis(data)].values
+    values = data[_vertical(data)].values
     up = np.exp(_between(np.log(values))) if _logarithmic(values) else _between(values)
     return _between(np.degrees(data["angle"].values)), up
 

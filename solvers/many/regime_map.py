@@ -14,19 +14,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated import scaling
+from ..engines.choice import collision_engine
 from ..errors import InputError
 from ..host import files
 from ..host.arguments import check_function
 from ..host.pictures import register
 from ..model.validity import flag_attributes, warn
 from ..scene.groups import si_values
+from ..scene.held import held_text
 from ..scene.quantities import normal_speed
 from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
-from .batch import Batch, check_outputs, check_some_scene, checked_impact, checked_vary, engine_for
+from .batch import Batch, check_outputs, check_some_scene, checked_impact, checked_vary, held_by_default
 from .chunks import chunks
 from .compute import Slow, compute, computed_chunk
 from .dataset import as_text, blank, empty, fill, validity
@@ -51,6 +53,7 @@ class Grid:
     impact: str  # "stokes", "speed" or "relative_speed"
     values: np.ndarray
     vary: dict[str, np.ndarray]
+    held: str = ""  # what stays of the scene's impact where entries vary, in words
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -68,10 +71,6 @@ class Grid:
         """The same scenes, each with the first impact alone."""
         return replace(self, angle=self.angle[:1], values=self.values[:1])
 
-    def all_angles(self) -> Grid:
-        """Every angle once, with the first of everything else."""
-        return replace(self, values=self.values[:1], vary={name: axis[:1] for name, axis in self.vary.items()})
-
     @cached_property
     def order(self) -> np.ndarray:
         """Flat indices in the order of computation: the collisions of one scene follow one another."""
@@ -82,7 +81,7 @@ class Grid:
         """A block of the grid."""
         angle, values, *varied = at
         vary = {name: axis[own] for (name, axis), own in zip(self.vary.items(), varied, strict=True)}
-        return Grid(self.scene, self.angle[angle], self.impact, self.values[values], vary)
+        return replace(self, angle=self.angle[angle], values=self.values[values], vary=vary)
 
     def speeds(self, values: np.ndarray, angle: np.ndarray, stokes_per_speed: float) -> np.ndarray:
         """Normal speeds, m/s, of what is on the impact's axis."""
@@ -115,6 +114,7 @@ def regime_map(
     angle: Any = None,
     relative_speed: Any = None,
     vary: Mapping[str, Any] | None = None,
+    hold: str | None = None,
     rtol: float = RTOL,
     engine: str | None = None,
     of: Sequence[str] = (*QUANTITIES, VALIDITY),
@@ -132,9 +132,9 @@ def regime_map(
             m/s: an axis, or a single number; default the scene's.
         angle: impact angles in rad, an axis or a single number; default the scene's.
         vary: other entries by dotted name (SI), each an axis of its own.
+        hold: what the scene's impact keeps where it is no argument, as for `collide_many`.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "taylor" (default where its kernel is compiled, and for more than 100 collisions where there is a C
-            compiler), "rosenbrock" or "cvodes".
+        engine: "taylor" (default; compiled on first use), "rosenbrock" (also where there is no C compiler) or "cvodes".
         of: results as for `collide_many`; by default restitution, tangential_restitution, rotation, contact_time,
             smallest_gap and validity (flags of where the model leaves its range).
         progress: called with (collisions done, collisions in all) after every block.
@@ -164,11 +164,10 @@ def regime_map(
     told = check_function(progress, "progress"), check_function(slow, "slow")
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     file = check_places(client, store)
-    grid = _grid(Scene.load(scene), impact, {} if vary is None else vary, MOST if file is None else MOST_STORED)
+    grid = _grid(Scene.load(scene), impact, {} if vary is None else vary, MOST if file is None else MOST_STORED, hold)
     wanted, rtol, results, kept = check_engine(engine), check_rtol(rtol), check_outputs(of), checked_journal(journal)
     check_some_scene(grid.one_impact().request(rtol, wanted, ()))
-    by = engine_for(grid.all_angles().request(rtol, wanted, results), math.prod(grid.shape))
-    asked = _Asked(grid, rtol, by, results)
+    asked = _Asked(grid, rtol, collision_engine(grid.scene, wanted), results)
     warn(grid.scene)
     if file is not None:
         return into_store(_scan(asked), file, client, told[0] or (lambda _done, _total: None), kept)
@@ -257,9 +256,10 @@ def _chunk(asked: _Asked, whole: int, cores: int) -> Block:
     return computed_chunk(replace(asked.request(), whole=whole), cores)
 
 
-def _grid(scene: Scene, impact: Mapping[str, Any], vary: Mapping[str, Any], most: int) -> Grid:
+def _grid(scene: Scene, impact: Mapping[str, Any], vary: Mapping[str, Any], most: int, hold: str | None) -> Grid:
     scene, varied = checked_vary(scene, vary)
-    axes = {name: array.reshape(-1) for name, array in (checked_impact(scene, impact) | varied).items()}
+    kept = held_by_default(scene, impact, varied, hold)
+    axes = {name: array.reshape(-1) for name, array in (checked_impact(scene, impact, 1, kept) | varied).items()}
     if math.prod(axis.size for axis in axes.values()) > most:
         longest = max(axes, key=lambda name: axes[name].size)
         sizes = " x ".join(str(axis.size) for axis in axes.values())
@@ -270,7 +270,7 @@ def _grid(scene: Scene, impact: Mapping[str, Any], vary: Mapping[str, Any], most
     angles = axes.pop("impact.angle")
     entry = next(name for name in SPEEDS if name in axes)
     values = axes.pop(entry)
-    return Grid(scene, angles, entry.partition(".")[2], values, axes)
+    return Grid(scene, angles, entry.partition(".")[2], values, axes, held_text(scene, kept) if kept else "")
 
 
 def _identity(asked: _Asked) -> dict[str, Any]:
@@ -324,6 +324,8 @@ def _dataset(asked: _Asked, request: Batch, results: Block) -> xarray.Dataset:
         "engine": request.engine,
         "version": _version(),
     }
+    if grid.held:
+        said["held"] = grid.held
     if grid.scene.package is not None:
         said["model"] = grid.scene.package.text
     return xr.Dataset(variables, _coordinates(grid), said)

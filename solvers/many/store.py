@@ -5,6 +5,7 @@ Until then it lies beside, as NAME.KEY.unfinished with the key of its request, a
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import shutil
@@ -19,6 +20,7 @@ import numpy as np
 
 from ..errors import ComputationError, InputError
 from ..host import bounded
+from ..host.interrupts import held
 from ..host.outputs import check_file
 from .chunks import Chunks
 
@@ -72,6 +74,7 @@ class Store:
         self.cut = cut
         self._group: Any = None
 
+    @held()  # Zarr's tasks, interrupted, would write tracebacks later
     def open(self, fixed: xarray.Dataset, first: xarray.Dataset) -> str:
         """Open or create the arrays; returns a token that only this folder has.
 
@@ -82,9 +85,14 @@ class Store:
         zarr = _zarr()
         with _unwarned():
             if (self.place / _TOKEN).is_file():
+                token = (self.place / _TOKEN).read_text(errors="replace")
                 with self._undamaged():
+                    if not token.endswith(self._description()):
+                        raise ValueError("its description is not what was written")
                     self._group = zarr.open_group(self.place, mode="r+", zarr_format=3)
-                return (self.place / _TOKEN).read_text()
+                for name, variable in fixed.variables.items():
+                    self._group[str(name)][...] = _values(name, variable)
+                return token
             if self.place.exists():  # an earlier run was killed before the arrays were complete
                 shutil.rmtree(self.place)
             self._group = zarr.open_group(self.place, mode="w", zarr_format=3)
@@ -96,9 +104,14 @@ class Store:
                 self._create(name, first.variables[name], sizes, block)
             more = [str(name) for name in {**fixed.coords, **first.coords} if name not in dims]
             self._group.attrs.update({**_plain(first.attrs), **({"coordinates": " ".join(more)} if more else {})})
-        token = uuid.uuid4().hex
+        token = f"{uuid.uuid4().hex} {self._description()}"
         (self.place / _TOKEN).write_text(token)
         return token
+
+    def _description(self) -> str:
+        """Digest of the descriptions of the store and of its arrays."""
+        files = [self.place / _META, *sorted(self.place.glob(f"*/{_META}"))]
+        return hashlib.sha256(b"\n".join(file.read_bytes() for file in files)).hexdigest()
 
     def _create(self, name: Hashable, variable: Any, sizes: Mapping[str, int], block: Mapping[str, int]) -> Any:
         """An array for a variable that a chunk or all of it is known of."""
@@ -110,11 +123,13 @@ class Store:
             shape=shape,
             chunks=tuple(max(1, block.get(str(dim), size)) for dim, size in variable.sizes.items()),
             dtype=kind,
+            compressors=(_zarr().codecs.ZstdCodec(), _zarr().codecs.Crc32cCodec()),  # reading a damaged chunk fails
             fill_value=np.nan if variable.dtype.kind == "f" else "" if kind == "string" else 0,
             dimension_names=[str(dim) for dim in variable.dims],
             attributes=_plain(variable.attrs),
         )
 
+    @held()
     def write(self, k: int, chunk: xarray.Dataset, fixed: xarray.Dataset) -> None:
         """Write chunk k; what has not all dimensions is written with the first chunk along those that it lacks."""
         at = dict(zip(map(str, chunk["outcome"].dims), self.cut.slices(k)))
@@ -126,15 +141,27 @@ class Store:
                 array = self._group[str(name)]
             array[tuple(at[dim] for dim in dims)] = _values(name, variable)
 
+    def holds(self, k: int) -> bool:
+        """True if chunk k can be read: no checksum differs."""
+        arrays = [self._group[file.parent.name] for file in self.place.glob(f"*/{_META}")]
+        at = dict(zip(self._group["outcome"].metadata.dimension_names, self.cut.slices(k)))
+        try:
+            for array in arrays:
+                array[tuple(at[dim] for dim in array.metadata.dimension_names)]
+        except (ValueError, RuntimeError):  # of the checksum, or of the decompression before it
+            return False
+        return True
+
     @contextmanager
     def _undamaged(self) -> Iterator[None]:
         """Say in one line that an array or the description is not there, or not what was written."""
         try:
             yield
-        except (KeyError, ValueError) as error:
+        except (KeyError, ValueError, OSError) as error:
             why = f"{self.place} is damaged ({type(error).__name__}: {' '.join(str(error).split())[:80]})"
             raise ComputationError(why, advice="remove it and compute again") from error
 
+    @held()
     def finish(self) -> None:
         """Move the store to its name, in place of a complete one that was there."""
         zarr = _zarr()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -111,8 +112,8 @@ def into_store(
         fixed = scan.fixed()
         token = store.open(fixed, scan.dataset(0, scan.blank(0)))
         kept.under({**identity, "store": token})  # what another folder held is not in this one
-        done, total = set(kept.chunks()), int(np.prod(scan.cut.shape))
-        count = kept.count()
+        done, total = {k for k in kept.chunks() if store.holds(k)}, math.prod(scan.cut.shape)
+        count = sum(math.prod(scan.cut.extent(k)) for k in done)
         progress(count, total)
         for k, block in blocks([k for k in range(len(scan.cut)) if k not in done]):
             store.write(k, scan.dataset(k, block), fixed)

@@ -13,6 +13,7 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..collision.text import WIDTH, name_of, quantity
 from ..model.validity import counted
+from ..scene.held import NAMES
 from .regime_map import IMPACTS, impact_axis, scene_of
 from .results import FAILED, VALIDITY
 
@@ -55,7 +56,7 @@ def _map(data: xarray.Dataset) -> list[str]:
     rows, columns = _some(outcome.shape[0], _ROWS), _some(outcome.shape[1], WIDTH - _LABEL)
     values, angles = data[impact].values, np.degrees(data["angle"].values)
     head = "St" if impact == "stokes" else "m/s"
-    lines = [f"{head:>{_LABEL - 2}}"]
+    lines = [f"{head:>{_LABEL - 2}}  {NAMES[impact]}"]
     for row in rows[::-1]:
         text = "".join(CHARACTERS[outcome[row, column]] for column in columns)
         lines.append(f"{values[row]:>{_LABEL - 2}.3g}  {text}")

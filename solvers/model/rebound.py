@@ -12,6 +12,8 @@ from ..host.thread_caches import own_cache
 from ..scene.contact import GAPS
 from .model import Model, ModelKey, load
 
+_MOST = ("most", "rest_most")  # Coulomb's limit of a rebound, and of one by which the doublet comes to rest
+
 
 @dataclass(frozen=True)
 class Rebound:
@@ -34,20 +36,20 @@ def rubs(model: Model, kind: str) -> bool:
     return model.friction and (kind in GAPS or model.choice.structure.endswith("_friction_all"))
 
 
-def rebounded(model: Model, kind: str, y: np.ndarray, p: np.ndarray) -> Rebound:
-    """The rebound of a state (leading entries of `y`) by a criterion."""
+def rebounded(model: Model, kind: str, y: np.ndarray, p: np.ndarray, rests: bool = False) -> Rebound:
+    """The rebound of a state (leading entries of `y`) by a criterion; `rests`: the doublet comes to rest by it."""
     if not model.friction:
         after = np.array(list(model.values("rebound", y, p).values()))
         return Rebound(after, model.values("rebound_loss", y, p)["dry_contact"])
     rubbing, impulses = rubs(model, kind), model.values("dry_slip", y, p)
-    found = [part.full().ravel() for part in jump(model.choice)(y[: len(model.state)], p, float(rubbing))]
-    sticking, most = abs(impulses["sticking"]), impulses["most"]
+    found = [part.full().ravel() for part in jump(model.choice, rests)(y[: len(model.state)], p, float(rubbing))]
+    sticking, most = abs(impulses["sticking"]), impulses[_MOST[rests]]
     grip = math.log(sticking / most) if rubbing and sticking > 0 and most > 0 else math.inf
     return Rebound(found[0], float(found[1][0]), float(found[2][0]), grip)
 
 
 @own_cache(128)
-def jump(choice: ModelKey) -> Function:
+def jump(choice: ModelKey, rests: bool = False) -> Function:
     """Function (state, groups, 1 with friction) -> state after a rebound, and both losses of energy.
 
     The tangential impulse is the one that sticks, limited by Coulomb's law.
@@ -56,7 +58,7 @@ def jump(choice: ModelKey) -> Function:
     after, friction = model("rebound"), SX(0)
     if model.friction:
         found = model("dry_slip")
-        sticking, most = found["sticking"], rubbing * found["most"]
+        sticking, most = found["sticking"], rubbing * found[_MOST[rests]]
         impulse = if_else(sticking > most, most, if_else(sticking < -most, -most, sticking))
         after = model("rubbed", region={"impulse": impulse}) | {"normal_velocity": after["normal_velocity"]}
         friction = model("friction_loss", region={"impulse": impulse})["dry_friction"]

@@ -9,13 +9,14 @@ import math
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, reduce
 from typing import Any
 
 import numpy as np
 
-from ...generated.automaton import OUTCOMES, STICK
+from ...generated.automaton import BOUNCE, OUTCOMES, STICK
 from ..errors import ModelWarning
+from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, law_module, si_values
 from ..scene.scene import Scene
 
@@ -137,6 +138,18 @@ def _own_rupture(scene: Scene, values: Values) -> Any:
     return _unlike(scene, values) if own else math.nan
 
 
+def _idle_friction(scene: Scene, values: Values) -> Any:
+    """Smallest gap of a bounce over that of solid contact, where only solids have friction; else NaN."""
+    if scene.particles.friction is None or scene.model.contact_friction != "solid":
+        return math.nan
+    values = {"poisson_ratio": 0.0, **NEVER_MET, **values}  # entries that may be left out
+    contact = values["film_thickness"] * reduce(np.maximum, (_group(scene, values, name) for name in GAPS.values()))
+    bounced = np.asarray(values["outcome"]) == OUTCOMES.index(BOUNCE)
+    oblique = (np.asarray(values["angle"]) > 0) | scene.turns(0.0)
+    with np.errstate(all="ignore"):
+        return np.where(bounced & oblique, values["smallest_gap"] / contact, math.nan)
+
+
 def _partner(ratio: float) -> str:
     return "the partner is a wall" if math.isinf(ratio) else f"one radius is {ratio:.4g} times the other, above 1"
 
@@ -198,6 +211,15 @@ LIMITS: tuple[Limit, ...] = (
         lambda n: f"{_partner(n)}: the law's own rupture distance is that of equal spheres",
         most=1.0,
     ),
+    Limit(
+        "idle_friction",
+        _idle_friction,
+        lambda n: (
+            "friction does nothing: the pair rebounds from glassy liquid, and its smallest gap is "
+            f"{n:.3g} times that of solid contact (model.contact_friction = all lets it act)"
+        ),
+        most=1 + 1e-9,
+    ),
 )
 LAW_RANGE = "law_range"
 FLAGS: tuple[str, ...] = (*(limit.flag for limit in LIMITS), LAW_RANGE)
@@ -220,6 +242,22 @@ def sentences(scene: Scene, speed: float, angle: float, outcome: str, results: M
         number = float(limit.number(scene, values))
         if limit.passed(number):
             said.append(limit.says(number))
+    return [*said, *remarks(scene)]
+
+
+def sentences_of_many(scene: Scene, values: Values) -> list[str]:
+    """What of any of many collisions lies outside the model's range, as `sentences`, with the number farthest outside.
+
+    Arguments:
+        values: as for `flags`.
+    """
+    said = []
+    with np.errstate(all="ignore"):
+        for limit in LIMITS:
+            numbers = np.atleast_1d(np.asarray(limit.number(scene, values), float))
+            outside = numbers[limit.passed(numbers)]
+            if outside.size:
+                said.append(limit.says(float(outside.max() if math.isfinite(limit.most) else outside.min())))
     return [*said, *remarks(scene)]
 
 
@@ -263,6 +301,7 @@ _WORDS = {
     "wall_coupling": "spin beside the wall",
     "cavitating_film": "cavitating between unequal surfaces",
     "own_rupture": "own rupture of unequal spheres",
+    "idle_friction": "friction without contact",
     LAW_RANGE: "range of the bridge law",
 }
 

@@ -14,7 +14,7 @@ import numpy as np
 from ..boundaries.boundary import boundary
 from ..boundaries.line import ready
 from ..boundaries.look import Look
-from ..engines.choice import boundary_engine
+from ..engines.choice import collision_engine
 from ..errors import ComputationError
 from ..host.cores import usable_cores
 from ..host.workers import lasting_workers
@@ -97,7 +97,7 @@ class Desk:
             missing += [angle for angle in job.angles if angle not in known and angle not in missing]
         todo = [Job(scene, tuple(angles), span) for (scene, span), angles in wanted.items() if angles]
         ready([job.scene for job in todo])
-        small = [job for job in todo if len(job.angles) < _FEW and boundary_engine(job.scene) != "taylor"]
+        small = [job for job in todo if len(job.angles) < _FEW and collision_engine(job.scene) != "taylor"]
         large = [job for job in todo if job not in small]
         for job, traced in [*((job, job.trace()) for job in large), *zip(small, shared_out(Job.trace, small))]:
             self.collisions += traced.collisions

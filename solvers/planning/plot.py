@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from ..collision.text import against, name_of
 from ..formatting import ticks
 from ..formatting.style import INK, NOTE, picture, plain_text
+from ..scene.held import AXIS_LABELS
 from .planned import Planned
 
 if TYPE_CHECKING:
@@ -19,11 +20,6 @@ if TYPE_CHECKING:
 
 _WORST, _BEST = 1.0, 1e-3  # standard errors from one impact that the colours tell apart, at most
 _FINE = 320, 200  # outcomes on speeds and angles, for the lines of their changes
-_LABELS = {
-    "stokes": "Stokes number $St_n$",
-    "speed": "normal speed $v_0$ (m/s)",
-    "relative_speed": "relative speed (m/s)",
-}
 _ROWS = {"information": "outcome and restitution", "by_outcome": "outcome alone"}
 
 
@@ -49,7 +45,7 @@ def draw(design: Planned) -> Figure:
                 axes.set_title(plain_text(name), fontsize="medium")
             if i == len(rows) - 1:
                 axes.set_xlabel("impact angle (deg)" if design.window.extends[1] else "")
-        panels[i, 0].set_ylabel(f"{_LABELS[design.window.key]}\n{_ROWS[of]}")
+        panels[i, 0].set_ylabel(f"{AXIS_LABELS[design.window.key]}\n{_ROWS[of]}")
     assert mesh is not None
     bar = figure.colorbar(mesh, ax=panels, extend="both", pad=0.02, aspect=30)
     bar.set_label("standard error from one impact, relative" if all(each.log for each in design.free.entries)

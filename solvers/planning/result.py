@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..fitting.shown import in_unit, interval
+from ..scene.held import NAMES
 from ..scene.origin import origin
 from .planned import Planned
 
@@ -52,20 +53,19 @@ class Design(Planned):
             "for": self.target,
             "draws": self.draws,
             "candidates": self.candidates,
-            "scatter": {"speed": scatter.speed, "angle": scatter.angle, "restitution": scatter.restitution},
+            "scatter": {self._speed: scatter.speed, "angle": scatter.angle, "restitution": scatter.restitution},
         } | origin(self.window.scene)  # fmt: skip
 
     def to_csv(self) -> str:
         """A row for each impact in the form that `fit` reads, its observations empty."""
-        scatter, relative = self.window.scatter, self.window.key == "relative_speed"
-        name = "relative_speed" if relative else "speed"
+        scatter, name = self.window.scatter, self._speed
         file = io.StringIO()
         writer = csv.writer(file, lineterminator="\n")
         head = [f"{name} [m/s]", f"{name}_sd [m/s]", "angle [deg]", "angle_sd [deg]", "outcome"]
         measured = scatter.restitution is not None
         writer.writerow(head + (["restitution", "restitution_sd"] if measured else []))
         for each in self.impacts:
-            speed = each.relative_speed if relative else each.speed
+            speed = getattr(each, name)
             row = [f"{speed:.6g}", f"{scatter.speed * speed:.3g}", f"{math.degrees(each.angle):.4f}"]
             row += [f"{math.degrees(scatter.angle):.4g}", ""]
             writer.writerows([row + (["", f"{scatter.restitution:.4g}"] if measured else [])] * each.count)
@@ -75,11 +75,9 @@ class Design(Planned):
         scene, scatter = self.given, self.window.scatter
         names = self.free.names if self.target is None else (self.target,)
         title = f"{self.size} impact{'s' * (self.size > 1)} for {', '.join(names)}"
-        rows = [("times", "St", "speed", "angle", "S / SRS / B (%)")]
-        for each in self.impacts:
-            shares = " / ".join(f"{100 * share:.0f}" for share in each.probability)
-            angle = f"{math.degrees(each.angle):.1f} deg"
-            rows.append((f"{each.count}", f"{each.stokes:.4g}", f"{each.speed:.4g} m/s", angle, shares))
+        rows = [(*self._head(), "S / SRS / B (%)")]
+        for row, each in zip(self._rows(), self.impacts, strict=True):
+            rows.append((*row, " / ".join(f"{100 * share:.0f}" for share in each.probability)))
         speeds, angles = self.grid
         entries = [("entry", "expected 95 % interval", "before", f"beside a {speeds} x {angles} grid")]
         for name, expected in self.expected.items():
@@ -93,7 +91,8 @@ class Design(Planned):
         values = zip(self.free.names, self.values.tolist(), strict=True)
         now = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
         averaged = f", averaged over {self.draws} draws" if self.draws > 1 else ""
-        scattered = f"scatter {100 * scatter.speed:.3g} % of the speed, {math.degrees(scatter.angle):.3g} deg; {noise}"
+        share_of_speed = f"{100 * scatter.speed:.3g} % of the {NAMES[self._speed]}"
+        scattered = f"scatter {share_of_speed}, {math.degrees(scatter.angle):.3g} deg; {noise}"
         said = [f"Planned for {now}{averaged}; {scattered}."]
         combined = [name for name, each in self.expected.items() if each.low is each.high]
         if self.combinations and combined:
@@ -108,11 +107,22 @@ class Design(Planned):
     def _repr_html_(self) -> str:
         from ..formatting.notebook import view
 
-        rows = [
-            [str(each.count), f"{each.stokes:.4g}", f"{each.speed:.4g} m/s", f"{math.degrees(each.angle):.1f} deg"]
+        return view(f"design of {self.size} impacts", self._rows(), self._head())
+
+    @property
+    def _speed(self) -> str:
+        """Which speed is shown."""
+        return self.window.key if self.window.key != "stokes" else "speed"
+
+    def _head(self) -> tuple[str, ...]:
+        return "times", "St", NAMES[self._speed], "angle"
+
+    def _rows(self) -> list[tuple[str, ...]]:
+        return [
+            (str(each.count), f"{each.stokes:.4g}", f"{getattr(each, self._speed):.4g} m/s",
+             f"{math.degrees(each.angle):.1f} deg")
             for each in self.impacts
-        ]
-        return view(f"design of {self.size} impacts", rows, ["times", "St", "speed", "angle"])
+        ]  # fmt: skip
 
     def plot(self, path: str | Path | None = None) -> Any:
         """Draw what single impacts tell over the window, and the planned ones; returns the matplotlib Figure.

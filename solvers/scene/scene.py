@@ -14,6 +14,7 @@ from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
 from .groups import scaled
+from .held import adjusted_impact, held_quantity, impact_quantity
 from .quantities import SHADOW, Ways, coating_fraction, normal_speed, quantities, shared
 from .schema import FIELDS, MEETING, SPEEDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
@@ -33,6 +34,7 @@ class Scene:
         given: (dotted name, value) in the order of the file; text carries its unit, a plain number is SI.
         comments: (dotted name, comment) of the file; `assumed ...` marks an assumed value.
         package: a user's model, whose quantities and laws the entries may name.
+        held: what stayed of the impact when other entries changed (`with_entries`), in words; empty where all did.
 
     Raises:
         InputError: names the first wrong entry, its value, and what is accepted.
@@ -46,6 +48,7 @@ class Scene:
     given: tuple[tuple[str, Raw], ...] = field(compare=False, repr=False)
     comments: tuple[tuple[str, str], ...] = field(default=(), compare=False, repr=False)
     package: Package | None = field(default=None, repr=False)
+    held: str = field(default="", compare=False, repr=False)
 
     particles: Particles = field(init=False, compare=False)
     partner: Partner | None = field(init=False, compare=False)
@@ -147,7 +150,8 @@ class Scene:
     @cached_property
     def _written(self) -> str:
         """The scene file, cached because every result carries it; equal scenes may differ in units."""
-        return scenefile.write(self.name, dict(self.given), dict(self.comments))
+        remarks = {f"impact.{impact_quantity(self)}": self.held} if self.held else {}
+        return scenefile.write(self.name, dict(self.given), remarks | dict(self.comments))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the nested tables as in a scene file (text carries units)."""
@@ -233,20 +237,37 @@ class Scene:
             name: value for name, value in self.given if name.partition(".")[0] != "custom" or package == self.package
         }
         entries = {**given, **package.chosen(given)}
-        return type(self)(self.name, tuple(entries.items()), self.comments, package)
+        return type(self)(self.name, tuple(entries.items()), self.comments, package, self.held)
 
-    def with_entries(self, changes: Mapping[str, Any]) -> Self:
-        """Return the scene with entries replaced or added, by dotted name; text carries its unit."""
+    def with_entries(self, changes: Mapping[str, Any], hold: str | None = None) -> Self:
+        """Return the scene with entries replaced or added, by dotted name; text carries its unit.
+
+        Arguments:
+            hold: quantity of the impact that stays, "speed", "stokes" or "relative_speed"; None for the relative speed
+                where the scene gives that, else the normal speed. Without effect where `changes` names one of them.
+        """
         changes = dict(check_mapping(changes, "changes", "entries by dotted name, {'liquid.viscosity': '3 Pa s'}"))
         name = changes.pop("name", self.name)
         rules.check_entries(changes, self.package)
         rules.check_replaced(dict(self.given), changes)
+        hold, quantity = held_quantity(self, hold), impact_quantity(self)
         comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
-        return type(self)(name, tuple({**dict(self.given), **changes}.items()), comments, self.package)
+        replaced = not {*SPEEDS}.isdisjoint(changes)
+        given = tuple({**dict(self.given), **changes}.items())
+        changed = type(self)(name, given, comments, self.package, "" if replaced else self.held)
+        if replaced or quantity is None:
+            return changed
+        number, remark = adjusted_impact(self, changed, quantity, hold)
+        if not remark:
+            return changed
+        entry = f"impact.{quantity}"
+        read = {entry: number} if number != self.entries[entry] else {}
+        given = tuple((name, read.get(name, raw)) for name, raw in changed.given)
+        return changed._at_impact(given, read, remark)  # noqa: SLF001 # another of its kind
 
-    def with_si(self, changes: Mapping[str, float]) -> Self:
+    def with_si(self, changes: Mapping[str, float], hold: str | None = None) -> Self:
         """Return the scene with numbers replaced or added as `si` has them: a volume in m^3 where it is given so."""
-        return self.with_entries({name: self.as_given(name, float(value)) for name, value in changes.items()})
+        return self.with_entries({name: self.as_given(name, float(value)) for name, value in changes.items()}, hold)
 
     def si_number(self, name: str, raw: object, label: str) -> float:
         """The number that `raw` gives for an entry, meant as the scene's own: a volume in m^3, or V/R^3.
@@ -298,16 +319,19 @@ class Scene:
         again = changes.keys() <= entries.keys()  # then the order is the same
         entries |= {name: self._kept(known[name], raw) for name, raw in changes.items()}
         return self._at_impact(
-            tuple(entries.items() if again else _in_order({**dict(self.given), **changes}, entries)), read
+            tuple(entries.items() if again else _in_order({**dict(self.given), **changes}, entries)),
+            read,
+            "" if replaced else self.held,
         )
 
-    def _at_impact(self, given: tuple[tuple[str, Raw], ...], read: Mapping[str, float | str]) -> Self:
+    def _at_impact(self, given: tuple[tuple[str, Raw], ...], read: Mapping[str, float | str], held: str) -> Self:
         """Return the scene of these entries, of which only those of the impact differ; what has not changed is kept.
 
         Equal to the scene that `__post_init__` makes of the same entries, with the rules that concern an impact.
 
         Arguments:
             read: those that differ, SI.
+            held: as of the new scene.
         """
         values = {**dict(self.si), **read}
         unchanged = {name for name, _ in given} - read.keys()
@@ -318,6 +342,7 @@ class Scene:
             given=given,
             comments=tuple((name, text) for name, text in self.comments if name in unchanged),
             si=si,
+            held=held,
             impact=Impact.of({name.partition(".")[2]: value for name, value in si if name.startswith("impact.")}),
         )
         rules.check_speed(made)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path as FilePath
@@ -11,7 +12,6 @@ import numpy as np
 
 from ..boundaries.boundary import Boundaries, boundary
 from ..boundaries.changes import Change
-from ..boundaries.found import STOKES
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function
 from ..scene.scene import Scene
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray
 
+_OF = ("stokes", "speed", "relative_speed", "centrifugal")
+_SYMBOLS = {"stokes": "St*", "speed": "v*", "centrifugal": "Ce*"}
 _SHARPEST = 1e-11  # tolerance of the differentiated trajectories, which pass the saddle
 
 
@@ -33,7 +35,7 @@ class Moving:
     """A change of outcome and its derivatives; St* is that of the change, Ce* is None without a bridge.
 
     Attributes:
-        gradient: "stokes", "centrifugal" -> parameter -> dSt*/dp, dCe*/dp, SI.
+        gradient: "stokes", "speed", "relative_speed", "centrifugal" -> parameter -> dSt*/dp, dv*/dp, dCe*/dp, SI.
         elasticity: the same as d ln/d ln p; None where either is zero.
         reason: the reason if there are no derivatives; then both are empty.
     """
@@ -43,11 +45,16 @@ class Moving:
     elasticity: dict[str, Row] = field(default_factory=dict)
     reason: str = ""
 
+    @property
+    def shown(self) -> tuple[str, ...]:
+        """What texts and pictures show of it, the last first; Ce* vanishes head-on."""
+        return ("stokes", "speed", "centrifugal") if self.change.centrifugal else ("stokes", "speed")
+
     def to_dict(self) -> dict[str, Any]:
-        """The change as in `boundary --json`, with its "sensitivities", null if there are none."""
+        """What `boundary --wrt` adds to a change: its "sensitivities", null if there are none."""
         both = {name: {"gradient": dict(self.gradient[name]), "elasticity": dict(self.elasticity[name])}
                 for name in self.gradient}  # fmt: skip
-        return self.change.to_dict() | {"sensitivities": both or None}
+        return {"sensitivities": both or None}
 
 
 @dataclass(frozen=True)
@@ -71,7 +78,10 @@ class BoundarySensitivities:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --wrt NAMES --json`."""
-        changes = [[one.to_dict() for one in line] for line in self.changes]
+        changes = [
+            [self.boundaries.change_dict(one.change, angle) | one.to_dict() for one in line]
+            for angle, line in zip(self.angles, self.changes, strict=True)
+        ]
         scene = self.boundaries.scene
         units = {name: scene.fields[name].unit or "1" for name in self.parameters} if scene else {}
         return {"angles": list(self.angles), "changes": changes} | self.boundaries.origin(angles="rad", **units)
@@ -86,7 +96,7 @@ class BoundarySensitivities:
 
         pairs, over = self._pairs, ("change", "parameter")
         data: dict[str, Any] = {"reason": ("change", np.array([one.reason for _, one in pairs], dtype=str))}
-        for of in ("stokes", "centrifugal"):
+        for of in _OF:
             for kind in ("gradient", "elasticity"):
                 rows = [getattr(one, kind).get(of, {}) for _, one in pairs]
                 values = [[np.nan if row.get(name) is None else row[name] for name in self.parameters] for row in rows]
@@ -111,7 +121,7 @@ class BoundarySensitivities:
             "after": [one.change.after for _, one, _ in rows],
             "parameter": [name for *_, name in rows],
         }
-        for of in ("stokes", "centrifugal"):
+        for of in _OF:
             for kind in ("gradient", "elasticity"):
                 columns[f"{of}_{kind}"] = [getattr(one, kind).get(of, {}).get(name) for _, one, name in rows]
         return frame(columns)
@@ -133,7 +143,7 @@ class BoundarySensitivities:
         head = ["parameter", *(f"{np.degrees(angle):.6g}°, {one.change.before} → {one.change.after}"
                                for angle, one in self._pairs)]  # fmt: skip
         rows = [[name, *(_elasticity(one, name) for _, one in self._pairs)] for name in self.parameters]
-        return view("boundaries: d ln Ce*/d ln p, of St* without a bridge", rows, head)
+        return view("boundaries: d ln Ce*/d ln p, of the normal speed where Ce* is zero or none", rows, head)
 
     @property
     def _pairs(self) -> list[tuple[float, Moving]]:
@@ -146,25 +156,27 @@ class BoundarySensitivities:
         tables = []
         for angle, line in zip(self.angles, self.changes, strict=True):
             for one in line:
-                what = "centrifugal" if "centrifugal" in one.elasticity else "stokes"
-                symbol = {"centrifugal": "Ce*", "stokes": "St*"}[what]
                 title = f"{np.degrees(angle):.6g} deg, {one.change.before} -> {one.change.after}"
                 if one.reason:
                     tables.append(f"{title}: {one.reason}")
                     continue
-                width = max(len(name) for name in self.parameters)
-                rows = []
-                for name in self.parameters:
-                    elasticity, slope_ = one.elasticity[what][name], one.gradient[what][name]
-                    shown = f"* {slope_:.4g}" if elasticity is None else f"{elasticity:.5g}" if elasticity else "none"
-                    rows.append(f"  {name.ljust(width)}  {shown:>10}")
-                tables.append("\n".join([f"{title}: d ln {symbol}/d ln p (* d{symbol}/dp where p is zero)", *rows]))
+                symbols = [_SYMBOLS[of] for of in one.shown]
+                rows = [["", *(f"d ln {symbol}" for symbol in symbols)]]
+                rows += [[name, *(_cell(one, of, name) for of in one.shown)] for name in self.parameters]
+                widths = [max(len(row[k]) for row in rows) for k in range(len(symbols) + 1)]
+                lines_ = ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]) for row in rows]
+                what = "v* the normal speed; elasticities, * d/dp of St*, v* or Ce* itself (SI) where p is zero"
+                tables.append("\n".join([f"{title}, by d ln p: {what}", *(f"  {line}".rstrip() for line in lines_)]))
         return tables
 
 
+def _cell(one: Moving, of: str, name: str) -> str:
+    elasticity, slope_ = one.elasticity[of][name], one.gradient[of][name]
+    return f"* {slope_:.4g}" if elasticity is None else f"{elasticity:.5g}" if elasticity else "none"
+
+
 def _elasticity(one: Moving, name: str) -> str:
-    row = one.elasticity.get("centrifugal", one.elasticity.get("stokes", {}))
-    value = row.get(name)
+    value = one.elasticity[one.shown[-1]].get(name) if one.elasticity else None
     return "-" if value is None else f"{value:.5g}"
 
 
@@ -172,7 +184,7 @@ def boundary_sensitivities(
     scene: Scene | str | FilePath,
     *,
     angle: Any = None,
-    stokes: tuple[float, float] = STOKES,
+    stokes: tuple[float, float] | None = None,
     wrt: Sequence[str] | str | None = None,
     rtol: float = RTOL,
     traced: Boundaries | None = None,
@@ -186,7 +198,7 @@ def boundary_sensitivities(
     Arguments:
         scene: a Scene, a path or a preset's name.
         angle: impact angles in rad, a number or 1-D; default the scene's.
-        stokes: lowest and highest Stokes number of the search.
+        stokes: lowest and highest Stokes number of the search, as for `boundary`.
         wrt: parameters by dotted name; None for every numeric entry of the scene, and the impact's angle.
         rtol: relative tolerance of the tracing.
         traced: the boundaries, if already computed.
@@ -247,21 +259,23 @@ def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], r
     if in_theta[-1] == 0:
         return Moving(change, reason="it does not depend on the Stokes number")
     along = -in_theta[:-1] / in_theta[-1]  # d ln St*/dtheta
-    rows = {"stokes": along * change.stokes}
-    values = {"stokes": change.stokes, "centrifugal": change.centrifugal}
+    speed = scene.speed_of(change.stokes)
+    values = {"stokes": change.stokes, "speed": speed, "relative_speed": speed / math.cos(angle)}
+    groups: tuple[str, ...] = ("speed",)
     if change.centrifugal is not None:
-        own = np.asarray(parameter_map(kind, everything, ("centrifugal",)).slopes(reference)[0].full())[0]
-        rows["centrifugal"] = own[:-1] + own[-1] * along
+        values["centrifugal"], groups = change.centrifugal, ("speed", "centrifugal")
+    own = np.asarray(parameter_map(kind, everything, groups).slopes(reference)[0].full())
+    rows = dict(zip(groups, own[:, :-1] + own[:, -1:] * along)) | {"stokes": along * change.stokes}
+    turned = np.array([units[k].item() if name == "impact.angle" else 0.0 for k, name in enumerate(names)])
+    rows["relative_speed"] = (rows["speed"] + speed * math.tan(angle) * turned) / math.cos(angle)
     at = dict(zip(kind.entries, reference.tolist(), strict=True))
     return Moving(
         change,
         gradient={
-            of: {name: float(row[k] / units[k].item()) + 0.0 for k, name in enumerate(names)}
-            for of, row in rows.items()
+            of: {name: float(rows[of][k] / units[k].item()) + 0.0 for k, name in enumerate(names)} for of in values
         },
         elasticity={
-            of: {name: float(row[k]) / value + 0.0 if at[name] and value else None for k, name in enumerate(names)}
-            for of, row in rows.items()
-            if (value := values[of]) is not None
+            of: {name: float(rows[of][k]) / value + 0.0 if at[name] and value else None for k, name in enumerate(names)}
+            for of, value in values.items()
         },
     )

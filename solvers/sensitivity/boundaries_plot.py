@@ -22,10 +22,12 @@ class Moved(Protocol):
     def elasticity(self) -> dict[str, Row]: ...
     @property
     def reason(self) -> str: ...
+    @property
+    def shown(self) -> tuple[str, ...]: ...
 
 
 def draw(angles: Sequence[float], changes: Sequence[Sequence[Moved]], parameters: Sequence[str]) -> Any:
-    """A panel for each change (at most six), a bar for each parameter; of Ce* where there is one, else of St*.
+    """A panel for each change (at most six), a bar for each parameter; of Ce* where there is one, else of the speed.
 
     Returns:
         The matplotlib Figure.
@@ -41,12 +43,12 @@ def draw(angles: Sequence[float], changes: Sequence[Sequence[Moved]], parameters
     for axis in grid.ravel()[len(panels) :]:
         axis.set_visible(False)
     for axis, (angle, one) in zip(grid.ravel(), panels):
-        of = "centrifugal" if "centrifugal" in one.elasticity else "stokes"
+        of = one.shown[-1]
         values = [one.elasticity[of][name] or 0.0 if one.elasticity else 0.0 for name in parameters]
         axis.barh(range(len(parameters)), values, color=[_UP if value >= 0 else _DOWN for value in values], height=0.7)
         axis.set_yticks(range(len(parameters)), parameters, fontsize=7.5)
         axis.axvline(0, color="#222222", linewidth=0.8)
-        symbol = {"centrifugal": "Ce*", "stokes": "St*"}[of]
+        symbol = {"centrifugal": "Ce*", "speed": "(normal speed)"}[of]
         axis.set_title(f"{math.degrees(angle):.4g}°, {one.change.before} → {one.change.after}", fontsize=8)
         axis.set_xlabel(f"d ln {symbol}/d ln p" if not one.reason else one.reason[:40], fontsize=8)
         axis.spines[["top", "right", "left"]].set_visible(False)

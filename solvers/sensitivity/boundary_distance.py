@@ -30,6 +30,7 @@ from .result import Near
 
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
 LOOK = 30.0  # multiple of the limit; at smaller estimates the distance is computed
+_SLOW = 3e-2  # of v0 squared: so slow, a trajectory may lie where it amplifies errors (`problem.NEAR`)
 _WORTH_SAYING = 0.5  # largest logarithmic distance that is reported
 _HINT = "v0 squared"  # marks an estimate that is no distance; it is computed or dropped
 _ESTIMATE = "the energy of approach, by an estimate"
@@ -92,9 +93,11 @@ def explained(scene: Scene, n: DimensionlessGroups, error: ComputationError, rto
 def _nearest(scene: Scene, n: DimensionlessGroups, suspects: list[Near], least: float) -> Near | None:
     """The nearest of the estimated boundaries; distances of near ones are computed, other hints dropped."""
     found = []
+    hints = sorted((one for one in suspects if one.of == _HINT), key=lambda one: one.distance)
+    suspects = [one for one in suspects if one.of != _HINT] + hints[:1]  # one function has the roots of all
     for boundary in dict.fromkeys(one.boundary for one in suspects):
         near = min((one for one in suspects if one.boundary == boundary), key=lambda one: one.distance)
-        if near.distance < LOOK * least:
+        if near.distance < max(LOOK * least, _SLOW * (near.of == _HINT)):
             measured = _measured(scene, n, near)
             found += [measured] if measured.of != _HINT else []
         elif near.of != _HINT and near.distance < _WORTH_SAYING:

@@ -16,7 +16,8 @@ from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, differentiates,
 from ..model.dimensionless import nondimensionalise
 from ..scene.groups import rate_scales, si_values
 from ..scene.scene import Scene
-from ..settings import STEPS
+from ..scene.schema import SPINS
+from ..settings import KERNEL_STEPS
 from .parameters import RELATIVE, SCALES, Kind, parameter_map, references
 from .problem import Problem, Slopes, sharpened
 from .result import Near
@@ -68,7 +69,7 @@ def gradients_by_kernel(
     of: tuple[str, ...],
     rtol: float,
     order: int | None = None,
-    budget: int = STEPS,
+    budget: int = KERNEL_STEPS,
     backward: bool = False,
 ) -> Along | None:
     """Derivatives of impacts that are all oblique or all head-on; None without a kernel.
@@ -114,7 +115,8 @@ def gradients_by_kernel(
                 sums += (row * (bent - 1)).T * paced
         first[place] = sums.T
         if name == "final_spin" and unspun:  # parted at initial contact: the spin is zero up to rounding
-            plain, first[place, at_once] = np.where(at_once, 0.0, plain), 0.0
+            plain = np.where(at_once, 0.0, plain)
+            first[place] *= np.isin(wrt, SPINS) | ~at_once[:, None]
         if DIFFERENTIATED[name].scale is not None:
             scale, relative = scales().of(name)
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
@@ -144,8 +146,7 @@ def _at_reference(scene: Scene, kind: Kind, wrt: tuple[str, ...], angle: float) 
 
 def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
     """Derivatives of a located collision; None if the kernel has none or finds another trajectory."""
-    odd_head_on = not problem.n.oblique and problem.odd(of)
-    if odd_head_on or not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
+    if not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
     impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
     found = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharpened(rtol, near), order_for(rtol))

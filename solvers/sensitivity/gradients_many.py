@@ -24,12 +24,13 @@ from ..many.batch import validated_batch
 from ..many.results import FAILED, outcome_attributes
 from ..model.validity import warn
 from ..scene.groups import sideways
+from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
-from ..settings import FEW, RTOL, STEPS, check_engine
+from ..settings import KERNEL_STEPS, RTOL, check_engine
 from . import by_kernel as kernel
 from .boundary_distance import LOOK, limit, refused
-from .parameters import RELATIVE, SIDEWAYS, Kind, check_wrt, hold_of, kind_of, references
+from .parameters import RELATIVE, SIDEWAYS, Kind, check_wrt, kind_of, references
 from .problem import NEAR, SHARPEST
 from .result import Near
 from .results import DIFFERENTIATED, check_quantities
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
     import xarray
 
 _SOON = 1000  # steps within which most separating collisions end
-_LONG = 10 * STEPS  # steps for creeping collisions (runtime/implicit.h)
+_LONG = 10 * KERNEL_STEPS  # steps for creeping collisions (runtime/implicit.h)
 _STRETCH = 4096  # collisions in a block for a thread
 STICK = "a stick: its restitution is 0, and nothing else of it is defined"
 
@@ -125,8 +126,8 @@ def gradients_many(
         of: results by name, as for `sensitivities`.
         rtol: relative tolerance, 1e-13..1e-3.
         hold: quantity held when another parameter varies, as for `sensitivities`.
-        engine: "taylor" (default for more than 100 collisions, and where its kernel is compiled already), "rosenbrock"
-            or "cvodes", which take them one after another.
+        engine: "taylor" (default; compiled on first use), or "rosenbrock" (also where the kernel lacks a result, or
+            there is no C compiler) or "cvodes", which take them one after another.
 
     Returns:
         Dataset: value (quantity, collision); gradient and elasticity (quantity, collision, parameter), SI; outcome and
@@ -148,7 +149,7 @@ def gradients_many(
         "rosenbrock", (),
     )  # fmt: skip
     loaded = request.scene
-    held = hold_of(loaded, hold) if relative_speed is None or hold is not None else "relative_speed"
+    held = held_quantity(loaded, hold) if relative_speed is None or hold is not None else "relative_speed"
     warn(loaded)
     velocity = request.speed if request.speed is not None else np.asarray(request.stokes) / loaded.stokes_per_speed
     asked = _Asked(
@@ -157,7 +158,7 @@ def gradients_many(
     left = np.arange(request.size)
     oblique = set(sideways(loaded, request.angle, {}).tolist())
     if by is None:
-        by = gradient_engine(loaded, names, kernel.KNOWN, oblique, request.rtol, request.size)
+        by = gradient_engine(loaded, names, kernel.KNOWN, oblique)
     if by == "taylor" and kernel.offers(loaded, names, oblique):
         left = _by_kernel(asked)
     for k in left:
@@ -181,8 +182,8 @@ def _by_kernel(asked: _Asked) -> np.ndarray:
 
 
 def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
-    # for few collisions or few parameters forward tangents cost no more
-    back = asked.of == kernel.BACKWARD and asked.angle.size > FEW and len(asked.wrt) > kernel.DIRECTIONS
+    # for few parameters forward tangents cost no more
+    back = asked.of == kernel.BACKWARD and len(asked.wrt) > kernel.DIRECTIONS
 
     def run_part(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
         order = (order_backward if backward else order_for)(asked.rtol)

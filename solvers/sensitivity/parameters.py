@@ -13,7 +13,7 @@ import numpy as np
 from casadi import SX, Function, densify, hessian, jacobian, substitute, vertcat
 
 from ...generated import scaling
-from ..errors import InputError, did_you_mean
+from ..errors import InputError
 from ..host.arguments import check_names
 from ..host.thread_caches import own_cache
 from ..scene.contact import GAPS
@@ -24,7 +24,6 @@ from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS, SPINS
 
 SIDEWAYS = ("impact.angle", *SPINS)
 IMPACT = ("impact.speed", "impact.stokes", "impact.angle")
-HOLDS = ("speed", "stokes", "relative_speed")
 SCALES = ("length", "time", "rate", "energy")
 RELATIVE = "impact.relative_speed"
 
@@ -53,20 +52,6 @@ def _defaults(scene: Scene) -> dict[str, float]:
     tables = {name.partition(".")[0] for name, _ in scene.si}
     barred = () if scene.pendulum is None else SPINS
     return {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in tables and name not in barred}
-
-
-def hold_of(scene: Scene, hold: object, label: str = "hold") -> str:
-    """The held quantity; None means the relative speed where the scene gives that, else the normal speed."""
-    if hold is not None:
-        return check_hold(hold, label)
-    return "relative_speed" if RELATIVE in scene.entries else "speed"
-
-
-def check_hold(hold: object, label: str = "hold") -> str:
-    """The held quantity, one of `HOLDS`; InputError otherwise."""
-    if not isinstance(hold, str) or hold not in HOLDS:
-        raise InputError(label, hold, ", ".join(HOLDS), "is not known" + did_you_mean(hold, HOLDS))
-    return hold
 
 
 def known_of_particles(scene: Scene) -> tuple[str, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -11,13 +12,13 @@ from ..engines.casadi.integrators import IntegrationFailed, tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
-from ..model.model import load, select_model
+from ..model.model import load, select_model, slip_restitution
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from . import boundary_distance as nearness
 from .derivatives import LANDED_WELL, settled
 from .directions import differentiated, landed, second_derivatives
-from .parameters import RELATIVE, SCALES, SIDEWAYS, Kind, ParameterMap, kind_of, parameter_map, references
+from .parameters import RELATIVE, SCALES, Kind, ParameterMap, kind_of, parameter_map, references
 from .result import Near
 from .results import DIFFERENTIATED
 from .trajectory_expression import course_of, influential, trajectory_expression
@@ -25,7 +26,7 @@ from .trajectory_expression import course_of, influential, trajectory_expression
 LOCATED = 1e-8  # tolerance of the event location; landings on the events correct the remaining error
 NEAR = 1e-2  # at smaller distances to a boundary errors are amplified, so the tolerance is reduced with the distance
 SHARPEST = 1e-13
-_ASIDE = 1e-5  # rad
+_TILT = 1e-8  # rad: its square is rounding, and states are scaled by it, so that steps follow the tangential motion
 _SHARPEST_CVODES = 3e-12  # smallest tolerance of CVODES with sensitivities; below it some integrations fail
 
 Along = np.ndarray | Literal["all"] | None
@@ -57,7 +58,7 @@ class Problem:
         kind = kind_of(scene, hold)
         return cls(scene, nondimensionalise(scene, speed, angle), wrt, kind, references(scene, kind, speed, angle))
 
-    def located(self, of: tuple[str, ...], rtol: float) -> tuple[EventSequence, Near | None]:
+    def located(self, rtol: float) -> tuple[EventSequence, Near | None]:
         """The located trajectory and the nearest boundary found; ComputationError if that is too near."""
         finder = EventLocator(load(select_model(self.scene, self.n.oblique)), self.n.groups, LOCATED)
         try:
@@ -65,28 +66,21 @@ class Problem:
         except ComputationError as error:
             raise self.n.in_si(nearness.explained(self.scene, self.n, error, rtol)) from None
         near = nearness.checked(self.scene, self.n, finder, path, rtol)
-        if not self.n.oblique and path.separated and self.odd(of) and self.scene.pendulum is None:
-            path = EventLocator(load(select_model(self.scene, True)), self.n.groups, LOCATED).run()
         return path, near
 
-    def odd(self, of: tuple[str, ...]) -> tuple[str, ...]:
-        """The requested quantities that are odd in angle and spins, with a derivative where these are zero."""
-        return tuple(name for name in of if DIFFERENTIATED[name].odd) if {*self.wrt} & {*SIDEWAYS} else ()
-
-    def from_small_angle(self, of: tuple[str, ...], method: str, plugin: str, rtol: float) -> dict[str, float]:
-        """Derivatives in the angle of quantities that are odd in it, from a small angle.
-
-        Used with strings, whose equations are divided by the impact's rotation rate. The error is quadratic in the
-        angle.
-        """
-        aside = Problem.of(self.scene, self.n.speed, _ASIDE, ("impact.angle",), self.kind.hold)
-        path = EventLocator(load(select_model(self.scene, True)), aside.n.groups, LOCATED).run()
-        slopes = aside.slopes(path, of, method, plugin, rtol)
-        return dict(zip(of, (slopes.first[:, 0] / aside.units()[0]).tolist(), strict=True))
+    def tilted(self) -> tuple[Problem, EventSequence]:
+        """The collision at a tiny angle, located: derivatives that a head-on one has by its sideways motion."""
+        aside = Problem.of(self.scene, self.n.speed, _TILT, self.wrt, self.kind.hold)
+        try:
+            return aside, EventLocator(load(select_model(self.scene, True)), aside.n.groups, LOCATED).run()
+        except ComputationError as error:
+            raise aside.n.in_si(error) from None
 
     def defined(self, name: str, path: EventSequence) -> bool:
         """True if a quantity is defined for the collision and can vary."""
         if name == "tangential_restitution" and not self.n.angle > 0:
+            return False
+        if name == "slip_restitution" and not math.isfinite(slip_restitution(path.model, path.y, path.p)):
             return False
         if name == "final_spin_partner" and not (self.scene.pair or self.scene.wall):
             return False
@@ -109,10 +103,9 @@ class Problem:
         """
         full = "energy.tangential_lubrication" in of
         course = course_of(path, select_model(self.scene, path.model.oblique, full=full))
+        rtol = sharpened(rtol, near)
         if plugin == "cvodes":
             rtol = max(rtol, _SHARPEST_CVODES)
-        else:
-            rtol = sharpened(rtol, near)
         expression = trajectory_expression(course, of, plugin, tolerance_for(rtol, plugin, self.n.groups))
         mapping = parameter_map(self.kind, self.wrt, expression.groups)
         size = len(expression.groups)

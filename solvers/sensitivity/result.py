@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...generated.automaton import STICK
+from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.schema import SPEEDS
 from .results import DIFFERENTIATED, Row
@@ -174,12 +175,8 @@ class Sensitivities:
     def __str__(self) -> str:
         names = list(self.value)
         blocks = [self._block(names[k : k + _SHOWN]) for k in range(0, len(names), _SHOWN)]
-        held = {
-            "speed": "the impact's speed",
-            "stokes": "the Stokes number",
-            "relative_speed": "the relative speed",
-        }[self.hold]
-        notes = [f"{self.outcome}; {self.method} derivatives by {self.engine}; {held} held"]
+        notes = [f"{self.outcome}; {self.method} derivatives by {self.engine}; {NAMES[self.hold]} held"]
+        notes += [f"scene {self.scene.held}"] if self.scene.held else []
         rows = [row.values() for row in self.elasticity.values()]
         if any(value == 0 for row in rows for value in row):
             notes.append("none: it has no influence here")

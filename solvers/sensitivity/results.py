@@ -29,6 +29,7 @@ class Quantity:
 _ALL = (
     Quantity("restitution", "1"),
     Quantity("tangential_restitution", "1"),
+    Quantity("slip_restitution", "1"),
     Quantity("rotation", "rad", extra="rotation", odd=True),
     Quantity("contact_time", "s", "time"),
     Quantity("smallest_gap", "m", "length"),

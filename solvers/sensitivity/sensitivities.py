@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path as FilePath
 
 import numpy as np
 
+from ..engines.casadi.locate import EventSequence
 from ..engines.choice import casadi_gradient_engine, gradient_engine
 from ..errors import ComputationError, InputError, did_you_mean
 from ..host.arguments import check_mapping
+from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import ANY, Field
 from ..settings import check_engine, check_rtol
 from . import by_kernel as kernel
-from .parameters import check_wrt, hold_of
+from .parameters import SIDEWAYS, check_wrt
 from .problem import Along, Problem, Slopes
-from .result import Sensitivities
-from .results import SPENT, check_quantities, computed
+from .result import Near, Sensitivities
+from .results import DIFFERENTIATED, SPENT, check_quantities, computed
 
 METHODS = ("forward", "adjoint")
 _PART = Field("hessian", "a number (SI)", "1.0", ANY)
@@ -54,9 +57,9 @@ def sensitivities(
         stokes, speed, angle, relative_speed: the impact, as for `collide`.
         method: "forward" has a cost proportional to the number of parameters, "adjoint" to that of results.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "cvodes", "rosenbrock", or "taylor" (forward; what the kernel does not know is rosenbrock's); None:
-            taylor where its kernel is compiled already, else rosenbrock, which needs no compiler and is more accurate
-            than cvodes.
+        engine: "cvodes", "rosenbrock", or "taylor" (forward; compiled on first use; what the kernel does not know is
+            rosenbrock's); None: taylor where it can answer, else rosenbrock, which needs no compiler and is more
+            accurate than cvodes.
         hold: quantity held when another parameter varies, the impact's "speed", "stokes" number or "relative_speed";
             None for the relative speed where the scene gives that, else the speed.
         hessian: compute second derivatives as well (rosenbrock only); a mapping of parameters to numbers (SI) requests
@@ -82,38 +85,29 @@ def sensitivities(
     if hessian is not False and asked not in (None, "rosenbrock"):
         raise InputError("engine", asked, "rosenbrock", "has no second derivatives")
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
-    held = hold_of(loaded, hold)
+    held = held_quantity(loaded, hold)
     names = check_wrt(loaded, wrt)
     along = _along(hessian, names)
     v0, angle_ = loaded.need_impact()
-    plugin = casadi_gradient_engine(asked)
-    if asked is None and method == "forward" and hessian is False:
-        plugin = gradient_engine(loaded, of, kernel.KNOWN, (loaded.turns(angle_),), rtol)
     problem = Problem.of(loaded, v0, angle_, names, held)
-    path, near = problem.located(of, rtol)
+    path, near = problem.located(rtol)
     todo = tuple(name for name in computed(of) if problem.defined(name, path))
-    slopes = kernel.one(problem, path, todo, rtol, near) if todo and plugin == "taylor" else None
-    if slopes is None and todo:
-        refused, plugin = plugin == "taylor", casadi_gradient_engine() if plugin == "taylor" else plugin
-        try:
-            slopes = problem.slopes(path, todo, method, plugin, rtol, along, near)
-        except ComputationError:  # CasADi's trajectory misses a located event; the kernel's may not
-            alone = refused or asked is not None or method != "forward" or along is not None
-            slopes = None if alone else kernel.one(problem, path, todo, rtol, near)
-            if slopes is None:
-                raise
-            plugin = "taylor"
-    turning: dict[str, float] = {}
-    if angle_ == 0 and loaded.pendulum is not None and path.separated and problem.odd(of):
-        if along is not None:
-            accepted = "an oblique impact, or parameters without impact.angle"
-            raise InputError("hessian", hessian, accepted, "head-on with strings has no second derivatives")
-        turning = problem.from_small_angle(problem.odd(of), method, plugin, rtol)
-    rows = {name: _combined(name, todo, slopes, problem.units(), along) for name in of}
-    for name, slope in turning.items():
-        row = rows[name][1]
-        assert row is not None  # for instance, if it separates
-        row[names.index("impact.angle")] = slope
+    odd = np.array([DIFFERENTIATED[name].odd for name in todo], dtype=bool)
+    sideways = np.isin(names, SIDEWAYS)
+    tilts = bool(todo and sideways.any() and (odd.any() or along is not None)) and not problem.n.oblique
+    plugin, free = casadi_gradient_engine(asked), asked is None and method == "forward" and along is None
+    if free:
+        plugin = gradient_engine(loaded, of, kernel.KNOWN, {problem.n.oblique, problem.n.oblique or tilts})
+    run = _Run(todo, method, rtol, near, free)
+    slopes, plugin = run.slopes(problem, path, plugin, None if tilts else along) if todo else (None, plugin)
+    if tilts and slopes is not None:
+        tilted, plugin = run.slopes(*problem.tilted(), plugin, None if along is None else "all")
+        second = tilted.second
+        if second is not None:
+            second = np.where(odd[:, None, None] ^ sideways[:, None] ^ sideways, 0.0, second)
+            second = second if isinstance(along, str) else second @ along
+        slopes = Slopes(slopes.value, np.where(odd[:, None] & sideways, tilted.first, slopes.first), second)
+    rows = {name: _combined(name, todo, slopes, len(names)) for name in of}
     values = {name: row[0] for name, row in rows.items()}
     reference = {name: problem.value_of(name) for name in names}
     return Sensitivities(
@@ -135,6 +129,36 @@ def sensitivities(
     )
 
 
+@dataclass(frozen=True)
+class _Run:
+    """The request for one trajectory; `free` if the kernel may replace CasADi where that fails."""
+
+    of: tuple[str, ...]
+    method: str
+    rtol: float
+    near: Near | None
+    free: bool
+
+    def slopes(self, problem: Problem, path: EventSequence, plugin: str, along: Along) -> tuple[Slopes, str]:
+        """Derivatives by the parameters, SI, and the engine that computed them."""
+        refused = plugin == "taylor"
+        slopes = kernel.one(problem, path, self.of, self.rtol, self.near) if refused else None
+        if slopes is None:
+            plugin = casadi_gradient_engine() if refused else plugin
+            try:
+                slopes = problem.slopes(path, self.of, self.method, plugin, self.rtol, along, self.near)
+            except ComputationError:  # CasADi's trajectory misses a located event; the kernel's may not
+                if refused or not self.free:
+                    raise
+                slopes, plugin = kernel.one(problem, path, self.of, self.rtol, self.near), "taylor"
+                if slopes is None:
+                    raise
+        units, second = problem.units(), slopes.second
+        if second is not None:
+            second = second / np.outer(units, units if isinstance(along, str) else np.ones(second.shape[2]))
+        return Slopes(slopes.value, slopes.first / units, second), plugin
+
+
 def _along(hessian: bool | Mapping[str, float], names: tuple[str, ...]) -> Along:
     if isinstance(hessian, bool):
         return "all" if hessian else None
@@ -148,19 +172,18 @@ def _along(hessian: bool | Mapping[str, float], names: tuple[str, ...]) -> Along
 Combined = tuple[float | None, np.ndarray | None, np.ndarray | None]
 
 
-def _combined(name: str, todo: tuple[str, ...], slopes: Slopes | None, units: np.ndarray, along: Along) -> Combined:
+def _combined(name: str, todo: tuple[str, ...], slopes: Slopes | None, size: int) -> Combined:
     """Value, gradient (n,) and second derivatives (n, m) of a quantity, from the computed ones."""
-    columns = units if isinstance(along, str) else np.ones(1)
     parts = _parts(name)
     if slopes is None or any(part not in todo for part in parts):
         if name == "restitution":  # the restitution of a stick
-            return 0.0, np.zeros(units.size), np.zeros((units.size, columns.size))
+            return 0.0, np.zeros(size), np.zeros((size, size))
         return None, None, None
     weights = np.array([parts.get(one, 0.0) for one in todo])
     second = None
     if slopes.second is not None:
-        second = np.einsum("k,kij->ij", weights, slopes.second) / np.outer(units, columns)
-    return float(weights @ slopes.value) + 0.0, weights @ slopes.first / units, second
+        second = np.einsum("k,kij->ij", weights, slopes.second)
+    return float(weights @ slopes.value) + 0.0, weights @ slopes.first, second
 
 
 def _parts(name: str) -> dict[str, float]:

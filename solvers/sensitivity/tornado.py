@@ -13,7 +13,7 @@ _MOST = 16  # most bars in a panel
 _SEEN = 0.005  # shortest bar, relative to a panel's longest
 _LONG = 6  # most columns of panels
 _NAMES = {
-    "impact.speed": "impact speed, Stokes",
+    "impact.speed": "normal speed, Stokes",
     "impact.angle": "impact angle",
     "bridge.volume": "bridge volume",
     "particles.youngs_modulus": "Young's modulus",

@@ -22,11 +22,12 @@ from ..host.pictures import register
 from ..host.thread_caches import own_cache
 from ..model.model import select_model
 from ..model.phases import Flow, expressions
+from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..settings import check_plugin, check_rtol
 from .derivatives import evaluate, settled
 from .directions import inverse, landed, spanning
-from .parameters import check_wrt, hold_of, parameter_map
+from .parameters import SIDEWAYS, check_wrt, parameter_map
 from .problem import Problem
 from .trajectory_expression import Course, course_of, ending, follow_course, influential, symbols
 
@@ -44,6 +45,7 @@ _VARIABLES = {
     "spin": ("rad/s", "angular velocity of each sphere about its own centre"),
     "rotation": ("rad", "angle turned by the line of centres"),
 }
+_ODD = ("rotation_rate", "spin", "rotation")  # in a tilt of a head-on collision
 
 
 def trajectory_sensitivities(
@@ -84,14 +86,16 @@ def trajectory_sensitivities(
     register()
     rtol, plugin = check_rtol(rtol), casadi_gradient_engine(check_plugin(engine))
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
-    hold = hold_of(loaded, hold)
+    hold = held_quantity(loaded, hold)
     names = check_wrt(loaded, wrt)
     problem = Problem.of(loaded, *loaded.need_impact(), names, hold)
-    path, _ = problem.located(("rotation",), rtol)
-    in_line = not problem.n.oblique and "impact.angle" in names
-    if in_line and (not path.separated or loaded.pendulum is not None):
-        accepted = "parameters other than impact.angle"
-        raise InputError("wrt", "impact.angle", accepted, "moves a head-on collision out of its line")
+    path, _ = problem.located(rtol)
+    sideways, reference = np.isin(names, SIDEWAYS), [problem.value_of(name) for name in names]
+    if tilts := not problem.n.oblique and bool(sideways.any()):
+        if not path.separated:
+            moving = ", ".join(name for name in names if name in SIDEWAYS)
+            raise InputError("wrt", moving, f"parameters other than {moving}", "moves a head-on stick out of its line")
+        problem, path = problem.tilted()
     pieces, events = _pieces(problem, path, plugin, rtol)
     if not pieces:
         raise ComputationError("no trajectory: the outcome is decided at initial contact", advice="try another impact")
@@ -100,16 +104,20 @@ def trajectory_sensitivities(
     for k, (name, (unit, what)) in enumerate(_VARIABLES.items()):
         value = np.concatenate([piece[1][k] for piece in pieces])
         slope = np.concatenate([piece[2][k] for piece in pieces]) / units
+        if tilts:  # by symmetry: odd in the tilt, or even
+            value = value * (name not in _ODD)
+            slope[:, sideways != (name in _ODD)] = 0.0
         data[name] = ("time", value, {"units": unit, "long_name": what})
         data[f"d_{name}"] = (("time", "parameter"), slope, {"long_name": f"derivative of the {what}, at fixed time"})
     data["event_time"] = ("event", np.array([time for _, time, _ in events]), {"units": "s"})
     moves = np.array([move for *_, move in events]).reshape(len(events), len(names)) / units
+    moves[:, sideways & tilts] = 0.0
     data["d_event_time"] = (("event", "parameter"), moves)
     coordinates = {
         "time": ("time", np.concatenate([piece[0] for piece in pieces]), {"units": "s"}),
         "phase": ("time", np.concatenate([np.full(piece[0].size, piece[3]) for piece in pieces])),
         "parameter": list(names),
-        "reference": ("parameter", [problem.value_of(name) for name in names], {"long_name": "its own value, SI"}),
+        "reference": ("parameter", reference, {"long_name": "its own value, SI"}),
         "event": [name for name, *_ in events],
     }
     return xr.Dataset(data, coordinates, {"outcome": path.outcome, "engine": plugin, "hold": hold, "rtol": rtol})

@@ -118,7 +118,7 @@ def follow_course(
         if k == course.nearest:
             at.nearest = at.y[0]
         if leg.rebounds:
-            after, dry, friction = jump(course.choice)(at.y[:size], p, float(leg.rubs))
+            after, dry, friction = jump(course.choice, leg.holds)(at.y[:size], p, float(leg.rubs))
             at.dry += dry
             at.friction += friction
             at.y = vertcat(after, at.y[size:])
@@ -182,6 +182,9 @@ def _at_the_end(model: Model, start: MX, y: MX, p: MX) -> dict[str, MX]:
     found |= {"energy.initial": before[kinetic], "energy.final": after[kinetic]}
     if "strings" in names:
         found["energy.strings"] = after[names.index("strings")] - before[names.index("strings")]
+    if model.oblique:
+        first, last = (model.function("surface_slip")(state, p) for state in (start, y))
+        found["slip_restitution"] = last / first
     if "rotation" in model.state:
         found["rotation"] = y[list(model.state).index("rotation")]
     return found

@@ -16,11 +16,12 @@ from ..host.pictures import register
 from ..many.batch import checked_numbers
 from ..many.collide_many import collide_many
 from ..many.results import QUANTITIES as MANY
+from ..scene.held import AXIS_LABELS, held_quantity, impact_value
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS, Field
 from .gradients_many import gradients_many
-from .parameters import RELATIVE, check_wrt, hold_of
+from .parameters import RELATIVE, check_wrt
 from .result import Sensitivities
 
 if TYPE_CHECKING:
@@ -91,6 +92,7 @@ def band(
     *,
     of: str = "restitution",
     samples: int = 64,
+    hold: str | None = None,
     rtol: float = 1e-8,
 ) -> xarray.Dataset:
     """A result over the Stokes number, speed or angle, with its uncertainty.
@@ -99,11 +101,11 @@ def band(
         scene: a Scene with an impact, a path or a preset's name.
         uncertainty: standard deviations by dotted name, as for `deviations`.
         over: "impact.stokes", "impact.speed", "impact.relative_speed" or "impact.angle".
-        values: values of `over`, SI and radians. The speed of each is held while other parameters vary; the relative
-            speed where the scene gives that.
+        values: values of `over`, SI and radians.
         of: restitution, tangential_restitution, rotation, contact_time or smallest_gap.
         samples: number of scrambled Sobol points for each value (a power of two); normal distributions, truncated to
             valid values.
+        hold: what each impact keeps while other parameters vary, as for `sensitivities`.
 
     Returns:
         Dataset over `over`: the result, `first_order` (its standard deviation; NaN where no derivative exists, with the
@@ -134,14 +136,14 @@ def band(
     sigma = deviations(at[0], uncertainty)
     relative = {name: str(given).strip().endswith("%") for name, given in uncertainty.items()}
     speeds, angles = np.array(impacts).T
-    hold = hold_of(at[0], None)
+    hold = held_quantity(at[0], hold)
     found = gradients_many(at[0], speed=speeds, angle=angles, wrt=tuple(sigma), of=[of], rtol=rtol, hold=hold)
     spreads = np.tile(list(sigma.values()), (len(at), 1))
-    for k, (one, (speed, _)) in enumerate(zip(at, impacts, strict=True)):
-        if any(relative.values()):
-            spreads[k] = list(deviations(_held(one, speed), uncertainty).values())
+    if any(relative.values()):
+        for k, one in enumerate(at):
+            spreads[k] = list(deviations(_held(one, hold), uncertainty).values())
     known = found.outcome.values >= 0
-    drawn = _sampled(at, impacts, uncertainty, of, samples, rtol)
+    drawn = _sampled(at, impacts, uncertainty, of, samples, rtol, hold)
     low, high = np.nanquantile(drawn, _LEVELS, axis=1)
     unit = FIELDS[over].unit or "1"
     return xr.Dataset(
@@ -155,7 +157,11 @@ def band(
             "outcome": (over, np.array([OUTCOMES[code] if code >= 0 else "" for code in found.outcome.values])),
         },
         {over: (over, where, {"units": unit})},
-        {"uncertainty": ", ".join(f"{name}: {given}" for name, given in uncertainty.items()), "samples": samples},
+        {
+            "uncertainty": ", ".join(f"{name}: {given}" for name, given in uncertainty.items()),
+            "samples": samples,
+            "hold": hold,
+        },
     )
 
 
@@ -166,13 +172,14 @@ def _sampled(
     of: str,
     samples: int,
     rtol: float,
+    hold: str,
 ) -> np.ndarray:
     """Results of the samples, (values, samples); a stick has restitution 0 and NaN for other results."""
     normal = _normal(samples, len(uncertainty))
     columns: dict[str, list[np.ndarray]] = {name: [] for name in uncertainty}
     speeds, angles = [], []
     for one, (speed, angle) in zip(at, impacts, strict=True):
-        held = _held(one, speed)
+        held = _held(one, hold)
         varied = {
             name: _possible(held.fields[name], _value(held, name), sigma * normal[:, k])
             for k, (name, sigma) in enumerate(deviations(held, uncertainty).items())
@@ -190,14 +197,16 @@ def _sampled(
     vary = {name: at[0].as_given(name, np.concatenate(parts)) for name, parts in columns.items()
             if name not in MEETING}  # fmt: skip
     names = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
-    speeds_, angles_ = np.concatenate(speeds), np.concatenate(angles)
-    found = collide_many(at[0], speed=speeds_, angle=angles_, vary=vary, rtol=rtol, of=names)
+    meeting: dict[str, Any] = {"speed": np.concatenate(speeds), "angle": np.concatenate(angles)}
+    if hold == "stokes":
+        meeting["stokes"] = meeting.pop("speed") * at[0].stokes_per_speed
+    found = collide_many(at[0], **meeting, vary=vary, rtol=rtol, of=names)
     return np.asarray(found[of].values, dtype=float).reshape(len(at), samples)
 
 
-def _held(scene: Scene, speed: float) -> Scene:
-    """The scene at a normal speed, unless what it gives is the relative speed."""
-    return scene if scene.impact.relative_speed is not None else scene.with_impact(speed=speed)
+def _held(scene: Scene, hold: str) -> Scene:
+    """The scene with its impact as what is held."""
+    return scene.with_impact(**{hold: impact_value(scene, hold)})
 
 
 def check_samples(samples: object) -> int:
@@ -263,9 +272,8 @@ def _drawn(found: xarray.Dataset) -> Any:
     axis.plot(x, found.high.values, color="#c1554a", linewidth=0.9, linestyle="--")
     unit = found[of].attrs["units"]
     axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
-    axis.set_xlabel(
-        {"impact.angle": "impact angle (deg)", "impact.speed": "normal speed (m/s)"}.get(over, "Stokes number $St_n$")
-    )
+    name = over.partition(".")[2]
+    axis.set_xlabel(AXIS_LABELS.get(name, "impact angle (deg)"))
     axis.set_title(f"{of.replace('_', ' ')} with {found.attrs['uncertainty']} uncertain")
     axis.spines[["top", "right"]].set_visible(False)
     axis.legend()

@@ -15,6 +15,7 @@ from ..many.collide_many import collide_many
 from ..many.results import FAILED
 from ..many.results import QUANTITIES as MANY
 from ..many.stream import check_places
+from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..settings import check_rtol
@@ -33,6 +34,7 @@ def sobol_indices(
     samples: int = 256,
     rtol: float = 1e-6,
     seed: int = 0,
+    hold: str | None = None,
     client: Any = None,
     store: str | FilePath | None = None,
 ) -> xarray.Dataset:
@@ -40,9 +42,10 @@ def sobol_indices(
 
     Arguments:
         scene: a Scene with an impact, a path or a preset's name.
-        ranges: dotted name -> (low, high), text with its unit or SI. The impact's speed is held unless it varies.
+        ranges: dotted name -> (low, high), text with its unit or SI.
         of: restitution, or another result of `collide_many` (an error if some collision sticks).
         samples: number of base samples, a power of two; samples (2 + parameters) collisions are computed.
+        hold: what the scene's impact keeps unless it varies itself, as for `Scene.with_entries`.
         client, store: a cluster that computes them and a Zarr store that keeps them, as for `collide_many`; a call that
             was interrupted goes on where it was.
 
@@ -74,22 +77,21 @@ def sobol_indices(
     )
     check_places(client, store)
     bounds = [_bounds(loaded, name, ranges[name]) for name in names]
+    held_quantity(loaded, hold)
     sample, analyze = _salib()
     problem = {"num_vars": len(names), "names": list(names), "bounds": bounds}
     points = sample(problem, samples, calc_second_order=False, seed=seed)
     columns = dict(zip(names, np.asarray(points).T, strict=True))
-    speed, angle = loaded.need_impact()
+    _, angle = loaded.need_impact()
     impact: dict[str, Any] = {"angle": columns.pop("impact.angle", angle)}
     moved = [name for name in SPEEDS if name in columns]
     if len(moved) > 1:
         raise InputError("ranges", moved[1], f"only one of {', '.join(SPEEDS)}", f"is given together with {moved[0]}")
     if moved:
         impact[moved[0].partition(".")[2]] = columns.pop(moved[0])
-    elif loaded.impact.relative_speed is None:
-        impact["speed"] = speed
     columns = {name: loaded.as_given(name, column) for name, column in columns.items()}
     keep = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
-    found = collide_many(loaded, **impact, vary=columns, rtol=rtol, of=keep, client=client, store=store)
+    found = collide_many(loaded, **impact, vary=columns, hold=hold, rtol=rtol, of=keep, client=client, store=store)
     failed = int((found.outcome.values == FAILED).sum())
     result = np.asarray(found[of].values, dtype=float)
     if failed or not np.isfinite(result).all():

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...generated.automaton import LAST_ANSWER, OUTCOMES, Status
+from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.casadi.locate import locate
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.record import run_with_books
@@ -45,7 +45,7 @@ class Planar:
     energy: np.ndarray
 
 
-def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, few: bool, ledger: bool) -> Planar | None:
+def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar | None:
     """Planar collisions by the kernel; None if none is available."""
     terms = np.full((impacts.speed.size, len(TERMS)), np.nan)
     if ledger:
@@ -54,21 +54,19 @@ def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, few: bool, led
             return None
         found, terms = both[0], of_kernel(both[1])
     else:
-        plain = run_kernel(impacts, rtol, False, threads, few=few)
+        plain = run_kernel(impacts, rtol, False, threads)
         if plain is None:
             return None
         found = plain
-    touch = found["status"] == Status.PROVED_AT_TOUCH
     reason = np.full(found.size, "", object)
-    gap = np.where(touch, 1.0, found["final_gap"])
     opening, slide, _, roll = found["shown"].T[:4]
     left = found["status"] > LAST_ANSWER
     sure = found["certified"] != 0
-    return Planar(found["outcome"], sure, reason, left, found["time"], gap, opening, slide, roll, terms)
+    return Planar(found["outcome"], sure, reason, left, found["time"], found["final_gap"], opening, slide, roll, terms)
 
 
-def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool) -> Planar:
-    """Planar collisions by Rosenbrock, one after the other."""
+def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool, steps: int) -> Planar:
+    """Planar collisions by Rosenbrock, one after the other, each within a number of steps."""
     size = impacts.speed.size
     time, gap, opening, slide, roll = (np.full(size, np.nan) for _ in range(5))
     outcome, reason = np.full(size, FAILED), np.full(size, "", object)
@@ -80,7 +78,7 @@ def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool) -> Planar:
             n = nondimensionalise(scene, float(impacts.speed[k]), float(impacts.angle[k]))
             try:
                 model = load(select_model(scene, True, full=ledger))
-                path = locate(model, n.groups, rtol, extras_of(model) if ledger else ())
+                path = locate(model, n.groups, rtol, extras_of(model) if ledger else (), steps=steps)
             except ComputationError as error:
                 raise n.in_si(error) from None
         except WetDoubletError as error:

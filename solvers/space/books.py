@@ -12,10 +12,12 @@ from ..scene.scene import Scene
 
 TERMS = (
     "initial", "final", "normal_lubrication", "tangential_lubrication", "capillary", "attraction", "dry_contact",
+    "dry_friction",
 )  # fmt: skip
-_OF_KERNEL = ("initial", "final", "normal", "tangential", "capillary", "attraction", "dry")
+_OF_KERNEL = ("initial", "final", "normal", "tangential", "capillary", "attraction", "dry", "friction")
 _INITIAL, _FINAL, _SHEAR = (TERMS.index(name) for name in ("initial", "final", "tangential_lubrication"))
 OPEN = "the energy ledger is open: try a smaller rtol, or another engine"
+GREW = "energy has grown: errors have added up over a long trajectory; try a smaller rtol, or another engine"
 TRANSVERSE = [_INITIAL, _FINAL, _SHEAR]
 """Places of the terms to which motion across the line of centres contributes."""
 
@@ -30,10 +32,13 @@ def extras_of(model: Model) -> tuple[str, ...]:
     return tuple(name for name in model.names("energy_rates") if name in TERMS)
 
 
-def of_casadi(model: Model, p: np.ndarray, y: np.ndarray, extras: Mapping[str, float], dry: float) -> np.ndarray:
+def of_casadi(
+    model: Model, p: np.ndarray, y: np.ndarray, extras: Mapping[str, float], dry: float, rubbed: float = 0.0
+) -> np.ndarray:
     """The terms of a trajectory by CasADi, from its last state and quadratures."""
     first, last = (model.values("energies", each, p)["kinetic"] for each in (model.start(p), y))
     known = dict(extras) | {"initial": first, "final": last, "dry_contact": dry}
+    known["dry_friction"] = known.get("dry_friction", 0.0) + rubbed
     return np.array([known.get(name, 0.0) for name in TERMS])
 
 
@@ -55,4 +60,6 @@ def named(scene: Scene, terms: np.ndarray) -> dict[str, np.ndarray]:
     found = {name: terms[:, k] for k, name in enumerate(TERMS)} | {"residual": residual(terms)}
     if scene.attraction is None:
         found["attraction"] = np.full(len(terms), np.nan)
+    if scene.particles.friction is None:
+        del found["dry_friction"]
     return found

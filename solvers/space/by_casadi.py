@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...generated import scaling
-from ...generated.automaton import LEAST_SLIP, OUTCOMES
+from ...generated.automaton import LEAST_SLIP, OUTCOMES, TURNLESS
 from ..engines.casadi.integrators import tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence
 from ..engines.casadi.replay import Replay, Stopped, as_located, replay
@@ -31,12 +31,16 @@ _LEAST = 1e-300
 _TIGHTEST = 1e-13
 
 
-def by_casadi(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False) -> Ends:
-    """Ends of the pairs, one after the other; a pair that fails says why."""
+def by_casadi(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False, steps: int | None = None) -> Ends:
+    """Ends of the pairs, one after the other; a pair that fails says why.
+
+    Arguments:
+        steps: most steps of a pair; None for those of `settings`.
+    """
     ends = Ends.blank(pairs.size)
     for k in range(pairs.size):
         try:
-            ends.put(np.array([k]), _one(pairs.part(np.array([k])), plugin, rtol, ledger))
+            ends.put(np.array([k]), _one(pairs.part(np.array([k])), plugin, rtol, ledger, steps))
         except WetDoubletError as error:
             ends.outcome[k], ends.reason[k] = FAILED, str(error)
     return ends
@@ -50,7 +54,7 @@ def own_axes(pairs: Pairs) -> np.ndarray:
     across = np.array([each - (each @ normal) * normal for each in speeds])
     sizes = length(across)
     second = across[int(np.argmax(sizes))]
-    if not sizes.max() > 1e-12 * max(length(np.array(speeds)).max(), _LEAST):  # nothing turns n: any direction does
+    if not sizes.max() > TURNLESS * max(length(np.array(speeds)).max(), _LEAST):  # nothing turns n: any direction does
         second = np.eye(3)[int(np.argmin(np.abs(normal)))]
     second = second - (second @ normal) * normal
     second = second / np.sqrt(second @ second)
@@ -84,13 +88,13 @@ def groups_of(pairs: Pairs, axes: np.ndarray) -> DimensionlessGroups:
     return replace(n, groups={**n.groups, **groups, **normal, **first}, rate=rate)
 
 
-def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
+def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, steps: int | None) -> Ends:
     axes = own_axes(pair)
     n = groups_of(pair, axes)
     model = load(select_model(pair.scene, True, full=ledger, space=True))
     extras = EXTRAS + (extras_of(model) if ledger else ())
     try:
-        path, found = _integrated(model, extras, select_model(pair.scene, True, space=True), n, plugin, rtol)
+        path, found = _integrated(model, extras, select_model(pair.scene, True, space=True), n, plugin, rtol, steps)
     except ComputationError as error:
         raise n.in_si(error) from None
     p, y = model.group_values(n.groups), found.y
@@ -111,7 +115,9 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
         first, last = (model.values("surface_slip", each, p)["surface_slip"] for each in (model.start(p), y))
         ends.slip[0] = last / first if first > LEAST_SLIP else np.nan
     if ledger:
-        ends.energy[0] = n.energy * of_casadi(model, p, y, {name: found.extra(name) for name in extras}, found.dry_loss)
+        ends.energy[0] = n.energy * of_casadi(
+            model, p, y, {name: found.extra(name) for name in extras}, found.dry_loss, found.friction_loss
+        )
         if is_open(ends.energy, ends.outcome > 0, rtol)[0]:
             raise ComputationError(OPEN)
     return ends
@@ -131,7 +137,13 @@ def _turned_back(model: Model, found: Replay, p: np.ndarray) -> np.ndarray:
 
 
 def _integrated(
-    model: Model, extras: tuple[str, ...], small: ModelKey, n: DimensionlessGroups, plugin: str, rtol: float
+    model: Model,
+    extras: tuple[str, ...],
+    small: ModelKey,
+    n: DimensionlessGroups,
+    plugin: str,
+    rtol: float,
+    steps: int | None,
 ) -> tuple[EventSequence, Replay]:
     """The located events and the trajectory; tighter where the engine misses an event.
 
@@ -149,5 +161,5 @@ def _integrated(
             if not (failure.missed and asked > _TIGHTEST):
                 break
             asked = max(asked * 1e-2, _TIGHTEST)
-    path = EventLocator(model, n.groups, asked, extras).run()
+    path = EventLocator(model, n.groups, asked, extras, steps=steps).run()
     return path, as_located(path, model.choice)

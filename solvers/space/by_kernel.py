@@ -6,16 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...generated.automaton import LAST_ANSWER, Status
+from ...generated.automaton import LAST_ANSWER, TURNLESS, Status
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.in_space import run_in_space
 from ..engines.taylor.record import run_with_books
+from ..errors import ComputationError
 from ..model.model import load, select_model
 from ..scene.groups import rate_scales, si_values
 from ..scene.scene import Scene
 from .books import is_open, of_kernel
-from .ends import Ends
-from .pairs import ROUNDING, Bodies, Pairs, dot, length
+from .ends import FAILED, Ends
+from .pairs import Bodies, Pairs, dot, length
 
 _SPINS = ("impact_spin", "impact_partner_spin")
 
@@ -38,7 +39,7 @@ def planes(pairs: Pairs) -> Planes:
     largest = np.max(sizes, axis=1)
     turned = np.concatenate([pairs.turning[:, None], pairs.spins], axis=1)
     rows = np.arange(pairs.size)
-    chosen = np.where(sizes[:, 0] > ROUNDING * largest, 0, 1 + np.argmax(sizes[:, 1:], axis=1))
+    chosen = np.where(sizes[:, 0] > TURNLESS * largest, 0, 1 + np.argmax(sizes[:, 1:], axis=1))
     axis = turned[rows, chosen]
     axis = axis - dot(axis, pairs.normal) * pairs.normal
     with np.errstate(all="ignore"):
@@ -48,26 +49,24 @@ def planes(pairs: Pairs) -> Planes:
     rest[:, 1:] *= radii[:, None]
     rest[:, 0] *= pairs.distance
     given = np.maximum(largest, np.max(np.abs(pairs.velocities), axis=(1, 2)))
-    planar = np.all(length(rest) <= ROUNDING * given[:, None], axis=1)
+    planar = np.all(length(rest) <= TURNLESS * given[:, None], axis=1)
     return Planes(planar, axis, along[:, 0], along[:, 1:])
 
 
-def by_kernel(
-    pairs: Pairs, rtol: float, threads: int, few: bool, ledger: bool = False
-) -> tuple[Ends, np.ndarray] | None:
+def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> tuple[Ends, np.ndarray] | None:
     """Ends of the pairs, and a mask of those that need another engine; None if no kernel is available."""
     ends, left = Ends.blank(pairs.size), np.zeros(pairs.size, bool)
     found = planes(pairs)
     which = np.flatnonzero(found.planar)
     if which.size:
-        flat = _in_planes(pairs.part(which), _part(found, which), rtol, threads, few, ledger)
+        flat = _in_planes(pairs.part(which), _part(found, which), rtol, threads, ledger)
         if flat is None:
             return None
         ends.put(which, flat[0])
         left[which] = flat[1]
     which = np.flatnonzero(~found.planar)
     if which.size:
-        solid = _in_space(pairs.part(which), rtol, threads, few, ledger)
+        solid = _in_space(pairs.part(which), rtol, threads, ledger)
         if solid is None:
             return None
         ends.put(which, solid[0])
@@ -81,10 +80,10 @@ def _part(found: Planes, which: np.ndarray) -> Planes:
     return Planes(found.planar[which], found.axis[which], found.turning[which], found.spins[which])
 
 
-def _in_space(pairs: Pairs, rtol: float, threads: int, few: bool, ledger: bool) -> tuple[Ends, np.ndarray] | None:
+def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> tuple[Ends, np.ndarray] | None:
     vectors = {"initial_normal": pairs.normal, "impact_turning": pairs.turning}
     vectors |= {name: pairs.spins[:, k] for k, name in enumerate(_SPINS)}
-    ran = run_in_space(pairs.scene, vectors, -pairs.opening, rtol, threads, few, ledger)
+    ran = run_in_space(pairs.scene, vectors, -pairs.opening, rtol, threads, ledger)
     if ran is None:
         return None
     answers, books = ran
@@ -124,9 +123,7 @@ def scales(pairs: Pairs) -> np.ndarray:
     return np.asarray(found).reshape(-1)
 
 
-def _in_planes(
-    pairs: Pairs, found: Planes, rtol: float, threads: int, few: bool, ledger: bool
-) -> tuple[Ends, np.ndarray] | None:
+def _in_planes(pairs: Pairs, found: Planes, rtol: float, threads: int, ledger: bool) -> tuple[Ends, np.ndarray] | None:
     """By the planar kernel; what rounding leaves of the spins out of the plane stays as it is."""
     same = pairs.scene.partner is None and bool(np.all(found.spins[:, 0] == found.spins[:, 1]))
     scene = resting(pairs.scene, own_spins=not same)
@@ -141,7 +138,7 @@ def _in_planes(
         both = run_with_books(impacts, rtol, threads)
         answers, books = both if both is not None else (None, None)
     else:
-        answers = run_kernel(impacts, rtol, True, threads, few=few)
+        answers = run_kernel(impacts, rtol, True, threads)
     if answers is None:
         return None
     ends, left = _of_answers(pairs, answers, books)
@@ -157,13 +154,11 @@ def _in_planes(
     turned = np.where(known, answers["turned"], 0.0)[:, None]
     across = np.cross(axis, pairs.normal)
     ends.normal = np.cos(turned) * pairs.normal + np.sin(turned) * across
-    separated = known & (answers["outcome"] > 0)
     ends.opening[known] = (-pairs.opening * answers["shown"][:, 0])[known]
-    ends.turning = np.where(separated[:, None], moved["final_rotation_rate"][:, None] * axis, pairs.turning)
+    ends.turning = moved["final_rotation_rate"][:, None] * axis
     rest = pairs.spins - found.spins[:, :, None] * found.axis[:, None]
     for k, name in enumerate(("final_spin", "final_spin_partner")):
-        later = moved[name][:, None] * axis + rest[:, k]
-        ends.spins[:, k] = np.where(separated[:, None], later, pairs.spins[:, k])
+        ends.spins[:, k] = moved[name][:, None] * axis + rest[:, k]
     return ends, left
 
 
@@ -173,8 +168,21 @@ def resting(scene: Scene, own_spins: bool) -> Scene:
     return scene.with_entries(changes) if changes else scene
 
 
+def _rebounding(answer: np.void, thickness: float, speed: float) -> str:
+    """The reason why a doublet that chatters until its budget is spent is not decided."""
+    gap, velocity = float(answer["final_gap"]) * thickness, float(answer["shown"][0]) * speed
+    error = ComputationError(
+        f"{answer['steps']} steps with {answer['events']} events have not decided the outcome",
+        phase="opening" if velocity > 0 else "closing",
+        time=float(answer["time"]) * thickness / speed,
+        state={"gap": gap, "normal velocity": velocity},
+        advice="the doublet rebounds again and again: try a larger --rtol, or another impact",
+    )
+    return str(error)
+
+
 def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None) -> tuple[Ends, np.ndarray]:
-    """What answers of any structure say; a stick proved at initial contact is as it arrived."""
+    """What answers of any structure say."""
     ends = Ends.blank(pairs.size)
     left = answers["status"] > LAST_ANSWER
     touch = answers["status"] == Status.PROVED_AT_TOUCH
@@ -182,12 +190,11 @@ def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None) -> 
     ends.outcome[:] = answers["outcome"]
     ends.certified[:] = answers["certified"] != 0
     ends.time[:] = np.where(touch, 0.0, answers["time"] * thickness / -pairs.opening)
-    ends.gap[:] = np.where(touch, 1.0, answers["final_gap"]) * thickness
+    ends.gap[:] = answers["final_gap"] * thickness
     ends.slip[:] = np.where(answers["outcome"] > 0, answers["slip"], np.nan)
-    ends.opening[touch] = pairs.opening[touch]
-    ends.normal[touch] = pairs.normal[touch]
-    ends.turning[touch] = pairs.turning[touch]
-    ends.spins[touch] = pairs.spins[touch]
+    for k in np.flatnonzero(answers["status"] == Status.CHATTER):  # other engines need more time for a rebound
+        ends.reason[k], left[k] = _rebounding(answers[k], thickness, -float(pairs.opening[k])), False
+        ends.outcome[k] = FAILED
     if books is not None:
         ends.energy[:] = of_kernel(books) * (float(pairs.scene.material["reduced_mass"]) * pairs.opening**2)[:, None]
     return ends, left

@@ -7,21 +7,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..engines.choice import space_engine
+from ..engines.choice import collision_engine
 from ..errors import InputError
 from ..host.arguments import check_flag
 from ..host.cores import usable_cores
 from ..host.pictures import register
 from ..many.results import attributes, outcome_attributes
-from ..model.validity import warn
+from ..model.validity import sentences_of_many, warn
+from ..scene.groups import si_values
 from ..scene.scene import Scene
-from ..settings import FEW, RTOL, check_engine, check_rtol
+from ..settings import FEW, RTOL, casadi_steps, check_engine, check_rtol
 from .beside_wall import beside_wall, planar_by_casadi, planar_by_kernel
-from .books import OPEN, named
+from .books import GREW, OPEN, named
 from .by_casadi import by_casadi
 from .by_kernel import by_kernel
-from .ends import FAILED, Ends, Motions, after, after_wall
-from .pairs import Pairs, checked
+from .ends import FAILED, Ends, Motions, after, after_wall, gains_energy
+from .pairs import Pairs, checked, dot, length
 
 if TYPE_CHECKING:
     import xarray
@@ -31,8 +32,9 @@ AXES = ("x", "y", "z")
 NUMBERS = {
     "restitution": ("1", "normal restitution e_n"),
     "slip_restitution": ("1", "relative velocity of the surfaces at the contact, after over before"),
-    "time": ("s", "time from initial contact to the end"),
-    "gap": ("m", "gap at the end"),
+    "time": ("s", "time from initial contact to separation; of a stick 0"),
+    "gap": ("m", "gap at that time"),
+    "until": ("s", "where the integration of a stick stopped"),
 }
 VECTORS = {
     "position": (("axis",), "m", "from the first centre to the second, or to the wall's surface"),
@@ -59,28 +61,31 @@ def collide_pair(
     The spheres are the scene's, at the distance at which its film begins. Its [impact] is not used.
 
     Arguments:
-        scene: a Scene, a path or a preset's name; without strings and friction, with the lever arm at mid-gap.
+        scene: a Scene, a path or a preset's name; without strings, beside a wall without friction, with the lever arm
+            at mid-gap.
         normal: (..., 3), from the first sphere to the second, or to the wall; of any length but zero.
         velocities: (..., 2, 3), m/s. Beside a wall (..., 1, 3), or (..., 2, 3) with the wall's velocity.
         spins: (..., 2, 3), angular velocities in rad/s. Beside a wall (..., 1, 3). Velocities too may carry units.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "taylor" (default where its kernel is compiled, and for more than 100 collisions where there is a C
-            compiler), "rosenbrock" or "cvodes".
+        engine: "taylor" (default; compiled on first use), "rosenbrock" (also where there is no C compiler) or "cvodes".
         ledger: also the energy ledger, which takes longer.
 
     Leading shapes are broadcast against each other. Vectors are in the laboratory's axes.
 
     Returns:
         Dataset over dim_0, dim_1, ..., with vectors over `axis` and `particle`: outcome (int8: 0 stick, 1
-        stick-rotate-separate, 2 bounce, -1 failed), certified, restitution, slip_restitution, time (s, to separation,
-        or to where the integration of a stick stopped), gap, position, normal, velocities, spins, centre_velocity,
-        angular_velocity, and reason (of a failure, else ""). What is undefined is NaN. A stick is given as the rigid
-        motion that has its angular momentum, at the gap and in the direction of the end. Components of the spins along
-        the line of centres (twist) have no friction to leading logarithm, and stay as they are there; the angular
-        velocity has their mean by inertia. Beside a wall a stick moves with the wall, and only its twist is left.
+        stick-rotate-separate, 2 bounce, -1 failed), certified, restitution, slip_restitution, time (s, to separation),
+        gap, position, normal, velocities, spins, centre_velocity, angular_velocity, until (s, where the integration of
+        a stick stopped), and reason (of a failure, else ""). What is undefined is NaN. A stick is given at initial
+        contact (time 0, the normal and gap of that moment) as the rigid motion that has its momentum and angular
+        momentum, so that it depends neither on tolerance nor on rounding. Components of the spins along the line of
+        centres (twist) have no friction to leading logarithm, and stay as they are; the angular velocity has their mean
+        by inertia. Beside a wall a stick moves with the wall, and only its twist is left.
+        The attribute `validity` has the sentences of `Collision.validity`, for all pairs together.
         With `ledger` also energy.initial, .final (kinetic energies of both particles, with all spins, relative to their
         centre of mass or to the wall), .normal_lubrication, .tangential_lubrication, .capillary, .attraction (NaN
-        without), .dry_contact and .residual, J; of a stick up to `time`, where its motion is not yet rigid.
+        without), .dry_contact, .dry_friction (with friction) and .residual, J; of a stick up to `until`, where its
+        motion is not yet rigid.
 
     Raises:
         InputError: an invalid shape or scene. A collision that fails, as of a pair that does not approach, raises
@@ -105,20 +110,22 @@ def collide_pair(
     chosen = asked or ""
     if sound.any():
         warn(loaded)
-        chosen = space_engine(asked, int(np.count_nonzero(sound)), loaded, rtol, ledger)
+        chosen = collision_engine(loaded, asked)
         which = np.flatnonzero(sound)
         ends.put(which, _ends(pairs.part(which), chosen, rtol, ledger))
+    until = ends.put_at_contact(pairs)
     with np.errstate(invalid="ignore"):
         motions = after_wall(pairs, ends) if loaded.wall else after(pairs, ends)
-    return _dataset(pairs, ends, motions, {"scene": loaded.to_toml(), "rtol": rtol, "engine": chosen}, ledger)
+    said = {"scene": loaded.to_toml(), "rtol": rtol, "engine": chosen, "validity": _validity(pairs, ends, motions)}
+    return _dataset(pairs, ends, until, motions, said, ledger)
 
 
 def check_scene(scene: Scene) -> None:
     """InputError for a scene that has no collisions in space."""
     if scene.pendulum is not None:
         raise InputError("pendulum", "strings", "a scene without [pendulum]", "hold the spheres in one plane")
-    if scene.particles.friction is not None:
-        problem = "is in a plane only: its impulse in space is not derived"
+    if scene.particles.friction is not None and scene.wall:
+        problem = "couples the directions along a wall, which are computed one by one"
         raise InputError("particles.friction", scene.particles.friction, "a scene without friction", problem)
     if scene.package is not None and scene.package.events:
         raise InputError("model", "declared events", "a model without events", "are of collisions in a plane")
@@ -166,31 +173,57 @@ def _ends(pairs: Pairs, engine: str, rtol: float, ledger: bool) -> Ends:
     """Ends of pairs that approach."""
     if engine != "taylor":
         return _by_casadi(pairs, engine, rtol, ledger)
-    few, threads = pairs.size <= FEW, usable_cores() if pairs.size > FEW else 1
+    threads = usable_cores() if pairs.size > FEW else 1
     if pairs.scene.wall:
-        made = beside_wall(pairs, lambda those: planar_by_kernel(those, rtol, threads, few, ledger), rtol, ledger)
+        made = beside_wall(pairs, lambda those: planar_by_kernel(those, rtol, threads, ledger), rtol, ledger)
     else:
-        made = by_kernel(pairs, rtol, threads, few, ledger)
+        made = by_kernel(pairs, rtol, threads, ledger)
     if made is None:
         return _by_casadi(pairs, "rosenbrock", rtol, ledger)
     ends, left = made
+    left |= gains_energy(pairs, ends, rtol)
     if left.any():
         which = np.flatnonzero(left)
-        ends.put(which, _by_casadi(pairs.part(which), "rosenbrock", rtol, ledger))
+        ends.put(which, _by_casadi(pairs.part(which), "rosenbrock", rtol, ledger, after_kernel=True))
     return ends
 
 
-def _by_casadi(pairs: Pairs, engine: str, rtol: float, ledger: bool) -> Ends:
-    if not pairs.scene.wall:
-        return by_casadi(pairs, engine, rtol, ledger)
-    made = beside_wall(pairs, lambda those: planar_by_casadi(those, rtol, ledger), rtol, ledger)
-    assert made is not None
-    ends, is_open = made
-    ends.outcome[is_open], ends.reason[is_open] = FAILED, OPEN
+def _by_casadi(pairs: Pairs, engine: str, rtol: float, ledger: bool, after_kernel: bool = False) -> Ends:
+    steps = casadi_steps(rtol, not pairs.scene.wall, after_kernel)
+    if pairs.scene.wall:
+        made = beside_wall(pairs, lambda those: planar_by_casadi(those, rtol, ledger, steps), rtol, ledger)
+        assert made is not None
+        ends, is_open = made
+        ends.outcome[is_open], ends.reason[is_open] = FAILED, OPEN
+    else:
+        ends = by_casadi(pairs, engine, rtol, ledger, steps)
+    grown = gains_energy(pairs, ends, rtol)
+    ends.outcome[grown], ends.reason[grown] = FAILED, GREW
     return ends
 
 
-def _dataset(pairs: Pairs, ends: Ends, motions: Motions, said: dict[str, Any], ledger: bool) -> xarray.Dataset:
+def _validity(pairs: Pairs, ends: Ends, motions: Motions) -> list[str]:
+    """Where the collisions leave the model's range; beside a wall without what its smallest gap decides."""
+    which = np.flatnonzero(ends.outcome != FAILED)
+    if not which.size:
+        return []
+    some = pairs.part(which)
+    before, after = (each[:, 1] - each[:, 0] for each in (some.velocities, motions.velocities[which]))
+    angle = np.arctan2(length(some.sliding), -some.opening)
+    bent = np.arctan2(length(np.cross(before, after)), dot(before, after)[:, 0])
+    course = {
+        "rotation": np.pi - angle + bent,
+        "tangential_restitution": 0.0,
+        "restitution": 1.0,
+        "smallest_gap": np.nan,
+    }
+    values = si_values(some.scene, None, None) | {"speed": -some.opening, "angle": angle}
+    return sentences_of_many(some.scene, values | course | {"outcome": ends.outcome[which]})
+
+
+def _dataset(
+    pairs: Pairs, ends: Ends, until: np.ndarray, motions: Motions, said: dict[str, Any], ledger: bool
+) -> xarray.Dataset:
     import xarray as xr
 
     register()
@@ -198,8 +231,10 @@ def _dataset(pairs: Pairs, ends: Ends, motions: Motions, said: dict[str, Any], l
     failed, separated = ends.outcome == FAILED, ends.outcome > 0
     with np.errstate(all="ignore"):
         restitution = np.where(separated, ends.opening / -pairs.opening, np.where(failed, np.nan, 0.0))
-    made = {"restitution": restitution, "slip_restitution": ends.slip, "time": ends.time, "gap": ends.gap}
-    made |= {**vars(motions), "normal": motions.position / np.linalg.norm(motions.position, axis=1, keepdims=True)}
+    for column in (ends.time, ends.gap):
+        column[failed] = np.nan
+    made = {"restitution": restitution, "slip_restitution": ends.slip, "until": until} | vars(ends) | vars(motions)
+    made |= {"normal": motions.position / np.linalg.norm(motions.position, axis=1, keepdims=True)}
     found: dict[str, Any] = {
         "outcome": (dims, ends.outcome, outcome_attributes()),
         "certified": (dims, ends.certified, {"long_name": "the stick is proved"}),

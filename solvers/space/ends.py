@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
+from ..collision.outcome import open_beyond
 from .books import TERMS
 from .pairs import Bodies, Pairs, dot, length
 
@@ -21,6 +22,7 @@ class Ends:
     Attributes:
         gap: of the surfaces, m.
         opening: normal relative velocity, m/s.
+        time: of a stick, where its integration stopped, until `put_at_contact`.
         turning: angular velocity of the line of centres, rad/s.
         sliding: beside a wall, velocity along it relative to the wall, m/s.
         energy: terms of the ledger in the order of `TERMS`, J; NaN without one.
@@ -66,6 +68,18 @@ class Ends:
         for name, values in vars(other).items():
             getattr(self, name)[where] = values
 
+    def put_at_contact(self, pairs: Pairs) -> np.ndarray:
+        """Put sticks where they were at initial contact, at time 0; returns until when they were integrated, s.
+
+        That depends on tolerance and rounding, and so does the state there. A stick's momentum, angular momentum and
+        twist at initial contact depend on neither, and define its motion as one body (`after`).
+        """
+        sticks = self.outcome == _STICK
+        until = np.where(sticks, self.time, np.nan)
+        self.time[sticks], self.gap[sticks] = 0.0, float(pairs.scene.material["film_thickness"])
+        self.normal[sticks], self.spins[sticks] = pairs.normal[sticks], pairs.spins[sticks]
+        return until
+
 
 def across(vectors: np.ndarray, normal: np.ndarray) -> np.ndarray:
     """The parts of vectors across a direction."""
@@ -92,9 +106,10 @@ class Motions:
 def after(pairs: Pairs, ends: Ends) -> Motions:
     """The motion of two spheres after their collision; a stick turns as one body.
 
-    A stick keeps its angular momentum: across the line of centres it turns with the inertia that the doublet has at the
-    gap of the end. Twist has no friction to leading logarithm: along the line each sphere keeps its own spin, and the
-    doublet's angular velocity has their mean by inertia.
+    A stick keeps its angular momentum L. Across the line of centres it turns with L over the doublet's inertia there,
+    m r^2 + I_1 + I_2. The orbit has no momentum along the line, where L is that of twist, I_1 w_1 + I_2 w_2. Twist has
+    no friction to leading logarithm: each sphere keeps its own, and the doublet's angular velocity has their mean by
+    inertia. Among all motions with this L and twist the one returned has the least energy.
     """
     bodies = Bodies.of(pairs.scene)
     sticks = (ends.outcome == _STICK)[:, None]
@@ -121,6 +136,30 @@ def after(pairs: Pairs, ends: Ends) -> Motions:
         [centre - bodies.mass[1] / whole * relative, centre + bodies.mass[0] / whole * relative], axis=1
     )
     return Motions(apart * normal, velocities, spins, centre, np.where(sticks, rigid + along, np.nan))
+
+
+def gains_energy(pairs: Pairs, ends: Ends, rtol: float) -> np.ndarray:
+    """Mask of ends with more energy than at initial contact, relative to the centre of mass or to the wall.
+
+    Film, shear and rebounds only take energy, and so do attractions between contact and separation: such a trajectory
+    is wrong, as one is that was followed further than doubles reach.
+    """
+    bodies = Bodies.of(pairs.scene) if not pairs.scene.wall else None
+    mass = float(pairs.scene.material["reduced_mass"])
+    inertia = np.array(
+        bodies.inertia if bodies else (0.4 * mass * float(pairs.scene.material["reduced_radius"]) ** 2, 0)
+    )
+
+    def energy(velocities: np.ndarray, spins: np.ndarray) -> np.ndarray:
+        relative = velocities[:, 1] - velocities[:, 0]
+        found: np.ndarray = mass * dot(relative, relative)[:, 0] + (inertia * length(spins) ** 2).sum(axis=1)
+        return found
+
+    with np.errstate(all="ignore"):
+        motions = after_wall(pairs, ends) if pairs.scene.wall else after(pairs, ends)
+        spins = np.where(inertia[:, None] > 0, motions.spins, 0.0)
+        most = energy(pairs.velocities, pairs.spins) * (1 + open_beyond(rtol))
+        return np.asarray((ends.outcome > 0) & ~(energy(motions.velocities, spins) <= most))
 
 
 def after_wall(pairs: Pairs, ends: Ends) -> Motions:

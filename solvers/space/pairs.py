@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from ...generated.automaton import TURNLESS
 from ..errors import InputError
 from ..scene.scene import Scene
 from ..scene.units import quantity
 from ..scene.values import array, scalar
-
-ROUNDING = 16 * np.finfo(float).eps  # of a component over the largest of its kind
 
 
 def dot(left: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -102,7 +101,7 @@ class Pairs:
         relative = self.velocities[:, 1] - self.velocities[:, 0]
         across = relative - dot(self.normal, relative) * self.normal
         largest = np.max(np.abs(self.velocities), axis=(1, 2))
-        found: np.ndarray = np.where((length(across) > ROUNDING * largest)[:, None], across, 0.0)
+        found: np.ndarray = np.where((length(across) > TURNLESS * largest)[:, None], across, 0.0)
         return found
 
     def part(self, which: np.ndarray) -> Pairs:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import zlib
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,16 +22,18 @@ _WIDTH = 110
 
 
 def header(table: Law) -> str:
-    """The text of the header."""
+    """The text of the header; its reader refuses numbers that are not those of the checksum."""
     name = file_name(table.scene)
     reader = Path(__file__).with_name("reader.h").read_text(encoding="utf-8")
     real = "float" if table.data.results.coefficients.dtype == np.float32 else "double"
-    big = _constants(name)
+    big, arrays = _constants(name), _numbers(table)
     outcomes = ", ".join(f"{big}_{word.upper().replace('-', '_')} = {k}" for k, word in enumerate(OUTCOMES))
     criteria = ", ".join(f"{KINDS.index(word)} {word}" for word in CRITERIA)
     places = {
         "@NAME@": name, "@BIG@": big, "@REAL@": real, "@LEAST@": repr(LEAST), "@OUTCOMES@": outcomes,
         "@CRITERIA@": criteria,
+        "@CHECKSUM@": f"0x{_checksum(arrays):08x}u",
+        "@SUMS@": "\n".join(f"        {big}_SUM({name}_{key});" for key in arrays),
     }  # fmt: skip
     for word, text in places.items():
         reader = reader.replace(word, text)
@@ -39,7 +42,8 @@ def header(table: Law) -> str:
         _comment(table, name),
         f"#ifndef {guard}\n#define {guard}\n",
         _sizes(table, name),
-        _arrays(table, name, real),
+        *(_array(kind.replace("real", real), f"{name}_{key}", values) for key, (kind, values) in arrays.items()),
+        "",
     ]
     return "\n".join([*parts, reader, _functions(table, name), f"#endif /* {guard} */\n"])
 
@@ -73,7 +77,8 @@ def _comment(table: Law, name: str) -> str:
         f"    int {name}_table_slopes({given}{name}_answer *answer, {name}_slopes *slopes);",
         "",
         f"Both return {big}_OK, or {big}_OUTSIDE where an argument is outside its range or NaN: nothing is",
-        "extrapolated, the outcome is then -1 and all results are NaN. No allocation, no state: safe from any thread.",
+        "extrapolated, the outcome is then -1 and all results are NaN. So they are where a number of this file is not",
+        f"what was written ({big}_DAMAGED; tested at the first query). No allocation: safe from any thread.",
         "",
         "Arguments, all other entries as in the scene below:",
         *(f"    {one}" for one in ranges),
@@ -112,44 +117,45 @@ def _sizes(table: Law, name: str) -> str:
     return "\n".join(f"#define {_constants(name)}_{key} {value}" for key, value in numbers.items()) + "\n"
 
 
-def _arrays(table: Law, name: str, real: str) -> str:
+def _numbers(table: Law) -> dict[str, tuple[str, np.ndarray]]:
+    """The arrays of the header by name: their type in C ("real" is that of the coefficients), and their values."""
     data = table.data
     third = np.log(table.range.ends) if table.range.logarithmic else np.array(table.range.ends)
-    ranges = [*table.range.stokes, *table.range.angle, *third.tolist()]
-    height = [data.low[2], data.high[2]]
-    parts = [f"static const double {name}_range[3][2] = {{{', '.join(_pairs(ranges))}}};"]
-    parts.append(_array("double", f"{name}_height", height))
+    found: dict[str, tuple[str, Any]] = {
+        "range": ("double", [*table.range.stokes, *table.range.angle, *third.tolist()])
+    }
+    found["height"] = "double", [data.low[2], data.high[2]]
     for key, kind in (
         ("slices", "double"), ("first_panel", "int"), ("cuts", "int"), ("maps", "signed char"), ("first_edge", "int"),
         ("edges", "int"), ("outcome", "signed char"), ("criterion", "signed char"), ("cell_map", "signed char"),
         ("root", "int"),
     ):  # fmt: skip
-        parts.append(_array(kind, f"{name}_{key}", getattr(data, key).ravel().tolist()))
-    parts.append(_array("signed char", f"{name}_of_stick", np.isnan(data.of_stick).astype(int).tolist()))
+        found[key] = kind, getattr(data, key)
+    found["of_stick"] = "signed char", np.isnan(data.of_stick)
     for prefix, trees in (("shape_", data.shapes), ("", data.results)):
         for key, kind in (
             ("axis", "signed char"), ("cut", "double"), ("child", "int"), ("box", "double"), ("size", "short"),
             ("start", "int"),
         ):  # fmt: skip
-            parts.append(_array(kind, f"{name}_{prefix}{key}", getattr(trees, key).ravel().tolist()))
-        own = "double" if prefix else real
-        parts.append(_array(own, f"{name}_{prefix}series", trees.coefficients))
-    return "\n".join(parts) + "\n"
+            found[f"{prefix}{key}"] = kind, getattr(trees, key)
+        found[f"{prefix}series"] = "double" if prefix else "real", trees.coefficients
+    # an empty array has one element, as C knows none
+    return {key: (kind, np.ravel(values) if np.size(values) else np.zeros(1)) for key, (kind, values) in found.items()}
 
 
-def _pairs(numbers: Sequence[float]) -> list[str]:
-    return [f"{{{low!r}, {high!r}}}" for low, high in zip(numbers[::2], numbers[1::2], strict=True)]
+def _checksum(arrays: Mapping[str, tuple[str, np.ndarray]]) -> int:
+    """CRC-32 of all numbers, as doubles with the least significant byte first."""
+    return zlib.crc32(b"".join(values.astype("<f8").tobytes() for _, values in arrays.values()))
 
 
-def _array(kind: str, name: str, values: Sequence[float] | np.ndarray) -> str:
-    """A constant array; an empty one has one element, as C knows none."""
+def _array(kind: str, name: str, values: np.ndarray) -> str:
+    """A constant array."""
     if kind == "float":
         words = [f"{np.format_float_scientific(value, unique=True, trim='0', exp_digits=1)}f" for value in values]
     elif kind == "double":
         words = [repr(float(value)) for value in values]
     else:
         words = [str(int(value)) for value in values]
-    words = words or ["0"]
     lines, line = [], "   "
     for word in words:
         if len(line) + len(word) > _WIDTH:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import zlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
     import xarray
 
 SUFFIXES = (".nc", ".h")
-_FORMAT = "wetdoublet table 1"
+_FORMAT = "wetdoublet table 2"
+_SEAL = b"\nwetdoublet crc32 "  # after what HDF5 reads: the checksum of all before it
 _OWN = {
     "slices": ("slice_end",), "first_panel": ("slice_end",), "cuts": ("panel", "end"), "maps": ("panel",),
     "first_edge": ("panel_end",), "edges": ("edge",), "outcome": ("cell",), "criterion": ("cell",),
@@ -110,24 +112,39 @@ def save(table: Law, path: str | Path) -> None:
     made = io.BytesIO()  # on a full disk HDF5 aborts the process, so write the file from memory
     with File(made, "w") as written:
         dataset(table).dump_to_store(H5NetCDFStore(written))
-    files.write(file, made.getbuffer())
+    files.write(file, sealed(made.getvalue()))
+
+
+def sealed(content: bytes) -> bytes:
+    """Content with its checksum behind it."""
+    return content + _SEAL + f"{zlib.crc32(content):08x}".encode()
+
+
+def _content(path: str | Path) -> bytes:
+    """What HDF5 may read of a file; InputError unless it is as it was written."""
+    accepted = "a NetCDF file that `wetdoublet table` has written"
+    try:
+        content = Path(path).read_bytes()
+    except OSError as error:
+        problem = "does not exist" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
+        raise InputError("path", str(path), accepted, problem) from None
+    whole = content[: -len(_SEAL) - 8]
+    if content == sealed(whole):
+        return whole
+    if _SEAL.strip() in content[-len(_SEAL) - 8 :] or _FORMAT.encode() in content:
+        raise InputError("path", str(path), accepted, "is damaged or cut short: make the table anew")
+    if _FORMAT[:-1].encode() in content:
+        raise InputError("path", str(path), accepted, "is of an older version: make the table anew")
+    raise InputError("path", str(path), accepted, "is no table")
 
 
 def load(path: str | Path) -> Law:
     """Read a table from NetCDF."""
     import xarray as xr
 
-    accepted = "a NetCDF file that `wetdoublet table` has written"
-    try:
-        with xr.open_dataset(path, engine="h5netcdf") as opened:
-            found = opened.load()
-    except FileNotFoundError:
-        raise InputError("path", str(path), accepted, "does not exist") from None
-    except (OSError, ValueError) as error:
-        raise InputError("path", str(path), accepted, f"cannot be read ({error})") from None
+    with xr.open_dataset(io.BytesIO(_content(path)), engine="h5netcdf") as opened:
+        found = opened.load()
     said = found.attrs
-    if said.get("format") != _FORMAT:
-        raise InputError("path", str(path), accepted, "is no table")
     model = said.get("model")
     scene = Scene.from_toml(said["scene"], package=None if model is None else Package(str(model)))
     of = tuple(str(said["results"]).split())

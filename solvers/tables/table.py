@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..engines.choice import boundary_engine
+from ..engines.choice import collision_engine
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function, check_mapping, check_names, check_whole
 from ..many.batch import checked_numbers, checked_vary
@@ -205,7 +205,8 @@ def _ranges(scene: Scene, over: object) -> tuple[Scene, Range]:
     named = {_SHORT.get(name, name): ends for name, ends in given.items()}
     for name in (STOKES, ANGLE):
         if name not in named:
-            raise InputError("over", ", ".join(given) or None, _ACCEPTED, f"has no range of {name.partition('.')[2]}")
+            problem = f"comes without a range of {name.partition('.')[2]}"
+            raise InputError("over", ", ".join(given) or None, _ACCEPTED, problem)
     others = [name for name in named if name not in (STOKES, ANGLE)]
     if len(others) > 1 or len(named) != len(given):
         raise InputError("over", ", ".join(given), _ACCEPTED, "has too many variables")
@@ -237,7 +238,7 @@ def _error(error: object) -> float:
 
 def _check_supported(scene: Scene, ranges: Range) -> None:
     """Raise an error for a scene that cannot be tabulated at all."""
-    if boundary_engine(scene) != "taylor":
+    if collision_engine(scene) != "taylor":
         raise ComputationError(
             "a table takes millions of collisions, and there is no Taylor kernel of this scene",
             advice="install a C compiler, or use laws that the kernel has",

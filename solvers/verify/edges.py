@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..engines.choice import boundary_engine
+from ..engines.choice import collision_engine
 from ..many.collide_many import collide_many
 from ..many.results import FAILED
 from ..scene.scene import Scene
@@ -46,7 +46,7 @@ def above_one(scene: Scene, angles: Sequence[float], stokes: np.ndarray, rtol: f
         stokes: Stokes numbers, ascending; intervals narrower than their steps (with a kernel, a sixteenth of these) may
             be missed.
     """
-    steps = (stokes.size - 1) * (_FINER if boundary_engine(scene) == "taylor" else 1)
+    steps = (stokes.size - 1) * (_FINER if collision_engine(scene) == "taylor" else 1)
     scan = np.exp(np.interp(np.linspace(0, stokes.size - 1, steps + 1), np.arange(stokes.size), np.log(stokes)))
     scan[0], scan[-1] = stokes[0], stokes[-1]
     e_n, failed = _restitution(scene, np.repeat(angles, scan.size), np.tile(scan, len(angles)), rtol)

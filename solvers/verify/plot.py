@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 
 from ..boundaries.on_map import map_curves
 from ..collision.text import name_of
-from ..engines.choice import boundary_engine
+from ..engines.choice import collision_engine
 from ..formatting import ticks
 from ..formatting.style import INK, NOTHING, picture, plain_text
 from ..host.files import save
@@ -110,7 +110,7 @@ def _fine(data: xarray.Dataset) -> xarray.Dataset:
     """Restitution in the window of a budget, on a finer grid where the kernel computes it; else the budget's own."""
     scene = Scene.from_toml(data.attrs["scene"])
     angle, stokes = data["angle"].values, data["stokes"].values
-    if boundary_engine(scene) != "taylor" or min(angle.size, stokes.size) < 2:
+    if collision_engine(scene) != "taylor" or min(angle.size, stokes.size) < 2:
         return data
     across, up = np.linspace(angle[0], angle[-1], _FINE), np.geomspace(stokes[0], stokes[-1], _FINE)
     return regime_map(scene, stokes=up, angle=across, of=("restitution",))

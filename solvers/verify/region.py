@@ -12,7 +12,7 @@ import xarray
 
 from ..collision.collide import collide
 from ..collision.result import Collision
-from ..engines.choice import boundary_engine
+from ..engines.choice import collision_engine
 from ..scene.scene import Scene
 from .budget import LOSSES, TERMS, budgeted, first_rotation
 from .conserved import RESIDUAL, agreement
@@ -35,7 +35,7 @@ def grid(scene: Scene, extent: Extent = WHOLE) -> xarray.Dataset:
 
 def _fast(scene: Scene) -> Collide:
     """`collide` by the fastest engine of a scene."""
-    return partial(collide, engine=boundary_engine(scene))
+    return partial(collide, engine=collision_engine(scene))
 
 
 def _reference(scene: Scene, **impact: Any) -> Collision:

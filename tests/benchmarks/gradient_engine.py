@@ -25,7 +25,6 @@ from typing import Any
 import numpy as np
 from wetdoublet.solvers import Scene, gradients_many, sensitivities
 from wetdoublet.solvers.host.environment import environment
-from wetdoublet.solvers.settings import FEW
 
 from .kernel import table
 from .kinds import scenes as kinds
@@ -113,9 +112,9 @@ def main() -> None:
         return
     rows = [measured(name) for name in IMPACTS]
     text = f"{BEGIN}\n{table(rows)}\n{END}"
-    print(f"the rule: kernels that are compiled, and more than {FEW} collisions\n\n{text}")  # noqa: T201 # a script
+    print(text)  # noqa: T201 # a script
     if "--print" not in sys.argv:
-        RECORD.write_text(json.dumps({"environment": environment(), "few": FEW, "rows": rows}, indent=1) + "\n")
+        RECORD.write_text(json.dumps({"environment": environment(), "rows": rows}, indent=1) + "\n")
         page = PAGE.read_text()
         PAGE.write_text(page[: page.index(BEGIN)] + text + page[page.index(END) + len(END) :])
 

@@ -69,7 +69,7 @@ def computed(law: Law, scene: Scene, given: tuple[np.ndarray, np.ndarray, np.nda
 
 
 def apart(one: Found, other: Found, given: tuple[np.ndarray, np.ndarray, np.ndarray]) -> np.ndarray:
-    """Largest relative difference of each pair's numbers; of a stick none, since where it stops is open."""
+    """Largest relative difference of each pair's numbers."""
     _, velocities, spins = given
     size = len(velocities)
     scales = {"velocities": np.abs(velocities), "spins": np.abs(spins)}
@@ -80,7 +80,7 @@ def apart(one: Found, other: Found, given: tuple[np.ndarray, np.ndarray, np.ndar
         if name in scales:
             scale = np.maximum(scale, scales[name].reshape(size, -1).max(axis=1))
         found = np.fmax(found, np.abs(first - second).max(axis=1) / np.where(scale > 0, scale, 1.0))
-    return np.where(one["outcome"] > 0, found, 0.0)
+    return found
 
 
 def main(count: int = 3000, seed: int = 17, of: int = 10) -> int:

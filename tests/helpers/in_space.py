@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .flow import Rates, State
+from .flow import Guard, Rates, State
 from .phases import Course, End
 from .spinning import Impact
 from .two_bodies import Bodies
@@ -136,6 +136,11 @@ class Spatial(Course):
             held = m * dot(across(v, n), v) / r if resting else drag + pull
             force = plus(sideways, -held, n)  # on the second
             power = -dot(sideways, v) - dot(torque, spin) - dot(back, partner)
+            if resting and b.friction is not None:
+                slipping = self.slip(y)
+                rub = plus(ZERO, -b.friction * (pull - held) / math.hypot(*slipping), slipping)
+                force, (own_arm, other_arm), turn = plus(force, 1.0, rub), self._arms(x), cross(n, rub)
+                torque, back = plus(torque, -own_arm, turn), plus(back, -other_arm, turn)
             return [
                 *at(y, VELOCITY),
                 *plus(ZERO, -1 / mass, force),
@@ -183,11 +188,51 @@ class Spatial(Course):
         return [*body, *body, 1e-3 * b.film_thickness, self.energy, self.energy, self.energy]
 
     def reverse(self, solid: bool) -> None:
-        """Normal impulse only: dry friction in space is not followed."""
-        if self.bodies.friction is not None:
-            raise NotImplementedError("friction in space")
-        b, y = self.bodies, self.y
-        self._push(-(1 + b.dry_restitution) * dot(self.normal(y), self.relative(y)))
+        """With Walton and Braun's tangential impulse against the slip: mu times the normal one, or what sticks."""
+        b, y, n = self.bodies, self.y, self.normal(self.y)
+        opening, slip = dot(n, self.relative(y)), self.slip(y)
+        self._push(-(1 + b.dry_restitution) * opening)
+        size = math.hypot(*slip)
+        if b.friction is None or not (solid or b.friction_in_glass) or not size:
+            return
+        assert not b.wall
+        (own, other), (inertia, second) = self._arms(y[GAP]), b.inertias
+        resistance = 1 / (1 / b.m + own**2 / inertia + other**2 / second)
+        limit = -b.friction * (1 + b.dry_restitution) * b.m * opening
+        impulse = plus(ZERO, -min(limit, (1 + (b.beta_0 or 0.0)) * size * resistance) / size, slip)  # on the second
+        y[VELOCITY : VELOCITY + 3] = plus(at(y, VELOCITY), -1 / b.masses[0], impulse)
+        y[OTHER_VELOCITY : OTHER_VELOCITY + 3] = plus(at(y, OTHER_VELOCITY), 1 / b.masses[1], impulse)
+        y[SPIN : SPIN + 3] = plus(at(y, SPIN), -own / inertia, cross(n, impulse))
+        y[OTHER_SPIN : OTHER_SPIN + 3] = plus(at(y, OTHER_SPIN), -other / second, cross(n, impulse))
+
+    def _arms(self, x: float) -> tuple[float, float]:
+        """Lever arms of the tangential force about the centres."""
+        b = self.bodies
+        stretch = (b.contact + x) / b.contact if b.arm == "midgap" else 1.0
+        return stretch * b.radii[0], stretch * b.radii[1]
+
+    def slip(self, y: Sequence[float]) -> Vector:
+        """Velocity of the second surface past the first, at the lever arms."""
+        n, (own, other) = self.normal(y), self._arms(y[GAP])
+        turning = plus(plus(ZERO, own, at(y, SPIN)), other, at(y, OTHER_SPIN))
+        return across(plus(self.relative(y), -1.0, cross(turning, n)), n)
+
+    def slides(self) -> Guard | None:
+        """Positive where the slip is below a thousandth of the largest speed."""
+        if self.bodies.wall:
+            return None
+        least, (own, other) = 1e-3 * (self.fastest + self.spinning), self._arms(self.y[GAP])
+
+        def guard(y: Sequence[float], dy: Sequence[float]) -> tuple[float, float]:
+            n, slip = self.normal(y), self.slip(y)
+            line = plus(ZERO, 1 / (self.bodies.contact + y[GAP]), across(self.relative(y), n))
+            turning = plus(plus(ZERO, own, at(y, SPIN)), other, at(y, OTHER_SPIN))
+            speeding = plus(plus(ZERO, own, at(dy, SPIN)), other, at(dy, OTHER_SPIN))
+            change = plus(plus(self.relative(dy), -1.0, cross(speeding, n)), -1.0, cross(turning, line))
+            size = math.hypot(*slip)
+            return 1 - size / least, -dot(slip, change) / (size * least)
+
+        return guard
 
     def _push(self, change: float) -> None:
         """Change the rate of the gap by an impulse."""

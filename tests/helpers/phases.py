@@ -20,7 +20,7 @@ DRIFTS = 0.02  # the same, of the energy of rotation, where angular momentum is 
 
 
 class Chatter(ArithmeticError):
-    """Rebounds without end, or a contact that rests with friction: these references do not follow them."""
+    """Rebounds without end, or a contact that rolls, or rests in the plane, with friction: not followed here."""
 
 
 @dataclass
@@ -82,6 +82,10 @@ class Course(ABC):
     def reverse(self, solid: bool) -> None:
         """The rebound's impulses."""
 
+    def slides(self) -> Guard | None:
+        """Guard of the end of sliding at rest; None where friction at rest is not followed."""
+        return None
+
     @abstractmethod
     def kinetic(self, y: Sequence[float]) -> float:
         """Kinetic energy, the centre of mass at rest."""
@@ -116,7 +120,8 @@ class Course(ABC):
             return (outward - b.pull(self.gap(y)) / b.m) * scale, rate * scale
 
         if self.resting:
-            return {"released": lifted}
+            slides = self.slides() if b.friction is not None else None
+            return {"released": lifted} | ({"rolls": slides} if slides else {})
         if self.closing:
             found |= {"turned": moving(1), "glass": glass}
             if self.solid:
@@ -191,6 +196,8 @@ class Course(ABC):
             self.closing = not self.closing
         elif name == "released":
             self.resting = False
+        elif name == "rolls":
+            raise Chatter(f"rolls at {self.end.time} s")
         elif name == "film edge":
             self.put(b.film_thickness)
             self.inside = not self.inside
@@ -229,7 +236,7 @@ class Course(ABC):
             self.sheared = self.sheared and b.edge > b.film_thickness
         u, rate = self.opening(y, self.rates()(0.0, y))
         if abs(u) < RESTS * self.speed and rate <= 0.0:
-            if b.friction is not None:
+            if b.friction is not None and self.slides() is None:
                 raise Chatter(f"rest with friction at {self.end.time} s")
             self.end.events.append(("rests", self.end.time))
             self.end.dry += b.m * u**2 / 2

@@ -150,3 +150,11 @@ def impact_of(scene: Scene) -> Impact:
     speed, angle = scene.need_impact()
     spin = float(scene.entries.get("impact.spin", 0.0))
     return Impact(speed, angle, spin, float(scene.entries.get("impact.partner_spin", spin)))
+
+
+def with_friction(described: dict[str, Any], draw: np.random.Generator) -> dict[str, Any]:
+    """The tables of the same scene with a friction of its dry contact, at times on glass too."""
+    coefficient, beta = 10 ** draw.uniform(-2.0, 0.3), draw.uniform(0.0, 1.0)
+    entries = {"friction": float(f"{coefficient:.6g}"), "contact_tangential_restitution": float(f"{beta:.6g}")}
+    model = {"contact_friction": "all"} if draw.random() < 0.4 else {}
+    return described | {"particles": described["particles"] | entries, "model": described["model"] | model}

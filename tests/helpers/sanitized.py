@@ -116,7 +116,7 @@ def _in_space(impacts: Impacts, ledger: bool) -> bool:
 
 KINDS: dict[str, Replay] = {
     "plain": lambda impacts, _: run_kernel(impacts, RTOL, budget=BUDGET, jumps=2) is not None,
-    "rotation": lambda impacts, _: run_kernel(impacts, RTOL, rotation=True, budget=BUDGET, few=True) is not None,
+    "rotation": lambda impacts, _: run_kernel(impacts, RTOL, rotation=True, budget=BUDGET) is not None,
     "ledger": _recorded(ledger=True, room=(4, 4)),
     "ledger and trajectory": _recorded(ledger=True, trajectory=True, room=(4, 4)),
     "trajectory": _recorded(trajectory=True, room=(4, 4)),

@@ -254,6 +254,12 @@ def bodies_of(scene: Scene) -> Bodies:
         more |= {"modulus": particles.youngs_modulus, "poisson": particles.poisson_ratio}
     if liquid.glass_transition_pressure is not None:
         more["glass"] = liquid.glass_transition_pressure
+    if particles.friction is not None:
+        more |= {
+            "friction": particles.friction,
+            "beta_0": particles.contact_tangential_restitution,
+            "friction_in_glass": scene.model.contact_friction == "all",
+        }
     return Bodies(
         radii=(radius, other[0]),
         masses=(mass, other[1]),

@@ -27,7 +27,7 @@ _STATEMENTS = {
     "open": ("LANE(l->y[NORMAL_VELOCITY], lane) = RELEASE_SPEED;", "opens(l, f, lane);"),
     "roll or slide": (),  # by its word
     "slide": ("slides(l, f, lane);",),
-    "separate": ("separated(q, l, f, lane);",),
+    "separate": ("parts(q, l, f, lane);",),
     "cut off": ("finish(q, l, f, lane, DECIDED, STICK, 0);",),
 }
 

@@ -80,7 +80,8 @@ class Header:
             self.flow, self.constants, lambda name: f"s->{name}", passing=self.flow.passing(self._work_operations)
         )
         self.ledger = Ledger(model, self.flow, self.made, self.constants)
-        self.resting = self._resting() if model.structure.friction else None
+        rubs = model.structure.friction and model.structure.partner != "space"
+        self.resting = self._resting() if rubs else None
 
     # ---- programs
 
@@ -437,16 +438,18 @@ class Header:
     def _friction(self) -> list[str]:
         """The friction of a rebound: impulses, what an impulse does to the states, and what it costs."""
         model = self.model
-        found = {"slip": "found[SLIP]", "sticking": "found[STICKING]", "most": "found[MOST]"}
-        lines = ["enum { SLIP, STICKING, MOST, IMPULSES };"]
+        names = [key for key, _ in model["dry_slip"].outputs]
+        found = {name: f"found[{name.upper()}]" for name in names}
+        lines = [f"enum {{ {', '.join(name.upper() for name in names)}, IMPULSES }};"]
         lines += self._value(
             "dry_slip", "static inline void dry_slip(const constants *c, const vec *y, vec *found)", found
         )
         head = "static inline void dry_forces(const constants *c, const vec *y, vec film, vec shear, vec *found)"
         lines += ["enum { GRIP_LIMIT, HOLDING, DRY_FORCES };"]
-        forces = self._value("dry_forces", head, {"limit": "found[GRIP_LIMIT]", "holding": "found[HOLDING]"})
-        forces.insert(forces.index("{") + 1, "    (void)film; (void)shear; /* some models have no edge */")
-        lines += forces
+        if self.resting:
+            forces = self._value("dry_forces", head, {"limit": "found[GRIP_LIMIT]", "holding": "found[HOLDING]"})
+            forces.insert(forces.index("{") + 1, "    (void)film; (void)shear; /* some models have no edge */")
+            lines += forces
         for name, kind, result in (("rubbed", "void", ", vec *after"), ("friction_loss", "vec", "")):
             told, head = (
                 model[name],

@@ -49,14 +49,15 @@ from .rolling import R_1, R_2, torque_matrix
 from .vectors import APART, FORCE, LINE_RATE, cross, dot, motion, on_the_sphere
 
 
-def _named(name: str) -> Vector:
+def named(name: str) -> Vector:
+    """Symbols of a vector's components."""
     first, second, third = (sp.Symbol(f"{name}_{axis}", real=True) for axis in AXES)
     return first, second, third
 
 
-MOMENTA, RATES = _named("momentum"), _named("orbital_rate")
-SLIPS, PARTNER_SLIPS = _named("slip"), _named("partner_slip")
-TORQUES, PARTNER_TORQUES = _named("torque"), _named("partner_torque")
+MOMENTA, RATES = named("momentum"), named("orbital_rate")
+SLIPS, PARTNER_SLIPS = named("slip"), named("partner_slip")
+TORQUES, PARTNER_TORQUES = named("torque"), named("partner_torque")
 STRENGTH = sp.Symbol("strength", positive=True)
 MOMENTUM_SQUARE, RATE_SQUARE = sp.symbols("momentum_square rate_square", nonnegative=True)
 TWIST, PARTNER_TWIST, ALONG, PARTNER_ALONG = sp.symbols("twist partner_twist along partner_along", real=True)
@@ -139,7 +140,7 @@ def definitions(eliminated: Eliminated = ()) -> tuple[Definition, ...]:
 def rates() -> dict[sp.Symbol, sp.Expr]:
     """Rates of n, J and both spins, per v0/x0."""
     moved = motion()
-    pull, shear = sp.Symbol("F", real=True), _named("S")  # on sphere 2: -F n - S x n, with r S = T_1 + T_2
+    pull, shear = sp.Symbol("F", real=True), named("S")  # on sphere 2: -F n - S x n, with r S = T_1 + T_2
     force = -pull * sp.Matrix(normal) - cross(shear, normal)
     by_force = dict(zip(FORCE, force, strict=True))
     torque = [on_the_sphere(each.subs(by_force), normal, shear) for each in moved.orbital_momentum]
@@ -212,12 +213,17 @@ def outward_at_most() -> sp.Expr:
     return centrifugal((rigid + DISTANCE * sp.sqrt(2 * slip_energy())) ** 2)
 
 
-def surface_slip() -> sp.Expr:
-    """Magnitude of the relative velocity of the surfaces at the contact, over a Omega."""
-    across = [
-        RADIUS * (one - TWIST * line) + PARTNER_RADIUS * (other - PARTNER_TWIST * line)
+def surface_slips() -> list[sp.Expr]:
+    """Components of n x the relative velocity of the surfaces at the contact, over a Omega."""
+    return [
+        DISTANCE / CENTRES * (RADIUS * (one - TWIST * line) + PARTNER_RADIUS * (other - PARTNER_TWIST * line))
         for one, other, line in zip(SLIPS, PARTNER_SLIPS, normal, strict=True)
     ]
+
+
+def surface_slip() -> sp.Expr:
+    """Magnitude of the relative velocity of the surfaces at the contact, over a Omega."""
+    across = [each / (DISTANCE / CENTRES) for each in surface_slips()]
     return DISTANCE / CENTRES * sp.sqrt(dot(across, across))
 
 

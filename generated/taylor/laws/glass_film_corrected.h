@@ -14,7 +14,8 @@ static inline void glass_pressure_clearance_prepare(glass_pressure_clearance_con
 
 typedef struct {
     vec gap_squared[TERMS];
-    vec approach_by_gap_squared[TERMS];
+    vec combination[TERMS];
+    vec approach_by_combination[TERMS];
     vec result[TERMS];
 } glass_pressure_clearance_series;
 
@@ -25,8 +26,9 @@ INLINE void glass_pressure_clearance_next(glass_pressure_clearance_series *s, co
 {
     (void)gap; (void)approach; (void)c;
     s->gap_squared[k] = square(gap, k);
-    s->approach_by_gap_squared[k] = product(approach, s->gap_squared, k);
-    s->result[k] = s->approach_by_gap_squared[k] + c->limit*s->gap_squared[k] - approach[k];
+    s->combination[k] = k == 0 ? s->gap_squared[k] + (-1.0) : s->gap_squared[k];
+    s->approach_by_combination[k] = product(approach, s->combination, k);
+    s->result[k] = s->approach_by_combination[k] + c->limit*s->gap_squared[k];
 }
 
 /* Limit minus value, times the positive denominator: the sign of the event function. */
@@ -35,8 +37,9 @@ static inline vec glass_pressure_clearance_value(const glass_pressure_clearance_
 {
     (void)gap; (void)approach; (void)c;
     vec gap_squared = gap*gap;
-    vec approach_by_gap_squared = approach*gap_squared;
-    vec result = approach_by_gap_squared + c->limit*gap_squared - approach;
+    vec combination = gap_squared + (-1.0);
+    vec approach_by_combination = approach*combination;
+    vec result = approach_by_combination + c->limit*gap_squared;
     return result;
 }
 

@@ -20,7 +20,7 @@ from ...host.captured_stderr import listening
 from ...host.interrupts import check
 from ...host.thread_caches import own_cache
 from ...model.phases import Flow, WatchedEvents, event_table, expressions, mechanical_energy
-from ...settings import STEPS
+from ...settings import STEPS, casadi_steps
 
 _EXPECTED = "Event support is experimental"
 _FLAT = 1e-12  # of a function per x0/v0: a smaller slope is rounding, whose changes of sign are no minima, at rest
@@ -83,12 +83,12 @@ class Tolerance:
         """Initial value of quadratures: 1 if the absolute tolerance is too small to control one that starts at 0."""
         return 1.0 if self.absolute < 1e-4 * self.relative else 0.0
 
-    def options(self, plugin: str) -> dict[str, Any]:
-        """The plugin's options."""
+    def options(self, plugin: str, space: bool = False) -> dict[str, Any]:
+        """The plugin's options; CVODES' steps, of a located trajectory, are cheaper than those of Rosenbrock."""
         options: dict[str, Any] = {
             "reltol": self.relative,
             "abstol": self.absolute,
-            "max_num_steps": self.steps,
+            "max_num_steps": self.steps if plugin == "cvodes" else min(self.steps, casadi_steps(self.relative, space)),
         }
         return options | ({"quad_err_con": True} if plugin == "cvodes" else {})
 
@@ -143,7 +143,9 @@ def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...]
     duration = SX.sym("duration")
     dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * parts.rates}
     with quiet():
-        return Plain(integrator("flow", plugin, dae, 0, list(grid), tolerance.options(plugin)), plugin)
+        return Plain(
+            integrator("flow", plugin, dae, 0, list(grid), tolerance.options(plugin, flow.model.space)), plugin
+        )
 
 
 @dataclass(frozen=True)
@@ -239,7 +241,7 @@ def locator(flow: Flow, watch: WatchedEvents, tolerance: Tolerance, machine_code
         "ode": vertcat(active * duration * parts.rates, active * duration, SX.zeros(2 + len(minima))),
         "zero": vertcat(*falling, *turning),
     }
-    options = tolerance.options("rosenbrock") | {
+    options = tolerance.options("rosenbrock", model.space) | {
         "transition": transition,
         "event_tol": 1e-14,
         "max_event_iter": 40,

@@ -17,6 +17,7 @@ from ....generated.automaton import (
     ENDS,
     EVENTS,
     KINDS,
+    LEAST_PARTING,
     LOOSEST,
     MOST_OBLIQUE,
     NO_SLIP,
@@ -36,7 +37,7 @@ from ...model.phases import Flow, Phase, WatchedEvents
 from ...model.rebound import rebounded
 from ...scene.contact import contact_gap, contact_word
 from ...scene.user_model import OwnEvent
-from ...settings import CALL, STEPS
+from ...settings import CALL, casadi_steps
 from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance_for
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is abandoned after 16 * 8^21 of them
@@ -117,7 +118,7 @@ class EventLocator:
         rtol: float,
         extras: tuple[str, ...] = (),
         machine_code: bool = False,
-        steps: int = STEPS,
+        steps: int | None = None,
         until: float = 0.0,
     ) -> None:
         rtol = min(rtol, LOOSEST)
@@ -137,7 +138,7 @@ class EventLocator:
         self.path = EventSequence(model, self.p, self.watch, extras=self.extras)
         self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
-        self.spent, self.steps = 0, steps
+        self.spent, self.steps = 0, casadi_steps(rtol, model.space) if steps is None else steps
         self.until, self.deadline = until, np.inf
         self._maxima: list[np.ndarray] = []  # states at maxima of the gap
 
@@ -205,13 +206,18 @@ class EventLocator:
         self.spent += max(steps, CALL)
         if self.spent > self.steps:
             phases = len(self.path.steps)
-            why = "the doublet rebounds again and again" if phases > CHATTER_PHASES else "the gap changes too slowly"
             if self.path.decided is not None:
                 message = f"{self.steps} steps have not led from the proof to the time that was asked for"
                 raise self._error(message, "try an earlier --until")
+            why, engine = "the gap changes too slowly", ""
+            if self.phase.resting:
+                why = "the resting doublet turns for too long"
+                engine = "" if self.model.space and self.model.friction else "engine taylor, "  # it has no such rest
+            elif phases > min(CHATTER_PHASES, self.steps // (4 * CALL)):
+                why = "the doublet rebounds again and again"
             raise self._error(
                 f"{self.steps} steps in {phases + 1} phases have not decided the outcome",
-                f"{why}: try a larger --rtol, or another impact",
+                f"{why}: try {engine}a larger --rtol, or another impact",
             )
 
     def _criterion_met(self) -> str | None:
@@ -256,7 +262,7 @@ class EventLocator:
         elapsed, stretch = 0.0, self._first_stretch()
         growth, most = (_DOUBLED, _MORE) if self.model.own_events else (GROWTH, STRETCHES)
         for _ in range(most):
-            level, left = self._level(), self.deadline - self.path.time
+            level, left, before = self._level(), self.deadline - self.path.time, self.y[: len(self.model.state)]
             stop = self._advance(find, min(stretch, left), -np.inf if level is None else level)
             elapsed += stop.time
             self.path.time += stop.time
@@ -275,6 +281,9 @@ class EventLocator:
                 return True
             else:
                 stretch *= growth
+        if self.phase.resting and np.allclose(before, self.y[: before.size], rtol=self.rtol, atol=0.0):
+            self._stop(PhaseRun(self.phase, elapsed, None, ()))  # no force changes any more: a stick without a proof
+            return True
         raise self._error(
             f"no event within {elapsed:.3g} x0/v0",
             "the outcome changes within the tolerance of this impact, or the gap changes too slowly: "
@@ -296,9 +305,11 @@ class EventLocator:
                 stop = self._refined(find, stop, stop.event, level)
             return self._overshot(find, stop, level) if stop.event in (None, "turning") else stop
         except IntegrationFailed as error:
+            self._spend(find.steps + 1)
             if self._loosened():
                 find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
                 return self._advance(find, stretch, level)
+            self._spend(find.steps)  # an integrator whose steps are used up fails, too
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
 
     def _loosened(self) -> bool:
@@ -427,6 +438,12 @@ class EventLocator:
             case "slide":
                 return self._slides(phase)
             case "separate":
+                least = LEAST_PARTING * self.groups["obliquity"] * self.groups["aspect"] ** 0.5
+                if self.y[_VELOCITY] < least:
+                    raise self._error(
+                        "the doublet separates so slowly that rounding of its angular momentum decides",
+                        "try spins with another angular momentum",
+                    )
                 self.path.separated = True
             case "cut off":
                 pass
@@ -451,18 +468,20 @@ class EventLocator:
         (docs/explanation/events.md).
         """
         jump = rebounded(self.model, kind, self.y, self.p)
+        parts = jump.after[_GAP] >= self.rupture_gap
+        holds = not parts and self._too_weak(jump.after)
+        if holds and self.model.friction:
+            jump = rebounded(self.model, kind, self.y, self.p, holds)
         self.path.dry_loss += jump.dry
         self.path.friction_loss += jump.friction
         self.y = self.path.y = np.concatenate([jump.after, self.y[jump.after.size :]])
         kinds: tuple[str, ...] = (kind,)
-        if self.y[0] >= self.rupture_gap:
+        if parts:
             self.path.separated = True
             kinds += (KINDS[EventKind.RUPTURE],)
             rebound = PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, grip=jump.grip)
             self._next(rebound, self._opening(self.phase))
             return
-        inward = self.model.values("inward_force", self.y, self.p)["inward_force"]
-        holds = inward > 0 and self._too_weak(float(self.y[_VELOCITY]), inward)
         if holds:
             kinds += (KINDS[EventKind.RESTS],)
             self.path.dry_loss += float(self.y[1]) ** 2 / 2
@@ -476,7 +495,9 @@ class EventLocator:
         self._next(PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, holds=holds, grip=jump.grip), phase)
 
     def _rubbing(self, phase: Phase) -> Phase:
-        """The mode of resting contact with friction."""
+        """The mode of resting contact with friction; in space a creep takes the place of rolling."""
+        if self.model.space:
+            return phase.with_(sliding=1)
         slip = self.model.values("dry_slip", self.y, self.p)["slip"]
         return self._grips(phase) if abs(slip) < NO_SLIP else phase.with_(sliding=int(np.sign(slip)), rolling=False)
 
@@ -506,13 +527,15 @@ class EventLocator:
         cavitated = self.model.cavitates and motion == OPENING
         return (phase or self.phase).with_(motion=motion, cavitated=cavitated)
 
-    def _too_weak(self, rebound: float, inward: float) -> bool:
-        """True if a rebound becomes resting contact: slower than REST_SPEED, or rising by less than the tolerance.
+    def _too_weak(self, after: np.ndarray) -> bool:
+        """True if a rebound to this state becomes resting contact.
 
-        Without drag it rises by u^2/(2 inward); the chatter that would follow is a geometric series that ends at the
-        same gap.
+        It is slower than REST_SPEED, or rises by less than the tolerance. Without drag it rises by u^2/(2 inward);
+        the chatter that would follow is a geometric series that ends at the same gap.
         """
-        return rebound < REST_SPEED or rebound**2 / (2 * inward) < self.rtol * float(self.y[0])
+        inward = self.model.values("inward_force", after, self.p)["inward_force"]
+        rebound, gap = float(after[_VELOCITY]), float(after[_GAP])
+        return inward > 0 and (rebound < REST_SPEED or rebound**2 / (2 * inward) < self.rtol * gap)
 
     def _error(self, message: str, advice: str) -> ComputationError:
         state = dict(zip(self.model.state, map(float, self.y), strict=False))
@@ -532,6 +555,7 @@ def locate(
     extras: tuple[str, ...] = (),
     machine_code: bool = False,
     until: float = 0.0,
+    steps: int | None = None,
 ) -> EventSequence:
     """Phases and events of a collision.
 
@@ -539,8 +563,9 @@ def locate(
         extras: additional quadratures (`rotation`), included in the sequence's last state.
         machine_code: use integrators compiled to C.
         until: time (x0/v0) to which a stick is followed on after its proof.
+        steps: most steps; None for those of `settings`.
 
     Raises:
         ComputationError: with phase, time (x0/v0) and state, if the outcome cannot be decided.
     """
-    return EventLocator(model, groups, rtol, extras, machine_code, until=until).run()
+    return EventLocator(model, groups, rtol, extras, machine_code, steps, until).run()

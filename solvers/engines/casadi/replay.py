@@ -96,7 +96,7 @@ def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, s
         replayed.events += [(kind, replayed.time) for kind in step.kinds]
         replayed.smallest_gap = min(replayed.smallest_gap, float(replayed.y[0]))
         if step.rebounds:
-            jump = rebounded(model, step.kinds[0], replayed.y, p)
+            jump = rebounded(model, step.kinds[0], replayed.y, p, step.holds)
             replayed.dry_loss += jump.dry
             replayed.friction_loss += jump.friction
             replayed.y = np.concatenate([jump.after, replayed.y[size:]])

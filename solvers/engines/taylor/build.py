@@ -3,29 +3,23 @@
 from __future__ import annotations
 
 import ctypes
-import hashlib
 import math
-import os
 import platform
 import re
 import threading
 import time
 from collections.abc import Callable, Collection
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache
-from importlib.metadata import version
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...host.background import TimeUp, begin
-from ...host.compiler import CannotCompile, compiler, compiles, is_named, key, more_flags, stop
+from ...host.compiler import CannotCompile, compiler, key, more_flags, stop
 from ...host.compiler import library as compiled
 from ...host.cores import usable_cores
-from ...host.remarks import say_once
+from ...host.remarks import say_after, say_once
 from ...host.thread_caches import once
-from ...host.user_cache import folder, found, has, kept, loaded
+from ...host.user_cache import found, has, kept, loaded
 from ...model.model import ModelKey, select_model
 from .headers import automaton, has_events, headers, tangents
 from .includes import resolved
@@ -48,8 +42,9 @@ FLAGS = (
     "-std=gnu11",
     "-w",
 )
-# For a few collisions: compiles faster, the same results to rounding, about 5 % slower (docs/engineering/kernel.md).
-FEW_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
+# With the ledger or the trajectory: compiles faster, runs about 5 % slower (docs/engineering/kernel.md).
+RECORD_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
+_PATIENCE = 1.0  # s of compilation without a remark
 _ONCE = "#pragma once"
 # What only kernels of models with declared events contain is taken out of the others' text, and so out of their digest.
 _OWN_EVENTS = re.compile(r"^#if OWN_EVENTS\n.*?^#endif /\* OWN_EVENTS \*/\n", re.MULTILINE | re.DOTALL)
@@ -65,7 +60,6 @@ class Variant:
         own_rupture: the bridge ruptures at its law's own distance.
         gradients: with derivatives by the groups, along the trajectory.
         backward: with derivatives of the restitution only, by the adjoint sweep.
-        few: for few collisions: compiled faster.
         ledger: with the energy ledger; the structure must keep the spin.
         trajectory: every step is recorded.
         limit: a collision may be interrupted at a time.
@@ -78,7 +72,6 @@ class Variant:
     own_rupture: bool = False
     gradients: bool = False
     backward: bool = False
-    few: bool = False
     ledger: bool = False
     trajectory: bool = False
     limit: bool = False
@@ -163,7 +156,7 @@ def _emitted(variant: Variant) -> tuple[str, ...] | None:
 
 
 def _flags(variant: Variant) -> tuple[str, ...]:
-    own = FEW_FLAGS if variant.few or variant.ledger or variant.trajectory else FLAGS
+    own = RECORD_FLAGS if variant.ledger or variant.trajectory else FLAGS
     return own + more_flags()
 
 
@@ -193,76 +186,19 @@ def _expected(variant: Variant, flags: tuple[str, ...]) -> str | None:
 
 
 @once
-def _was_compiled(variant: Variant, _cache: Path) -> bool:
-    """`is_compiled` of either way of compiling it, as it was when this process first asked."""
-    return any(is_compiled(replace(variant, few=few)) for few in (False, True))
-
-
-def at_hand(variants: Collection[Variant]) -> bool:
-    """True if the kernels were compiled when this process first asked; else a background process compiles them.
-
-    The answer stays for as long as this process, so that a repeated request repeats its digits.
-    """
-    missing = tuple(variant for variant in variants if not _was_compiled(variant, folder()))
-    if missing:
-        _compile_beside(missing, folder())
-    return not missing
-
-
-@once
-def _compile_beside(variants: tuple[Variant, ...], _cache: Path) -> None:
-    wanted = tuple(variant for variant in variants if not has(_refused(variant)))
-    if wanted and is_named():
-        begin(compile_or_refuse, wanted)
-
-
-def compile_or_refuse(variants: Collection[Variant]) -> None:
-    """Compile kernels into the cache; stop at one that cannot be compiled, and note it there for later processes.
-
-    It is tried twice; nothing is noted where the compiler does not compile anything.
-    """
-    if compiler() is None:
-        return
-    for variant in variants:
-        made = False
-        with suppress(TimeUp):
-            made = kernel(variant) is not None
-            if not made:  # the cache may have been deleted, the disk full, memory short
-                kernel.cache_clear()
-                made = kernel(variant) is not None
-                if not made and not compiles():
-                    return
-        if not made:
-            kept(f"{_refused(variant)}txt", lambda: b"this kernel cannot be compiled\n")
-            return
-
-
-def _refused(variant: Variant) -> str:
-    """Stem, with its dot, of the entry which says that a variant cannot be compiled, by this version and compiler."""
-    package, named = variant.choice.package, os.environ.get("CC", "")
-    own = replace(variant, choice=replace(variant.choice, package=None)), package and package.digest
-    content = repr((own, _flags(variant), named, version("wetdoublet")))
-    return f"refused-{hashlib.sha256(content.encode(errors='surrogateescape')).hexdigest()[:32]}."
-
-
-@once
-def for_few(variant: Variant) -> Variant:
-    """The variant to integrate few collisions with: itself if it is compiled, else one that compiles faster."""
-    return variant if is_compiled(variant) else replace(variant, few=True)
-
-
-@once
 def kernel(variant: Variant) -> ctypes.CDLL | None:
     """The loaded kernel of a variant; None for an unsupported model, without a compiler, or if compilation fails."""
-    tool, emitted = compiler(), _emitted(variant)
-    if tool is None or emitted is None:
-        return None
-    text, flags = source(variant, emitted), _flags(variant)
-    try:
-        library = loaded(kept(_entry(variant, text, flags), lambda: compiled(text, flags)), ctypes.CDLL)
-    except (CannotCompile, OSError) as error:
-        say_once(f"{tool} cannot compile the Taylor kernel ({error}): other engines answer")
-        return None
+    tool = compiler()
+    with say_after(_PATIENCE, "a kernel for this kind of scene is compiled, once; this takes some seconds"):
+        emitted = None if tool is None else _emitted(variant)
+        if emitted is None:
+            return None
+        text, flags = source(variant, emitted), _flags(variant)
+        try:
+            library = loaded(kept(_entry(variant, text, flags), lambda: compiled(text, flags)), ctypes.CDLL)
+        except (CannotCompile, OSError) as error:
+            say_once(f"{tool} cannot compile the Taylor kernel ({error}): other engines answer")
+            return None
     library.collide.restype = ctypes.c_char_p
     library.collide.argtypes = [ctypes.c_void_p]
     return library

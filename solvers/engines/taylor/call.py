@@ -18,8 +18,8 @@ from ...model.model import ModelKey, select_model
 from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values, sideways
 from ...scene.scene import Scene
-from ...settings import STEPS
-from .build import Variant, for_few, kernel
+from ...settings import KERNEL_STEPS
+from .build import Variant, kernel
 from .layout import ANSWER, Task, names
 from .orders import order_for
 
@@ -71,8 +71,7 @@ def run_kernel(
     rtol: float,
     rotation: bool = False,
     threads: int = 1,
-    budget: int = STEPS,
-    few: bool = False,
+    budget: int = KERNEL_STEPS,
     jumps: int = 0,
 ) -> np.ndarray | None:
     """An array of ANSWER, one per collision; None if no kernel is available.
@@ -80,7 +79,6 @@ def run_kernel(
     Arguments:
         rotation: also the angle turned.
         budget: number of steps after which a collision is handed over.
-        few: use a kernel that compiles faster and integrates slightly slower.
         jumps: what the slow manifold may replace: 0 nothing, 1 what follows the turn (times are not needed), 2 the
             approach as well (nor is the smallest gap).
     """
@@ -89,7 +87,7 @@ def run_kernel(
     for oblique, those in ((True, turns), (False, ~turns)):
         count = int(np.count_nonzero(those))
         if count and not _fill(
-            found, impacts, those, count, _plain(impacts, oblique, rtol, rotation, budget, few, jumps), threads
+            found, impacts, those, count, _plain(impacts, oblique, rtol, rotation, budget, jumps), threads
         ):
             return None
     return found
@@ -126,12 +124,9 @@ def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
             list(pool.map(run, firsts))
 
 
-def _plain(
-    those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, few: bool, jumps: int
-) -> RunKernel | None:
+def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, jumps: int) -> RunKernel | None:
     """The kernel of these impacts; None if none is available."""
-    wanted = variant_for_many(those.scene, oblique, rtol, rotation, fold=not those.others)
-    library = kernel(for_few(wanted) if few else wanted)
+    library = kernel(variant_for_many(those.scene, oblique, rtol, rotation, fold=not those.others))
     if library is None:
         return None
     return bind_kernel(library, rtol, budget, jumps)

@@ -11,11 +11,11 @@ from ...model.model import select_model
 from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values
 from ...scene.scene import Scene
-from .build import Variant, for_few, kernel
+from ...settings import KERNEL_STEPS_IN_SPACE
+from .build import Variant, kernel
 from .call import CHUNK, in_chunks, variant
 from .layout import ANSWER_IN_SPACE, LEDGER, Task, names
 
-BUDGET = 300_000  # steps of a collision; one that tumbles for longer is left to Rosenbrock
 AXES = "xyz"
 
 
@@ -30,7 +30,6 @@ def run_in_space(
     speed: np.ndarray,
     rtol: float,
     threads: int = 1,
-    few: bool = False,
     ledger: bool = False,
 ) -> tuple[np.ndarray, np.ndarray | None] | None:
     """An array of ANSWER_IN_SPACE, one per collision, and with `ledger` one of LEDGER; None if no kernel is available.
@@ -38,10 +37,8 @@ def run_in_space(
     Arguments:
         vectors: `initial_normal`, `impact_turning`, `impact_spin` and `impact_partner_spin`, each (collisions, 3), SI.
         speed: normal approach speeds, m/s.
-        few: use a kernel that compiles faster and integrates slightly slower.
     """
-    wanted = variant_in_space(scene, rtol, ledger)
-    library = kernel(for_few(wanted) if few else wanted)
+    library = kernel(variant_in_space(scene, rtol, ledger))
     if library is None:
         return None
     given: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET, **si_values(scene, None, None)}
@@ -53,7 +50,7 @@ def run_in_space(
 
     def chunk(first: int) -> None:
         part = slice(first, min(first + CHUNK, speed.size))
-        asked = Task(library, part.stop - first, min(rtol, LOOSEST), BUDGET)
+        asked = Task(library, part.stop - first, min(rtol, LOOSEST), KERNEL_STEPS_IN_SPACE)
         columns = (given[name] for name in names(library, "quantity_names"))
         asked.columns([column if isinstance(column, float) else column[part] for column in columns])
         asked.buffer("answers", found[part])

@@ -10,7 +10,7 @@ import numpy as np
 from ....generated.automaton import Purpose
 from ...model.model import select_model
 from ...scene.scene import Scene
-from ...settings import STEPS
+from ...settings import KERNEL_STEPS
 from .build import Variant, kernel
 from .call import Impacts, task, variant
 from .headers import has_events
@@ -82,7 +82,7 @@ def run_recorded(
     rtol: float,
     ledger: bool = False,
     trajectory: bool = False,
-    budget: int = STEPS,
+    budget: int = KERNEL_STEPS,
     purpose: Purpose = Purpose.WHOLE,
     keep: bool = True,
     fold: bool = True,

@@ -14,7 +14,7 @@ from ...model.model import select_model
 from ...scene.contact import ENTRIES, TIE
 from ...scene.groups import si_values
 from ...scene.scene import Scene
-from ...settings import STEPS
+from ...settings import KERNEL_STEPS
 from .build import Variant, kernel
 from .call import Impacts, task
 from .headers import headers, tangents
@@ -61,7 +61,7 @@ def run_tangent(
     rotation: bool,
     moved: Sequence[str] | None = None,
     order: int | None = None,
-    budget: int = STEPS,
+    budget: int = KERNEL_STEPS,
     backward: bool = False,
     fold: bool = True,
 ) -> Carried | None:

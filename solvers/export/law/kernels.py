@@ -13,6 +13,7 @@ from ...engines.taylor.in_space import variant_in_space
 from ...errors import CheckFailed, InputError
 from ...model.model import ModelKey, load, select_model
 from ...scene.scene import Scene
+from ...settings import STEPS, STEPS_IN_SPACE
 from ...space.collide_pair import check_scene
 from .amalgam import Source
 
@@ -81,6 +82,9 @@ class Kernel:
                 "",
                 '#include "block.h"',
                 '#include "state.h"',
+                "",
+                "/* Most steps of a collision, or of an interrupted one in a call. */",
+                f"enum {{ MOST_STEPS_TAKEN = {STEPS_IN_SPACE if self.prefix == SPACE else STEPS} }};",
                 "",
                 *own,
             ]

@@ -123,9 +123,11 @@ def results(numbers: Iterable[Number]) -> tuple[Result, ...]:
     """Every status."""
     failed = {
         Status.NO_BUDGET: "not decided within the largest number of steps",
-        Status.NOT_FINITE: "the state is not finite, or a declared event creates energy",
+        Status.NOT_FINITE: "the state is not finite, or energy has grown",
         Status.CHATTER: "not decided: the pair goes in and out of contact again and again",
         Status.TOO_OBLIQUE: "the centrifugal force is too large beside the approach to be resolved",
+        Status.RESTS_IN_FRICTION: "not decided: the pair rests in contact with friction in space",
+        Status.WITHIN_ROUNDING: "not decided: the pair separates so slowly that rounding decides",
         Status.ESCAPED: "a pair that was proved to stick has separated: please report it",
     }
     found = [Result(0, _OK, "decided")]

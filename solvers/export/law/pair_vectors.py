@@ -25,9 +25,7 @@ def pair_table(scene: Scene, rtol: float, tolerance: float) -> list[str]:
     sound = (rows["outcome"] == other.outcome.values) & (rows["outcome"] >= 0)
     for name in ("time", "restitution", "velocities", "spins"):
         one, two = (np.nan_to_num(each[name].values.reshape(_CANDIDATES, -1)) for each in (found, other))
-        stick = rows["outcome"] == 0
-        apart = np.abs(one - two).max(axis=1) <= 0.1 * tolerance * np.abs(one).max(axis=1)
-        sound &= apart if name in ("velocities", "spins") else apart | stick
+        sound &= np.abs(one - two).max(axis=1) <= 0.1 * tolerance * np.abs(one).max(axis=1)
     chosen = [k for outcome in range(3) for k in np.flatnonzero(sound & (rows["outcome"] == outcome))[:_WANTED]]
     if not chosen:
         raise ComputationError("no pair in space could be computed for the test vectors")

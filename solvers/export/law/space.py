@@ -23,7 +23,7 @@ AFTER = (
     ("int", "certified", (), "1 where a stick is proved, else 0"),
     ("double", "restitution", (), "normal relative velocity at separation over that of the approach; 0 of a stick"),
     ("double", "slip_restitution", (), "the same of the surfaces at the contact; NaN of a stick or without slip"),
-    ("double", "time", (), "s, to separation, or to where the integration of a stick stopped"),
+    ("double", "time", (), "s, to separation; of a stick 0: it is one body from initial contact on"),
     ("double", "gap", (), "m, of the surfaces at that time"),
     ("double", "position", (3,), "m, from the first centre to the second, or to the wall's surface"),
     ("double", "normal", (3,), "direction of the position"),
@@ -167,8 +167,10 @@ def _afterwards(scene: Scene) -> str:
         stick = "A stick moves with the wall, and only its twist is left."
     else:
         stick = (
-            "A stick is given as the rigid motion that has the angular momentum of the pair, at `gap`; twist is each "
-            "sphere's own. Momentum and angular momentum are kept to rounding."
+            "A stick is given at initial contact, as the rigid doublet that has the momentum and angular momentum of "
+            "the pair: a function of the pair alone, not of `rtol` or the compiler. Twist is each sphere's own; a host "
+            "with rigid clusters gives both spheres `angular_velocity`, which has the same angular momentum. Momentum "
+            "and angular momentum are kept to rounding."
         )
     return f"Both particles afterwards. {stick} Without an answer numbers are NaN."
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....generated.automaton import LAST_ANSWER
-from ...engines.taylor.build import for_few, kernel
+from ...engines.taylor.build import kernel
 from ...engines.taylor.call import Impacts, bind_kernel
 from ...engines.taylor.layout import ANSWER
 from ...errors import ComputationError
@@ -131,7 +131,7 @@ def _impacts(scene: Scene) -> list[dict[str, np.ndarray]]:
 
 def _computed(own: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
     """The vectors of candidates whose results are the same at a tighter tolerance."""
-    library = kernel(for_few(own.variant))
+    library = kernel(own.variant)
     if library is None:
         raise ComputationError("the kernel for the test vectors cannot be compiled")
     both = []

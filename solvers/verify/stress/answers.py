@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ...engines.casadi.locate import EventSequence
 from ...model.dimensionless import DimensionlessGroups, nondimensionalise
@@ -19,10 +19,11 @@ class Impact:
 
 @dataclass(frozen=True)
 class Answer:
-    """Result of a collision."""
+    """Result of a collision; the spins in units of `DimensionlessGroups.rate`, none of a stick."""
 
     outcome: str
     restitution: float
+    spins: dict[str, float] = field(default_factory=dict)
 
 
 def dimensionless(scene: Scene, impact: Impact) -> DimensionlessGroups:
@@ -33,4 +34,4 @@ def dimensionless(scene: Scene, impact: Impact) -> DimensionlessGroups:
 def answer(path: EventSequence) -> Answer:
     """The answer of a located trajectory."""
     outputs = path.model.values("outputs", path.y, path.p) if path.separated else {}
-    return Answer(path.outcome, outputs.get("restitution", 0.0))
+    return Answer(path.outcome, outputs.get("restitution", 0.0), outputs)

@@ -15,7 +15,7 @@ import numpy as np
 from ....generated.automaton import OUTCOMES
 from ...certificates import Certainty, NoCertificate
 from ...collision.by_casadi import by_casadi
-from ...engines.taylor.build import Variant, for_few
+from ...engines.taylor.build import Variant
 from ...engines.taylor.call import variant_for_many
 from ...errors import ComputationError, ModelWarning
 from ...many.collide_many import collide_many
@@ -42,16 +42,35 @@ _PARTICULAR = re.compile(r" = .* is (?=above|below)| \(.*")  # value and source 
 
 def fast(scene: Scene, rtol: float) -> Found:
     """Result of `collide_many` with the fastest engine."""
-    data = collide_many(scene, rtol=rtol, engine=FAST)
+    names = _spins_of(scene)
+    data = collide_many(scene, rtol=rtol, engine=FAST, of=("outcome", "restitution", *names))
     outcome = int(data["outcome"].values[0])
     if outcome < 0:
         raise ComputationError(str(data["reason"].values[0]))
-    return Found(OUTCOMES[outcome], float(data["restitution"].values[0]), bool(data["certified"].values[0]))
+    found = Found(OUTCOMES[outcome], float(data["restitution"].values[0]), bool(data["certified"].values[0]))
+    return replace(found, spins=_surface_speeds(scene, *(float(data[name].values[0]) for name in names)))
+
+
+def _spins_of(scene: Scene) -> tuple[str, ...]:
+    """Names of the spins that a collision of the scene has."""
+    second = scene.pair or scene.impact.partner_spin is not None
+    return ("final_spin", "final_spin_partner") if second else ("final_spin",)
+
+
+def _surface_speeds(scene: Scene, *spins: float | None) -> tuple[float, ...]:
+    """Spins times radii over the initial relative speed; 0 for one that a stick or a head-on collision has not."""
+    speed, angle = scene.need_impact()
+    radius, given = 2 * scene.particles.reduced_radius, (scene.impact.spin, scene.impact.partner_spin)
+    radii = radius, radius * (scene.radius_ratio or 1.0)
+    fast = speed / math.cos(angle) + sum(abs(spin or 0.0) * size for spin, size in zip(given, radii, strict=True))
+    sizes = zip(spins, radii, strict=False)
+    return tuple(0.0 if spin is None or math.isnan(spin) else spin * size / fast for spin, size in sizes)
 
 
 def fast_kernel(scene: Scene) -> Variant:
     """The kernel variant of a scene."""
-    return for_few(variant_for_many(scene, bool(scene.angle), RTOL, rotation=False))
+    oblique = dimensionless(scene, Impact(float(scene.stokes or 0.0), float(scene.angle or 0.0))).oblique
+    return variant_for_many(scene, oblique, RTOL, rotation=False)
 
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Found:
@@ -66,7 +85,8 @@ def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Found:
         more["residual"] = abs(terms["residual"]) / max(abs(value) for value in terms.values())
     if one.angular_momentum_drift is not None:
         more["drift"] = one.angular_momentum_drift
-    return Found(one.outcome, one.restitution, one.certified, cpu=spared, more=more)
+    spins = _surface_speeds(scene, *(getattr(one, name) for name in _spins_of(scene)))
+    return Found(one.outcome, one.restitution, one.certified, cpu=spared, more=more, spins=spins)
 
 
 class Limited(ScipyLocator):
@@ -92,7 +112,8 @@ def by_scipy(scene: Scene, rtol: float, method: str = "LSODA") -> Found:
     said = answer(path)
     if said.restitution < 0:
         raise ComputationError(f"{method} takes the start for its end")  # a step smaller than the rounding of x0
-    return Found(said.outcome, said.restitution, path.certified)
+    spins = (said.spins[name] * n.rate for name in _spins_of(scene) if name in said.spins)
+    return Found(said.outcome, said.restitution, path.certified, spins=_surface_speeds(scene, *spins))
 
 
 Run = Callable[[Scene, float], Found]
@@ -179,7 +200,7 @@ def _at(scene: Scene, factor: float) -> Scene:
 
 
 def _conditioning(run: Run, scene: Scene, here: Found) -> float:
-    """|d e_n/d ln St| over a small step, the larger of both sides; at least 1. inf where the outcome changes."""
+    """|d/d ln St| of e_n and spins over a small step, the largest of both sides; at least 1. inf at a change."""
     largest = 1.0
     for factor in (1 - _STEP, 1 + _STEP):
         there = _timed(run, _at(scene, factor), RTOL)
@@ -187,18 +208,22 @@ def _conditioning(run: Run, scene: Scene, here: Found) -> float:
             continue
         if there.outcome != here.outcome:
             return math.inf
-        largest = max(largest, abs(there.restitution - here.restitution) / _STEP)
+        largest = max(largest, there.apart(here) / _STEP)
     return largest
 
 
 def _compared(case: Case, engines: dict[str, Run], first: str, name: str, there: dict[str, Found],
               slope: float) -> list[Issue]:  # fmt: skip
-    """Issue if two values of e_n differ by more than their bounds; states which of them changes with the tolerance."""
-    difference = abs(there[first].restitution - there[name].restitution)
-    if difference <= SHARE * RTOL * slope + FLOOR * slope:
+    """Issue if two engines' e_n or final spins differ by more than their bounds."""
+    bound = (SHARE * RTOL + FLOOR) * slope
+    if there[first].apart(there[name]) <= bound:
         return []
-    said = f"e_n {there[first].restitution:.12g} by {first}, {there[name].restitution:.12g} by {name}"
-    return [Issue("restitution", (first, name), said, _beside(case, engines, first, name))]
+    both = [
+        " ".join(f"{value:.12g}" for value in (each.restitution, *each.spins)) for each in (there[first], there[name])
+    ]
+    said = f"e_n and spins {both[0]} by {first}, {both[1]} by {name}"
+    kind = "restitution" if abs(there[first].restitution - there[name].restitution) > bound else "spin"
+    return [Issue(kind, (first, name), said, _beside(case, engines, first, name))]
 
 
 def _beside(case: Case, engines: dict[str, Run], first: str, name: str) -> str:
@@ -212,8 +237,8 @@ def _beside(case: Case, engines: dict[str, Run], first: str, name: str) -> str:
         outcomes = {each.outcome for each in values if not each.failure}
         if len(outcomes) > 1:
             return f"a change of outcome lies within {reach:.0e} of St (seen by {who})"
-        spread = [each.restitution for each in values if not each.failure]
-        if spread and max(spread) - min(spread) > 1e-3:
+        ends = [each for each in values if not each.failure]
+        if ends and max(each.apart(ends[0]) for each in ends) > 1e-3:
             return f"e_n jumps within {reach:.0e} of St (seen by {who})"
     return ""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
@@ -12,6 +13,7 @@ from typing import Any
 from ....generated.automaton import OUTCOMES
 from ...engines.taylor.build import Variant, kernel
 from ...engines.taylor.call import variant
+from ...host.compiler import stop
 from ...host.cores import usable_cores
 from ...host.environment import environment
 from ...host.workers import undisturbed, workers
@@ -20,7 +22,7 @@ from .judge import SHARE, fast_kernel, judge, runs
 from .sample import SEED, sample
 from .verdict import FAST, RTOL, Case, Issue, Verdict
 
-DISAGREEMENTS = ("outcome", "restitution", "side", "ledger", "drift", "certificate", "boundary")
+DISAGREEMENTS = ("outcome", "restitution", "spin", "side", "ledger", "drift", "certificate", "boundary")
 _BLOCK = 12  # cases in a block for a worker
 _ALONE = 40  # fewest cases for which starting workers pays
 WORST = 20  # cases written as scene files, of each sort
@@ -102,7 +104,8 @@ def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None
 
 def _prepared(count: int, seed: int) -> list[Case]:
     """The sample, with its kernels compiled once each while boundaries are traced."""
-    compiling = ThreadPoolExecutor(usable_cores())  # threads suffice, as compilers are separate processes
+    threads: list[int] = []  # they suffice, as compilers are separate processes
+    compiling = ThreadPoolExecutor(usable_cores(), initializer=lambda: threads.append(threading.get_ident()))
 
     def compile_for(cases: Sequence[Case]) -> None:
         if FAST == "taylor":
@@ -113,7 +116,8 @@ def _prepared(count: int, seed: int) -> list[Case]:
         cases = sample(count, seed, compile_for)
         compile_for(cases)
     except BaseException:
-        compiling.shutdown(cancel_futures=True)
+        compiling.shutdown(wait=False, cancel_futures=True)
+        stop(threads)
         raise
     compiling.shutdown()
     return cases
@@ -148,7 +152,7 @@ def _blocks(cases: Sequence[Case]) -> list[list[int]]:
     """Blocks of cases; those with one structure and laws go to one worker, which builds and compiles for them once."""
     alike: dict[Any, list[int]] = {}
     for k, case in enumerate(cases):
-        alike.setdefault(select_model(case.scene, bool(case.scene.angle)), []).append(k)
+        alike.setdefault(fast_kernel(case.scene), []).append(k)
     return [group[k : k + _BLOCK] for group in alike.values() for k in range(0, len(group), _BLOCK)]
 
 

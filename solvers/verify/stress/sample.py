@@ -11,18 +11,20 @@ import numpy as np
 
 from ...boundaries.boundary import boundary
 from ...errors import InputError
+from ...scene.entry_rules import OWN_RUPTURE
 from ...scene.scene import Scene
-from ...scene.schema import BRIDGE_LAWS
+from ...scene.schema import BRIDGE_LAWS, FILM_LAWS
 from .verdict import Case
 
 SEED = 20121
 DISTANCES = tuple(10.0**-k for k in range(3, 13))  # relative distances in St of points beside a boundary
 PER_CHANGE = 2 * len(DISTANCES)
-_BESIDE = 0.2  # part of a sample that lies beside boundaries
+_BESIDE = 0.15  # part of a sample that lies beside boundaries
 _LINES = 0.05  # part of a sample whose boundaries are traced
 _PER_LINE_MODEL = 400  # sample size per combination of laws of traced scenes; each combination compiles its own kernels
-_PER_MODEL, _MODELS = 25, (8, 120)  # scenes per structure and laws; fewest and most such models
-_NUMBERS = 19  # dimensions of a point
+_PER_MODEL, _MODELS = 36, (8, 120)  # scenes per structure and laws; fewest and most such models
+_NUMBERS, _CHOICES = 26, 11  # dimensions of a point, and of a model
+_FASTEST = 5.0  # surface speed of a spin, over v0
 
 
 def sample(count: int, seed: int = SEED, drawn: Callable[[list[Case]], None] = lambda _cases: None) -> list[Case]:
@@ -70,14 +72,24 @@ def _models(count: int, seed: int) -> Iterator[Model]:
     """Combinations of structure and laws, few enough that several scenes share what an engine builds."""
     from scipy.stats import qmc
 
-    for k, point in enumerate(qmc.Halton(5, seed=seed + 1).random(count)):
+    for k, point in enumerate(qmc.Halton(_CHOICES, seed=seed + 1).random(count)):
         bridge = "" if point[0] < 0.25 else BRIDGE_LAWS[int((point[0] - 0.25) / 0.75 * len(BRIDGE_LAWS))]
+        films = FILM_LAWS if bridge else FILM_LAWS[:-1]  # the last has the volume of the bridge
+        film = "finite" if point[5] < 0.55 else films[1 + int((point[5] - 0.55) / 0.45 * (len(films) - 1))]
+        rim = film != "constant-volume"
+        strings = "" if point[1] < 0.75 else "exact" if point[1] < 0.9 else "small-angle"
         yield {
             "bridge": bridge,
-            "strings": "" if point[1] < 0.65 else "exact" if point[1] < 0.85 else "small-angle",
-            "arm": "midgap" if point[2] < 0.75 else "surface",
-            "tangential": "immersed" if point[3] < 0.7 else "film",
-            "glass": "literal" if point[4] < 0.7 else "film-corrected",
+            "strings": strings,
+            "partner": "" if strings or point[6] < 0.45 else "sphere" if point[6] < 0.8 else "wall",
+            "spins": "" if strings or point[7] < 0.4 else "one" if point[7] < 0.55 else "both",
+            "friction": "" if point[8] < 0.5 else "solid" if point[8] < 0.8 else "all",
+            "attraction": "yes" if point[9] < 0.25 else "",
+            "film": film,
+            "arm": "midgap" if point[2] < 0.8 else "surface",
+            "tangential": "immersed" if point[3] < 0.7 or not rim else "film",
+            "glass": "literal" if point[4] < 0.7 or not rim else "film-corrected",
+            "rupture": "own" if bridge in OWN_RUPTURE and point[10] < 0.2 else "common",
             "head-on": "yes" if k % 8 == 3 else "",
         }
 
@@ -94,7 +106,7 @@ def _scene(name: str, model: Model, point: Sequence[float]) -> Scene:
 
     a = log(1e-6, 1e-2)
     film = a * log(1e-5, 1.0)
-    entries: dict[str, float | str] = {
+    entries: dict[str, Any] = {
         "particles.reduced_radius": a,
         "particles.density": log(300.0, 2e4),
         "particles.roughness": film * log(1e-6, 0.9),
@@ -109,21 +121,42 @@ def _scene(name: str, model: Model, point: Sequence[float]) -> Scene:
     tension, volume, wetting = log(1e-4, 1.0), log(1e-5, 1.0), math.pi / 2 * _ends(even(-0.2, 1.05))
     if model["bridge"]:
         entries |= {"bridge.surface_tension": tension, "bridge.volume": volume, "bridge.contact_angle": wetting}
-        entries["bridge.law"] = model["bridge"]
+        entries |= {"bridge.law": model["bridge"], "bridge.rupture": model["rupture"]}
     length, gravity = log(1.01, 1e4), log(0.1, 100.0)
     if model["strings"]:
         reach = 2 * a * volume ** (1 / 3) * (1 + wetting / 2) if model["bridge"] else film
         entries |= {"pendulum.length": (4 * a + reach / 2) * length, "pendulum.gravity": gravity}
         entries["pendulum.law"] = model["strings"]
-    entries |= {f"model.{name}": model[name] for name in ("arm", "tangential", "glass")}
+    entries |= {f"model.{name}": model[name] for name in ("arm", "film", "tangential", "glass")}
     entries["impact.stokes"] = log(1e-6, 1e4)
     steep, angle, close = even(0, 1) < 0.75, even(0.0, 1.0), log(0.01, 90.0)
     degrees = 89.99 * angle if steep else 90.0 - close
     entries["impact.angle"] = 0.0 if model["head-on"] else math.radians(max(degrees, 0.0))
-    given = tuple(
+    radius, mass = log(0.1, 10.0), log(0.3, 3.0)
+    if model["partner"] == "sphere":
+        entries |= {"partner.radius": 2 * a * radius, "partner.density": entries["particles.density"] * mass}
+    elif model["partner"]:
+        entries["partner.wall"] = "true"
+    friction, sticking = log(1e-2, 3.0), _ends(even(-0.3, 1.1))
+    if model["friction"]:
+        entries |= {"particles.friction": friction, "particles.contact_tangential_restitution": sticking}
+        entries["model.contact_friction"] = model["friction"]
+    spins, hamaker = (even(-1.0, 1.0), even(-1.0, 1.0)), log(1e-6, 1e-2)
+    scene = Scene(name, _rounded(entries))
+    speed, _ = scene.need_impact()
+    moving = {"": (), "one": ("impact.spin",), "both": ("impact.spin", "impact.partner_spin")}[model["spins"]]
+    for entry, share in zip(moving[: 1 if scene.wall else 2], spins):
+        entries[entry] = _FASTEST * share**3 * speed / (2 * a)  # of any size
+    if model["attraction"]:
+        entries["attraction.hamaker"] = 36 * math.pi * entries["liquid.viscosity"] * a * speed * film * hamaker
+    return Scene(name, _rounded(entries))
+
+
+def _rounded(entries: dict[str, Any]) -> tuple[tuple[str, Any], ...]:
+    """Entries as a scene keeps them, of a few digits."""
+    return tuple(
         (entry, float(f"{value:.6g}") if isinstance(value, float) else value) for entry, value in entries.items()
     )
-    return Scene(name, given)
 
 
 def _ends(share: float) -> float:

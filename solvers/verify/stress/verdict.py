@@ -38,7 +38,7 @@ class Case:
 
 @dataclass
 class Found:
-    """Result of an engine: outcome or failure, e_n, CPU seconds."""
+    """Result of an engine: outcome or failure, e_n, CPU seconds, and the final spins over the initial motion."""
 
     outcome: str = ""
     restitution: float = 0.0
@@ -46,6 +46,15 @@ class Found:
     failure: str = ""
     cpu: float = 0.0
     more: dict[str, float] = field(default_factory=dict)
+    spins: tuple[float, ...] = ()
+
+    def apart(self, other: Found) -> float:
+        """The largest difference of e_n and the final spins."""
+        return max(
+            abs(self.restitution - other.restitution),
+            *(abs(one - its) for one, its in zip(self.spins, other.spins, strict=False)),
+            0.0,
+        )
 
 
 @dataclass(frozen=True)
@@ -53,7 +62,7 @@ class Issue:
     """A disagreement or failure.
 
     Arguments:
-        kind: "outcome", "restitution", "side", "ledger", "drift", "certificate", "boundary" or "failure".
+        kind: "outcome", "restitution", "spin", "side", "ledger", "drift", "certificate", "boundary" or "failure".
         between: the engines concerned.
         said: description.
         explained: the explanation; empty if there is none.

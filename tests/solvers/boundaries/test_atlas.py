@@ -174,13 +174,16 @@ def test_json_of_a_plane(tmp_path: Path) -> None:
     found = json.loads(told.stdout)
     assert {"curves", "points", "resolution"} < set(found)
     (one,) = found["curves"]
-    assert set(one) == {"from", "to", "kind", "x", "stokes"}
+    assert set(one) == {"from", "to", "kind", "x", "stokes", "speed", "relative_speed"}
+    speeds = [Scene.load("granulation-dry-bridge").speed_of(stokes) for stokes in one["stokes"]]
+    assert one["speed"] == pytest.approx(speeds, rel=1e-14)
+    assert one["relative_speed"] == pytest.approx([v / math.cos(x) for v, x in zip(speeds, one["x"])], rel=1e-14)
     assert (one["from"], one["to"]) == OUTCOMES[1:]
     assert [one["x"][0], one["x"][-1]] == pytest.approx(np.radians([20, 30]).tolist(), rel=1e-15)
     assert len(one["x"]) == len(one["stokes"])
     assert picture.stat().st_size > 10_000
     points = whole("granulation").to_dict()["points"]
-    assert {tuple(point) for point in points} == {("kind", "x", "stokes")}
+    assert {tuple(point) for point in points} == {("kind", "x", "stokes", "speed", "relative_speed")}
 
 
 @pytest.mark.parametrize(

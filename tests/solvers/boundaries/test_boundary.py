@@ -290,12 +290,16 @@ def test_json_of_the_command(name: str, reference_boundaries: dict[str, Any]) ->
     outcome = run("boundary", name, "--angle", "35:65:3", "--stokes", "0.02:5", "--json")
     assert outcome.exit_code == 0, outcome.output
     found = json.loads(outcome.stdout)
-    assert set(found) == {"angles", "changes", "rtol", "units", "version", "scene"}
+    assert set(found) == {"angles", "changes", "rtol", "searched", "units", "version", "scene"}
+    assert found["searched"] == [0.02, 5.0]
+    scene = Scene.load(name)
     assert found["angles"] == pytest.approx(np.radians([35, 50, 65]).tolist(), rel=1e-14)
     for line in found["changes"]:
         assert [one["stokes"] for one in line] == sorted(one["stokes"] for one in line)
         for one in line:
-            assert set(one) == {"stokes", "centrifugal", "from", "to"}
+            assert set(one) == {"stokes", "centrifugal", "from", "to", "angle", "speed", "relative_speed"}
+            assert one["speed"] == pytest.approx(scene.speed_of(one["stokes"]), rel=1e-14)
+            assert one["relative_speed"] == pytest.approx(one["speed"] / math.cos(one["angle"]), rel=1e-14)
             assert (one["centrifugal"] is None) == (name == "pendulum")
             assert {one["from"], one["to"]} <= set(OUTCOMES)
     theirs = reference_boundaries[name]["changes"][3]
@@ -311,3 +315,28 @@ def test_a_span_cuts_the_line() -> None:
     assert boundary("granulation", angle=angle, stokes=(first * 1.01, second * 0.99)).changes == ((),)
     (only,) = boundary("granulation", angle=angle, stokes=(first * 1.01, second * 1.01)).changes[0]
     assert only.stokes == pytest.approx(second, rel=3e-9)
+
+
+def test_the_default_range_covers_what_a_scene_meets() -> None:
+    """Large beads in water leave their bridge beyond St 100 only, a soft pair in syrup rebounds below 1e-4."""
+    beads = Scene.load("glass-beads-water").with_entries(
+        {"particles.diameter": "2 mm", "particles.dry_restitution": 0.6}
+    )
+    soft = Scene.from_dict({
+        "particles": {"radius": 2.5e-4, "density": 4700.0, "roughness": 2e-8, "dry_restitution": 0.8,
+                      "youngs_modulus": 8e8, "poisson_ratio": 0.3},
+        "liquid": {"viscosity": 880.0, "film_thickness": 8.7e-6},
+    })  # fmt: skip
+    for scene, beyond in ((beads, lambda stokes: stokes > 100), (soft, lambda stokes: stokes < 1e-4)):
+        found = boundary(scene, angle=0.0)
+        wide = boundary(scene, angle=0.0, stokes=(1e-8, 1e8)).changes[0]
+        assert [one.stokes for one in found.changes[0]] == pytest.approx([one.stokes for one in wide], rel=3e-9)
+        assert any(beyond(one.stokes) for one in wide)
+    assert boundary("granulation", angle=0.9).window == (1e-4, 100.0)
+
+
+def test_no_change_is_said_with_its_range() -> None:
+    """The sentence has the Stokes numbers that were searched and their normal speeds, in a table and over an entry."""
+    done = run("boundary", "granulation", "--angle", "60:60:1", "--stokes", "1:2")
+    speed = Scene.load("granulation").speed_of(1.0)
+    assert f"no change for St 1 to 2 (normal speed {speed:.4g} to {2 * speed:.4g} m/s)" in done.stdout

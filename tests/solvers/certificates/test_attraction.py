@@ -7,11 +7,13 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, collide
+from wetdoublet.solvers import ComputationError, Scene
 from wetdoublet.solvers.certificates import AttractionCertificate, NoCertificate
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.verify.audit import WithoutCertificate
+
+from ...helpers.reference import collide
 
 pytestmark = pytest.mark.slow
 

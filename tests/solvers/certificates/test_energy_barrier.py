@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
-from wetdoublet.solvers import ComputationError, Scene, collide
+from wetdoublet.solvers import ComputationError, Scene
 from wetdoublet.solvers.certificates import EnergyCertificate, NoCertificate, energy_proof
 from wetdoublet.solvers.certificates.film_and_attraction import FilmAndAttractionCertificate
 from wetdoublet.solvers.engines.casadi import locate
@@ -17,6 +18,7 @@ from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.settings import STEPS
 
 from ...helpers.independent import Spheres
+from ...helpers.reference import collide
 
 LAWS = ("mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
 
@@ -90,8 +92,10 @@ def test_what_is_proved_never_separates(law: str, monkeypatch: pytest.MonkeyPatc
             patch.setattr(locate, "proof_for", lambda *_: NoCertificate())
             patch.setattr(locate, "STRETCHES", 4)  # 16 (8^4 - 1)/7 = 9360 x0/v0 a phase
             on = trajectory(scene, stokes, angle, steps=20_000)  # some breathe about x0, where the film hardly damps
-            with pytest.raises(ComputationError, match="no event within|phases have not decided"):
-                on.run()
+            try:
+                on.run()  # some end at rest, where nothing changes any more
+            except ComputationError as ended:
+                assert re.search("no event within|phases have not decided", str(ended))
             assert not on.path.separated
     assert certified >= 4  # or the sample says nothing
 

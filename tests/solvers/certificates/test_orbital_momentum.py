@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, boundary, collide, collide_many
+from wetdoublet.solvers import ComputationError, Scene, boundary, collide_many
 from wetdoublet.solvers.certificates import NoCertificate, OrbitalMomentumCertificate
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
@@ -18,6 +18,8 @@ from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 from wetdoublet.solvers.settings import STEPS
 from wetdoublet.solvers.verify.audit import WithoutCertificate
+
+from ...helpers.reference import collide
 
 pytestmark = pytest.mark.slow
 

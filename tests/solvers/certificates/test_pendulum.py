@@ -33,7 +33,7 @@ class Hung:
 
     def path(self) -> EventSequence:
         """Its trajectory with the proof."""
-        return EventLocator(self.model, self.groups, 1e-9).run()
+        return EventLocator(self.model, self.groups, 1e-9, steps=100_000).run()  # rebounds take many
 
 
 def _log_uniform(rng: np.random.Generator, low: float, high: float) -> float:

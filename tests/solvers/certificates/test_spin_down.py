@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.certificates import SpinDownCertificate, proof_for
+from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 
@@ -88,3 +89,20 @@ def test_a_film_thicker_than_the_spheres_are_wide(engine: str) -> None:
     thick = FILM.with_entries({"liquid.film_thickness": "150 um", "impact.spin": 300.0})
     found = collide(thick.with_impact(stokes=1e-3, angle=0.0), engine=engine, ledger=False)
     assert (found.outcome, found.certified, found.events) == ("stick", True, ())
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
+def test_a_separation_that_rounding_decides_is_none(engine: str) -> None:
+    """A film that cavitates holds nothing that opens: L within rounding sets off any e_n of its size, and no outcome.
+
+    With a part F of the orbit's momentum left, e_n is as F: u = sqrt(C) t for a force C ~ F^2 over a length x0.
+    """
+
+    def pushed(excess: float) -> Scene:
+        return balanced(0.04, 0.5, excess).with_entries({"model.film": "cavitating"})
+
+    found = [collide(pushed(excess), engine=engine, ledger=False).restitution for excess in (1e-9, 1e-10, 1e-11)]
+    assert np.array(found[:-1]) / found[1:] == pytest.approx(10.0, rel=1e-4)
+    for excess in (0.0, 1e-16):
+        with pytest.raises(ComputationError, match="rounding of its angular momentum|have not decided"):
+            collide(pushed(excess), engine=engine, ledger=False)

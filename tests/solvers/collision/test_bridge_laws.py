@@ -8,8 +8,10 @@ import subprocess
 import sys
 
 import pytest
-from wetdoublet.solvers import InputError, ModelWarning, Scene, boundary, collide, collide_many
+from wetdoublet.solvers import InputError, ModelWarning, Scene, boundary, collide_many
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
+
+from ...helpers.reference import collide
 
 # an independent prototype's Ce* at 45 deg with the surface arm, granulation
 CRITICAL = {
@@ -86,7 +88,7 @@ def test_a_range_that_is_left_is_said_once():
     assert "bridge.contact_angle = 60 deg is above 50 deg" in of_laws[1]
     assert "note: bridge.volume" in str(one)
     with pytest.warns(ModelWarning, match="above 0.001"):
-        collide_many(scene, stokes=[0.03], angle=[1.0])
+        collide_many(scene, stokes=[0.03], angle=[1.0], engine="rosenbrock")
     assert collide("granulation").validity == ()
     inside = {"bridge.law": "willett", "bridge.contact_angle": "50 deg"}  # the ends of a range belong to it
     said = collide(Scene.load("granulation").with_entries(inside)).validity
@@ -95,7 +97,7 @@ def test_a_range_that_is_left_is_said_once():
 
 def test_json_stays_pure():
     """On the command line the remark is one line on standard error, and standard output is one JSON object."""
-    command = [sys.executable, "-m", "wetdoublet.solvers", "collide", "granulation", "--json"]
+    command = [sys.executable, "-m", "wetdoublet.solvers", "collide", "granulation", "--json", "--engine", "cvodes"]
     done = subprocess.run(
         [*command, "--set", "bridge.law=willett-simple"], capture_output=True, text=True, timeout=900, check=True
     )

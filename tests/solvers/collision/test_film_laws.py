@@ -7,11 +7,12 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from wetdoublet.solvers import Scene, collide, collide_many
+from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Region
 
 from ...helpers.newton import Bodies, integrated
+from ...helpers.reference import collide
 
 X0, X_B, E_DRY = 8e-6, 2e-7, 0.9
 

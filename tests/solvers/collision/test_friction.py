@@ -12,13 +12,14 @@ from wetdoublet.solvers import (
     ComputationError,
     InputError,
     Scene,
-    collide,
     collide_many,
     gradients_many,
     sensitivities,
 )
 from wetdoublet.solvers.engines.taylor.build import supported
 from wetdoublet.solvers.model.model import select_model
+
+from ...helpers.reference import collide
 
 # Hardly any film, and no bridge: what is left is the impact of dry spheres.
 DRY = {"liquid.viscosity": "1e-9 Pa s", "particles.roughness": "0.5 um", "particles.dry_restitution": 0.8}
@@ -93,14 +94,18 @@ def test_without_friction_there_is_no_such_term() -> None:
 
 
 def test_glass_has_friction_only_if_asked_for() -> None:
-    """By default the liquid in its glassy state gives none."""
+    """By default the liquid in its glassy state gives none, and the result says that friction did nothing."""
     glassy = {"liquid.glass_transition_pressure": "0.3 MPa"}
     losses = []
     for what in ("solid", "all"):
         found = collide(rough(glassy | {"model.contact_friction": what}, 0.3), stokes=20.0, angle=ANGLE)
         assert found.reversal == "glass" and found.energy is not None
         losses.append(found.energy.dry_friction)
+        says = [each for each in found.validity if "friction does nothing" in each]
+        assert len(says) == (what == "solid") and found.to_dict()["validity"] == list(found.validity)
     assert losses[0] == 0.0 < (losses[1] or 0.0)
+    touching = collide(rough({}, 0.3), stokes=8.0, angle=ANGLE)
+    assert touching.reversal == "rough" and not any("friction" in each for each in touching.validity)
 
 
 def assert_the_kernel_agrees(expected: Collision, scene: Scene, **impact: Any) -> None:
@@ -142,6 +147,22 @@ def test_a_spinning_doublet_that_slides_at_rest_is_released() -> None:
     assert found.energy is not None and abs(found.energy.residual) < 1e-9 * found.energy.initial
     assert found.angular_momentum_drift == pytest.approx(0.0, abs=1e-12)
     assert_the_kernel_agrees(found, scene, stokes=20.0, angle=0.0)
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
+def test_where_chatter_is_cut_off_changes_no_more_than_the_tolerance(engine: str) -> None:
+    """A doublet that rebounds ever less and then slides at rest is cut off at a speed that goes as its square root."""
+    entries = {
+        **WET, "liquid.viscosity": "0.001 Pa s", "particles.dry_restitution": 0.3, "particles.friction": 0.3,
+        "impact.spin": 16000.0,
+    }  # fmt: skip
+    scene = Scene.load("granulation").with_entries(entries)
+    coarse, fine = (
+        collide(scene, stokes=20.0, angle=0.0, engine=engine, rtol=rtol, ledger=False) for rtol in (1e-7, 1e-12)
+    )
+    assert len(coarse.events) < len(fine.events) and "rests" in [event.kind for event in coarse.events]
+    assert coarse.contact_time == pytest.approx(fine.contact_time, rel=1e-7)
+    assert coarse.final_spin == pytest.approx(fine.final_spin, rel=1e-7)
 
 
 def test_a_doublet_that_rolls_at_rest_while_its_spins_equalise_sticks() -> None:
@@ -207,7 +228,8 @@ def test_no_derivative_at_the_switch_between_sliding_and_sticking() -> None:
     refused = 0
     for friction in at:
         try:
-            sensitivities(rough({}, friction, 0.4), ("restitution",), WRT[:1], stokes=8.0, angle=ANGLE)
+            scene = rough({}, friction, 0.4)
+            sensitivities(scene, ("restitution",), WRT[:1], stokes=8.0, angle=ANGLE, engine="rosenbrock")
         except ComputationError as error:
             refused += "switch between sliding and sticking contact" in str(error)
     assert refused == 1
@@ -261,3 +283,28 @@ def test_entries_that_make_no_sense_are_refused(entries: dict[str, object], said
     """By name, with what is accepted."""
     with pytest.raises(InputError, match=said):
         Scene.load("granulation").with_entries(entries)
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
+def test_a_rolling_doublet_at_rest_on_which_no_force_changes_sticks(engine: str) -> None:
+    """Glass at the edge of the film, where tangential lubrication is zero: once it rolls, its state is constant."""
+    scene = Scene.from_dict(
+        {
+            "particles": {
+                "reduced_radius": 2.89196e-5, "density": 3608.54, "roughness": 2.7334e-11, "dry_restitution": 0.0,
+                "youngs_modulus": 1.7724e13, "poisson_ratio": 0.329514, "friction": 1.37477,
+                "contact_tangential_restitution": 0.728743,
+            },
+            "liquid": {
+                "viscosity": 0.00120608, "film_thickness": 2.98859e-9, "glass_transition_pressure": 418349.0,
+            },
+            "bridge": {
+                "surface_tension": 0.0910611, "volume": 2.99678e-5, "contact_angle": 0.161982, "law": "lambert",
+            },
+            "model": {"arm": "surface", "film": "cavitating", "tangential": "film", "contact_friction": "all"},
+            "impact": {"stokes": 54.472, "angle": 0.188747, "spin": -7532.17, "partner_spin": -54875.0},
+        }
+    )  # fmt: skip
+    found = collide(scene, engine=engine, ledger=False)
+    assert (found.outcome, found.certified, found.engine) == ("stick", False, engine)
+    assert [event.kind for event in found.events] == ["glass", "rests", "rolls"]

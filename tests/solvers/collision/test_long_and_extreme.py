@@ -13,15 +13,27 @@ from wetdoublet.solvers import (
     InputError,
     Scene,
     boundary,
-    collide,
     collide_many,
+    collide_pair,
     regime_map,
 )
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.export.law.kernels import SPACE, kernels
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.settings import STEPS
+from wetdoublet.solvers.settings import (
+    CASADI_STEPS,
+    CASADI_STEPS_IN_SPACE,
+    KERNEL_STEPS,
+    KERNEL_STEPS_IN_SPACE,
+    RTOL,
+    STEPS,
+    STEPS_IN_SPACE,
+    casadi_steps,
+)
+
+from ...helpers.reference import collide
 
 pytestmark = pytest.mark.slow
 
@@ -118,6 +130,43 @@ def test_chatter_of_a_pair_ends() -> None:
     assert 40 < len(found.events) < 80
 
 
+AGAIN_AND_AGAIN = {
+    "particles": {
+        "radius": 4.572e-3, "mass": 1.49e-4, "roughness": 2.218e-9, "dry_restitution": 0.216,
+        "youngs_modulus": 6.578e14, "poisson_ratio": 0.3834,
+    },
+    "liquid": {"viscosity": 0.0633, "film_thickness": 2.603e-6, "glass_transition_pressure": 2.283e7},
+    "bridge": {"surface_tension": 0.5783, "volume": 3.386e-4, "contact_angle": 0.9966, "law": "willett-simple"},
+}  # fmt: skip
+
+
+def test_a_pair_that_rebounds_again_and_again_is_given_up() -> None:
+    """In space too a collision takes no more steps than its budget, and says how many, where and when they ended."""
+    velocities, spins = [[0.1297, -0.01152, 0.08369], [0, 0, 0]], [[-49.7, -50.1, -8.92], [-7.87, 8.8, 251.0]]
+    found = collide_pair(Scene.from_dict(AGAIN_AND_AGAIN), [0, 0, 1], velocities, spins, engine="rosenbrock")
+    reason = str(found.reason.values)
+    assert (int(found.outcome), math.isnan(float(found.restitution))) == (-1, True)
+    assert reason.startswith(f"{CASADI_STEPS_IN_SPACE} steps in ")
+    assert all(part in reason for part in (" in phase ", " at t = ", "gap = ", "again and again: try "))
+
+
+def test_the_exported_law_has_the_same_budget() -> None:
+    """Each kernel of the law is given the steps of the settings, fewer in space, where a step takes longer."""
+    for own in kernels(Scene.load("granulation"), 1e-9):
+        steps = STEPS_IN_SPACE if own.prefix == SPACE else STEPS
+        assert f"MOST_STEPS_TAKEN = {steps} " in own.made["in_si.h"]
+
+
+def test_both_engines_share_the_budget() -> None:
+    """What the kernel may take, and CasADi after it, is together what CasADi alone may take."""
+    for space, alone, kernel, whole in (
+        (False, CASADI_STEPS, KERNEL_STEPS, STEPS),
+        (True, CASADI_STEPS_IN_SPACE, KERNEL_STEPS_IN_SPACE, STEPS_IN_SPACE),
+    ):
+        assert casadi_steps(RTOL, space) == alone
+        assert casadi_steps(RTOL, space, after_kernel=True) / alone + kernel / whole == 1
+
+
 def test_steps_are_counted() -> None:
     """A collision that has spent its steps ends with phase, time, state, and how many phases they went into."""
     scene = Scene.load("granulation")
@@ -125,7 +174,7 @@ def test_steps_are_counted() -> None:
     model = load(select_model(scene, oblique=True, fold=True))
     whole = EventLocator(model, n.groups, 1e-9)
     whole.run()
-    assert 25 < whole.spent < STEPS / 100
+    assert 25 < whole.spent < CASADI_STEPS / 20
     with pytest.raises(ComputationError, match="steps in . phases have not decided the outcome") as raised:
         EventLocator(model, n.groups, 1e-9, steps=whole.spent - 1).run()
     assert raised.value.phase and raised.value.time and raised.value.state

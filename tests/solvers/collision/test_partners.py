@@ -8,13 +8,14 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import trapezoid
-from wetdoublet.solvers import InputError, Scene, boundary, collide, collide_many
+from wetdoublet.solvers import InputError, Scene, boundary, collide_many
 from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 
 from ...helpers.newton import Bodies, integrated
+from ...helpers.reference import collide
 
 pytestmark = pytest.mark.slow
 

@@ -9,8 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
-from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers import Scene
 from wetdoublet.solvers.errors import ComputationError
+
+from ...helpers.reference import collide
 
 ENGINES = ("cvodes", "rosenbrock")
 

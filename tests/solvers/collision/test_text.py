@@ -3,9 +3,11 @@
 from dataclasses import replace
 
 import pytest
-from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers import Scene
 from wetdoublet.solvers.collision.outcome import Event
 from wetdoublet.solvers.collision.text import name_of, prefix, quantity, table
+
+from ...helpers.reference import collide
 
 SURFACE = Scene.load("pendulum").with_entries({"model.arm": "surface"})  # no proof on strings: runs to its cut-off
 SPINNING = Scene.load("granulation").with_entries({"impact.spin": 2e5, "impact.partner_spin": -5e4})

@@ -9,6 +9,7 @@ import warnings
 from types import ModuleType, SimpleNamespace
 
 import pytest
+from wetdoublet.solvers.commands.cli import COMMANDS, cli
 from wetdoublet.solvers.commands.options import entry_range
 from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
 from wetdoublet.solvers.scene.ranges import parse_range
@@ -60,6 +61,8 @@ BAD = [
     ("collide granulation --angle 95", "--angle", '"95 deg"', "< 90 deg"),
     ("collide granulation --stokes 1 --relative-speed 1m/s", "--relative-speed", "--stokes = 1", "--speed"),
     ("collide granulation --relative-speed 1", "--relative-speed", "has no unit", "with its unit"),
+    ("verify --stress 5 --relative-speed 2m/s", "--relative-speed", "given together with --stress", "alone"),
+    ("scenes --new powder --hold stokes", "--new", "given together with --hold", "--new NAME alone"),
     ("collide granulation --angle 90deg", "--angle", '"90deg"', "< 90 deg"),
     ("collide granulation --angle -5deg", "--angle", '"-5deg"', ">= 0 deg"),
     ("collide granulation --rtol 1e-2", "--rtol", '"1e-2"', "1e-13 to 1e-3"),
@@ -342,6 +345,7 @@ def test_a_home_that_cannot_be_written(tmp_path):
     """Matplotlib then works from a temporary folder, and standard error stays clean."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("XDG_", "MPL"))}
     line = ["-m", "wetdoublet.solvers", "collide", "granulation", "--plot", str(tmp_path / "a.png")]
+    line += ["--engine", "cvodes"]  # which keeps nothing in the user's cache
     done = subprocess.run(
         [sys.executable, *line], check=False, capture_output=True, text=True, env=kept | {"HOME": "/proc/none"}
     )
@@ -397,3 +401,31 @@ def test_settings_from_python():
             check_rtol(wrong)
     with pytest.raises(InputError, match="^engine: 3 is not known"):
         check_engine(3)
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("averages", "granulation", "--radii", "20 um", "--radii", "30 um"), '--radii: "30 um" is given twice'),
+        (("collide", "granulation", "--rtol", "1e-7", "--rtol=1e-8"), '--rtol: "1e-8" is given twice'),
+        (("verify", "--stress", "3", "--stress", "4"), '--stress: "4" is given twice'),
+        (("collide", "granulation", *2 * ("--set", "liquid.viscosity=3 Pa s")), "--set: .* is given twice"),
+        (("sensitivity", "granulation", *2 * ("--uncertainty", "impact.angle=1")), "--uncertainty: .* is given twice"),
+    ],
+)
+def test_what_takes_one_value_is_refused_twice(words, named):
+    """The last of several values of an option, or of a name of a repeatable one, is not taken silently."""
+    done = run(*words)
+    assert done.exit_code == 2
+    assert re.match(named, done.stderr)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_option_that_takes_one_value_is_refused_twice(name):
+    """Of all options of all commands; flags may be repeated."""
+    command = cli.get_command(None, name)
+    for option in command.params:
+        if option.param_type_name == "option" and not (option.multiple or option.is_flag):
+            done = run(name, option.opts[0], "one", option.opts[0], "other")
+            assert done.exit_code == 2
+            assert "is given twice" in done.stderr

@@ -234,3 +234,15 @@ def test_the_trajectory_of_what_initial_contact_decides(preset: str, stokes: flo
     assert one.trajectory.sizes == other.trajectory.sizes == {"time": 1}
     for name in other.trajectory.data_vars:
         np.testing.assert_allclose(one.trajectory[name], other.trajectory[name], rtol=1e-12, err_msg=str(name))
+
+
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_no_pressure_at_the_rim_meets_no_glass_transition(engine: str) -> None:
+    """At initial contact the film-corrected pressure is zero, below any limit: solids larger than the film rebound."""
+    soft = {
+        "model.glass": "film-corrected",
+        "liquid.glass_transition_pressure": "1e-9 Pa",
+        "particles.youngs_modulus": "1 kPa",
+    }
+    one = collide(Scene.load("granulation").with_entries(soft), stokes=20.0, angle=0.7, engine=engine, ledger=False)
+    assert one.reversal == "elastic"

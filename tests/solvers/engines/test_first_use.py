@@ -1,161 +1,106 @@
-"""The first use of a scene: other engines answer at once, and the kernel is compiled for the next process."""
+"""The first use of a scene: its kernel is compiled and waited for, so that what is compiled never decides an answer."""
 
 from __future__ import annotations
 
 import json
 import os
-import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
-from wetdoublet.solvers import collide
+from wetdoublet.solvers import collide, collide_many, gradients_many, sensitivities
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.host.locks import take
-from wetdoublet.solvers.host.user_cache import lock_file
-
-from ...helpers.command import PATIENCE
 
 pytestmark = pytest.mark.skipif(compiler() is None or os.name != "posix", reason="no C compiler")
-HEAD_ON = {"stokes": 0.3, "angle": 0.0, "rtol": 1e-8}
-IN_ONE_PROCESS = f"""
-import time
-from pathlib import Path
-from wetdoublet.solvers import collide
-first = collide("granulation", **{HEAD_ON})
-deadline = time.monotonic() + {PATIENCE}
-while not [*Path("cache").glob("taylor-*.so")]:
-    assert time.monotonic() < deadline
-    time.sleep(0.02)
-second = collide("granulation", **{HEAD_ON})
-print(first.engine, second.engine, first == second)
-"""
+HEAD_ON = ("collide", "granulation", "--stokes", "0.3", "--angle", "0", "--rtol", "1e-8", "--json")
 SLOW = """#!/bin/sh
-case "$*" in
-*-shared*)
-  while [ "$1" != -o ]; do shift; done
-  echo half > "$2"
-  echo "$PPID $$" > begun.new && mv begun.new begun
-  exec sleep 900;;
-esac
+case "$*" in *-shared*) sleep 1.5;; esac
 exec cc "$@"
 """
-
-
-def until(met: Callable[[], object]) -> None:
-    """Wait for a condition."""
-    deadline = time.monotonic() + PATIENCE
-    while not met():
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
-
-
-def is_idle() -> bool:
-    """True if no background process holds the lock of the cache."""
-    descriptor = lock_file()
-    assert descriptor is not None
-    try:
-        return take(descriptor)
-    finally:
-        os.close(descriptor)
-
-
-@pytest.fixture
-def here(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
-    """An empty folder for this process and those that it starts, with a cache where the background may compile."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setenv("WETDOUBLET_BACKGROUND", "on")
-    return tmp_path
-
-
-def test_a_process_keeps_its_engine_and_the_next_has_the_kernel(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """CVODES answers first, and again, to the bit, once the kernel is compiled; another process takes the kernel."""
-    done = subprocess.run((sys.executable, "-c", IN_ONE_PROCESS), capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stdout.split(), done.stderr) == (0, ["cvodes", "cvodes", "True"], "")
-    monkeypatch.setenv("WETDOUBLET_BACKGROUND", "off")
-    found = collide("granulation", **HEAD_ON)  # this process has not asked for a kernel of that cache
-    assert found.engine == "taylor"
-    reference = collide("granulation", **HEAD_ON, engine="cvodes")
-    assert found.restitution == pytest.approx(reference.restitution, rel=1e-7)
-    assert found.energy is not None
-    assert reference.energy is not None
-    assert found.energy.final == pytest.approx(reference.energy.final, rel=1e-7)
-
-
-@pytest.mark.parametrize(("number", "refused"), [(signal.SIGKILL, 0), (signal.SIGALRM, 1)])
-def test_a_compilation_that_does_not_end(
-    here: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals, refused: int
-) -> None:
-    """The command's pipe closes though the compiler goes on. A kill leaves nothing in the cache; the time limit (a
-    SIGALRM) stops the compiler too, and leaves a note that it is not to be tried again.
-    """
-    slow = here / "slow-cc"
-    slow.write_text(SLOW)
-    slow.chmod(0o700)
-    monkeypatch.setenv("CC", str(slow))
-    command = (sys.executable, "-m", "wetdoublet.solvers", "collide", "granulation", "--angle", "0", "--json")
-    first = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert (first.returncode, first.stderr) == (0, "")
-    assert json.loads(first.stdout)["engine"] == "cvodes"
-    until((here / "begun").exists)
-    background, compiling = map(int, (here / "begun").read_text().split())
-    assert not is_idle()
-    assert os.getpriority(os.PRIO_PROCESS, background) == 19
-    assert os.getsid(background) == background
-    os.kill(background, number)
-    until(is_idle)
-    if number == signal.SIGKILL:
-        os.kill(compiling, signal.SIGKILL)
-    else:
-        with pytest.raises(ProcessLookupError):
-            until(lambda: os.kill(compiling, 0))
-    names = [path.name for path in (here / "cache").iterdir()]
-    assert not [name for name in names if name.startswith("taylor-")]
-    assert len([name for name in names if name.startswith("refused-")]) == refused
-
-
 FAILS = """#!/bin/sh
-[ ! -e all-fails ] || exit 1
-case "$*" in
-*-shared*)
-  [ ! -e kernels-fail ] || exit 1
-  [ ! -e next-fails ] || { rm next-fails; exit 1; }
-  for word in "$@"; do
-    case "$word" in *source.c) echo "const char *collide(void *t) { return 0; }" > "$word";; esac
-  done;;
-esac
+case "$*" in *-shared*) echo "error: no kernels today" >&2; exit 1;; esac
 exec cc "$@"
 """
-REFUSED = """
-from pathlib import Path
-from wetdoublet.solvers import Scene
-from wetdoublet.solvers.engines.taylor.build import compile_or_refuse, kernel
-from wetdoublet.solvers.engines.taylor.call import variant_for_many
-from wetdoublet.solvers.host.compiler import compiler
-
-variant = variant_for_many(Scene.load("granulation"), False, 1e-8, False)
-compiler()
-for fault in ("all-fails", "next-fails", "kernels-fail"):
-    Path(fault).touch()
-    kernel.cache_clear()
-    compile_or_refuse([variant])
-    Path(fault).unlink(missing_ok=True)
-    print(*sorted(file.name.split("-")[0] for file in Path("cache").glob("[rt]*")))
-    for library in Path("cache").glob("taylor-*"):
-        library.unlink()
-"""
 
 
-def test_a_kernel_is_refused_where_nothing_else_fails(tmp_path: Path) -> None:
-    """No note is left by a compiler that fails once or with everything, as on a full disk; one is by a real refusal."""
-    (tmp_path / "cc").write_text(FAILS)
-    (tmp_path / "cc").chmod(0o700)
-    own = os.environ | {"CC": str(tmp_path / "cc"), "WETDOUBLET_CACHE": "cache"}
-    done = subprocess.run(
-        (sys.executable, "-c", REFUSED), cwd=tmp_path, env=own, capture_output=True, text=True, check=True
+def first(folder: Path, **environment: str) -> subprocess.CompletedProcess[str]:
+    """A process that collides granulation head-on, with a cache in a folder."""
+    env = os.environ | {"WETDOUBLET_CACHE": str(folder / "cache")} | environment
+    return subprocess.run(
+        (sys.executable, "-m", "wetdoublet.solvers", *HEAD_ON), capture_output=True, text=True, check=False, env=env
     )
-    assert done.stdout == "\ntaylor\nrefused\n"
+
+
+def script(folder: Path, text: str) -> str:
+    """A compiler that is a shell script."""
+    path = folder / "some-cc"
+    path.write_text(text)
+    path.chmod(0o700)
+    return str(path)
+
+
+def test_the_cache_does_not_decide(tmp_path: Path) -> None:
+    """With an empty cache, a filled one and one that cannot be written the kernel answers, with the same digits."""
+    (tmp_path / "file").write_text("")
+    runs = [first(tmp_path), first(tmp_path), first(tmp_path / "file")]
+    assert [done.returncode for done in runs] == [0, 0, 0]
+    assert [done.stderr.count("\n") for done in runs] == [0, 0, 1]
+    assert "kept in" in runs[2].stderr
+    assert runs[0].stdout == runs[1].stdout == runs[2].stdout
+    found = json.loads(runs[0].stdout)
+    assert found["engine"] == "taylor"
+    assert "engine_reason" not in found
+    reference = collide("granulation", stokes=0.3, angle=0, rtol=1e-8, engine="cvodes")
+    assert found["restitution"] == pytest.approx(reference.restitution, rel=1e-7)
+
+
+def test_a_kernel_that_cannot_be_compiled(tmp_path: Path) -> None:
+    """Rosenbrock answers: the result says why, and one line what the compiler said; nothing is left for later."""
+    done = first(tmp_path, CC=script(tmp_path, FAILS))
+    found = json.loads(done.stdout)
+    assert (done.returncode, found["engine"]) == (0, "rosenbrock")
+    assert found["engine_reason"] == "no Taylor kernel can be compiled for this scene here"
+    assert done.stderr.count("\n") == 1
+    assert "cannot compile the Taylor kernel (error: no kernels today)" in done.stderr
+    assert json.loads(first(tmp_path).stdout)["engine"] == "taylor"
+
+
+def test_a_remark_where_it_takes_long(tmp_path: Path) -> None:
+    """On a terminal, a compilation of more than a second is announced in one line."""
+    import pty
+
+    env = os.environ | {"WETDOUBLET_CACHE": str(tmp_path / "cache"), "CC": script(tmp_path, SLOW)}
+    reads, writes = pty.openpty()
+    command = (sys.executable, "-m", "wetdoublet.solvers", *HEAD_ON)
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=writes, check=False, env=env)
+    os.close(writes)
+    announced = os.read(reads, 4096).decode()
+    os.close(reads)
+    assert done.returncode == 0
+    assert announced.count("\n") == 1
+    assert "compiled, once" in announced
+
+
+def test_the_count_does_not_decide() -> None:
+    """A collision alone, in a batch of 5 and in one of 5,000 has the same digits; derivatives have the same engine."""
+    draw = np.random.default_rng(5)
+    impacts = {"stokes": 10 ** draw.uniform(-2, 0, 5000), "angle": draw.uniform(0.01, 1.5, 5000)}
+    of = ("restitution", "rotation", "contact_time", "smallest_gap")
+    few = slice(1000, 1005)
+    many = collide_many("granulation", **impacts, of=of)
+    five = collide_many("granulation", **{name: values[few] for name, values in impacts.items()}, of=of)
+    assert (many.attrs["engine"], five.attrs["engine"]) == ("taylor", "taylor")
+    for name in of:
+        assert np.array_equal(many[name].values[few], five[name].values, equal_nan=True)
+    for k, row in enumerate(range(1000, 1005)):
+        impact: dict[str, Any] = {name: float(values[row]) for name, values in impacts.items()}
+        one = collide("granulation", **impact, ledger=False)
+        assert one.engine == "taylor"
+        shown = [getattr(one, name) for name in of]
+        assert shown == [None if np.isnan(five[name].values[k]) else five[name].values[k] for name in of]
+    separates = {"stokes": 0.05, "angle": 1.2, "wrt": ["liquid.viscosity"], "of": ["restitution"]}
+    assert sensitivities("granulation", **separates).engine == "taylor"
+    assert set(gradients_many("granulation", **separates).engine.values) == {"taylor"}

@@ -184,7 +184,7 @@ def test_exported_friction_takes_its_impulse() -> None:
     found = {function.name().removeprefix("own_"): function for function in exported(model, "own")}
     groups = model.group_values(nondimensionalise(scene, *scene.need_impact()).groups)
     before = np.array([0.05, -0.3, 17.0, -0.2])
-    slip, sticking, _ = found["dry_slip"](before, groups).full().ravel()
+    slip, sticking, *_ = found["dry_slip"](before, groups).full().ravel()
     after = found["rubbed"](before, groups, sticking).full().ravel()
     assert found["dry_slip"](after, groups).full()[0, 0] == pytest.approx(-0.3 * slip, rel=1e-12)
     assert after[2] + 6.4 * after[3] == pytest.approx(before[2] + 6.4 * before[3], rel=1e-13)

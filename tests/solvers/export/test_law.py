@@ -11,13 +11,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from wetdoublet.generated.automaton import LAST_ANSWER, Status
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.engines.taylor.build import for_few, kernel
+from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
 from wetdoublet.solvers.export.law.conditions import Conditions
 from wetdoublet.solvers.export.law.items import items
 from wetdoublet.solvers.export.law.kernels import kernels
+from wetdoublet.solvers.export.law.material import results
 from wetdoublet.solvers.export.law.texts import law_name
 from wetdoublet.solvers.settings import STEPS
 
@@ -108,7 +110,7 @@ def test_is_our_kernel(law: Law, monkeypatch: pytest.MonkeyPatch):
     oblique = (impacts["angle"] > 0) | (impacts["spin"] != 0) | (impacts["partner_spin"] != 0)
     assert set(found["outcome"]) == {0, 1, 2}
     for own, which in zip(kernels(GRANULATION, 1e-9)[:2], (~oblique, oblique), strict=True):
-        library, answers = kernel(for_few(own.variant)), np.zeros(np.count_nonzero(which), ANSWER)
+        library, answers = kernel(own.variant), np.zeros(np.count_nonzero(which), ANSWER)
         assert library is not None
         these, x0 = impacts[which], GRANULATION.liquid.film_thickness
         others = {"impact_spin": these["spin"].copy(), "impact_partner_spin": these["partner_spin"].copy()}
@@ -289,3 +291,8 @@ static vec sum(const pair *p, vec twice)
     assert rows.defines == ("OWN",)
     assert "MARK" in rows.uses
     assert "mark" not in rows.uses
+
+
+def test_every_failure_of_a_kernel_has_a_message():
+    """Among them pairs in space that rest in contact with friction."""
+    assert {status for status in Status if status > LAST_ANSWER} <= {one.number for one in results(())}

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from wetdoublet.solvers import InputError, Scene
+from wetdoublet.solvers import InputError, Scene, fit
 from wetdoublet.solvers.fitting.data import ANGLE_SD, SPEED_SD, read_data
 
 SCENE = Scene.load("granulation")
@@ -34,7 +34,7 @@ def test_units_missing_cells_and_comments(tmp_path):
     np.testing.assert_array_equal(np.isfinite(found.observed["restitution"][0]), [True, False, False])
     np.testing.assert_allclose(found.columns["liquid.viscosity"], [2.0, 2.1, 2.2])
     assert [remark.split(",")[0] for remark in found.remarks] == [
-        "Scatter of the speed", "Scatter of the angle", "Standard deviation of restitution",
+        "Scatter of the normal speed", "Scatter of the angle", "Standard deviation of restitution",
     ]  # fmt: skip
 
 
@@ -102,3 +102,26 @@ def test_stokes_numbers_are_speeds_of_the_scene():
         {"stokes": [0.1, 0.1], "angle": [0.5, 0.5], "outcome": ["S", "S"], "liquid.viscosity": [2.0, 4.0]}, SCENE
     )
     np.testing.assert_allclose(found.speed * SCENE.stokes_per_speed, [0.1, 0.2])
+
+
+def test_a_restitution_beyond_the_energy_is_refused() -> None:
+    """e_n above 1/cos(angle) by six standard deviations is more than the impact's energy: the rows are named."""
+    rows = {"speed": [1.0, 2.0, 3.0, 4.0], "angle": [0.2, 0.2, 1.4, 0.2], "restitution": [0.8, 3.2, 3.2, 1.05]}
+    with pytest.raises(
+        InputError, match=r"restitution: 3.2 is more than .* \(row 2\); accepted: at most .* 1.02 there"
+    ):
+        fit("granulation", rows, "liquid.viscosity")
+
+
+def test_restitution_below_zero_is_noise():
+    """Of a doublet that separates slowly a restitution may be measured below 0, by some standard deviations."""
+    columns = {"speed": [0.5], "angle": [0.5], "restitution": [-0.03], "restitution_sd": [0.02], "outcome": ["bounce"]}
+    found = read_data(columns, SCENE)
+    assert [float(each[0]) for each in found.observed["restitution"]] == [-0.03, 0.02]
+    for changes, words in (
+        ({"restitution": [-0.2]}, "standard deviations of noise"),
+        ({"outcome": [None]}, "which may be a stick's"),
+        ({"outcome": ["stick"]}, "contradicts the outcome"),
+    ):
+        with pytest.raises(InputError, match=words):
+            read_data(columns | changes, SCENE)

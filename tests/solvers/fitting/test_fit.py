@@ -197,3 +197,33 @@ def test_bad_requests(free, prior, said):
     """What is wrong is named."""
     with pytest.raises(InputError, match=said.replace("?", r"\?")):
         fit("granulation", {"stokes": [0.1], "angle": [0.5], "outcome": ["stick"]}, free, prior=prior)
+
+
+def test_one_stick_bounds_and_does_not_identify():
+    """A stick at some viscosity is none at a lower one, nor at a much higher: ends are closed, flat between."""
+    seen = {"stokes": [1.2], "angle": [0.3], "outcome": ["stick"]}
+    found = fit("pendulum", seen, [VISCOSITY])
+    estimate = found.estimates[VISCOSITY]
+    assert estimate.verdict == NOT_AT_ALL
+    density = log_likelihood("pendulum", seen, [VISCOSITY])
+    heights = [density([part * estimate.value])[0] for part in (1.0, 1.5, 2.0)]
+    assert estimate.low < estimate.value < 2.0 * estimate.value < estimate.high
+    assert heights == pytest.approx([0.0] * 3, abs=1e-6)
+    prior = fit("pendulum", seen, [VISCOSITY], prior={VISCOSITY: "12 Pa s +- 10 %"})
+    assert prior.estimates[VISCOSITY].verdict == IDENTIFIED
+
+
+def test_a_profile_that_flattens_just_below_its_drop_is_open():
+    """Elastic rebounds of thin liquid tell no lower end: from 1e-2 of the estimate on, its profile stays below 1.92."""
+    seen = {
+        "relative_speed": [0.236817] * 3 + [1.0] * 3 + [0.489801] * 2,
+        "relative_speed_sd": [0.00237] * 3 + [0.01] * 3 + [0.0049] * 2,
+        "angle": np.radians([0.0] * 6 + [70.0] * 2),
+        "angle_sd": np.radians([1.0] * 8),
+        "outcome": ["stick", "bounce", "stick", *["bounce"] * 5],
+        "restitution": [np.nan, 0.0285, np.nan, 0.9198, 0.9113, 0.9215, 0.7129, 0.7217],
+        "restitution_sd": [0.02] * 8,
+    }
+    result = fit("glass-beads-water", seen, [VISCOSITY, "particles.dry_restitution"])
+    estimate = result.estimates[VISCOSITY]
+    assert (estimate.low, estimate.verdict) == (None, ONE_SIDE)

@@ -132,6 +132,62 @@ def test_a_damaged_unfinished_store_is_named(tmp_path, damage):
         regime_map("granulation", **GRID, store=tmp_path / "map.zarr")
 
 
+def test_flipped_bits_in_an_unfinished_store(tmp_path, serial):
+    """A damaged chunk is computed again; a damaged description is named; no bit gets into the result."""
+    stop = iter([False] * 4)
+
+    def interrupt(_done, _total):
+        if next(stop, True):
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        regime_map("granulation", **GRID, store=tmp_path / "map.zarr", progress=interrupt)
+    (place,) = tmp_path.glob("*.unfinished")
+    draw = np.random.default_rng(1)
+    files = sorted(file for file in place.rglob("*") if file.is_file())
+    flipped = []
+    for file in draw.choice(files, 12, replace=False):
+        content = bytearray(file.read_bytes())
+        kept, at = bytes(content), draw.integers(len(content))
+        content[at] ^= 1 << draw.integers(8)
+        file.write_bytes(content)
+        if file.name in ("zarr.json", "token"):
+            with pytest.raises(ComputationError, match="is damaged"):
+                regime_map("granulation", **GRID, store=tmp_path / "map.zarr", progress=lambda *_: None)
+            file.write_bytes(kept)
+        else:
+            flipped.append(file)
+    assert flipped
+    same(regime_map("granulation", **GRID, store=tmp_path / "map.zarr"), serial)
+
+
+INTERRUPTED = """
+import asyncio, os, signal, threading
+import zarr
+from wetdoublet.solvers.commands.cli import main
+
+plain = zarr.storage.LocalStore.set
+
+async def slow(self, key, value, *more, **options):
+    if "/c/" in key:
+        threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
+        zarr.storage.LocalStore.set = plain
+        await asyncio.sleep(0.2)
+    await plain(self, key, value, *more, **options)
+
+zarr.storage.LocalStore.set = slow
+main(["map", "granulation", "--stokes", "0.01:0.3:3", "--angle", "0:80:2", "-o", "map.zarr"])
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are sent as on POSIX")
+def test_an_interrupt_while_zarr_writes(tmp_path):
+    """One line and status 130; Zarr's tasks write no traceback."""
+    command = (sys.executable, "-c", INTERRUPTED)
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (130, "interrupted\n")
+
+
 LOCAL = """
 import signal, socket
 from contextlib import suppress

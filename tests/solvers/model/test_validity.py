@@ -5,9 +5,10 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, collide_many, regime_map
+from wetdoublet.solvers import Scene, collide_many, regime_map
 
 from ...helpers.command import run
+from ...helpers.reference import collide
 
 LIQUID = {"liquid.density": "1000 kg/m^3"}
 WET = Scene.load("granulation").with_entries(LIQUID)
@@ -20,6 +21,7 @@ WORDS = {  # what the sentence of a flag says, after its number
     "wall_coupling": "the coupling that sets the final spin",
     "cavitating_film": "the film cavitating",
     "own_rupture": "own rupture distance",
+    "idle_friction": "friction does nothing",
     "law_range": "outside the range of the law",
 }
 
@@ -160,3 +162,18 @@ def test_a_map_has_the_flags_of_each_cell():
     one_by_one = collide_many(WET, stokes=np.tile(stokes, 3), angle=np.repeat(angles, 2), of=["validity"])
     assert (chart.validity.values.ravel() == one_by_one.validity.values).all()
     assert chart.validity.values.any()
+
+
+ELASTIC = ("youngs", "poisson")
+
+
+@pytest.mark.parametrize("without", [("glass_transition",), ELASTIC, ("glass_transition", *ELASTIC)])
+def test_friction_that_cannot_act_whatever_criteria_a_scene_has(without):
+    """Glass and elastic contact may be left out: many collisions are flagged, and single ones say it."""
+    lines = WET.with_entries({"particles.friction": 0.3}).to_toml().splitlines()
+    scene = Scene.from_toml("\n".join(line for line in lines if not line.startswith(without)))
+    speeds = np.array([0.6, 1.0, 5.0])
+    many = collide_many(scene, speed=speeds, angle=0.4, of=["validity"])
+    alone = [collide(scene, speed=speed, angle=0.4, ledger=False) for speed in speeds]
+    expected = [any(WORDS["idle_friction"] in said for said in one.validity) for one in alone]
+    assert bits(many)["idle_friction"].tolist() == expected

@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, band, collide, collide_many, gradients_many, sensitivities
+from wetdoublet.solvers import InputError, Scene, band, collide_many, gradients_many, sensitivities
 from wetdoublet.solvers.sensitivity.uncertainty import deviations
 
 from ...helpers.entries import BASE, BRIDGE, refused, tables
+from ...helpers.reference import collide
 
 ELASTIC = {"particles.youngs_modulus": "1 GPa", "particles.poisson_ratio": 0.3}
 

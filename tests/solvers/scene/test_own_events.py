@@ -13,7 +13,6 @@ from wetdoublet.solvers import (
     Scene,
     atlas,
     boundary,
-    collide,
     collide_many,
     regime_map,
     sensitivities,
@@ -26,6 +25,7 @@ from wetdoublet.solvers.model.model import select_model
 
 from ...helpers.command import run
 from ...helpers.newton import Bodies
+from ...helpers.reference import collide
 from ...helpers.snapping import EVENTS, Ended, integrated
 
 pytestmark = pytest.mark.slow

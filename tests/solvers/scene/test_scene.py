@@ -50,7 +50,7 @@ def test_another_impact_is_the_scene_with_those_entries(scene):
     for first in IMPACTS:
         for impact in IMPACTS:
             found = scene.with_impact(**first).with_impact(**impact)
-            whole = Scene(found.name, found.given, found.comments, found.package)
+            whole = Scene(found.name, found.given, found.comments, found.package, found.held)
             assert {field.name: getattr(found, field.name) for field in fields(Scene)} == {
                 field.name: getattr(whole, field.name) for field in fields(Scene)
             }

@@ -6,9 +6,11 @@ import json
 import math
 import re
 from dataclasses import replace
+from itertools import pairwise
 
+import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, boundary, sensitivities
+from wetdoublet.solvers import ComputationError, Scene, boundary, collide
 from wetdoublet.solvers.boundaries.changes import Change
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
@@ -16,6 +18,7 @@ from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.sensitivity.boundary_distance import checked, limit
 
 from ...helpers.command import run
+from ...helpers.reference import sensitivities
 
 pytestmark = pytest.mark.slow
 
@@ -138,3 +141,36 @@ def test_chatter_is_refused() -> None:
     path.steps[0] = replace(path.steps[0], kinds=("glass", "rests"))
     with pytest.raises(ComputationError, match="chatter"):
         checked(scene, n, finder, path, 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("preset", "changes", "stokes", "angle", "distance"),
+    [
+        ("granulation", {"liquid.glass_transition_pressure": "1e12 Pa"}, 0.18113421633, 0.27012544955, 1.2e-3),
+        ("glass-beads-water", {}, 49.715145149, 1.07492249099, 2.6e-4),
+    ],
+    ids=["creeps past the saddle", "just reaches the rim"],
+)
+def test_beside_a_separatrix(
+    preset: str, changes: dict[str, object], stokes: float, angle: float, distance: float
+) -> None:
+    """Beside a separatrix the trajectory is landed and integrated more sharply: derivatives stay within 1e-6.
+
+    Differences of collisions at 1e-12, with steps of a part of the distance (for their error grows with that part),
+    extrapolated. The speed squared with which the trajectory passes is up to 13 times the distance.
+    """
+    of = ("restitution", "rotation", "contact_time")
+    scene = Scene.load(preset).with_entries(changes)
+    found = sensitivities(scene, of, ["impact.stokes"], stokes=stokes, angle=angle, engine="rosenbrock")
+    assert found.near is not None
+    assert found.near.distance == pytest.approx(distance, rel=0.1)
+
+    def values(part: float) -> np.ndarray:
+        one = collide(scene, stokes=stokes * (1 + part), angle=angle, rtol=1e-12, engine="rosenbrock", ledger=False)
+        return np.array([getattr(one, name) for name in of])
+
+    rows = [(values(h) - values(-h)) / (2 * h) for h in distance / 8 / 2.0 ** np.arange(3)]
+    for order in (4, 16):
+        rows = [(order * fine - coarse) / (order - 1) for coarse, fine in pairwise(rows)]
+    slopes = [found.gradient[name]["impact.stokes"] * stokes for name in of]
+    assert slopes == pytest.approx(rows[0], rel=1e-6)

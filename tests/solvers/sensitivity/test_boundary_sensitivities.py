@@ -54,11 +54,12 @@ def test_boundaries_move_as_traced(line: str) -> None:
     def traced(part: float) -> np.ndarray:
         changed = scene.with_entries({name: float(scene.entries[name]) * (1 + part)})
         [[one]] = boundary(changed, angle=math.radians(degrees), stokes=span, rtol=1e-10).changes
-        return np.log([one.stokes, one.centrifugal or 1.0])
+        return np.log([one.stokes, one.centrifugal or 1.0, changed.speed_of(one.stokes)])
 
     slopes = (traced(_STEP) - traced(-_STEP)) / (2 * _STEP)
     # the differences: h^2 = 4e-6 of a third derivative of order one, and St* located to 1e-9 over h
     assert found.elasticity["stokes"][name] == pytest.approx(slopes[0], abs=1e-5)
+    assert found.elasticity["speed"][name] == pytest.approx(slopes[2], abs=1e-5)
     if found.change.centrifugal:
         assert found.elasticity["centrifugal"][name] == pytest.approx(slopes[1], abs=2e-5)
 
@@ -139,6 +140,9 @@ def test_the_angle_is_the_slope_of_the_curve() -> None:
     low, high = boundary(scene, angle=[at - h, at + h], stokes=(0.02, 0.07), rtol=1e-10).changes
     slope = (high[0].stokes - low[0].stokes) / (2 * h)
     assert found.gradient["stokes"]["impact.angle"] == pytest.approx(slope, rel=2e-5)
+    relative = [scene.speed_of(one[0].stokes) / math.cos(at + side) for one, side in ((low, -h), (high, h))]
+    by_angle = (relative[1] - relative[0]) / (2 * h)
+    assert found.gradient["relative_speed"]["impact.angle"] == pytest.approx(by_angle, rel=1e-4)
 
 
 def test_on_the_command_line() -> None:
@@ -148,7 +152,7 @@ def test_on_the_command_line() -> None:
     without = json.loads(run(*plain).stdout)
     for one, other in zip(with_["changes"][0], without["changes"][0], strict=True):
         both = one.pop("sensitivities")
-        assert set(both) == {"stokes", "centrifugal"}
+        assert set(both) == {"stokes", "speed", "relative_speed", "centrifugal"}
         assert set(both["stokes"]) == {"gradient", "elasticity"}
         assert one == other
 

@@ -230,7 +230,7 @@ def test_integrators_that_are_differentiated_have_no_events(plugin: str, monkeyp
 def test_a_failure_is_no_zero() -> None:
     """An integrator that gives up raises; zeros would look like a stick that depends on nothing."""
     problem = Problem.of(GLASS, float(GLASS.speed or 0), float(GLASS.angle or 0), WRT, "speed")
-    path, _ = problem.located(("restitution",), 1e-9)
+    path, _ = problem.located(1e-9)
     course = graph.course_of(path, path.model.choice)
     whole = graph.trajectory_expression(course, ("restitution",), "rosenbrock", Tolerance(1e-9, 1e-12))
     with pytest.raises(IntegrationFailed):
@@ -243,7 +243,7 @@ def test_a_failure_is_no_zero() -> None:
 def test_located_durations_need_not_be_exact() -> None:
     """The landing takes the rest: durations wrong by 1e-4 give the same derivatives once they are settled."""
     problem = Problem.of(GLASS, float(GLASS.speed or 0), float(GLASS.angle or 0), WRT, "speed")
-    path, _ = problem.located(("restitution",), 1e-9)
+    path, _ = problem.located(1e-9)
     right = problem.slopes(path, ("restitution",), "adjoint", "rosenbrock", 1e-10)
     steps = [type(step)(**{**vars(step), "duration": step.duration * (1 + 1e-4)}) for step in path.steps]
     path.steps[:] = steps

@@ -14,7 +14,6 @@ from wetdoublet.solvers import (
     Scene,
     Sensitivities,
     collide,
-    sensitivities,
     trajectory_sensitivities,
 )
 from wetdoublet.solvers.sensitivity.parameters import known
@@ -22,6 +21,7 @@ from wetdoublet.solvers.sensitivity.parameters import known
 from ...helpers.command import run
 from ...helpers.data import DATA
 from ...helpers.independent import integrated
+from ...helpers.reference import sensitivities
 from ...helpers.sensitive import CASES, DRY, GRANULATION, PENDULUM, Case, apart, cancelling, varied
 
 pytestmark = pytest.mark.slow
@@ -158,30 +158,89 @@ def test_stick() -> None:
     assert found["elasticity"]["energy.initial"]["impact.speed"] == pytest.approx(2.0, rel=1e-12)
 
 
-def test_head_on() -> None:
-    """Head-on the rotation begins to grow with the angle; what is even in it does not change; e_t does not exist."""
-    of = ["rotation", "contact_time", "restitution", "tangential_restitution"]
-    found = sensitivities(GRANULATION, of, ["impact.angle"], stokes=0.2, angle=0.0)
-    near = collide(GRANULATION, stokes=0.2, angle=1e-4, rtol=1e-11, engine="rosenbrock")
-    # rotation is odd in the angle: its next term is 1e-8 of the first
-    assert found.gradient["rotation"]["impact.angle"] == pytest.approx(float(near.rotation or 0) / 1e-4, rel=1e-7)
-    assert found.gradient["contact_time"]["impact.angle"] == 0.0
-    assert found.gradient["restitution"]["impact.angle"] == 0.0
+def by_angle(scene: Scene, of: str, stokes: float) -> tuple[float, float]:
+    """First and second derivative of a result by the angle head-on, from collisions at three angles, extrapolated.
+
+    An odd result over the angle, or twice the change of an even one over its square, is even in the angle: with two
+    terms removed the error is of sixth order.
+    """
+    first, second = [], []
+    still = getattr(collide(scene, stokes=stokes, angle=0.0, rtol=1e-13, engine="rosenbrock", ledger=False), of)
+    for angle in (4e-2, 2e-2, 1e-2):
+        found = getattr(collide(scene, stokes=stokes, angle=angle, rtol=1e-13, engine="rosenbrock", ledger=False), of)
+        first.append(found / angle)
+        second.append(2 * (found - still) / angle**2)
+    return tuple((64 * c - 20 * b + a) / 45 for a, b, c in (first, second))  # type: ignore[return-value]  # two
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "cvodes", "taylor"])
+@pytest.mark.parametrize(("scene", "stokes"), [(GRANULATION, 0.2), (PENDULUM, 2.0)], ids=["granulation", "pendulum"])
+def test_head_on(scene: Scene, stokes: float, engine: str) -> None:
+    """Head-on, rotation and spin begin to grow with the angle, as accurate as any result; even ones do not change."""
+    odd, even = ["rotation", "final_spin", "final_rotation_rate"], ["contact_time", "restitution"]
+    of, wrt = [*odd, *even, "tangential_restitution"], ["impact.angle", "liquid.viscosity"]
+    found = sensitivities(scene, of, wrt, stokes=stokes, angle=0.0, engine=engine)
+    assert found.engine == engine
+    for name in odd:
+        assert found.value[name] == found.gradient[name]["liquid.viscosity"] == 0.0
+        assert found.gradient[name]["impact.angle"] == pytest.approx(by_angle(scene, name, stokes)[0], rel=1e-8)
+    for name in even:
+        assert found.gradient[name]["impact.angle"] == 0.0
     assert found.elasticity["rotation"]["impact.angle"] is None
     assert found.gradient["tangential_restitution"]["impact.angle"] is None
 
 
-def test_head_on_with_strings() -> None:
-    """As above with strings: rotation and spin by the angle, from a trajectory at a small one."""
-    found = sensitivities(PENDULUM, ["rotation", "final_spin", "restitution"], ["impact.angle"], stokes=2.0, angle=0.0)
-    near = collide(PENDULUM, stokes=2.0, angle=1e-3, rtol=1e-11, engine="rosenbrock")
-    assert found.value["rotation"] == found.value["final_spin"] == 0.0
-    assert found.gradient["restitution"]["impact.angle"] == 0.0
-    for name in ("rotation", "final_spin"):
-        # odd in the angle: the next term is 1e-6 times a number of order one
-        assert found.gradient[name]["impact.angle"] == pytest.approx(getattr(near, name) / 1e-3, rel=1e-5)
-    with pytest.raises(InputError, match="hessian"):
-        sensitivities(PENDULUM, ["rotation"], stokes=2.0, angle=0.0, hessian=True)
+@pytest.mark.parametrize(("scene", "stokes"), [(GRANULATION, 0.2), (PENDULUM, 2.0)], ids=["granulation", "pendulum"])
+def test_head_on_second_derivatives(scene: Scene, stokes: float) -> None:
+    """Head-on, e_n is curved in the angle, and the rotation's growth depends on the viscosity; the rest is zero."""
+    of, wrt = ["restitution", "rotation"], ["impact.angle", "liquid.viscosity"]
+    found = sensitivities(scene, of, wrt, stokes=stokes, angle=0.0, hessian=True, hold="speed")
+    rows = found.hessian
+    assert rows is not None
+    curvature = by_angle(scene, "restitution", stokes)[1]
+    assert rows["restitution"]["impact.angle"]["impact.angle"] == pytest.approx(curvature, abs=1e-8)  # 1e-13 of e_n
+    assert rows["restitution"]["impact.angle"]["liquid.viscosity"] == 0.0
+    assert rows["rotation"]["impact.angle"]["impact.angle"] == rows["rotation"][wrt[1]][wrt[1]] == 0.0
+    mu, step = float(scene.entries["liquid.viscosity"]), 1e-3
+    ways = [
+        sensitivities(varied(scene.with_impact(stokes=stokes, angle=0.0), wrt[1], mu * (1 + way * step)), of, wrt)
+        for way in (1, -1)
+    ]
+    slopes = [one.gradient["rotation"]["impact.angle"] for one in ways]
+    crossed = rows["rotation"]["impact.angle"]["liquid.viscosity"]
+    assert crossed == pytest.approx((slopes[0] - slopes[1]) / (2 * step * mu), rel=1e-5)  # of second order in the step
+    times = sensitivities(scene, of, wrt, stokes=stokes, angle=0.0, hessian={wrt[0]: 2.0, wrt[1]: 3.0}).hessian_times
+    assert times is not None
+    for name in of:
+        expected = {one: 2.0 * row[wrt[0]] + 3.0 * row[wrt[1]] for one, row in rows[name].items()}
+        assert times[name] == pytest.approx(expected, rel=1e-12)
+
+
+def test_energy_of_a_head_on_stick_is_curved_in_the_angle() -> None:
+    """Kinetic energy at initial contact has m (v0 r0/4a)^2 by the angle twice, whatever the outcome."""
+    wrt = ["impact.angle"]
+    result = sensitivities("granulation", ["energy.initial"], wrt, stokes=0.05, angle=0.0, hessian=True)
+    scene = Scene.load("granulation")
+    speed = scene.speed_of(0.05) * (1 + 8e-6 / (4 * scene.reduced_radius))
+    assert (result.outcome, result.hessian is None) == ("stick", False)
+    curvature = result.hessian["energy.initial"]["impact.angle"]["impact.angle"]
+    assert curvature == pytest.approx(5.2e-9 * speed**2, rel=1e-9)
+
+
+def test_head_on_over_time() -> None:
+    """Head-on with strings, over time: nothing turns, but rotation and spin grow with the angle, up to the results'."""
+    found = trajectory_sensitivities(PENDULUM, ["impact.angle", "liquid.viscosity"], stokes=2.0, angle=0.0)
+    expected = sensitivities(PENDULUM, ["rotation", "final_spin"], ["impact.angle"], stokes=2.0, angle=0.0).gradient
+    last = found.isel(time=-1)
+    for name, result in (("rotation", "rotation"), ("spin", "final_spin")):
+        assert not found[name].any()
+        assert not found[f"d_{name}"].sel(parameter="liquid.viscosity").any()
+        growth = float(last[f"d_{name}"].sel(parameter="impact.angle"))
+        assert growth == pytest.approx(expected[result]["impact.angle"], rel=1e-7)
+    for name in ("d_gap", "d_normal_velocity", "d_event_time"):
+        assert not found[name].sel(parameter="impact.angle").any()
+    with pytest.raises(InputError, match="head-on stick"):
+        trajectory_sensitivities(PENDULUM, ["impact.angle"], stokes=0.5, angle=0.0)
 
 
 def test_speed_and_stokes_are_one_variable() -> None:

@@ -7,7 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, gradients_many, sensitivities
+from wetdoublet.solvers import Scene, collide, gradients_many
+
+from ...helpers.reference import sensitivities
 
 pytestmark = pytest.mark.slow
 
@@ -55,10 +57,39 @@ def test_the_kernel_differentiates_by_spins() -> None:
 def test_where_nothing_spins_yet_spins_have_derivatives() -> None:
     """Head-on, the spins and the rotation after a collision are odd in those before it."""
     plain = Scene.load("granulation")
-    # steps follow the normal motion alone, as nothing turns: 2e-6 at this tolerance
     found = sensitivities(plain, ["final_spin", "rotation", "restitution"], ["impact.spin"], speed=SPEED, angle=0.0)
     near = collide(plain.with_entries({"impact.spin": 1.0}), speed=SPEED, angle=0.0, rtol=1e-11, engine="rosenbrock")
-    assert found.gradient["final_spin"]["impact.spin"] == pytest.approx(near.final_spin, rel=1e-5)
-    assert found.gradient["rotation"]["impact.spin"] == pytest.approx(near.rotation, rel=1e-5)
+    # the next term is the square of the spin's tangential speed over the normal one: 1e-11
+    assert found.gradient["final_spin"]["impact.spin"] == pytest.approx(near.final_spin, rel=1e-8)
+    assert found.gradient["rotation"]["impact.spin"] == pytest.approx(near.rotation, rel=1e-8)
     assert found.gradient["restitution"]["impact.spin"] == 0.0
     assert math.isfinite(found.value["restitution"])
+
+
+def test_a_spin_is_kept_where_the_doublet_parts_at_initial_contact() -> None:
+    """Thrown apart at initial contact, a sphere keeps the spin that it came with; of nothing else it has one."""
+    wrt = ["impact.spin", "liquid.viscosity"]
+    for angle in (0.0, 0.5):
+        found = sensitivities("granulation-dry-bridge", ["final_spin"], wrt, stokes=0.4, angle=angle, engine="taylor")
+        assert found.engine == "taylor"
+        assert found.gradient["final_spin"] == {"impact.spin": 1.0, "liquid.viscosity": 0.0}
+
+
+@pytest.mark.parametrize("partner", [{}, {"partner.wall": True}], ids=["sphere", "wall"])
+def test_slip_restitution_has_derivatives(partner: dict[str, object]) -> None:
+    """By angle and spin, beside central differences; there is none head-on, where nothing slips."""
+    scene = GRANULATION.with_entries(partner).with_impact(speed=SPEED, angle=0.5)
+    found = sensitivities(scene, ["slip_restitution"], ["impact.angle", "impact.spin"], hold="speed")
+    for name, p in found.reference.items():
+
+        def value(part: float, name: str = name, p: float = p) -> float:
+            changed = scene.with_entries({name: p * (1 + part)})
+            one = collide(changed, rtol=1e-12, engine="rosenbrock", ledger=False).slip_restitution
+            assert one is not None
+            return one
+
+        assert value(0) == pytest.approx(found.value["slip_restitution"], rel=1e-8)
+        slope = (8 * (value(1e-3) - value(-1e-3)) - (value(2e-3) - value(-2e-3))) / (12e-3 * p)  # of fourth order
+        assert found.gradient["slip_restitution"][name] == pytest.approx(slope, rel=1e-7)
+    still = sensitivities("granulation", ["slip_restitution"], ["impact.angle"], speed=SPEED, angle=0.0)
+    assert still.value["slip_restitution"] is still.gradient["slip_restitution"]["impact.angle"] is None

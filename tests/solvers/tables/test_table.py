@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import math
+import re
 import shutil
 import subprocess
 from copy import deepcopy
@@ -107,6 +108,28 @@ def test_netcdf_keeps_the_table(law: Table, tmp_path: Path) -> None:
     assert again.to_dataset().attrs["largest_error_found"] == law.found.largest
 
 
+def test_a_damaged_netcdf_is_refused(law: Table, tmp_path: Path) -> None:
+    """A file with a flipped bit, cut short, empty, of an older version or of another program: one error names it."""
+    file = tmp_path / "law.nc"
+    law.save(file)
+    content = file.read_bytes()
+    draw = np.random.default_rng(3)
+    cases = [(content[:cut], "damaged") for cut in (len(content) - 1, len(content) - 40, len(content) // 2)]
+    cases += [(b"", "no table"), (b"CDF" + bytes(400), "no table")]
+    cases += [(content[: content.rindex(b"\nwetdoublet")].replace(b"table 2", b"table 1"), "older version")]
+    for place, bit in zip(draw.integers(len(content), size=400).tolist(), draw.integers(8, size=400).tolist()):
+        flipped = bytearray(content)
+        flipped[place] ^= 1 << bit
+        cases.append((bytes(flipped), "damaged"))
+    for wrong, problem in cases:
+        file.write_bytes(wrong)
+        with pytest.raises(InputError, match=problem) as caught:
+            Table.load(file)
+        assert str(file) in str(caught.value)
+    file.write_bytes(content)
+    assert law(*impacts(5)).identical(Table.load(file)(*impacts(5)))
+
+
 PROGRAM = """#include "law.h"
 void query(int count, const double *stokes, const double *angle, int *outcome, double *value, double *slope)
 {
@@ -151,6 +174,24 @@ def test_the_reader_in_c_gives_what_the_reader_in_python_gives(law: Table, tmp_p
     np.testing.assert_array_equal(outcome, said.outcome)
     np.testing.assert_allclose(value, np.stack([said[name] for name in law.of], axis=1), rtol=1e-12, atol=1e-12)
     np.testing.assert_allclose(slope, np.stack([said[f"d_{name}"] for name in law.of], axis=1), rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="gcc is not installed")
+def test_a_damaged_header_is_refused(law: Table, tmp_path: Path) -> None:
+    """A coefficient changed in its last digit: every answer is a status and NaN."""
+    law.save(tmp_path / "law.h")
+    text = (tmp_path / "law.h").read_text()
+    number = re.search(r"granulation_series\[\d+\] = \{\s+-?\d\.(\d+)", text)
+    assert number is not None
+    last = number.start(1)
+    (tmp_path / "law.h").write_text(text[:last] + str((int(text[last]) + 1) % 10) + text[last + 1 :])
+    (tmp_path / "status.c").write_text(
+        '#include "law.h"\nint main(void)\n{\n    granulation_answer one;\n'
+        "    int status = granulation_table(0.2, 0.4, &one);\n"
+        "    return !(status == GRANULATION_TABLE_DAMAGED && one.outcome == -1 && one.value[0] != one.value[0]);\n}\n"
+    )
+    subprocess.run(["gcc", "-std=c99", "-w", "status.c", "-o", "status", "-lm"], cwd=tmp_path, check=True)
+    subprocess.run([str(tmp_path / "status")], check=True)
 
 
 def test_a_third_variable() -> None:

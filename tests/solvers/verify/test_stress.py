@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from wetdoublet.solvers.engines.casadi.replay import Stopped
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
+from wetdoublet.solvers.scene.schema import FILM_LAWS
 from wetdoublet.solvers.settings import ENGINES
 from wetdoublet.solvers.verify.stress import judge as checking
 from wetdoublet.solvers.verify.stress import run as stress_test
@@ -104,6 +106,20 @@ def _case(scene: Scene, stokes: float) -> Case:
     return Case("one", scene.with_impact(stokes=stokes))
 
 
+def test_a_wrong_spin_is_caught() -> None:
+    """An engine whose final spin is off by 1e-4 disagrees, also where its restitution is right."""
+    entries = {"particles.friction": 0.2, "particles.roughness": "4 um", "impact.spin": 3e3}
+    scene = Scene.load("granulation").with_entries(entries).with_impact(stokes=0.3, angle="45 deg")
+
+    def turned(scene: Scene, rtol: float) -> Found:
+        right = checking.chained(scene, rtol)
+        return replace(right, spins=(right.spins[0] + 1e-4,))
+
+    engines = {"rosenbrock": checking.runs()["rosenbrock"], "cvodes": checking.chained, "turned": turned}
+    (wrong,) = judge(Case("one", scene), engines).issues
+    assert (wrong.kind, wrong.between, wrong.explained) == ("spin", ("rosenbrock", "turned"), "")
+
+
 def test_a_wrong_certificate_is_caught() -> None:
     """A stick that is said to be proved is continued without its proof, and found to separate."""
     scene = Scene.load("granulation").with_impact(stokes=0.1, angle="60 deg")
@@ -143,6 +159,10 @@ def test_the_sample_is_the_same_again_and_covers_its_ranges() -> None:
     assert {scene.pendulum is None for scene in drawn} == {True, False}
     assert {scene.particles.dry_restitution for scene in drawn} >= {0.0, 1.0}
     assert any(scene.angle == 0 for scene in drawn)
+    assert {(scene.wall, scene.pair) for scene in drawn} >= {(True, False), (False, True), (False, False)}
+    assert {scene.model.film for scene in drawn} == set(FILM_LAWS)
+    for part in ("particles.friction", "impact.spin", "impact.partner_spin", "attraction.hamaker"):
+        assert {part in dict(scene.given) for scene in drawn} == {True, False}
     beside = [case for case in cases if case.kind == "beside"]
     assert {case.distance for case in beside} == set(DISTANCES)
     assert len({case.expected for case in beside}) > 1

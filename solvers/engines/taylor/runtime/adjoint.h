@@ -157,7 +157,7 @@ static void undo_rebound(sweep *r, const taped_rebound *own, int lane)
     for (int state = 0; state < STATES; state++)
         y[state] = splat(own->y[state]);
 #if FRICTION
-    touch o = touched(&r->f.c, y, lane, own->kind);
+    touch o = touched(&r->f.c, y, lane, own->kind, 0);
 #endif
     for (int by = 0; by < STATES + GROUPS; by++) {
         memset(at, 0, sizeof at);

@@ -205,7 +205,13 @@ static inline mask spun_down(const constants *c, const vec *y, mask asked, doubl
 #define CHATTER_TESTS 0
 #endif /* OWN_EVENTS */
 #endif
-/* Whether that test is a proof. */
+/* Whether doublets may float beyond the edge of the tangential force for good. */
+#define FLOATS (TURNS && ATTRACTS && !STRINGS && !FRICTION)
+#if OWN_EVENTS
+#undef FLOATS
+#define FLOATS 0
+#endif /* OWN_EVENTS */
+/* Whether the test of chatter is a proof. */
 #define CHATTER_PROVES (SPACE || (ORBITAL_MARGINS && !STRINGS))
 
 #define RESTS_FOR_GOOD (TURNS && ATTRACTS && !STRINGS)

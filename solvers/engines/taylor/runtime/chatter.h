@@ -13,6 +13,31 @@
 #include "model.h"
 #include "state.h"
 
+#if FLOATS
+/* Lanes at a maximum of the gap that stay beyond the edge of the tangential force (solvers/certificates/floating.py);
+ * looked for now and then. */
+static mask floating(const lanes *l, const fixed *f, double tolerance)
+{
+    mask asked = l->alive & l->fresh & l->closing & NOT(l->resting) & ((l->phases & 15) < splat_mask(4));
+    asked &= (l->y[GAP] > f->edge) & (vec_abs(l->y[NORMAL_VELOCITY]) <= STILL);
+    if (!bits(asked))
+        return asked;
+    vec there[STATES], half = (l->y[GAP] - f->edge)*(1.0/16.0), work = splat(0.0), size = work;
+    memcpy(there, l->y, sizeof there);
+    for (int panel = 0; panel < 8; panel++) {
+        vec part = splat(0.0);
+        for (int node = 0; node < 12; node++) {
+            double place = node < 6 ? NODES[node] : -NODES[node - 6];
+            there[GAP] = f->edge + half*(2*panel + 1 + place);
+            part += WEIGHTS[node % 6]*inward_force(&f->c, there);
+        }
+        work += part*half;
+        size += vec_abs(part*half);
+    }
+    return asked & (work < -SAFETY*tolerance*size);
+}
+#endif
+
 #if CHATTER_TESTS
 #if SPACE
 /* Lanes in which every rebound from here ends below the present gap. */

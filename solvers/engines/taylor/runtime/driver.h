@@ -69,6 +69,9 @@ static void run(queue *q)
             break;
         mask sticks = held_sticks(&f.c, l.y, l.alive & now_and_then(l.fresh, l.phases, l.steps), q->rtol);
         sticks |= proved_underway(&l, &f, q->rtol);
+#if FLOATS
+        sticks |= floating(&l, &f, q->rtol);
+#endif
 #if WITH_TRAJECTORY
         sticks &= provable(q, l.closing);
 #endif
@@ -109,10 +112,22 @@ static void run(queue *q)
 #endif /* OWN_EVENTS */
         for (int state = 0; state < STATES; state++)
             a[state][0] = l.y[state];
+#if SPACE
+        axes turning;
+        mask turns = l.alive & (l.crept != splat_mask(0)); /* what creeps turns as one body */
+        if (bits(turns))
+            begin_turning(&turning, &f.c, l.y, turns);
+        expand(&s, &f.c, acting(&l), l.shear, NOT(l.resting), bits(turns) ? &turning : 0);
+#else
         expand(&s, &f.c, acting(&l), l.shear, NOT(l.resting));
+#endif
 #if RUBS
         if (bits(l.alive & l.resting))
             expand_rubbing(&r, &s, &f.c, &l);
+#endif
+#if TURNS
+        if (bits(l.alive & l.resting) && stills_ended(q, &l, &f, a)) /* other collisions may have taken these lanes */
+            continue;
 #endif
         mask creeps;
 #if GRADIENTS && !BACKWARD
@@ -175,6 +190,10 @@ static void run(queue *q)
         l.y[GAP] = choose(l.alive, found.gap, l.y[GAP]);
         for (int state = GAP + 1; state < STATES; state++)
             l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
+#if SPACE
+        if (bits(turns))
+            turn_back(&turning, h, l.y);
+#endif
         l.time += h;
         l.smallest = vec_min(l.smallest, l.y[GAP]);
         l.steps += 1; /* before a lane may take another collision, which must not depend on this one */

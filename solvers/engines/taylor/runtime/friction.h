@@ -8,8 +8,8 @@
 #define FRICTION 0
 #endif
 
-/* Whether resting contact with friction is integrated (rest_in_friction.h). */
-#define RUBS (FRICTION && !GRADIENTS && !WITH_LEDGER)
+/* Whether resting contact with friction is integrated (rest_in_friction.h); in space it is left to others. */
+#define RUBS (FRICTION && !GRADIENTS && !WITH_LEDGER && !SPACE)
 
 #if FRICTION
 /* What the dry contact does in a lane: its impulse, whether it sticks, and the sign with which it slides (0: without
@@ -19,7 +19,8 @@ typedef struct {
     int sticks;
 } touch;
 
-static touch touched(const constants *c, const vec *y, int lane, int kind)
+/* That of a rebound, or of one that `rests`. */
+static touch touched(const constants *c, const vec *y, int lane, int kind, int rests)
 {
     vec found[IMPULSES];
     dry_slip(c, y, found);
@@ -27,7 +28,7 @@ static touch touched(const constants *c, const vec *y, int lane, int kind)
     memset(&o, 0, sizeof o);
     o.sticking = LANE(found[STICKING], lane);
     if (kind != KIND_GLASS || FRICTION_ON_GLASS) {
-        o.most = LANE(found[MOST], lane);
+        o.most = LANE(found[rests ? REST_MOST : MOST], lane);
         o.slides = o.sticking < 0.0 ? -1.0 : 1.0;
     }
     o.sticks = fabs(o.sticking) < o.most;

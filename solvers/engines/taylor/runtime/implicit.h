@@ -19,6 +19,7 @@
 #include "queue.h"
 #include "rest_in_friction.h"
 #include "state.h"
+#include "turning_axes.h"
 
 enum { PATIENCE = 100, COLUMNS = 7, TRIES = 4000 };
 static const double WORTH = 25.0;      /* least number of Taylor steps replaced by one step, which costs five to ten */
@@ -29,7 +30,7 @@ static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn a
 static const double LEAST_VECTOR = 1e-3;     /* a smaller one counts as this, as in step.h */
 static const double MOST_TURNED = 1e9;       /* turns in a step */
 #endif
-enum { COST = SPACE ? 50 : 1 }; /* of a step, from the budget: a doublet in balance on its line of centres tumbles forever */
+enum { COST = SPACE ? 16 : 1 }; /* of a step, from the budget: about as long as so many Taylor steps in space */
 
 typedef struct {
     vec rates[STATES][MODEL_STATES]; /* derivatives of the states' rates */
@@ -42,7 +43,7 @@ typedef struct {
     const lanes *l;
 #endif
 #if SPACE
-    vec turning[3]; /* angular velocity of the axes: along the angular momentum, which is constant in them as well */
+    axes turning;
 #endif
 } slow;
 
@@ -60,47 +61,9 @@ OUTLINE void rates_at(slow *w, const vec *y, vec *rate)
 #endif
 #if SPACE
     for (int first = FIRST_VECTOR; first < MODEL_STATES; first += 3)
-        for (int k = 0; k < 3; k++) {
-            int next = (k + 1)%3, last = (k + 2)%3;
-            rate[first + k] -= w->turning[next]*y[first + last] - w->turning[last]*y[first + next];
-        }
+        for (int k = 0; k < 3; k++) rate[first + k] -= swept(&w->turning, y + first, 1, k);
 #endif
 }
-
-#if SPACE
-/* Axes that turn as a rigid doublet does, in which one that tumbles is nearly at rest; the fastest rate of a lane. */
-static vec begin_turning(slow *w, const vec *y)
-{
-    vec found[4], square = splat(0.0);
-    precession(w->c, y, found);
-    for (int k = 0; k < 3; k++) {
-        w->turning[k] = found[3]*found[k];
-        square += w->turning[k]*w->turning[k];
-    }
-    return vec_sqrt(square);
-}
-
-/* The states after a step, from these axes into the laboratory's. */
-static void turn_back(const slow *w, vec rate, vec h, vec *y)
-{
-    vec sine, cosine, over = choose(rate > 0.0, 1.0/rate, splat(0.0));
-    const vec magic = splat(6755399441055744.0); /* adding it rounds to an integer */
-    vec turns = rate*h*(0.5/PI);
-    vec_sin_cos((turns - ((turns + magic) - magic))*(2.0*PI), &sine, &cosine);
-    for (int first = FIRST_VECTOR; first < MODEL_STATES; first += 3) {
-        vec v[3], along = splat(0.0);
-        for (int k = 0; k < 3; k++) {
-            v[k] = y[first + k];
-            along += over*w->turning[k]*v[k];
-        }
-        for (int k = 0; k < 3; k++) {
-            int next = (k + 1)%3, last = (k + 2)%3;
-            vec crossed = over*(w->turning[next]*v[last] - w->turning[last]*v[next]);
-            y[first + k] = cosine*v[k] + sine*crossed + (1.0 - cosine)*along*over*w->turning[k];
-        }
-    }
-}
-#endif
 
 /* Central differences: extrapolation does not remove an error of the Jacobian from the stiff part. */
 static void find_rates(slow *w, const vec *y)
@@ -305,8 +268,8 @@ OUTLINE void crawl(queue *q)
         vec rate[STATES], change[STATES];
         mask clear;
 #if SPACE
-        vec turns = begin_turning(&w, l.y);
-        h = vec_min(h, MOST_TURNED/turns);
+        begin_turning(&w.turning, &f.c, l.y, busy);
+        h = vec_min(h, MOST_TURNED/w.turning.rate);
 #endif
         rates_at(&w, l.y, rate);
         find_rates(&w, l.y);
@@ -315,7 +278,7 @@ OUTLINE void crawl(queue *q)
         for (int state = 0; state < STATES; state++)
             l.y[state] += only(taken, change[state]);
 #if SPACE
-        turn_back(&w, turns, only(taken, h), l.y);
+        turn_back(&w.turning, only(taken, h), l.y);
 #endif
         l.time += only(taken, h);
         l.smallest = vec_min(l.smallest, l.y[GAP]);

@@ -5,6 +5,7 @@
 #include "model.h"
 #include "state.h"
 #include "tangents.h"
+#include "turning_axes.h"
 
 /* The bits of a positive double, read as an integer, approximate its logarithm: step lengths are exact to some percent.
  * */
@@ -70,10 +71,28 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps)
     return power_of(step);
 }
 
-#define TERM(k) if (k < ORDER) coefficients(s, c, film, shear, moving, k);
+#if SPACE
+/* Subtracts from coefficient k + 1 what the axes turn. */
+static inline void turn_along(series *s, const axes *w, int k)
+{
+    vec (*a)[TERMS] = (vec (*)[TERMS])s;
+    for (int first = FIRST_VECTOR; first < MODEL_STATES; first += 3)
+        for (int part = 0; part < 3; part++)
+            a[first + part][k + 1] -= swept(w, &a[first][k], TERMS, part)*(1.0/(k + 1));
+}
+#define TURN(k) if (turning) turn_along(s, turning, k);
+#else
+#define TURN(k)
+#endif
+
+#define TERM(k) if (k < ORDER) { coefficients(s, c, film, shear, moving, k); TURN(k) }
 #define GLASS_TERM(k) if (k <= ORDER) glass_coefficients(s, c, k);
 
+#if SPACE
+OUTLINE void expand(series *s, const constants *c, vec film, vec shear, mask moving, const axes *turning)
+#else
 OUTLINE void expand(series *s, const constants *c, vec film, vec shear, mask moving)
+#endif
 {
     EVERY(TERM)
     s->acceleration[ORDER] = splat(0.0); /* not computed at this order */

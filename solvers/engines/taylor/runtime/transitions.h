@@ -17,6 +17,19 @@ static void separated(queue *q, lanes *l, fixed *f, int lane)
     finish(q, l, f, lane, DECIDED, LANE(l->reversal, lane) >= 0 ? BOUNCE : ROTATE, 0);
 }
 
+/* Rupture: a separation, unless rounding alone may have set it off. */
+static void parts(queue *q, lanes *l, fixed *f, int lane)
+{
+#if OBLIQUE
+    double least = LEAST_PARTING*LANE(f->c.obliquity, lane)*sqrt(LANE(f->c.aspect, lane));
+    if (LANE(l->y[NORMAL_VELOCITY], lane) < least) {
+        finish(q, l, f, lane, WITHIN_ROUNDING, STICK, 0);
+        return;
+    }
+#endif
+    separated(q, l, f, lane);
+}
+
 /* Begins an opening phase; on an edge, the phase is beyond that edge. */
 static void opens(lanes *l, const fixed *f, int lane)
 {
@@ -39,11 +52,11 @@ static void new_phase(lanes *l, int lane)
 }
 
 #if FRICTION
-/* Friction of a rebound, in a lane's state. */
-static void rub(queue *q, lanes *l, fixed *f, int lane, int kind)
+/* Friction of a rebound, or of one that `rests`, in a lane's state. */
+static void rub(queue *q, lanes *l, fixed *f, int lane, int kind, int rests)
 {
     vec after[STATES];
-    touch o = touched(&f->c, l->y, lane, kind);
+    touch o = touched(&f->c, l->y, lane, kind, rests);
     memcpy(after, l->y, sizeof after);
     rubbed(&f->c, l->y, splat(o.impulse), after);
 #if GRADIENTS
@@ -62,6 +75,26 @@ static void rub(queue *q, lanes *l, fixed *f, int lane, int kind)
 }
 #endif
 
+/* Whether a rebound to this state is too weak to open the gap. */
+static int too_weak(const queue *q, const fixed *f, const vec *after, int lane)
+{
+    double left = LANE(after[NORMAL_VELOCITY], lane), inward = in_lane(inward_force(&f->c, after), lane);
+    return inward > 0.0 && (left < REST_SPEED || left*left/(2.0*inward) < q->rtol*LANE(after[GAP], lane));
+}
+
+#if FRICTION
+/* The same before the friction of the rebound. */
+static int comes_to_rest(const queue *q, const lanes *l, const fixed *f, int lane, int kind)
+{
+    vec slid[STATES], after[STATES];
+    memcpy(slid, l->y, sizeof slid);
+    rubbed(&f->c, l->y, splat(touched(&f->c, l->y, lane, kind, 0).impulse), slid);
+    memcpy(after, slid, sizeof after);
+    rebound(&f->c, slid, after);
+    return LANE(after[GAP], lane) < LANE(f->end, lane) && too_weak(q, f, after, lane);
+}
+#endif
+
 /* A rebound; one too weak to open the gap becomes resting contact, one at the rupture gap separates the doublet. */
 static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 {
@@ -73,7 +106,8 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
     rebound_on_tape(q, lane, l->y, kind);
 #endif
 #if FRICTION
-    rub(q, l, f, lane, kind);
+    int rests = comes_to_rest(q, l, f, lane, kind);
+    rub(q, l, f, lane, kind, rests);
 #endif
     memcpy(after, l->y, sizeof after);
     rebound(&f->c, l->y, after);
@@ -89,15 +123,17 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         separated(q, l, f, lane);
         return;
     }
-    double left = LANE(l->y[NORMAL_VELOCITY], lane), inward = in_lane(inward_force(&f->c, l->y), lane);
-    double allowed = q->rtol*LANE(l->y[GAP], lane);
-    if (!TURNS && left == 0.0 && inward == 0.0) { /* equilibrium */
+#if !FRICTION
+    int rests = too_weak(q, f, l->y, lane);
+#endif
+    if (!TURNS && LANE(l->y[NORMAL_VELOCITY], lane) == 0.0 && in_lane(inward_force(&f->c, l->y), lane) == 0.0) {
+        /* equilibrium */
         LANE(l->resting, lane) = TRUTH;
         LANE(l->closing, lane) = 0;
         sticks_for_good(q, l, f, lane, 1);
         return;
     }
-    if (inward > 0.0 && (left < REST_SPEED || left*left/(2.0*inward) < allowed)) {
+    if (rests) {
         note(q, LANE(l->index, lane), KIND_RESTS, LANE(l->time, lane));
 #if GRADIENTS
         along_near(&l->along, lane, 0.0, CHATTERS);
@@ -202,6 +238,29 @@ static int rests_ended(queue *q, lanes *l, fixed *f)
         finish(q, l, f, lane, sure ? DECIDED : RESTS_IN_FRICTION, STICK, sure);
     }
     return 1;
+}
+#endif
+
+#if TURNS
+/* Ends as sticks the resting lanes whose series are constant: no force changes any more. Returns whether there were any.
+ * The stick is not certified: the sign of the force is taken without an error.
+ */
+static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
+{
+    mask still = l->alive & l->resting & (inward_force(&f->c, l->y) > 0.0);
+    for (int state = 0; state < MODEL_STATES; state++)
+        for (int k = 1; k <= ORDER; k++)
+            still &= a[state][k] == 0.0;
+#if WITH_LIMIT
+    if (q->contact && q->contact->stuck)
+        return 0;
+#endif
+#if WITH_TRAJECTORY
+    still &= provable(q, l->closing);
+#endif
+    for (unsigned left = bits(still); left; left &= left - 1)
+        sticks_for_good(q, l, f, first_of(left), 0);
+    return bits(still) != 0;
 }
 #endif
 

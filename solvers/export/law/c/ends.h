@@ -11,7 +11,7 @@ typedef struct {
     vector3 sliding; /* beside a wall: velocity along it, m/s */
 } ending;
 
-/* The end of a pair that sticks before anything has happened: as it arrived. */
+/* A stick's end is at initial contact, at time 0: where its integration stops depends on tolerance and rounding. */
 static ending as_arrived(const bodies *b, const arrival *a)
 {
     ending made;
@@ -31,8 +31,8 @@ static ending as_arrived(const bodies *b, const arrival *a)
 }
 
 /* Two spheres. A stick keeps its angular momentum: across the line of centres it turns with the inertia that the doublet
- * has at the gap of the end. Twist has no friction to leading logarithm: along the line each sphere keeps its own spin,
- * and the doublet's angular velocity has their mean by inertia.
+ * has there. Twist has no friction to leading logarithm: along the line each sphere keeps its own spin, and the
+ * doublet's angular velocity has their mean by inertia.
  */
 static void spheres_after(const bodies *b, const arrival *a, const ending *e, law_pair_after *made)
 {
@@ -107,11 +107,22 @@ static void refuse(int status, law_pair_after *made)
     unknown(made->angular_velocity, 3);
 }
 
-/* Both particles after a collision; a motion that is not finite is a failure, and not handed on. */
-static void both_after(const bodies *b, const arrival *a, const ending *e, law_pair_after *made)
+/* Twice the kinetic energy, relative to the centre of mass or to the wall. */
+static double energy_of(const bodies *b, const double (*velocities)[3], const double (*spins)[3])
 {
-    refuse(e->status, made);
-    if (e->status != LAW_OK)
+    vector3 relative = plus(vector_of(velocities[1]), -1.0, vector_of(velocities[0]));
+    double found = b->reduced_mass*dot(relative, relative);
+    for (int k = 0; k < (b->wall ? 1 : 2); k++)
+        found += b->inertia[k]*dot(vector_of(spins[k]), vector_of(spins[k]));
+    return found;
+}
+
+/* Both particles after a collision; a motion that is not finite or has gained energy is a failure, and not handed on. */
+static void both_after(const bodies *b, const arrival *a, const ending *end, law_pair_after *made)
+{
+    const ending arrived = as_arrived(b, a), *e = end->outcome == LAW_STICK ? &arrived : end;
+    refuse(end->status, made);
+    if (end->status != LAW_OK)
         return;
     if (b->wall)
         sphere_after(b, a, e, made);
@@ -124,12 +135,19 @@ static void both_after(const bodies *b, const arrival *a, const ending *e, law_p
         if (!(b->wall && k))
             sum += largest(vector_of(made->spins[k]));
     }
-    if (!(fabs(sum) < INFINITY)) {
+    double before[2][2][3], grown = 1.0 + 1e-3; /* far beyond the error of any tolerance */
+    for (int k = 0; k < 2; k++) {
+        put_vector(before[0][k], a->velocity[k]);
+        put_vector(before[1][k], a->spin[k]);
+    }
+    grown *= energy_of(b, (const double (*)[3])before[0], (const double (*)[3])before[1]);
+    if (!(fabs(sum) < INFINITY
+            && energy_of(b, (const double (*)[3])made->velocities, (const double (*)[3])made->spins) <= grown)) {
         refuse(LAW_UNDECIDED_NOT_FINITE, made);
         return;
     }
     made->outcome = e->outcome;
-    made->certified = e->certified;
+    made->certified = end->certified;
     made->restitution = e->outcome == LAW_STICK ? 0.0 : e->opening/a->speed;
     made->slip_restitution = e->outcome == LAW_STICK ? NAN : e->slip;
     made->time = e->time;

@@ -8,8 +8,6 @@
 
 struct interrupted; /* limit.h; a collision in space is not interrupted */
 
-enum { MOST_STEPS_TAKEN = SPACE ? 300000 : 1000000 }; /* of a collision, or of an interrupted one in a call */
-
 /* Integrates `count` collisions, from columns of quantities in SI to answers in the kernel's units.
  *
  * `contact`: of a single collision that may be interrupted, where it is; else null. */

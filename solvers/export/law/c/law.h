@@ -1,7 +1,7 @@
 /* What a host calls: a block for each kernel is filled, and run when it is full. */
 #pragma once
 
-/* Planar collisions of those that are marked as LAW_OK. Of a stick, numbers are those where its integration stopped. */
+/* Planar collisions of those that are marked as LAW_OK. Of a stick no number is used. */
 static void collide_planar(
     const law_material *material, const law_impact *impacts, long count, double rtol, law_collision *found)
 {

@@ -1,13 +1,11 @@
 /* Pairs at initial contact: what is refused, the relative motion, and whether all of it lies in one plane. */
 #pragma once
 
+#include "automaton.h"
 #include "vector3.h"
 
-#include <float.h>
-
 enum { PAIRS = 64 }; /* of a batch, that are on the stack together */
-static const double ROUNDING = 16.0*DBL_EPSILON; /* of a component over the largest of its kind */
-static const double FURTHEST = 1e100;            /* products and quotients of groups stay within a double's range */
+static const double FURTHEST = 1e100; /* products and quotients of groups stay within a double's range */
 
 /* Two spheres, or a sphere and a wall, whose index is 1. */
 typedef struct {
@@ -82,7 +80,7 @@ static int arrives(const bodies *b, const law_pair *given, arrival *a)
     if (!(stokes >= 1.0/FURTHEST && stokes <= FURTHEST && spinning <= FURTHEST*a->speed))
         return LAW_OUT_OF_RANGE;
     a->sliding = plus(relative, a->speed, a->normal);
-    if (!(length(a->sliding) > ROUNDING*fastest)) /* a head-on collision is one in every direction */
+    if (!(length(a->sliding) > TURNLESS*fastest)) /* a head-on collision is one in every direction */
         a->sliding = times(0.0, a->normal);
     if (!(length(a->sliding) <= FURTHEST*a->speed))
         return LAW_OUT_OF_RANGE;
@@ -106,7 +104,7 @@ static plane plane_of(const bodies *b, const arrival *a)
     for (int k = 0; k < 2; k++)
         size[1 + k] = b->radius[k]*length(a->spin[k]);
     most = larger(size[0], larger(size[1], size[2]));
-    if (!(size[0] > ROUNDING*most))
+    if (!(size[0] > TURNLESS*most))
         chosen = a->spin[size[2] > size[1]];
     chosen = across(chosen, a->normal);
     given = length(chosen);
@@ -122,6 +120,6 @@ static plane plane_of(const bodies *b, const arrival *a)
         made.spin[k] = dot(a->spin[k], made.axis);
         most = larger(most, b->radius[k]*length(plus(a->spin[k], -made.spin[k], made.axis)));
     }
-    made.is_plane = most <= ROUNDING*given;
+    made.is_plane = most <= TURNLESS*given;
     return made;
 }

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from wetdoublet.solvers import ComputationError, Scene, collide
+from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.certificates import NoCertificate
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
@@ -28,10 +28,10 @@ def test_chatter_rests(entries: dict[str, object], criterion: str, monkeypatch: 
     n = nondimensionalise(scene, scene.speed_of(0.05), math.radians(40))
     locator = locate.EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9)
     locator.proof, locator.watch = NoCertificate(), replace(locator.watch, certificate=None)
-    with pytest.raises(ComputationError, match="no event within .* in phase resting contact"):
-        locator.run()
+    locator.run()  # until nothing changes any more
     found = locator.path.kinds
     assert found[-1] == "rests"
+    assert not locator.path.certified
     assert set(found[:-1]) - {"turned"} == {criterion, "fell back"}
     assert found.count("rests") == 1
     # a series of rebounds, each slower by at least e_dry = 0.99, from some 1e-1 v0 to 1e-9: at most ln(1e8)/0.01

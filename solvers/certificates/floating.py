@@ -1,0 +1,50 @@
+"""Floating: a doublet in a well of the potential beyond the edge of the tangential force.
+
+There the orbital momentum is constant, so the gap moves in a fixed potential, whose slope is the inward force; film and
+rebounds only take energy. If the energy is below the potential at the edge and at some larger gap, the doublet stays
+between the two for ever. At a maximum of the gap the second condition holds.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..model.model import Model
+from .quadrature import panels
+
+_PANELS, _GAPS = 8, 49
+
+
+def floats(model: Model, p: np.ndarray, y: np.ndarray, margin: float) -> bool:
+    """True if a doublet that does not rest stays beyond the edge of the tangential force, before rupture.
+
+    Arguments:
+        margin: relative error of the energies.
+    """
+    if not model.oblique or model.wall or model.strings or model.friction:
+        return False  # nothing turns, or strings or impulses change the orbital momentum
+    groups = dict(zip(model.groups, p, strict=True))
+    more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
+    edge = float(model.laws.shear.edge(groups["aspect"], *more))
+    gap, end, kinetic = float(y[0]), groups.get("rupture_gap", 1.0), float(y[1]) ** 2 / 2
+    if not edge < gap < end:
+        return False
+    inside = works(model, p, y, edge, gap)
+    if not kinetic + inside.sum() < -margin * (kinetic + np.abs(inside).sum()):
+        return False
+    larger = gap + (end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
+    outside = panels(lambda gaps: inward(model, p, gaps, y), larger)
+    return bool(np.any(kinetic - np.cumsum(outside) < -margin * (kinetic + np.cumsum(np.abs(outside)))))
+
+
+def inward(model: Model, p: np.ndarray, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Inward force at these gaps, with the momenta of a state."""
+    states = np.repeat(y[: len(model.state), None], gaps.size, axis=1)
+    states[0] = gaps
+    force: np.ndarray = np.asarray(model.function("inward_force")(states, p).full())[0]
+    return force
+
+
+def works(model: Model, p: np.ndarray, y: np.ndarray, start: float, end: float) -> np.ndarray:
+    """Work against the inward force over each panel from gap `start` to `end`."""
+    return panels(lambda gaps: inward(model, p, gaps, y), np.linspace(start, end, _PANELS + 1))
