@@ -104,7 +104,8 @@ def _apart(mean: np.ndarray) -> np.ndarray:
 def to_csv(data: xarray.Dataset) -> str:
     """The table of averages: a row for each pair; derivatives in columns `d(QUANTITY)/d(ENTRY)`, SI.
 
-    The column `relative_speeds` says which, as text. Numbers round-trip; a field is empty where a result is not defined.
+    The column `relative_speeds` names the speed, as text. Numbers round-trip; a field is empty where a result is not
+    defined.
     """
     dims = [str(name) for name in data["stick_probability"].dims]
     shape = data["stick_probability"].shape
