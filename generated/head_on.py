@@ -28,18 +28,8 @@ STATES = ("gap", "normal_velocity")
 GROUPS = ("stokes", "glass_number", "elastic_gap", "rough_gap", "dry_restitution")
 SLOTS = ("film", "glass")
 FUNCTIONS = (
-    "right_hand_side",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "outputs",
-    "effective_potential",
-    "rigid_rotation",
-    "restitution_ceiling",
+    "right_hand_side", "inward_force", "events", "rebound", "start", "energies", "energy_rates",
+    "rebound_loss", "outputs", "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
 DIGEST = "058933c41ce7287e2db675c6f95672ca89e785ad57f0cb7f690177b963310ada"

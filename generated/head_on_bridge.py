@@ -27,38 +27,20 @@ from collections.abc import Mapping
 from typing import Any
 
 from casadi import fmax, sqrt
+from .head_on import energies, outputs, rebound, rebound_loss, restitution_ceiling, rigid_rotation, start
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "capillary",
-    "volume",
-    "contact_angle",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "rupture_gap",
-    "dry_restitution",
+    "stokes", "aspect", "capillary", "volume", "contact_angle", "glass_number", "elastic_gap", "rough_gap",
+    "rupture_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "bridge")
 FUNCTIONS = (
-    "right_hand_side",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "outputs",
-    "approach_step",
-    "approach_force",
-    "effective_potential",
-    "rigid_rotation",
+    "right_hand_side", "inward_force", "events", "rebound", "start", "energies", "energy_rates",
+    "rebound_loss", "outputs", "approach_step", "approach_force", "effective_potential", "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
@@ -126,42 +108,6 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u; the other states are continuous.
-
-    Total operations: 2
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "gap": gap,
-        "normal_velocity": -dry_restitution*normal_velocity,
-    }
-
-
-def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at initial contact.
-
-    Total operations: 1
-    """
-    return {
-        "gap": 1,
-        "normal_velocity": -1,
-    }
-
-
-def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energies of the state over m v0^2.
-
-    Total operations: 2
-    """
-    normal_velocity = state["normal_velocity"]
-    return {
-        "kinetic": normal_velocity**2/2,
-    }
-
-
 def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
     """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
 
@@ -181,29 +127,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     return {
         "normal_lubrication": film_force*normal_velocity,
         "capillary": bridge_force*normal_velocity,
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
-    }
-
-
-def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over their scale.
-
-    Total operations: 0
-    """
-    normal_velocity = state["normal_velocity"]
-    return {
-        "restitution": normal_velocity,
     }
 
 
@@ -267,27 +190,4 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": 0,
         "slope": bridge_force,
-    }
-
-
-def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """The state with this least energy: no normal velocity, rigid rotation.
-
-    Total operations: 0
-    """
-    gap = state["gap"]
-    return {
-        "gap": gap,
-        "normal_velocity": 0,
-    }
-
-
-def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Upper bound of e_n^2 for separation at this gap, from the initial energy and angular momentum, without the
-    work of attractions: 2 (W_c(x_f) - W_c(x0))/(m v0^2) is still to be subtracted.
-
-    Total operations: 0
-    """
-    return {
-        "squared": 1,
     }

@@ -27,38 +27,21 @@ from collections.abc import Mapping
 from typing import Any
 
 from casadi import fmax, sqrt
+from .head_on import energies, outputs, rebound, rebound_loss, restitution_ceiling, rigid_rotation, start
+from .head_on_bridge import approach_force, effective_potential, inward_force
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "capillary",
-    "volume",
-    "contact_angle",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "rupture_gap",
-    "dry_restitution",
+    "stokes", "aspect", "capillary", "volume", "contact_angle", "glass_number", "elastic_gap", "rough_gap",
+    "rupture_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "bridge")
 FUNCTIONS = (
-    "right_hand_side",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "outputs",
-    "approach_step",
-    "approach_force",
-    "effective_potential",
-    "rigid_rotation",
+    "right_hand_side", "inward_force", "events", "rebound", "start", "energies", "energy_rates",
+    "rebound_loss", "outputs", "approach_step", "approach_force", "effective_potential", "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
@@ -87,23 +70,6 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     }
 
 
-def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Sum of the normal forces except the film's, over m v0^2/x0: positive inward.
-
-    Total operations: 5
-    """
-    gap = state["gap"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    return {
-        "inward_force": bridge_force,
-    }
-
-
 def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Event functions, each positive before its event: rebound criteria while closing, `turning` the normal
     velocity (negative while closing), `release` in resting contact.
@@ -122,42 +88,6 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "rough": gap - rough_gap,
         "turning": normal_velocity,
         "rupture": rupture_gap - gap,
-    }
-
-
-def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u; the other states are continuous.
-
-    Total operations: 2
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "gap": gap,
-        "normal_velocity": -dry_restitution*normal_velocity,
-    }
-
-
-def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at initial contact.
-
-    Total operations: 1
-    """
-    return {
-        "gap": 1,
-        "normal_velocity": -1,
-    }
-
-
-def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energies of the state over m v0^2.
-
-    Total operations: 2
-    """
-    normal_velocity = state["normal_velocity"]
-    return {
-        "kinetic": normal_velocity**2/2,
     }
 
 
@@ -180,29 +110,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     return {
         "normal_lubrication": film_force*normal_velocity,
         "capillary": bridge_force*normal_velocity,
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
-    }
-
-
-def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over their scale.
-
-    Total operations: 0
-    """
-    normal_velocity = state["normal_velocity"]
-    return {
-        "restitution": normal_velocity,
     }
 
 
@@ -234,62 +141,4 @@ def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "deeper_gap": deeper,
         "slowed": gain + fmax(0, left),
         "fastest": gain - normal_velocity,
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 7
-    """
-    gap = state["gap"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    return {
-        "outward": fmax(0, -laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
-    }
-
-
-def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of
-    the least energy along the gap, capillary work included.
-
-    Total operations: 5
-    """
-    gap = state["gap"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    return {
-        "energy": 0,
-        "slope": bridge_force,
-    }
-
-
-def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """The state with this least energy: no normal velocity, rigid rotation.
-
-    Total operations: 0
-    """
-    gap = state["gap"]
-    return {
-        "gap": gap,
-        "normal_velocity": 0,
-    }
-
-
-def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Upper bound of e_n^2 for separation at this gap, from the initial energy and angular momentum, without the
-    work of attractions: 2 (W_c(x_f) - W_c(x0))/(m v0^2) is still to be subtracted.
-
-    Total operations: 0
-    """
-    return {
-        "squared": 1,
     }

@@ -28,37 +28,22 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from .head_on import outputs, rebound, rebound_loss, rigid_rotation, start
+from .head_on_bridge import energy_rates, events
+from .head_on_strings import energies
+
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "capillary",
-    "volume",
-    "contact_angle",
-    "weight",
-    "string_ratio",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "rupture_gap",
-    "dry_restitution",
+    "stokes", "aspect", "capillary", "volume", "contact_angle", "weight", "string_ratio", "glass_number",
+    "elastic_gap", "rough_gap", "rupture_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "bridge", "strings")
 FUNCTIONS = (
-    "right_hand_side",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "outputs",
-    "effective_potential",
-    "rigid_rotation",
+    "right_hand_side", "inward_force", "events", "rebound", "start", "energies", "energy_rates",
+    "rebound_loss", "outputs", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
 DIGEST = "8217d49a2987033ea8c6b205dd70e1d5aee5d203720eb4ea80465efe075486b7"
@@ -111,115 +96,6 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: rebound criteria while closing, `turning` the normal
-    velocity (negative while closing), `release` in resting contact.
-
-    Total operations: 7
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    glass_number = groups["glass_number"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    rupture_gap = groups["rupture_gap"]
-    return {
-        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
-        "elastic": gap - elastic_gap,
-        "rough": gap - rough_gap,
-        "turning": normal_velocity,
-        "rupture": rupture_gap - gap,
-        "film_edge": 1 - gap,
-    }
-
-
-def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u; the other states are continuous.
-
-    Total operations: 2
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "gap": gap,
-        "normal_velocity": -dry_restitution*normal_velocity,
-    }
-
-
-def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at initial contact.
-
-    Total operations: 1
-    """
-    return {
-        "gap": 1,
-        "normal_velocity": -1,
-    }
-
-
-def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energies of the state over m v0^2.
-
-    Total operations: 10
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    aspect = groups["aspect"]
-    weight = groups["weight"]
-    string_ratio = groups["string_ratio"]
-    offset_squared = aspect**2*gap**2/4
-    return {
-        "kinetic": normal_velocity**2/2,
-        "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
-    }
-
-
-def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
-
-    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
-
-    Total operations: 11
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
-    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    return {
-        "normal_lubrication": film_force*normal_velocity,
-        "capillary": bridge_force*normal_velocity,
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
-    }
-
-
-def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over their scale.
-
-    Total operations: 0
-    """
-    normal_velocity = state["normal_velocity"]
-    return {
-        "restitution": normal_velocity,
-    }
-
-
 def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of
     the least energy along the gap, capillary work included.
@@ -240,16 +116,4 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
         "slope": bridge_force + string_pull,
-    }
-
-
-def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """The state with this least energy: no normal velocity, rigid rotation.
-
-    Total operations: 0
-    """
-    gap = state["gap"]
-    return {
-        "gap": gap,
-        "normal_velocity": 0,
     }

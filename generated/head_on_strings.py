@@ -24,33 +24,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from .head_on import energy_rates, events, outputs, rebound, rebound_loss, rigid_rotation, start
+
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "weight",
-    "string_ratio",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
+    "stokes", "aspect", "weight", "string_ratio", "glass_number", "elastic_gap", "rough_gap",
     "dry_restitution",
 )
 SLOTS = ("film", "glass", "strings")
 FUNCTIONS = (
-    "right_hand_side",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "outputs",
-    "effective_potential",
-    "rigid_rotation",
+    "right_hand_side", "inward_force", "events", "rebound", "start", "energies", "energy_rates",
+    "rebound_loss", "outputs", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
 DIGEST = "41a716c9e3d0fcdcac83698db3c68146d3db2f42a582257c8ccb7ae427f9f538"
@@ -94,51 +81,6 @@ def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: rebound criteria while closing, `turning` the normal
-    velocity (negative while closing), `release` in resting contact.
-
-    Total operations: 6
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    glass_number = groups["glass_number"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    return {
-        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
-        "elastic": gap - elastic_gap,
-        "rough": gap - rough_gap,
-        "turning": normal_velocity,
-        "rupture": 1 - gap,
-    }
-
-
-def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u; the other states are continuous.
-
-    Total operations: 2
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "gap": gap,
-        "normal_velocity": -dry_restitution*normal_velocity,
-    }
-
-
-def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at initial contact.
-
-    Total operations: 1
-    """
-    return {
-        "gap": 1,
-        "normal_velocity": -1,
-    }
-
-
 def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Energies of the state over m v0^2.
 
@@ -153,45 +95,6 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "kinetic": normal_velocity**2/2,
         "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
-    }
-
-
-def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
-
-    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
-
-    Total operations: 5
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
-    return {
-        "normal_lubrication": film_force*normal_velocity,
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
-    }
-
-
-def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over their scale.
-
-    Total operations: 0
-    """
-    normal_velocity = state["normal_velocity"]
-    return {
-        "restitution": normal_velocity,
     }
 
 
@@ -210,16 +113,4 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
         "slope": string_pull,
-    }
-
-
-def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """The state with this least energy: no normal velocity, rigid rotation.
-
-    Total operations: 0
-    """
-    gap = state["gap"]
-    return {
-        "gap": gap,
-        "normal_velocity": 0,
     }

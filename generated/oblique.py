@@ -28,41 +28,21 @@ from collections.abc import Mapping
 from typing import Any
 
 from casadi import fabs, fmax, fmin
+from .head_on import rebound_loss
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity", "orbital_momentum", "spin")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "obliquity",
-    "initial_turning",
-    "initial_spin",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "dry_restitution",
+    "stokes", "aspect", "obliquity", "initial_turning", "initial_spin", "glass_number", "elastic_gap",
+    "rough_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "shear", "arm")
 FUNCTIONS = (
-    "right_hand_side",
-    "resting_rates",
-    "turning_rate",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "angular_momentum",
-    "outputs",
-    "surface_slip",
-    "spin_down_margins",
-    "effective_potential",
-    "rigid_rotation",
-    "restitution_ceiling",
+    "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
+    "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
+    "spin_down_margins", "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
 DIGEST = "250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e"
@@ -258,18 +238,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     return {
         "normal_lubrication": film_force*normal_velocity,
         "tangential_lubrication": obliquity**2*shear_force*(distance*orbital_rate - 2*lever*spin)/16,
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 

@@ -32,50 +32,29 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fabs, fmax, fmin, sqrt
+from casadi import fmax
+from .head_on import rebound_loss
+from .head_on_bridge_attraction import approach_step
+from .oblique import (
+    angular_momentum, energies, outputs, rebound, resting_rates, restitution_ceiling, rigid_rotation, start,
+    surface_slip, turning_rate,
+)
+from .oblique_bridge import orbital_margins
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity", "orbital_momentum", "spin")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "obliquity",
-    "initial_turning",
-    "initial_spin",
-    "capillary",
-    "volume",
-    "contact_angle",
-    "adhesion",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "rupture_gap",
-    "dry_restitution",
+    "stokes", "aspect", "obliquity", "initial_turning", "initial_spin", "capillary", "volume",
+    "contact_angle", "adhesion", "glass_number", "elastic_gap", "rough_gap", "rupture_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "shear", "arm", "bridge", "attraction")
 FUNCTIONS = (
-    "right_hand_side",
-    "resting_rates",
-    "turning_rate",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "angular_momentum",
-    "outputs",
-    "surface_slip",
-    "attraction_margins",
-    "approach_step",
-    "approach_force",
-    "orbital_margins",
-    "effective_potential",
-    "rigid_rotation",
-    "restitution_ceiling",
+    "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
+    "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
+    "attraction_margins", "approach_step", "approach_force", "orbital_margins", "effective_potential",
+    "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
 DIGEST = "d88fd772846763ab2705b1eff3429d08b4cd8dd723b473cc1e5a4f1b3af3da3e"
@@ -113,47 +92,6 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
         "normal_velocity": centrifugal_force - attraction_force - bridge_force - film_force,
         "orbital_momentum": -distance*shear_force,
         "spin": 5*lever*shear_force/16,
-    }
-
-
-def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on.
-
-    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
-
-    Total operations: 18
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    slip = orbital_rate - spin
-    shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
-    lever = laws.arm.lever(distance)
-    return {
-        "gap": 0,
-        "normal_velocity": 0,
-        "orbital_momentum": -distance*shear_force,
-        "spin": 5*lever*shear_force/16,
-    }
-
-
-def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Angular velocity of the line of centres, rad per x0/v0 (without strings, the angle is no state).
-
-    Total operations: 7
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    return {
-        "rotation": aspect*obliquity*orbital_rate/4,
     }
 
 
@@ -218,58 +156,6 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u; the other states are continuous.
-
-    Total operations: 2
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "gap": gap,
-        "normal_velocity": -dry_restitution*normal_velocity,
-        "orbital_momentum": orbital_momentum,
-        "spin": spin,
-    }
-
-
-def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at initial contact.
-
-    Total operations: 4
-    """
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    return {
-        "gap": 1,
-        "normal_velocity": -1,
-        "orbital_momentum": initial_turning*(aspect + 4)**2,
-        "spin": initial_spin,
-    }
-
-
-def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energies of the state over m v0^2.
-
-    Total operations: 18
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    return {
-        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
-    }
-
-
 def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
     """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
 
@@ -301,72 +187,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
         "capillary": bridge_force*normal_velocity,
         "attraction": attraction_force*normal_velocity,
         "tangential_lubrication": obliquity**2*shear_force*(distance*orbital_rate - 2*lever*spin)/16,
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
-    }
-
-
-def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """1 + the change of the angular momentum over its size at initial contact.
-
-    Total operations: 19
-    """
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    momentum = orbital_momentum + 6.4*spin
-    return {
-        "angular_momentum": 1 + (momentum - 6.4*initial_spin - initial_turning*(aspect + 4)**2)/(initial_turning*(aspect + 4)**2 + 6.4*fabs(initial_spin)),
-    }
-
-
-def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over their scale.
-
-    Total operations: 8
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    return {
-        "restitution": normal_velocity,
-        "tangential_restitution": distance*orbital_rate/(initial_turning*(aspect + 4)),
-        "final_rotation_rate": orbital_rate,
-        "final_spin": spin,
-    }
-
-
-def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
-
-    Total operations: 9
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    lever = laws.arm.lever(distance)
-    return {
-        "surface_slip": distance*orbital_rate - 2*lever*spin,
     }
 
 
@@ -409,37 +229,6 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
     }
 
 
-def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
-    velocity): the part's end, the largest speed there and within it.
-
-    Total operations: 38
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    adhesion = groups["adhesion"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
-    deeper = gap*part_ratio
-    largest_force = (
-        fmax(0, adhesion*laws.attraction.force(deeper)/stokes + laws.bridge.force(aspect*deeper/2, volume, contact_angle)/(capillary*stokes))
-    )
-    path = gap - deeper
-    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
-    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
-    return {
-        "deeper_gap": deeper,
-        "slowed": gain + fmax(0, left),
-        "fastest": gain - normal_velocity,
-    }
-
-
 def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
 
@@ -461,30 +250,6 @@ def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     orbital_rate = orbital_momentum/distance**2
     return {
         "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - adhesion*laws.attraction.force(gap)/stokes - laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
-    }
-
-
-def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the slip
-    energy for either lever arm; energies over m v0^2.
-
-    Total operations: 103
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    slip = orbital_rate - spin
-    rotation_energy_unit = obliquity**2/16
-    rigid_share = sqrt(spin)/(sqrt(orbital_momentum) + 1.6*sqrt(spin))
-    return {
-        "slip": slip,
-        "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
-        "midgap": rotation_energy_unit*(0.15625 + 1/distance**2)*(fmax(fmin(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)), fmin(orbital_momentum, fmax(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)))) - distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4))**2/2,
-        "surface": rotation_energy_unit*(orbital_momentum**2/(2*distance**2) - (sqrt(orbital_momentum) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }
 
 
@@ -512,42 +277,4 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": momentum**2*obliquity**2/(32*inertia_ratio),
         "slope": attraction_force - aspect*distance*momentum**2*obliquity**2/(16*inertia_ratio**2) + bridge_force,
-    }
-
-
-def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """The state with this least energy: no normal velocity, rigid rotation.
-
-    Total operations: 12
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    distance = aspect*gap + 4
-    momentum = orbital_momentum + 6.4*spin
-    inertia_ratio = distance**2 + 6.4
-    return {
-        "gap": gap,
-        "normal_velocity": 0,
-        "orbital_momentum": distance**2*momentum/inertia_ratio,
-        "spin": momentum/inertia_ratio,
-    }
-
-
-def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Upper bound of e_n^2 for separation at this gap, from the initial energy and angular momentum, without the
-    work of attractions: 2 (W_c(x_f) - W_c(x0))/(m v0^2) is still to be subtracted.
-
-    Total operations: 31
-    """
-    gap = state["gap"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    distance = aspect*gap + 4
-    inertia_ratio = distance**2 + 6.4
-    return {
-        "squared": 0.4*initial_spin**2*obliquity**2 + initial_turning**2*obliquity**2*(aspect + 4)**2/16 + 1 - 0.0025*obliquity**2*(32*initial_spin + 5*initial_turning*(aspect + 4)**2)**2/inertia_ratio,
     }

@@ -30,47 +30,26 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, fmin, sqrt
+from casadi import fmax, fmin
+from .head_on import rebound_loss
+from .head_on_bridge import approach_step, energy_rates
+from .oblique import restitution_ceiling, turning_rate
+from .oblique_bridge import events, inward_force
+from .oblique_reduced import energies, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity", "orbital_momentum")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "obliquity",
-    "initial_turning",
-    "initial_spin",
-    "capillary",
-    "volume",
-    "contact_angle",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "rupture_gap",
-    "dry_restitution",
+    "stokes", "aspect", "obliquity", "initial_turning", "initial_spin", "capillary", "volume",
+    "contact_angle", "glass_number", "elastic_gap", "rough_gap", "rupture_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "shear", "bridge")
 FUNCTIONS = (
-    "right_hand_side",
-    "resting_rates",
-    "turning_rate",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "outputs",
-    "surface_slip",
-    "attraction_margins",
-    "approach_step",
-    "approach_force",
-    "orbital_margins",
-    "effective_potential",
-    "rigid_rotation",
+    "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
+    "energies", "energy_rates", "rebound_loss", "outputs", "surface_slip", "attraction_margins",
+    "approach_step", "approach_force", "orbital_margins", "effective_potential", "rigid_rotation",
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
@@ -111,233 +90,6 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
     }
 
 
-def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on.
-
-    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
-
-    Total operations: 25
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbital_momentum/32
-    slip = orbital_rate - spin
-    shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
-    return {
-        "gap": 0,
-        "normal_velocity": 0,
-        "orbital_momentum": -distance*shear_force,
-    }
-
-
-def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Angular velocity of the line of centres, rad per x0/v0 (without strings, the angle is no state).
-
-    Total operations: 7
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    return {
-        "rotation": aspect*obliquity*orbital_rate/4,
-    }
-
-
-def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Sum of the normal forces except the film's, over m v0^2/x0: positive inward.
-
-    Total operations: 16
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
-    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    return {
-        "inward_force": bridge_force - centrifugal_force,
-    }
-
-
-def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: rebound criteria while closing, `turning` the normal
-    velocity (negative while closing), `release` in resting contact.
-
-    Total operations: 25
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    glass_number = groups["glass_number"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    rupture_gap = groups["rupture_gap"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
-    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    return {
-        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
-        "elastic": gap - elastic_gap,
-        "rough": gap - rough_gap,
-        "turning": normal_velocity,
-        "rupture": rupture_gap - gap,
-        "film_edge": 1 - gap,
-        "tangential_edge": laws.shear.edge(aspect) - gap,
-        "release": bridge_force - centrifugal_force,
-    }
-
-
-def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u; the other states are continuous.
-
-    Total operations: 2
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "gap": gap,
-        "normal_velocity": -dry_restitution*normal_velocity,
-        "orbital_momentum": orbital_momentum,
-    }
-
-
-def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at initial contact.
-
-    Total operations: 4
-    """
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    return {
-        "gap": 1,
-        "normal_velocity": -1,
-        "orbital_momentum": initial_turning*(aspect + 4)**2,
-    }
-
-
-def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energies of the state over m v0^2.
-
-    Total operations: 29
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbital_momentum/32
-    return {
-        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
-    }
-
-
-def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
-
-    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
-
-    Total operations: 11
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
-    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    return {
-        "normal_lubrication": film_force*normal_velocity,
-        "capillary": bridge_force*normal_velocity,
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
-    }
-
-
-def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over their scale.
-
-    Total operations: 19
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbital_momentum/32
-    return {
-        "restitution": normal_velocity,
-        "tangential_restitution": distance*orbital_rate/(initial_turning*(aspect + 4)),
-        "final_rotation_rate": orbital_rate,
-        "final_spin": spin,
-    }
-
-
-def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
-
-    Total operations: 17
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbital_momentum/32
-    slip = orbital_rate - spin
-    return {
-        "surface_slip": distance*slip,
-    }
-
-
 def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
     escape < 0 and rebound < 0 exclude separation.
@@ -371,34 +123,6 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
         "hold": hold,
         "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*least_attraction - hold,
-    }
-
-
-def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
-    velocity): the part's end, the largest speed there and within it.
-
-    Total operations: 34
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
-    deeper = gap*part_ratio
-    largest_force = fmax(0, laws.bridge.force(aspect*deeper/2, volume, contact_angle)/(capillary*stokes))
-    path = gap - deeper
-    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
-    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
-    return {
-        "deeper_gap": deeper,
-        "slowed": gain + fmax(0, left),
-        "fastest": gain - normal_velocity,
     }
 
 
@@ -475,41 +199,4 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": momentum**2*obliquity**2/(32*inertia_ratio),
         "slope": bridge_force - aspect*distance*momentum**2*obliquity**2/(16*inertia_ratio**2),
-    }
-
-
-def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """The state with this least energy: no normal velocity, rigid rotation.
-
-    Total operations: 14
-    """
-    gap = state["gap"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    distance = aspect*gap + 4
-    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
-    inertia_ratio = distance**2 + 6.4
-    return {
-        "gap": gap,
-        "normal_velocity": 0,
-        "orbital_momentum": distance**2*momentum/inertia_ratio,
-    }
-
-
-def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Upper bound of e_n^2 for separation at this gap, from the initial energy and angular momentum, without the
-    work of attractions: 2 (W_c(x_f) - W_c(x0))/(m v0^2) is still to be subtracted.
-
-    Total operations: 31
-    """
-    gap = state["gap"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    distance = aspect*gap + 4
-    inertia_ratio = distance**2 + 6.4
-    return {
-        "squared": 0.4*initial_spin**2*obliquity**2 + initial_turning**2*obliquity**2*(aspect + 4)**2/16 + 1 - 0.0025*obliquity**2*(32*initial_spin + 5*initial_turning*(aspect + 4)**2)**2/inertia_ratio,
     }

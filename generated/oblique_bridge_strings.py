@@ -34,46 +34,26 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fabs, fmax, fmin, pi, sin, sqrt
+from casadi import fmax, pi, sin
+from .head_on import rebound_loss
+from .oblique import angular_momentum, outputs, surface_slip, turning_rate
+from .oblique_bridge import energy_rates, orbital_margins
+from .oblique_strings import energies, rebound, resting_rates, start
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity", "orbital_momentum", "spin", "rotation")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "obliquity",
-    "initial_turning",
-    "initial_spin",
-    "capillary",
-    "volume",
-    "contact_angle",
-    "weight",
-    "string_ratio",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "rupture_gap",
+    "stokes", "aspect", "obliquity", "initial_turning", "initial_spin", "capillary", "volume",
+    "contact_angle", "weight", "string_ratio", "glass_number", "elastic_gap", "rough_gap", "rupture_gap",
     "dry_restitution",
 )
 SLOTS = ("film", "glass", "shear", "arm", "bridge", "strings")
 FUNCTIONS = (
-    "right_hand_side",
-    "resting_rates",
-    "turning_rate",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "angular_momentum",
-    "outputs",
-    "surface_slip",
-    "attraction_margins",
-    "orbital_margins",
+    "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
+    "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
+    "attraction_margins", "orbital_margins",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
 DIGEST = "41d6f17f063acb7097ac0d5bfd50e561c0205c4d6484b471559b5ee9edb4740d"
@@ -117,54 +97,6 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
         "normal_velocity": centrifugal_force - bridge_force - film_force - string_pull,
         "orbital_momentum": -distance*(shear_force + string_sideways),
         "spin": 5*lever*shear_force/16,
-        "rotation": aspect*obliquity*orbital_rate/4,
-    }
-
-
-def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on.
-
-    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
-
-    Total operations: 38
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    rotation = state["rotation"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    weight = groups["weight"]
-    string_ratio = groups["string_ratio"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    slip = orbital_rate - spin
-    shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
-    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
-    string_sideways = 16*weight*laws.strings.stiffness(string_ratio, offset_squared)*sin(rotation)/obliquity
-    lever = laws.arm.lever(distance)
-    return {
-        "gap": 0,
-        "normal_velocity": 0,
-        "orbital_momentum": -distance*(shear_force + string_sideways),
-        "spin": 5*lever*shear_force/16,
-        "rotation": aspect*obliquity*orbital_rate/4,
-    }
-
-
-def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Angular velocity of the line of centres, rad per x0/v0 (without strings, the angle is no state).
-
-    Total operations: 7
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    return {
         "rotation": aspect*obliquity*orbital_rate/4,
     }
 
@@ -242,163 +174,6 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u; the other states are continuous.
-
-    Total operations: 2
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    rotation = state["rotation"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "gap": gap,
-        "normal_velocity": -dry_restitution*normal_velocity,
-        "orbital_momentum": orbital_momentum,
-        "spin": spin,
-        "rotation": rotation,
-    }
-
-
-def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at initial contact.
-
-    Total operations: 4
-    """
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    return {
-        "gap": 1,
-        "normal_velocity": -1,
-        "orbital_momentum": initial_turning*(aspect + 4)**2,
-        "spin": initial_spin,
-        "rotation": 0,
-    }
-
-
-def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energies of the state over m v0^2.
-
-    Total operations: 32
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    rotation = state["rotation"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    weight = groups["weight"]
-    string_ratio = groups["string_ratio"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    offset_squared = aspect**2*gap**2/4 + 4*distance*sin(rotation/2)**2
-    return {
-        "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
-        "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
-    }
-
-
-def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
-
-    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
-
-    Total operations: 32
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    slip = orbital_rate - spin
-    shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
-    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
-    bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
-    lever = laws.arm.lever(distance)
-    return {
-        "normal_lubrication": film_force*normal_velocity,
-        "capillary": bridge_force*normal_velocity,
-        "tangential_lubrication": obliquity**2*shear_force*(distance*orbital_rate - 2*lever*spin)/16,
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
-    }
-
-
-def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """1 + the change of the angular momentum over its size at initial contact.
-
-    Total operations: 19
-    """
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    momentum = orbital_momentum + 6.4*spin
-    return {
-        "angular_momentum": 1 + (momentum - 6.4*initial_spin - initial_turning*(aspect + 4)**2)/(initial_turning*(aspect + 4)**2 + 6.4*fabs(initial_spin)),
-    }
-
-
-def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over their scale.
-
-    Total operations: 8
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    return {
-        "restitution": normal_velocity,
-        "tangential_restitution": distance*orbital_rate/(initial_turning*(aspect + 4)),
-        "final_rotation_rate": orbital_rate,
-        "final_spin": spin,
-    }
-
-
-def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
-
-    Total operations: 9
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    lever = laws.arm.lever(distance)
-    return {
-        "surface_slip": distance*orbital_rate - 2*lever*spin,
-    }
-
-
 def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
     escape < 0 and rebound < 0 exclude separation.
@@ -441,28 +216,4 @@ def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, An
         "hold": hold,
         "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
         "rebound": dry_restitution**2*(largest_pull + least_attraction) - hold,
-    }
-
-
-def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the slip
-    energy for either lever arm; energies over m v0^2.
-
-    Total operations: 103
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    slip = orbital_rate - spin
-    rotation_energy_unit = obliquity**2/16
-    rigid_share = sqrt(spin)/(sqrt(orbital_momentum) + 1.6*sqrt(spin))
-    return {
-        "slip": slip,
-        "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
-        "midgap": rotation_energy_unit*(0.15625 + 1/distance**2)*(fmax(fmin(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)), fmin(orbital_momentum, fmax(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)))) - distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4))**2/2,
-        "surface": rotation_energy_unit*(orbital_momentum**2/(2*distance**2) - (sqrt(orbital_momentum) + 1.6*sqrt(spin))**4*(distance**2/(2*(distance + 1.6)**4) + 1.28*rigid_share**4 - 16*rigid_share**3/15 + 16/(15*(distance + 1.6)**3) - 1.28/(distance + 1.6)**4)),
     }

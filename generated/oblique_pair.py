@@ -32,43 +32,21 @@ from collections.abc import Mapping
 from typing import Any
 
 from casadi import fabs, fmax, fmin
+from .head_on import rebound_loss
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity", "orbital_momentum", "spin", "partner_spin")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "obliquity",
-    "initial_turning",
-    "initial_spin",
-    "initial_partner_spin",
-    "radius_ratio",
-    "mass_ratio",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "dry_restitution",
+    "stokes", "aspect", "obliquity", "initial_turning", "initial_spin", "initial_partner_spin",
+    "radius_ratio", "mass_ratio", "glass_number", "elastic_gap", "rough_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "shear", "arm")
 FUNCTIONS = (
-    "right_hand_side",
-    "resting_rates",
-    "turning_rate",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "angular_momentum",
-    "outputs",
-    "surface_slip",
-    "spin_down_margins",
-    "effective_potential",
-    "rigid_rotation",
+    "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
+    "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
+    "spin_down_margins", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
 DIGEST = "b8bd93d9db22856269702d38b244efc5cdf170896cbc75cac32eaa65342c753c"
@@ -314,18 +292,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     return {
         "normal_lubrication": film_force*normal_velocity,
         "tangential_lubrication": obliquity**2*(distance**2*orbital_rate*shear_force - distance*(partner_spin*partner_torque + spin*torque))/(centres**2*distance),
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 

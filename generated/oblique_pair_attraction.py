@@ -32,46 +32,27 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fabs, fmax, sqrt
+from casadi import fmax
+from .head_on import rebound_loss
+from .head_on_attraction import approach_step
+from .oblique_pair import (
+    angular_momentum, energies, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip,
+    turning_rate,
+)
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity", "orbital_momentum", "spin", "partner_spin")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "obliquity",
-    "initial_turning",
-    "initial_spin",
-    "initial_partner_spin",
-    "adhesion",
-    "radius_ratio",
-    "mass_ratio",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "dry_restitution",
+    "stokes", "aspect", "obliquity", "initial_turning", "initial_spin", "initial_partner_spin", "adhesion",
+    "radius_ratio", "mass_ratio", "glass_number", "elastic_gap", "rough_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "shear", "arm", "attraction")
 FUNCTIONS = (
-    "right_hand_side",
-    "resting_rates",
-    "turning_rate",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "angular_momentum",
-    "outputs",
-    "surface_slip",
-    "approach_step",
-    "approach_force",
-    "effective_potential",
-    "rigid_rotation",
+    "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
+    "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
+    "approach_step", "approach_force", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
 DIGEST = "b98d29c8788cb1b2a816db423b7b8e58575ad61c5b3dd2e0c6c8b5db4025413a"
@@ -117,62 +98,6 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
         "orbital_momentum": -distance*shear_force,
         "spin": torque/spin_inertia,
         "partner_spin": partner_torque/partner_inertia,
-    }
-
-
-def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on.
-
-    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
-
-    Total operations: 61
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    partner_spin = state["partner_spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    radius_ratio = groups["radius_ratio"]
-    mass_ratio = groups["mass_ratio"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    distance = aspect*gap + centres
-    orbital_rate = orbital_momentum/distance**2
-    radius = (radius_ratio + 1)/radius_ratio
-    partner_radius = radius_ratio + 1
-    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
-    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    slip = orbital_rate - spin
-    partner_slip = orbital_rate - partner_spin
-    drag = aspect*shear*laws.shear.log_factor(gap, aspect)/(3*stokes)
-    lever = laws.arm.lever(4*distance/centres)/2
-    torque = 0.4*drag*lever*radius*(partner_radius*partner_slip + 4*radius*slip)
-    partner_torque = 0.4*drag*lever*partner_radius*(4*partner_radius*partner_slip + radius*slip)
-    shear_force = (partner_torque + torque)/(centres*lever)
-    return {
-        "gap": 0,
-        "normal_velocity": 0,
-        "orbital_momentum": -distance*shear_force,
-        "spin": torque/spin_inertia,
-        "partner_spin": partner_torque/partner_inertia,
-    }
-
-
-def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Angular velocity of the line of centres, rad per x0/v0 (without strings, the angle is no state).
-
-    Total operations: 10
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    radius_ratio = groups["radius_ratio"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    distance = aspect*gap + centres
-    orbital_rate = orbital_momentum/distance**2
-    return {
-        "rotation": aspect*obliquity*orbital_rate/centres,
     }
 
 
@@ -229,70 +154,6 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     }
 
 
-def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u; the other states are continuous.
-
-    Total operations: 2
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    partner_spin = state["partner_spin"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "gap": gap,
-        "normal_velocity": -dry_restitution*normal_velocity,
-        "orbital_momentum": orbital_momentum,
-        "spin": spin,
-        "partner_spin": partner_spin,
-    }
-
-
-def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at initial contact.
-
-    Total operations: 7
-    """
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    initial_partner_spin = groups["initial_partner_spin"]
-    radius_ratio = groups["radius_ratio"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    return {
-        "gap": 1,
-        "normal_velocity": -1,
-        "orbital_momentum": initial_turning*(aspect + centres)**2,
-        "spin": initial_spin,
-        "partner_spin": initial_partner_spin,
-    }
-
-
-def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energies of the state over m v0^2.
-
-    Total operations: 49
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    partner_spin = state["partner_spin"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    radius_ratio = groups["radius_ratio"]
-    mass_ratio = groups["mass_ratio"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    distance = aspect*gap + centres
-    orbital_rate = orbital_momentum/distance**2
-    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
-    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    return {
-        "kinetic": normal_velocity**2/2 + distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2),
-    }
-
-
 def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
     """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
 
@@ -328,113 +189,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
         "normal_lubrication": film_force*normal_velocity,
         "attraction": attraction_force*normal_velocity,
         "tangential_lubrication": obliquity**2*(distance**2*orbital_rate*shear_force - distance*(partner_spin*partner_torque + spin*torque))/(centres**2*distance),
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
-    }
-
-
-def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """1 + the change of the angular momentum over its size at initial contact.
-
-    Total operations: 41
-    """
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    partner_spin = state["partner_spin"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    initial_partner_spin = groups["initial_partner_spin"]
-    radius_ratio = groups["radius_ratio"]
-    mass_ratio = groups["mass_ratio"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
-    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    momentum = orbital_momentum + partner_inertia*partner_spin + spin*spin_inertia
-    return {
-        "angular_momentum": 1 + (momentum - initial_partner_spin*partner_inertia - initial_spin*spin_inertia - initial_turning*(aspect + centres)**2)/(initial_turning*(aspect + centres)**2 + partner_inertia*fabs(initial_partner_spin) + spin_inertia*fabs(initial_spin)),
-    }
-
-
-def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over their scale.
-
-    Total operations: 11
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    partner_spin = state["partner_spin"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    radius_ratio = groups["radius_ratio"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    distance = aspect*gap + centres
-    orbital_rate = orbital_momentum/distance**2
-    return {
-        "restitution": normal_velocity,
-        "tangential_restitution": distance*orbital_rate/(initial_turning*(aspect + centres)),
-        "final_rotation_rate": orbital_rate,
-        "final_spin": spin,
-        "final_spin_partner": partner_spin,
-    }
-
-
-def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
-
-    Total operations: 20
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    partner_spin = state["partner_spin"]
-    aspect = groups["aspect"]
-    radius_ratio = groups["radius_ratio"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    distance = aspect*gap + centres
-    orbital_rate = orbital_momentum/distance**2
-    radius = (radius_ratio + 1)/radius_ratio
-    partner_radius = radius_ratio + 1
-    lever = laws.arm.lever(4*distance/centres)/2
-    return {
-        "surface_slip": distance*orbital_rate - lever*(partner_radius*partner_spin + radius*spin),
-    }
-
-
-def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
-    velocity): the part's end, the largest speed there and within it.
-
-    Total operations: 32
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    adhesion = groups["adhesion"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
-    deeper = gap*part_ratio
-    largest_force = fmax(0, adhesion*laws.attraction.force(deeper)/stokes)
-    path = gap - deeper
-    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
-    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
-    return {
-        "deeper_gap": deeper,
-        "slowed": gain + fmax(0, left),
-        "fastest": gain - normal_velocity,
     }
 
 
@@ -491,31 +245,4 @@ def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, A
     return {
         "energy": momentum**2*obliquity**2/(2*centres**2*inertia_ratio),
         "slope": attraction_force - aspect*distance*momentum**2*obliquity**2/(centres**2*inertia_ratio**2),
-    }
-
-
-def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """The state with this least energy: no normal velocity, rigid rotation.
-
-    Total operations: 32
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    partner_spin = state["partner_spin"]
-    aspect = groups["aspect"]
-    radius_ratio = groups["radius_ratio"]
-    mass_ratio = groups["mass_ratio"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    distance = aspect*gap + centres
-    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
-    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    momentum = orbital_momentum + partner_inertia*partner_spin + spin*spin_inertia
-    inertia_ratio = distance**2 + partner_inertia + spin_inertia
-    return {
-        "gap": gap,
-        "normal_velocity": 0,
-        "orbital_momentum": distance**2*momentum/inertia_ratio,
-        "spin": momentum/inertia_ratio,
-        "partner_spin": momentum/inertia_ratio,
     }

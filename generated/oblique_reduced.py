@@ -27,40 +27,22 @@ from collections.abc import Mapping
 from typing import Any
 
 from casadi import fmax, fmin
+from .head_on import energy_rates, rebound_loss
+from .oblique import events, inward_force, restitution_ceiling, turning_rate
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity", "orbital_momentum")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "obliquity",
-    "initial_turning",
-    "initial_spin",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "dry_restitution",
+    "stokes", "aspect", "obliquity", "initial_turning", "initial_spin", "glass_number", "elastic_gap",
+    "rough_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "shear")
 FUNCTIONS = (
-    "right_hand_side",
-    "resting_rates",
-    "turning_rate",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "outputs",
-    "surface_slip",
-    "spin_down_margins",
-    "effective_potential",
-    "rigid_rotation",
-    "restitution_ceiling",
+    "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
+    "energies", "energy_rates", "rebound_loss", "outputs", "surface_slip", "spin_down_margins",
+    "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
 DIGEST = "0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34"
@@ -122,67 +104,6 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
     }
 
 
-def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Angular velocity of the line of centres, rad per x0/v0 (without strings, the angle is no state).
-
-    Total operations: 7
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    return {
-        "rotation": aspect*obliquity*orbital_rate/4,
-    }
-
-
-def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Sum of the normal forces except the film's, over m v0^2/x0: positive inward.
-
-    Total operations: 11
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
-    return {
-        "inward_force": -centrifugal_force,
-    }
-
-
-def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: rebound criteria while closing, `turning` the normal
-    velocity (negative while closing), `release` in resting contact.
-
-    Total operations: 19
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    glass_number = groups["glass_number"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
-    return {
-        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
-        "elastic": gap - elastic_gap,
-        "rough": gap - rough_gap,
-        "turning": normal_velocity,
-        "rupture": 1 - gap,
-        "tangential_edge": laws.shear.edge(aspect) - gap,
-        "release": -centrifugal_force,
-    }
-
-
 def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """State just after a rebound: u -> -e_dry u; the other states are continuous.
 
@@ -231,34 +152,6 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     spin = 5*momentum/32 - 5*orbital_momentum/32
     return {
         "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
-    }
-
-
-def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
-
-    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
-
-    Total operations: 5
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
-    return {
-        "normal_lubrication": film_force*normal_velocity,
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
     }
 
 
@@ -379,22 +272,4 @@ def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "gap": gap,
         "normal_velocity": 0,
         "orbital_momentum": distance**2*momentum/inertia_ratio,
-    }
-
-
-def restitution_ceiling(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Upper bound of e_n^2 for separation at this gap, from the initial energy and angular momentum, without the
-    work of attractions: 2 (W_c(x_f) - W_c(x0))/(m v0^2) is still to be subtracted.
-
-    Total operations: 31
-    """
-    gap = state["gap"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    distance = aspect*gap + 4
-    inertia_ratio = distance**2 + 6.4
-    return {
-        "squared": 0.4*initial_spin**2*obliquity**2 + initial_turning**2*obliquity**2*(aspect + 4)**2/16 + 1 - 0.0025*obliquity**2*(32*initial_spin + 5*initial_turning*(aspect + 4)**2)**2/inertia_ratio,
     }

@@ -30,42 +30,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import cos, fabs, fmax, fmin, pi, sin, sqrt
+from casadi import cos, fmax, fmin, pi, sin, sqrt
+from .head_on import rebound_loss
+from .oblique import angular_momentum, energy_rates, outputs, surface_slip, turning_rate
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity", "orbital_momentum", "spin", "rotation")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "obliquity",
-    "initial_turning",
-    "initial_spin",
-    "weight",
-    "string_ratio",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "dry_restitution",
+    "stokes", "aspect", "obliquity", "initial_turning", "initial_spin", "weight", "string_ratio",
+    "glass_number", "elastic_gap", "rough_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "shear", "arm", "strings")
 FUNCTIONS = (
-    "right_hand_side",
-    "resting_rates",
-    "turning_rate",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "angular_momentum",
-    "outputs",
-    "surface_slip",
-    "pendulum_margins",
-    "approach_step",
+    "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
+    "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
+    "pendulum_margins", "approach_step",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
 DIGEST = "9b375d9c055b31fe9c7425d4020956ae98781f125cbf3b4ca045e44ae0894ecf"
@@ -137,22 +118,6 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
         "normal_velocity": 0,
         "orbital_momentum": -distance*(shear_force + string_sideways),
         "spin": 5*lever*shear_force/16,
-        "rotation": aspect*obliquity*orbital_rate/4,
-    }
-
-
-def turning_rate(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Angular velocity of the line of centres, rad per x0/v0 (without strings, the angle is no state).
-
-    Total operations: 7
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    return {
         "rotation": aspect*obliquity*orbital_rate/4,
     }
 
@@ -275,98 +240,6 @@ def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "kinetic": distance**2*obliquity**2*orbital_rate**2/32 + normal_velocity**2/2 + 0.2*obliquity**2*spin**2,
         "strings": 4*weight*laws.strings.rise(string_ratio, offset_squared)/aspect,
-    }
-
-
-def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2.
-
-    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
-
-    Total operations: 26
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    slip = orbital_rate - spin
-    shear_force = 4*aspect*shear*slip*laws.shear.log_factor(gap, aspect)/(3*stokes)
-    film_force = film*normal_velocity*laws.film.resistance(gap)/stokes
-    lever = laws.arm.lever(distance)
-    return {
-        "normal_lubrication": film_force*normal_velocity,
-        "tangential_lubrication": obliquity**2*shear_force*(distance*orbital_rate - 2*lever*spin)/16,
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
-    }
-
-
-def angular_momentum(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """1 + the change of the angular momentum over its size at initial contact.
-
-    Total operations: 19
-    """
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    momentum = orbital_momentum + 6.4*spin
-    return {
-        "angular_momentum": 1 + (momentum - 6.4*initial_spin - initial_turning*(aspect + 4)**2)/(initial_turning*(aspect + 4)**2 + 6.4*fabs(initial_spin)),
-    }
-
-
-def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over their scale.
-
-    Total operations: 8
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    initial_turning = groups["initial_turning"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    return {
-        "restitution": normal_velocity,
-        "tangential_restitution": distance*orbital_rate/(initial_turning*(aspect + 4)),
-        "final_rotation_rate": orbital_rate,
-        "final_spin": spin,
-    }
-
-
-def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
-
-    Total operations: 9
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    lever = laws.arm.lever(distance)
-    return {
-        "surface_slip": distance*orbital_rate - 2*lever*spin,
     }
 
 

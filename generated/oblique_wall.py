@@ -27,37 +27,20 @@ from collections.abc import Mapping
 from typing import Any
 
 from casadi import exp, sqrt
+from .head_on import effective_potential, inward_force, rebound_loss
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity", "decay")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "obliquity",
-    "initial_turning",
-    "initial_spin",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "dry_restitution",
+    "stokes", "aspect", "obliquity", "initial_turning", "initial_spin", "glass_number", "elastic_gap",
+    "rough_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "shear")
 FUNCTIONS = (
-    "right_hand_side",
-    "resting_rates",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "outputs",
-    "surface_slip",
-    "effective_potential",
-    "rigid_rotation",
+    "right_hand_side", "resting_rates", "inward_force", "events", "rebound", "start", "energies",
+    "energy_rates", "rebound_loss", "outputs", "surface_slip", "effective_potential", "rigid_rotation",
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
@@ -97,16 +80,6 @@ def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear
         "gap": 0,
         "normal_velocity": 0,
         "decay": aspect*shear*(14 - sqrt(46))*laws.shear.log_factor(gap, aspect)/(15*stokes),
-    }
-
-
-def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Sum of the normal forces except the film's, over m v0^2/x0: positive inward.
-
-    Total operations: 0
-    """
-    return {
-        "inward_force": 0,
     }
 
 
@@ -219,18 +192,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     }
 
 
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
-    }
-
-
 def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Results for a separated doublet: restitutions, and rates over their scale.
 
@@ -278,18 +239,6 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     )
     return {
         "surface_slip": slide - roll,
-    }
-
-
-def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of
-    the least energy along the gap, capillary work included.
-
-    Total operations: 0
-    """
-    return {
-        "energy": 0,
-        "slope": 0,
     }
 
 

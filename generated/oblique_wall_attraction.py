@@ -27,42 +27,26 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import exp, fmax, sqrt
+from casadi import exp, sqrt
+from .head_on import rebound_loss
+from .head_on_attraction import approach_force, approach_step, effective_potential, inward_force
+from .oblique_wall import (
+    energies, escape_energy, events, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip,
+)
 
 
 Values = Mapping[str, Any]
 
 STATES = ("gap", "normal_velocity", "decay")
 GROUPS = (
-    "stokes",
-    "aspect",
-    "obliquity",
-    "initial_turning",
-    "initial_spin",
-    "adhesion",
-    "glass_number",
-    "elastic_gap",
-    "rough_gap",
-    "dry_restitution",
+    "stokes", "aspect", "obliquity", "initial_turning", "initial_spin", "adhesion", "glass_number",
+    "elastic_gap", "rough_gap", "dry_restitution",
 )
 SLOTS = ("film", "glass", "shear", "attraction")
 FUNCTIONS = (
-    "right_hand_side",
-    "resting_rates",
-    "inward_force",
-    "events",
-    "rebound",
-    "start",
-    "energies",
-    "energy_rates",
-    "rebound_loss",
-    "outputs",
-    "surface_slip",
-    "approach_step",
-    "approach_force",
-    "effective_potential",
-    "rigid_rotation",
-    "escape_energy",
+    "right_hand_side", "resting_rates", "inward_force", "events", "rebound", "start", "energies",
+    "energy_rates", "rebound_loss", "outputs", "surface_slip", "approach_step", "approach_force",
+    "effective_potential", "rigid_rotation", "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
 DIGEST = "25f0c9d8ad68fa1a4493010006e1ce63a405853e40e6d19760eacbac041df10a"
@@ -86,112 +70,6 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
         "gap": normal_velocity,
         "normal_velocity": -attraction_force - film_force,
         "decay": aspect*shear*(14 - sqrt(46))*laws.shear.log_factor(gap, aspect)/(15*stokes),
-    }
-
-
-def resting_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
-    """Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on.
-
-    Region: film is 1 inside the film, shear 1 inside the tangential edge, else 0.
-
-    Total operations: 9
-    """
-    gap = state["gap"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    return {
-        "gap": 0,
-        "normal_velocity": 0,
-        "decay": aspect*shear*(14 - sqrt(46))*laws.shear.log_factor(gap, aspect)/(15*stokes),
-    }
-
-
-def inward_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Sum of the normal forces except the film's, over m v0^2/x0: positive inward.
-
-    Total operations: 3
-    """
-    gap = state["gap"]
-    stokes = groups["stokes"]
-    adhesion = groups["adhesion"]
-    attraction_force = adhesion*laws.attraction.force(gap)/stokes
-    return {
-        "inward_force": attraction_force,
-    }
-
-
-def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Event functions, each positive before its event: rebound criteria while closing, `turning` the normal
-    velocity (negative while closing), `release` in resting contact.
-
-    Total operations: 8
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    aspect = groups["aspect"]
-    glass_number = groups["glass_number"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    return {
-        "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
-        "elastic": gap - elastic_gap,
-        "rough": gap - rough_gap,
-        "turning": normal_velocity,
-        "rupture": 1 - gap,
-        "tangential_edge": laws.shear.edge(aspect) - gap,
-    }
-
-
-def rebound(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State just after a rebound: u -> -e_dry u; the other states are continuous.
-
-    Total operations: 2
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    decay = state["decay"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "gap": gap,
-        "normal_velocity": -dry_restitution*normal_velocity,
-        "decay": decay,
-    }
-
-
-def start(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """State at initial contact.
-
-    Total operations: 1
-    """
-    return {
-        "gap": 1,
-        "normal_velocity": -1,
-        "decay": 0,
-    }
-
-
-def energies(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energies of the state over m v0^2.
-
-    Total operations: 77
-    """
-    normal_velocity = state["normal_velocity"]
-    decay = state["decay"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    slow_mode = exp(-decay)
-    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
-    slide = (
-        fast_mode*(initial_turning/2 - sqrt(46)*initial_spin/46 - 3*sqrt(46)*initial_turning/46)
-        + slow_mode*(sqrt(46)*initial_spin/46 + 3*sqrt(46)*initial_turning/46 + initial_turning/2)
-    )
-    roll = (
-        fast_mode*(3*sqrt(46)*initial_spin/46 + initial_spin/2 - 5*sqrt(46)*initial_turning/92)
-        + slow_mode*(initial_spin/2 - 3*sqrt(46)*initial_spin/46 + 5*sqrt(46)*initial_turning/92)
-    )
-    return {
-        "kinetic": normal_velocity**2/2 + obliquity**2*(0.2*roll**2 + slide**2/2),
     }
 
 
@@ -229,146 +107,4 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
         "normal_lubrication": film_force*normal_velocity,
         "attraction": attraction_force*normal_velocity,
         "tangential_lubrication": obliquity**2*(shear_force*slide - roll*torque),
-    }
-
-
-def rebound_loss(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Energy lost in a rebound that starts from this state, over m v0^2.
-
-    Total operations: 5
-    """
-    normal_velocity = state["normal_velocity"]
-    dry_restitution = groups["dry_restitution"]
-    return {
-        "dry_contact": normal_velocity**2*(1 - dry_restitution**2)/2,
-    }
-
-
-def outputs(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Results for a separated doublet: restitutions, and rates over their scale.
-
-    Total operations: 68
-    """
-    normal_velocity = state["normal_velocity"]
-    decay = state["decay"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    slow_mode = exp(-decay)
-    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
-    slide = (
-        fast_mode*(initial_turning/2 - sqrt(46)*initial_spin/46 - 3*sqrt(46)*initial_turning/46)
-        + slow_mode*(sqrt(46)*initial_spin/46 + 3*sqrt(46)*initial_turning/46 + initial_turning/2)
-    )
-    roll = (
-        fast_mode*(3*sqrt(46)*initial_spin/46 + initial_spin/2 - 5*sqrt(46)*initial_turning/92)
-        + slow_mode*(initial_spin/2 - 3*sqrt(46)*initial_spin/46 + 5*sqrt(46)*initial_turning/92)
-    )
-    return {
-        "restitution": normal_velocity,
-        "tangential_restitution": slide/initial_turning,
-        "final_rotation_rate": 0,
-        "final_spin": roll,
-    }
-
-
-def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega.
-
-    Total operations: 68
-    """
-    decay = state["decay"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    slow_mode = exp(-decay)
-    fast_mode = exp(decay*(-121/75 - 14*sqrt(46)/75))
-    slide = (
-        fast_mode*(initial_turning/2 - sqrt(46)*initial_spin/46 - 3*sqrt(46)*initial_turning/46)
-        + slow_mode*(sqrt(46)*initial_spin/46 + 3*sqrt(46)*initial_turning/46 + initial_turning/2)
-    )
-    roll = (
-        fast_mode*(3*sqrt(46)*initial_spin/46 + initial_spin/2 - 5*sqrt(46)*initial_turning/92)
-        + slow_mode*(initial_spin/2 - 3*sqrt(46)*initial_spin/46 + 5*sqrt(46)*initial_turning/92)
-    )
-    return {
-        "surface_slip": slide - roll,
-    }
-
-
-def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
-    velocity): the part's end, the largest speed there and within it.
-
-    Total operations: 32
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    adhesion = groups["adhesion"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
-    deeper = gap*part_ratio
-    largest_force = fmax(0, adhesion*laws.attraction.force(deeper)/stokes)
-    path = gap - deeper
-    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
-    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
-    return {
-        "deeper_gap": deeper,
-        "slowed": gain + fmax(0, left),
-        "fastest": gain - normal_velocity,
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 5
-    """
-    gap = state["gap"]
-    stokes = groups["stokes"]
-    adhesion = groups["adhesion"]
-    return {
-        "outward": fmax(0, -adhesion*laws.attraction.force(gap)/stokes),
-    }
-
-
-def effective_potential(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of
-    the least energy along the gap, capillary work included.
-
-    Total operations: 3
-    """
-    gap = state["gap"]
-    stokes = groups["stokes"]
-    adhesion = groups["adhesion"]
-    attraction_force = adhesion*laws.attraction.force(gap)/stokes
-    return {
-        "energy": 0,
-        "slope": attraction_force,
-    }
-
-
-def rigid_rotation(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """The state with this least energy: no normal velocity, rigid rotation.
-
-    Total operations: 0
-    """
-    gap = state["gap"]
-    decay = state["decay"]
-    return {
-        "gap": gap,
-        "normal_velocity": 0,
-        "decay": decay,
-    }
-
-
-def escape_energy(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Kinetic energy over m v0^2 of the motion along the line of centres, the only one that can separate sphere
-    and wall.
-
-    Total operations: 2
-    """
-    normal_velocity = state["normal_velocity"]
-    return {
-        "kinetic": normal_velocity**2/2,
     }

@@ -70,8 +70,8 @@ def user_structure_header_text(source: str, model: str, name: str, tangent: bool
     if tangent and found.events:
         return _none(EmissionError("declared events have no derivatives in C"))
     try:
-        made = structure_tangent if tangent else structure_kernel
-        return made(found.extended(derive(named(name))), own, beside)
+        extended = found.extended(derive(named(name)))
+        return structure_tangent(extended, beside) if tangent else structure_kernel(extended, own, beside)
     except EmissionError as error:
         return _none(error)
 

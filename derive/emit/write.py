@@ -31,6 +31,7 @@ from .casadi.modules import (
 from .casadi.references import references_module
 from .document.automaton import DIAGRAM, automaton_page
 from .document.diagram import diagram
+from .shared import homes, with_shared_functions
 from .taylor.automaton import automaton_header, criteria_header, effects_header
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -79,13 +80,16 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
             files[f"taylor/laws/{law.module}.h"] = law_kernel(law)
             files[f"taylor/tangent/laws/{law.module}.h"] = law_slopes(law)
             manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
-    for structure in committed() if chosen is None else chosen:
-        model = derive(structure)
-        files[f"{structure.name}.py"] = structure_module(model)
+    models = [derive(structure) for structure in (committed() if chosen is None else chosen)]
+    shared, headers = homes(models), {}
+    for model in models:
+        structure = model.structure
+        files[f"{structure.name}.py"] = structure_module(model, shared=shared)
         if structure in structures():
-            files[f"taylor/{structure.name}.h"] = structure_kernel(model)
-            files[f"taylor/tangent/{structure.name}.h"] = structure_tangent(model)
+            headers[f"taylor/{structure.name}.h"] = structure_kernel(model)
+            headers[f"taylor/tangent/{structure.name}.h"] = structure_tangent(model)
         manifest["structures"][structure.name] = model_digest(model)
+    files |= with_shared_functions(headers, f"/* {_PROVENANCE} */\n")
     manifest["files"] = {name: sha256(text) for name, text in sorted(files.items()) if name.endswith((".py", ".h"))}
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
     return MappingProxyType(dict(sorted(files.items())))

@@ -244,14 +244,7 @@ static inline void start(const constants *c, vec *y)
     y[NORMAL_VELOCITY] = splat((-1.0));
 }
 
-/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
-static inline void rebound(const constants *c, const vec *y, vec *after)
-{
-    (void)c; (void)y;
-    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
-    after[GAP] = y[GAP];
-    after[NORMAL_VELOCITY] = normal_velocity_2;
-}
+#include "shared/rebound_head_on.h"
 
 /* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
 static inline vec inward_force(const constants *c, const vec *y)
@@ -268,17 +261,7 @@ static inline vec inward_force(const constants *c, const vec *y)
     return inward_force;
 }
 
-/* Energies of the state over m v0^2. Their sum. */
-static inline vec stored_energy(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec gap_squared = y[GAP]*y[GAP];
-    vec offset_squared = c->offset_squared_per_gap_squared*gap_squared;
-    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
-    vec strings_rise_law = strings_rise_value(&c->strings_rise_law, offset_squared);
-    vec energy = 0.5*normal_velocity_squared + c->energy_per_strings_rise_law*strings_rise_law;
-    return energy;
-}
+#include "shared/stored_energy_head_on_strings.h"
 
 enum { OUTPUTS = 1 };
 /* Results for a separated doublet: restitutions, and rates over their scale. */
@@ -343,14 +326,7 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     energy[1] = strings;
 }
 
-/* Energy lost in a rebound that starts from this state, over m v0^2. */
-static inline vec rebound_loss(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
-    vec dry_contact = c->ledger.dry_contact_per_normal_velocity_squared*normal_velocity_squared;
-    return dry_contact;
-}
+#include "shared/rebound_loss_head_on.h"
 
 /* No angular momentum is conserved. */
 static inline vec booked_momentum(const constants *c, const vec *y)

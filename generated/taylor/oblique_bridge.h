@@ -133,34 +133,7 @@ const char quantity_names[] =
     "volume "
     "contact_angle";
 
-/* The groups of a collision from its quantities in SI. */
-static inline void scale(constants *c, const vec *q)
-{
-    c->stokes =
-        0.16666666666666666*q[SI_REDUCED_MASS]*q[SI_SPEED]/(3.141592653589793*(q[SI_REDUCED_RADIUS]*q[SI_REDUCED_RADIUS])*q[SI_VISCOSITY]);
-    c->aspect = q[SI_FILM_THICKNESS]/q[SI_REDUCED_RADIUS];
-    c->obliquity = vec_larger(vec_tan(q[SI_ANGLE]),
-        2.0*q[SI_REDUCED_RADIUS]*vec_abs(q[SI_IMPACT_SPIN])/q[SI_SPEED]);
-    c->initial_turning = vec_tan(q[SI_ANGLE])/c->obliquity;
-    c->initial_spin = 4.0*q[SI_IMPACT_SPIN]*q[SI_REDUCED_RADIUS]/(c->obliquity*q[SI_SPEED]);
-    c->capillary =
-        3.0*q[SI_REDUCED_RADIUS]*q[SI_SPEED]*q[SI_VISCOSITY]/(q[SI_FILM_THICKNESS]*q[SI_SURFACE_TENSION]);
-    c->volume = q[SI_VOLUME];
-    c->contact_angle = q[SI_CONTACT_ANGLE];
-    c->glass_number =
-        0.3333333333333333*(q[SI_FILM_THICKNESS]*q[SI_FILM_THICKNESS])*q[SI_GLASS_TRANSITION_PRESSURE]/(q[SI_REDUCED_RADIUS]*q[SI_SPEED]*q[SI_VISCOSITY]);
-    c->elastic_gap =
-        1.148698354997035*1.5518455739153596*vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]))*vec_exp(0.4*vec_log(q[SI_SPEED]*q[SI_VISCOSITY]*(1.0
-        - (q[SI_POISSON_RATIO]*q[SI_POISSON_RATIO]))/q[SI_YOUNGS_MODULUS]))/q[SI_FILM_THICKNESS];
-    c->rough_gap = q[SI_ROUGHNESS]/q[SI_FILM_THICKNESS];
-    c->rupture_gap = 2.0*q[SI_REDUCED_RADIUS]*(0.5*q[SI_CONTACT_ANGLE] +
-        1.0)*vec_exp(0.3333333333333333*vec_log(q[SI_VOLUME]))/q[SI_FILM_THICKNESS];
-    c->dry_restitution = q[SI_DRY_RESTITUTION];
-#if OWN_RUPTURE
-    c->rupture_gap = 2.0*q[SI_REDUCED_RADIUS]*bridge_rupture_distance(q[SI_VOLUME],
-        q[SI_CONTACT_ANGLE])/q[SI_FILM_THICKNESS];
-#endif
-}
+#include "shared/scale_oblique_bridge.h"
 
 /* Omega, the unit of angular velocities, in rad/s. */
 static inline vec rate_scale(const constants *c, const vec *q)
@@ -325,59 +298,13 @@ static inline vec glass_clearance(const constants *c, const vec *y)
     return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);
 }
 
-/* State at initial contact. */
-static inline void start(const constants *c, vec *y)
-{
-    (void)c; (void)y;
-    y[GAP] = splat(1.0);
-    y[NORMAL_VELOCITY] = splat((-1.0));
-    y[ORBITAL_MOMENTUM] = c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0));
-    y[SPIN] = c->initial_spin;
-}
+#include "shared/start_oblique.h"
 
-/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
-static inline void rebound(const constants *c, const vec *y, vec *after)
-{
-    (void)c; (void)y;
-    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
-    after[GAP] = y[GAP];
-    after[NORMAL_VELOCITY] = normal_velocity_2;
-    after[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
-    after[SPIN] = y[SPIN];
-}
+#include "shared/rebound_oblique.h"
 
-/* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
-static inline vec inward_force(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
-    vec orbital_rate_squared = orbital_rate*orbital_rate;
-    vec centrifugal_force = c->centrifugal_force_factor*distance*orbital_rate_squared;
-    vec scaled_gap = c->scaled_gap_per_gap*y[GAP];
-    vec bridge_force_law = bridge_force_value(&c->bridge_force_law, scaled_gap);
-    vec bridge_force = c->bridge_force_per_bridge_force_law*bridge_force_law;
-    vec inward_force = bridge_force - centrifugal_force;
-    return inward_force;
-}
+#include "shared/inward_force_oblique_bridge.h"
 
-/* Energies of the state over m v0^2. Their sum. */
-static inline vec stored_energy(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
-    vec orbital_rate_squared = orbital_rate*orbital_rate;
-    vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
-    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
-    vec spin_squared = y[SPIN]*y[SPIN];
-    vec energy =
-        c->energy_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared +
-        0.5*normal_velocity_squared + c->energy_per_spin_squared*spin_squared;
-    return energy;
-}
+#include "shared/stored_energy_oblique.h"
 
 enum { OUTPUTS = 4 };
 /* Results for a separated doublet: restitutions, and rates over their scale. */
@@ -476,57 +403,13 @@ static inline void orbital_margins(const constants *c, const vec *y, vec *found)
     found[SLIP_ENERGY] = surface;
 }
 
-/* The state with this least energy: no normal velocity, rigid rotation. */
-static inline vec rigid_momentum(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
-    vec distance_squared = distance*distance;
-    vec inertia_ratio = distance_squared + 6.4;
-    vec distance_squared_by_momentum = distance_squared*momentum;
-    vec orbital_momentum_2 = distance_squared_by_momentum/inertia_ratio;
-    return orbital_momentum_2;
-}
+#include "shared/rigid_momentum_oblique.h"
 
-/* The state with this least energy: no normal velocity, rigid rotation. */
-static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
-    vec distance_squared = distance*distance;
-    vec inertia_ratio = distance_squared + 6.4;
-    vec distance_squared_by_momentum = distance_squared*momentum;
-    vec orbital_momentum_2 = distance_squared_by_momentum/inertia_ratio;
-    vec spin_2 = momentum/inertia_ratio;
-    rigid[ORBITAL_MOMENTUM] = orbital_momentum_2;
-    rigid[SPIN] = spin_2;
-}
+#include "shared/rigid_rotation_oblique.h"
 
-/* Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega. */
-static inline vec surface_slip(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
-    vec arm_lever_law = arm_lever_value(&c->arm_lever_law, distance);
-    vec distance_by_orbital_rate = distance*orbital_rate;
-    vec arm_lever_law_by_spin = arm_lever_law*y[SPIN];
-    vec surface_slip = distance_by_orbital_rate - 2.0*arm_lever_law_by_spin;
-    return surface_slip;
-}
+#include "shared/surface_slip_oblique.h"
 
-/* 1 + the change of the angular momentum over its size at initial contact. */
-static inline vec angular_momentum(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
-    vec combination = momentum + c->combination_offset;
-    vec angular_momentum = c->angular_momentum_per_combination*combination + 1.0;
-    return angular_momentum;
-}
+#include "shared/angular_momentum_oblique.h"
 
 #if defined(BRIDGE_FORCE_FALLS)
 #define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
@@ -635,14 +518,7 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     energy[0] = kinetic;
 }
 
-/* Energy lost in a rebound that starts from this state, over m v0^2. */
-static inline vec rebound_loss(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
-    vec dry_contact = c->ledger.dry_contact_per_normal_velocity_squared*normal_velocity_squared;
-    return dry_contact;
-}
+#include "shared/rebound_loss_head_on.h"
 
 /* 1 + the change of the angular momentum over its size at initial contact. */
 static inline vec booked_momentum(const constants *c, const vec *y)

@@ -365,28 +365,9 @@ static inline vec glass_clearance(const constants *c, const vec *y)
     return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);
 }
 
-/* State at initial contact. */
-static inline void start(const constants *c, vec *y)
-{
-    (void)c; (void)y;
-    y[GAP] = splat(1.0);
-    y[NORMAL_VELOCITY] = splat((-1.0));
-    y[ORBITAL_MOMENTUM] = c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0));
-    y[SPIN] = c->initial_spin;
-    y[ROTATION] = splat(0.0);
-}
+#include "shared/start_oblique_strings.h"
 
-/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
-static inline void rebound(const constants *c, const vec *y, vec *after)
-{
-    (void)c; (void)y;
-    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
-    after[GAP] = y[GAP];
-    after[NORMAL_VELOCITY] = normal_velocity_2;
-    after[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
-    after[SPIN] = y[SPIN];
-    after[ROTATION] = y[ROTATION];
-}
+#include "shared/rebound_oblique_strings.h"
 
 /* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
 static inline vec inward_force(const constants *c, const vec *y)
@@ -414,31 +395,7 @@ static inline vec inward_force(const constants *c, const vec *y)
     return inward_force;
 }
 
-/* Energies of the state over m v0^2. Their sum. */
-static inline vec stored_energy(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
-    vec gap_squared = y[GAP]*y[GAP];
-    vec scaled_rotation = 0.5*y[ROTATION];
-    vec sine_of_scaled_rotation = vec_sin(scaled_rotation);
-    vec sine_of_scaled_rotation_squared = sine_of_scaled_rotation*sine_of_scaled_rotation;
-    vec distance_by_sine_of_scaled_rotation_squared = distance*sine_of_scaled_rotation_squared;
-    vec offset_squared = c->offset_squared_per_gap_squared*gap_squared +
-        4.0*distance_by_sine_of_scaled_rotation_squared;
-    vec orbital_rate_squared = orbital_rate*orbital_rate;
-    vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
-    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
-    vec spin_squared = y[SPIN]*y[SPIN];
-    vec strings_rise_law = strings_rise_value(&c->strings_rise_law, offset_squared);
-    vec energy =
-        c->energy_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared +
-        0.5*normal_velocity_squared + c->energy_per_spin_squared*spin_squared +
-        c->energy_per_strings_rise_law*strings_rise_law;
-    return energy;
-}
+#include "shared/stored_energy_oblique_strings.h"
 
 enum { OUTPUTS = 4 };
 /* Results for a separated doublet: restitutions, and rates over their scale. */
@@ -498,19 +455,7 @@ static inline void orbital_margins(const constants *c, const vec *y, vec *found)
     found[SLIP_ENERGY] = surface;
 }
 
-/* Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega. */
-static inline vec surface_slip(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
-    vec arm_lever_law = arm_lever_value(&c->arm_lever_law, distance);
-    vec distance_by_orbital_rate = distance*orbital_rate;
-    vec arm_lever_law_by_spin = arm_lever_law*y[SPIN];
-    vec surface_slip = distance_by_orbital_rate - 2.0*arm_lever_law_by_spin;
-    return surface_slip;
-}
+#include "shared/surface_slip_oblique.h"
 
 #if defined(BRIDGE_FORCE_FALLS)
 #define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
@@ -601,14 +546,7 @@ static inline void energies(const constants *c, const vec *y, vec *energy)
     energy[1] = strings;
 }
 
-/* Energy lost in a rebound that starts from this state, over m v0^2. */
-static inline vec rebound_loss(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
-    vec dry_contact = c->ledger.dry_contact_per_normal_velocity_squared*normal_velocity_squared;
-    return dry_contact;
-}
+#include "shared/rebound_loss_head_on.h"
 
 /* 1 + the change of the angular momentum over its size at initial contact. */
 static inline vec booked_momentum(const constants *c, const vec *y)

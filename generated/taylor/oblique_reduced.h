@@ -88,24 +88,7 @@ const char quantity_names[] =
     "angle "
     "impact_spin";
 
-/* The groups of a collision from its quantities in SI. */
-static inline void scale(constants *c, const vec *q)
-{
-    c->stokes =
-        0.16666666666666666*q[SI_REDUCED_MASS]*q[SI_SPEED]/(3.141592653589793*(q[SI_REDUCED_RADIUS]*q[SI_REDUCED_RADIUS])*q[SI_VISCOSITY]);
-    c->aspect = q[SI_FILM_THICKNESS]/q[SI_REDUCED_RADIUS];
-    c->obliquity = vec_larger(vec_tan(q[SI_ANGLE]),
-        2.0*q[SI_REDUCED_RADIUS]*vec_abs(q[SI_IMPACT_SPIN])/q[SI_SPEED]);
-    c->initial_turning = vec_tan(q[SI_ANGLE])/c->obliquity;
-    c->initial_spin = 4.0*q[SI_IMPACT_SPIN]*q[SI_REDUCED_RADIUS]/(c->obliquity*q[SI_SPEED]);
-    c->glass_number =
-        0.3333333333333333*(q[SI_FILM_THICKNESS]*q[SI_FILM_THICKNESS])*q[SI_GLASS_TRANSITION_PRESSURE]/(q[SI_REDUCED_RADIUS]*q[SI_SPEED]*q[SI_VISCOSITY]);
-    c->elastic_gap =
-        1.148698354997035*1.5518455739153596*vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]))*vec_exp(0.4*vec_log(q[SI_SPEED]*q[SI_VISCOSITY]*(1.0
-        - (q[SI_POISSON_RATIO]*q[SI_POISSON_RATIO]))/q[SI_YOUNGS_MODULUS]))/q[SI_FILM_THICKNESS];
-    c->rough_gap = q[SI_ROUGHNESS]/q[SI_FILM_THICKNESS];
-    c->dry_restitution = q[SI_DRY_RESTITUTION];
-}
+#include "shared/scale_oblique.h"
 
 /* Omega, the unit of angular velocities, in rad/s. */
 static inline vec rate_scale(const constants *c, const vec *q)
@@ -217,55 +200,13 @@ static inline vec glass_clearance(const constants *c, const vec *y)
     return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);
 }
 
-/* State at initial contact. */
-static inline void start(const constants *c, vec *y)
-{
-    (void)c; (void)y;
-    y[GAP] = splat(1.0);
-    y[NORMAL_VELOCITY] = splat((-1.0));
-    y[ORBITAL_MOMENTUM] = c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0));
-}
+#include "shared/start_oblique_reduced.h"
 
-/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
-static inline void rebound(const constants *c, const vec *y, vec *after)
-{
-    (void)c; (void)y;
-    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
-    after[GAP] = y[GAP];
-    after[NORMAL_VELOCITY] = normal_velocity_2;
-    after[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
-}
+#include "shared/rebound_oblique_reduced.h"
 
-/* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
-static inline vec inward_force(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
-    vec orbital_rate_squared = orbital_rate*orbital_rate;
-    vec centrifugal_force = c->centrifugal_force_factor*distance*orbital_rate_squared;
-    vec inward_force = -centrifugal_force;
-    return inward_force;
-}
+#include "shared/inward_force_oblique.h"
 
-/* Energies of the state over m v0^2. Their sum. */
-static inline vec stored_energy(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
-    vec spin = -0.15625*y[ORBITAL_MOMENTUM] + c->spin_offset;
-    vec orbital_rate_squared = orbital_rate*orbital_rate;
-    vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
-    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
-    vec spin_squared = spin*spin;
-    vec energy =
-        c->energy_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared +
-        0.5*normal_velocity_squared + c->energy_per_spin_squared*spin_squared;
-    return energy;
-}
+#include "shared/stored_energy_oblique_reduced.h"
 
 enum { OUTPUTS = 4 };
 /* Results for a separated doublet: restitutions, and rates over their scale. */
@@ -311,30 +252,9 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return slope;
 }
 
-/* The state with this least energy: no normal velocity, rigid rotation. */
-static inline vec rigid_momentum(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec distance_squared = distance*distance;
-    vec inertia_ratio = distance_squared + 6.4;
-    vec distance_squared_over_inertia_ratio = distance_squared/inertia_ratio;
-    vec orbital_momentum_2 = c->momentum*distance_squared_over_inertia_ratio;
-    return orbital_momentum_2;
-}
+#include "shared/rigid_momentum_oblique_reduced.h"
 
-/* Relative velocity of the surfaces at the contact, at the lever arm of the shear, over a Omega. */
-static inline vec surface_slip(const constants *c, const vec *y)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
-    vec spin = -0.15625*y[ORBITAL_MOMENTUM] + c->spin_offset;
-    vec slip = orbital_rate - spin;
-    vec surface_slip = distance*slip;
-    return surface_slip;
-}
+#include "shared/surface_slip_oblique_reduced.h"
 
 #if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)
 #define SPIN_DOWN 1

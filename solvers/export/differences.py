@@ -13,7 +13,7 @@ from ..boundaries.boundary import boundary
 from ..collision.collide import collide
 from ..errors import ComputationError, InputError, did_you_mean
 from ..host import bounded
-from ..host.emitted import text
+from ..host.emitted import text, with_imports
 from ..model.model import ModelKey, select_model
 from ..scene.scene import Scene
 from ..scene.scenefile import PRESETS
@@ -141,8 +141,9 @@ def _folder(path: str) -> dict[str, str]:
     try:
         listed = json.loads(bounded.text(folder / "manifest.json"))["files"]
         names = [n for n in listed if n.endswith(".py") and not n.endswith(("__init__.py", "assemble.py", "model.py"))]
-        return {name.removesuffix(".py"): bounded.text(folder / name) for name in names}
-    except (AttributeError, OSError, ValueError, KeyError, TypeError, bounded.NotRead):
+        texts = {name.removesuffix(".py"): bounded.text(folder / name) for name in names}
+        return {name: with_imports(each, texts.__getitem__) for name, each in texts.items()}
+    except (AttributeError, OSError, ValueError, KeyError, TypeError, SyntaxError, bounded.NotRead):
         raise InputError("diff", path, accepted, "holds nothing emitted") from None
 
 

@@ -6,8 +6,10 @@ needed only once. Modules are imported only from `generated/` and from the cache
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import json
+import re
 import threading
 from collections.abc import Callable
 from functools import cache
@@ -21,6 +23,8 @@ from ..errors import CheckFailed
 _PACKAGE = f"{__package__.rsplit('.', 2)[0]}.generated"
 _FOLDER = Path(__file__).resolve().parents[2] / "generated"
 _DERIVE = _FOLDER.with_name("derive")
+_IMPORTED = re.compile(r"^from \.(\w+) import", re.MULTILINE)  # structures whose functions a structure has too
+_INCLUDED = re.compile(r'^#include "(shared/\w+\.h)"\n', re.MULTILINE)
 DERIVING = threading.RLock()  # sympy is not thread-safe
 
 
@@ -67,25 +71,44 @@ def module(name: str) -> ModuleType:
         return executed(f"{_PACKAGE}.{name}", text(name).encode())
     for each in (path, "assemble.py", "scaling.py", "automaton.py"):
         _verified(each)
+    for home in _IMPORTED.findall((_FOLDER / path).read_text(encoding="utf-8")):
+        _verified(f"{home}.py")
     return import_module(f"{_PACKAGE}.{name}")
 
 
 def text(name: str) -> str:
-    """Text of an emitted module of the library, not executed. Errors: see `module`."""
+    """Text of an emitted module of the library, not executed, with all its functions. Errors: see `module`."""
     path = name.replace(".", "/") + ".py"
     if committed(path):
-        _verified(path)
-        return (_FOLDER / path).read_text(encoding="utf-8")
+        return with_imports(_read(path), lambda home: _read(f"{home}.py"))
     if "." in name:  # all laws are committed
         raise CheckFailed(f"generated/{path} is neither there nor can it be derived; run `wetdoublet generate`")
     return derived_once(f"{name}.py", lambda: _derived_structure(name))
 
 
+def with_imports(module: str, read: Callable[[str], str]) -> str:
+    """Text of a structure's module with the functions that it imports from other structures.
+
+    Arguments:
+        module: the text.
+        read: the text of another structure's module, by name.
+    """
+    for node in ast.parse(module).body:
+        if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module:
+            names, home = {each.name for each in node.names}, read(node.module)
+            for each in ast.parse(home).body:
+                if isinstance(each, ast.FunctionDef) and each.name in names:
+                    module += f"\n\n{ast.get_source_segment(home, each)}\n"
+    return module
+
+
 def header(path: str) -> str:
-    """Text of an emitted C header (path below `generated`), verified; derived if not committed."""
+    """Text of an emitted C header (path below `generated`) with its shared functions, verified.
+
+    It is derived if it is not committed.
+    """
     if committed(path):
-        _verified(path)
-        return (_FOLDER / path).read_text(encoding="utf-8")
+        return _INCLUDED.sub(lambda shared: _without_provenance(_read(f"taylor/{shared[1]}")), _read(path))
     name, tangent = Path(path).stem, "tangent" in Path(path).parts
     kind = "tangent" if tangent else "kernel"
     return derived_once(f"{kind}-{name}.h", lambda: _derived_header(name, tangent))
@@ -94,6 +117,15 @@ def header(path: str) -> str:
 def committed(path: str) -> bool:
     """True if a file is among the package's committed emitted files."""
     return path in manifest()["files"]
+
+
+def _read(path: str) -> str:
+    _verified(path)
+    return (_FOLDER / path).read_text(encoding="utf-8")
+
+
+def _without_provenance(header: str) -> str:
+    return header.partition("*/\n")[2]
 
 
 @cache

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import importlib.util
 import json
 import os
 import re
@@ -14,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.derive.emit.write import GENERATED, check, emitted
+from wetdoublet.solvers.host.emitted import header, structure, text
 from wetdoublet.solvers.host.files import write_all_in
 
 DERIVE = GENERATED.parent / "derive"
@@ -87,24 +87,46 @@ _HASH = """
 import json, sys
 from wetdoublet.derive.emit import one
 from wetdoublet.derive.emit.casadi.modules import scaling_module
-texts = {"scaling.py": scaling_module(), **{f"{name}.py": one.structure_text(name) for name in sys.argv[1:]}}
-texts[f"taylor/{sys.argv[1]}.h"] = one.structure_header_text(sys.argv[1])
-texts[f"taylor/tangent/{sys.argv[1]}.h"] = one.structure_tangent_text(sys.argv[1])
+texts = [scaling_module(), *map(one.structure_text, sys.argv[1:])]
+texts += [one.structure_header_text(sys.argv[1]), one.structure_tangent_text(sys.argv[1])]
 json.dump(texts, sys.stdout)
 """
 
 
 @pytest.mark.slow
 def test_emission_does_not_depend_on_the_hash_seed():
-    """A fresh interpreter with a fixed hash seed emits two structures as committed; one with any seed emits all."""
+    """A fresh interpreter with a fixed hash seed emits two structures, each standing alone, as committed."""
     seed = "2" if os.environ.get("PYTHONHASHSEED") == "1" else "1"
     done = subprocess.run(
         [sys.executable, "-c", _HASH, *SEEDED],
         env=os.environ | {"PYTHONHASHSEED": seed}, capture_output=True, text=True, check=True, timeout=900,
     )  # fmt: skip
-    found = json.loads(done.stdout)
-    assert len(found) == 1 + 3 + 1
-    assert found == {name: TEXTS[name] for name in found}
+    scaling, *structures, kernel, tangent = json.loads(done.stdout)
+    assert scaling == TEXTS["scaling.py"]
+    for name, alone in zip(SEEDED, structures, strict=True):
+        assert _functions(alone) == _functions(text(name))
+    assert kernel == header(f"taylor/{SEEDED[0]}.h")
+    assert tangent == header(f"taylor/tangent/{SEEDED[0]}.h")
+
+
+def _functions(module: str) -> dict[str, str | None]:
+    """Source of every function of a module."""
+    parts = ast.parse(module).body
+    return {part.name: ast.get_source_segment(module, part) for part in parts if isinstance(part, ast.FunctionDef)}
+
+
+def test_what_structures_share_is_emitted_once():
+    """No function stands in two structures, in Python or (from eight lines) in C; an importing one has them all."""
+    python = [f for name in MODULES if "/" not in name for f in _functions(TEXTS[name]).values()]
+    assert len(set(python)) == len(python) > 150
+    headers = [text for name, text in TEXTS.items() if name.endswith(".h") and "/laws/" not in name]
+    blocks = [block.strip() for text in headers for block in text.split("\n\n") if block.count("\n") >= 8]
+    functions = [b for b in blocks if re.match(r"(/\*(.|\n)*?\*/\n)?(static inline|INLINE|OUTLINE)", b) and b[-2:] == "\n}"]
+    assert len(set(functions)) == len(functions) > 100
+    for name in json.loads(TEXTS["manifest.json"])["structures"]:
+        module = structure(name)
+        assert all(callable(getattr(module, function)) for function in module.FUNCTIONS)
+        assert set(module.FUNCTIONS) <= _functions(text(name)).keys()
 
 
 _BLOCKED = """
@@ -219,12 +241,7 @@ def test_digests_agree(name: str):
     text = (GENERATED / name).read_text()
     assert text.splitlines()[1].removeprefix("# ").split(" sha256 ")[1] == _digests()[name]
     if "/" not in name and name not in ("scaling.py", "automaton.py"):
-        spec = importlib.util.spec_from_file_location("one", GENERATED / name)
-        assert spec is not None
-        assert spec.loader is not None
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        assert _digests()[name] == module.DIGEST
+        assert _digests()[name] == structure(name.removesuffix(".py")).DIGEST
 
 
 def test_every_used_name_is_imported_and_every_import_used():

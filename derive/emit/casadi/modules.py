@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import textwrap
 from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from functools import cache
@@ -18,7 +19,7 @@ from ..taylor.header import Beside, structure_header
 from ..taylor.law_header import law_header
 from ..taylor.law_slopes import slopes_header
 from ..taylor.tangent import tangent_header
-from ..text import INDENT, assignment, docstring, module, needed, operations
+from ..text import INDENT, WIDTH, assignment, docstring, module, needed, operations
 from .printer import Printer
 
 _PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`."
@@ -130,8 +131,13 @@ def _describe(model: Model, own: Own) -> str:
     return "\n".join(lines)
 
 
-def structure_module(model: Model, own: Own | None = None) -> str:
-    """Text of a structure's module: states, groups, slots, and its functions; `own` are a user's groups."""
+def structure_module(model: Model, own: Own | None = None, shared: Mapping[str, str] | None = None) -> str:
+    """Text of a structure's module: states, groups, slots, and its functions.
+
+    Arguments:
+        own: a user's groups.
+        shared: the structure that defines a function, by its text (`shared.homes`); the others import it.
+    """
     printer = Printer()
     body: list[str] = ["", "Values = Mapping[str, Any]", ""]
     for constant, names in (
@@ -143,11 +149,28 @@ def structure_module(model: Model, own: Own | None = None) -> str:
     ):
         body += _name_tuple(constant, names)
     body += [f'DIGEST = "{model_digest(model)}"', ""]
+    elsewhere: dict[str, list[str]] = {}
     for function in model.functions:
-        body += _function(model, function.name, printer)
-    imports = ["from collections.abc import Mapping", "from typing import Any", ""]
-    doc = _describe(model, own or {})
-    return module(_header(model_digest(model)), doc, [*imports, *_casadi(printer)], body)
+        defined = function_lines(model, function.name, trial := Printer())
+        home = (shared or {}).get("\n".join(defined), model.structure.name)
+        if home != model.structure.name:
+            elsewhere.setdefault(home, []).append(function.name)
+        else:
+            body += defined
+            printer.imports |= trial.imports
+    imports = ["from collections.abc import Mapping", "from typing import Any", "", *_casadi(printer)]
+    imports += [line for home in sorted(elsewhere) for line in _import(home, sorted(elsewhere[home]))]
+    return module(_header(model_digest(model)), _describe(model, own or {}), imports, body)
+
+
+def _import(home: str, names: list[str]) -> list[str]:
+    line = f"from .{home} import {', '.join(names)}"
+    return [line] if len(line) <= WIDTH else [f"from .{home} import (", *_listed(names), ")"]
+
+
+def _listed(words: Sequence[str]) -> list[str]:
+    """Lines of a long list of words."""
+    return textwrap.wrap(", ".join(words) + ",", WIDTH, initial_indent=INDENT, subsequent_indent=INDENT)
 
 
 def _tuple(names: Sequence[str]) -> str:
@@ -157,12 +180,11 @@ def _tuple(names: Sequence[str]) -> str:
 
 def _name_tuple(constant: str, names: list[str]) -> list[str]:
     line = f"{constant} = {_tuple(names)}"
-    if len(line) <= 100:
-        return [line]
-    return [f"{constant} = (", *(f'{INDENT}"{name}",' for name in names), ")"]
+    return [line] if len(line) <= WIDTH else [f"{constant} = (", *_listed([f'"{name}"' for name in names]), ")"]
 
 
-def _function(model: Model, name: str, printer: Printer) -> list[str]:
+def function_lines(model: Model, name: str, printer: Printer) -> list[str]:
+    """Lines of one function of a structure's module; `printer` records the CasADi names that it needs."""
     function = model[name]
     kept, used = needed([expression for _, expression in function.outputs], model.definitions)
     region = [flag.name for flag in (FILM, SHEAR)] if function.regional else []
@@ -199,9 +221,9 @@ def law_slopes(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
     return slopes_header(law, law_digest(law), _PROVENANCE, groups)
 
 
-def structure_tangent(model: Model, own: Own | None = None, beside: Beside | None = None) -> str:
-    """Text of the C header of a structure's tangent; `own` and `beside` are a user's."""
-    return tangent_header(model, model_digest(model), _PROVENANCE, _describe(model, own or {}), beside)
+def structure_tangent(model: Model, beside: Beside | None = None) -> str:
+    """Text of the C header of a structure's tangent; `beside` is a user's."""
+    return tangent_header(model, model_digest(model), _PROVENANCE, beside)
 
 
 def scaling_digest() -> str:

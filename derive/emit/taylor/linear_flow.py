@@ -22,12 +22,12 @@ Entry: TypeAlias = str | sp.Expr
 class LinearFlow:
     """The matrix and the source terms of one structure's tangent, and their places in emitted C."""
 
-    def __init__(self, model: Model, digest: str, provenance: str, doc: str, beside: Beside) -> None:
+    def __init__(self, model: Model, beside: Beside) -> None:
         if beside.extra.get("glass.pressure"):
             raise EmissionError("no slopes of a glass law with quantities of its own")
         self.model, self.beside = model, beside
         self.header = Header(model, beside)
-        self.header.text(digest, provenance, doc)  # receives its constants and calls
+        self.header.text("", "", "")  # receives its constants and calls
         self.states = [state.name for state in model.states]
         flow = self.header.flow
         self._flow = {operation.name for operation in flow.operations}

@@ -30,15 +30,16 @@ _IN = "    "
 class Tangent(LinearFlow):
     """Text of one structure's tangent header."""
 
-    def text(self, digest: str, provenance: str, doc: str) -> str:
+    def text(self, digest: str, provenance: str) -> str:
         """The header."""
         coefficients, row, source = self._coefficients(), self._row(), self._sources()
         back = Adjoint(self)
         per_direction = sum(isinstance(entry, str) for (of, _), entry in self.matrix.items() if of != "turned")
         cost = f"Products of series: {self.program.cost:g} and those of the laws, then {per_direction} a direction; "
         cost += f"backwards {back.cost:g} and those of the laws' derivatives."
+        name = self.model.structure.name
         lines = comment(f"{provenance}\nEquations sha256 {digest}")
-        lines += ["", *comment(f"{doc}\n\nTangent: derivatives of the states by the groups. {cost}"), ""]
+        lines += ["", *comment(f"Tangent of {name}.h: derivatives of the states by the groups.\n\n{cost}"), ""]
         lines += self._enumerations()
         lines += [
             "#if BACKWARD",
@@ -301,6 +302,6 @@ def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Ex
     return ["switch (group) {", *body, "}"] if body else ["(void)group;"]
 
 
-def tangent_header(model: Model, digest: str, provenance: str, doc: str, beside: Beside | None = None) -> str:
+def tangent_header(model: Model, digest: str, provenance: str, beside: Beside | None = None) -> str:
     """The C header of a structure's tangent."""
-    return Tangent(model, digest, provenance, doc, beside or Beside()).text(digest, provenance, doc)
+    return Tangent(model, beside or Beside()).text(digest, provenance)

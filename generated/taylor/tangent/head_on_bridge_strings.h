@@ -1,30 +1,10 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
  * Equations sha256 8217d49a2987033ea8c6b205dd70e1d5aee5d203720eb4ea80465efe075486b7 */
 
-/* Head-on doublet with a liquid bridge and pendulum strings.
+/* Tangent of head_on_bridge_strings.h: derivatives of the states by the groups.
  *
- * Time in x0/v0. States (per unit):
- * - gap [x0]: gap over film thickness
- * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
- *
- * Groups:
- * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
- * - aspect [1]: film thickness over reduced radius, x0/a
- * - capillary [1]: capillary number 3 mu a v0/(sigma x0)
- * - volume [1]: bridge volume over R^3 (constant)
- * - contact_angle [rad]: contact angle of the liquid on the sphere
- * - weight [1]: gravity over impact deceleration, g x0/v0^2
- * - string_ratio [1]: string length over reduced radius
- * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
- * - elastic_gap [x0]: elastic length over film thickness
- * - rough_gap [x0]: roughness over film thickness
- * - rupture_gap [x0]: rupture distance over film thickness
- * - dry_restitution [1]: restitution of the dry contact
- *
- * Law slots: film, glass, bridge, strings.
- *
- * Tangent: derivatives of the states by the groups. Products of series: 5 and those of the laws, then 2 a
- * direction; backwards 8 and those of the laws' derivatives. */
+ * Products of series: 5 and those of the laws, then 2 a direction; backwards 8 and those of the laws'
+ * derivatives. */
 
 enum { BY_STOKES, BY_ASPECT, BY_CAPILLARY, BY_VOLUME, BY_CONTACT_ANGLE, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_RUPTURE_GAP, BY_DRY_RESTITUTION };
 const char group_names[] =
@@ -271,17 +251,7 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     }
 }
 
-/* Coefficient k + 1 of a derivative of the states, with its source terms. */
-INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
-    const constants *v, vec film, vec shear, const vec *const *source, int k)
-{
-    double next = 1.0/(k + 1);
-    (void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;
-    t[GAP][k + 1] = (t[NORMAL_VELOCITY][k])*next;
-    t[NORMAL_VELOCITY][k + 1] = (product(s->normal_velocity_by_gap, t[GAP], k) +
-        product(s->normal_velocity_by_normal_velocity, t[NORMAL_VELOCITY], k) +
-        source[NORMAL_VELOCITY][k])*next;
-}
+#include "shared/tangent_coefficients_head_on.h"
 
 /* Source terms of the derivatives by a group; zero ones are left unset. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
@@ -320,37 +290,11 @@ static inline vec contraction(const series *of, const constants *v, vec film, ve
     return film*of->film_resistance_law.result[0]/v->stokes;
 }
 
-/* Derivative of the initial state by a group. */
-static inline void start_along(const constants *v, int group, vec *after)
-{
-    (void)v;
-    after[GAP] = splat(0.0);
-    after[NORMAL_VELOCITY] = splat(0.0);
-    (void)group;
-}
+#include "shared/start_along_head_on.h"
 
-/* Derivative of the state just after a rebound. */
-static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
-{
-    (void)v;
-    (void)y;
-    after[GAP] = t[GAP];
-    after[NORMAL_VELOCITY] = -v->dry_restitution*t[NORMAL_VELOCITY];
-    switch (group) {
-    case BY_DRY_RESTITUTION:
-        after[NORMAL_VELOCITY] += -y[NORMAL_VELOCITY];
-        break;
-    }
-}
+#include "shared/rebound_along_head_on.h"
 
-/* Derivative of the results for a separated doublet. */
-static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)
-{
-    (void)v;
-    (void)y;
-    shown[0] = t[NORMAL_VELOCITY];
-    (void)group;
-}
+#include "shared/outputs_along_head_on.h"
 
 /* The groups that each quantity in SI moves, as bits. */
 const unsigned moved_groups[QUANTITIES] = { 1479, 1, 512, 2048, 256, 256, 389, 1958, 128, 4, 64, 32, 421, 1032, 1040 };

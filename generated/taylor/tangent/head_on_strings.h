@@ -1,26 +1,10 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
  * Equations sha256 41a716c9e3d0fcdcac83698db3c68146d3db2f42a582257c8ccb7ae427f9f538 */
 
-/* Head-on doublet with pendulum strings.
+/* Tangent of head_on_strings.h: derivatives of the states by the groups.
  *
- * Time in x0/v0. States (per unit):
- * - gap [x0]: gap over film thickness
- * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
- *
- * Groups:
- * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
- * - aspect [1]: film thickness over reduced radius, x0/a
- * - weight [1]: gravity over impact deceleration, g x0/v0^2
- * - string_ratio [1]: string length over reduced radius
- * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
- * - elastic_gap [x0]: elastic length over film thickness
- * - rough_gap [x0]: roughness over film thickness
- * - dry_restitution [1]: restitution of the dry contact
- *
- * Law slots: film, glass, strings.
- *
- * Tangent: derivatives of the states by the groups. Products of series: 4 and those of the laws, then 2 a
- * direction; backwards 7 and those of the laws' derivatives. */
+ * Products of series: 4 and those of the laws, then 2 a direction; backwards 7 and those of the laws'
+ * derivatives. */
 
 enum { BY_STOKES, BY_ASPECT, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
 const char group_names[] =
@@ -210,17 +194,7 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     }
 }
 
-/* Coefficient k + 1 of a derivative of the states, with its source terms. */
-INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
-    const constants *v, vec film, vec shear, const vec *const *source, int k)
-{
-    double next = 1.0/(k + 1);
-    (void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;
-    t[GAP][k + 1] = (t[NORMAL_VELOCITY][k])*next;
-    t[NORMAL_VELOCITY][k + 1] = (product(s->normal_velocity_by_gap, t[GAP], k) +
-        product(s->normal_velocity_by_normal_velocity, t[NORMAL_VELOCITY], k) +
-        source[NORMAL_VELOCITY][k])*next;
-}
+#include "shared/tangent_coefficients_head_on.h"
 
 /* Source terms of the derivatives by a group; zero ones are left unset. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
@@ -250,37 +224,11 @@ static inline vec contraction(const series *of, const constants *v, vec film, ve
     return film*of->film_resistance_law.result[0]/v->stokes;
 }
 
-/* Derivative of the initial state by a group. */
-static inline void start_along(const constants *v, int group, vec *after)
-{
-    (void)v;
-    after[GAP] = splat(0.0);
-    after[NORMAL_VELOCITY] = splat(0.0);
-    (void)group;
-}
+#include "shared/start_along_head_on.h"
 
-/* Derivative of the state just after a rebound. */
-static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
-{
-    (void)v;
-    (void)y;
-    after[GAP] = t[GAP];
-    after[NORMAL_VELOCITY] = -v->dry_restitution*t[NORMAL_VELOCITY];
-    switch (group) {
-    case BY_DRY_RESTITUTION:
-        after[NORMAL_VELOCITY] += -y[NORMAL_VELOCITY];
-        break;
-    }
-}
+#include "shared/rebound_along_head_on.h"
 
-/* Derivative of the results for a separated doublet. */
-static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)
-{
-    (void)v;
-    (void)y;
-    shown[0] = t[NORMAL_VELOCITY];
-    (void)group;
-}
+#include "shared/outputs_along_head_on.h"
 
 /* The groups that each quantity in SI moves, as bits. */
 const unsigned moved_groups[QUANTITIES] = { 59, 1, 64, 128, 32, 32, 49, 118, 16, 8, 4, 53 };

@@ -1,29 +1,10 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
  * Equations sha256 250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e */
 
-/* Oblique doublet with a film only.
+/* Tangent of oblique.h: derivatives of the states by the groups.
  *
- * Time in x0/v0. States (per unit):
- * - gap [x0]: gap over film thickness
- * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
- * - orbital_momentum [a^2 Omega]: orbital angular momentum r^2 omega over a^2 Omega
- * - spin [Omega]: spin of each sphere over its scale Omega
- *
- * Groups:
- * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
- * - aspect [1]: film thickness over reduced radius, x0/a
- * - obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
- * - initial_turning [1]: tan(theta0)/T, 1 without spins
- * - initial_spin [Omega]: spin at initial contact over Omega
- * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
- * - elastic_gap [x0]: elastic length over film thickness
- * - rough_gap [x0]: roughness over film thickness
- * - dry_restitution [1]: restitution of the dry contact
- *
- * Law slots: film, glass, shear, arm.
- *
- * Tangent: derivatives of the states by the groups. Products of series: 24 and those of the laws, then 9 a
- * direction; backwards 17 and those of the laws' derivatives. */
+ * Products of series: 24 and those of the laws, then 9 a direction; backwards 17 and those of the laws'
+ * derivatives. */
 
 enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_INITIAL_TURNING, BY_INITIAL_SPIN, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
 const char group_names[] =
@@ -398,27 +379,7 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     }
 }
 
-/* Coefficient k + 1 of a derivative of the states, with its source terms. */
-INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
-    const constants *v, vec film, vec shear, const vec *const *source, int k)
-{
-    double next = 1.0/(k + 1);
-    (void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;
-    t[GAP][k + 1] = (t[NORMAL_VELOCITY][k])*next;
-    t[NORMAL_VELOCITY][k + 1] = (product(s->normal_velocity_by_gap, t[GAP], k) +
-        product(s->normal_velocity_by_normal_velocity, t[NORMAL_VELOCITY], k) +
-        product(s->normal_velocity_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
-        source[NORMAL_VELOCITY][k])*next;
-    t[ORBITAL_MOMENTUM][k + 1] = (product(s->orbital_momentum_by_gap, t[GAP], k) +
-        product(s->orbital_momentum_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
-        product(s->orbital_momentum_by_spin, t[SPIN], k) + source[ORBITAL_MOMENTUM][k])*next;
-    t[SPIN][k + 1] = (product(s->spin_by_gap, t[GAP], k) + product(s->spin_by_orbital_momentum,
-        t[ORBITAL_MOMENTUM], k) + product(s->spin_by_spin, t[SPIN], k) + source[SPIN][k])*next;
-#if TURNING_STATE
-    t[TURNED][k + 1] = (product(s->turned_by_gap, t[GAP], k) + product(s->turned_by_orbital_momentum,
-        t[ORBITAL_MOMENTUM], k) + source[TURNED][k])*next;
-#endif
-}
+#include "shared/tangent_coefficients_oblique.h"
 
 /* Source terms of the derivatives by a group; zero ones are left unset. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
@@ -457,142 +418,15 @@ static inline vec contraction(const series *of, const constants *v, vec film, ve
         film*of->film_resistance_law.result[0])/v->stokes;
 }
 
-/* Derivative of the initial state by a group. */
-static inline void start_along(const constants *v, int group, vec *after)
-{
-    (void)v;
-    after[GAP] = splat(0.0);
-    after[NORMAL_VELOCITY] = splat(0.0);
-    after[ORBITAL_MOMENTUM] = splat(0.0);
-    after[SPIN] = splat(0.0);
-    switch (group) {
-    case BY_ASPECT:
-        after[ORBITAL_MOMENTUM] += 2.0*v->initial_turning*(v->aspect + 4.0);
-        break;
-    case BY_INITIAL_TURNING:
-        after[ORBITAL_MOMENTUM] += ((v->aspect + 4.0)*(v->aspect + 4.0));
-        break;
-    case BY_INITIAL_SPIN:
-        after[SPIN] += 1.0;
-        break;
-    }
-}
+#include "shared/start_along_oblique.h"
 
-/* Derivative of the state just after a rebound. */
-static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
-{
-    (void)v;
-    (void)y;
-    after[GAP] = t[GAP];
-    after[NORMAL_VELOCITY] = -v->dry_restitution*t[NORMAL_VELOCITY];
-    after[ORBITAL_MOMENTUM] = t[ORBITAL_MOMENTUM];
-    after[SPIN] = t[SPIN];
-    switch (group) {
-    case BY_DRY_RESTITUTION:
-        after[NORMAL_VELOCITY] += -y[NORMAL_VELOCITY];
-        break;
-    }
-}
+#include "shared/rebound_along_oblique.h"
 
-/* Derivative of the results for a separated doublet. */
-static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)
-{
-    (void)v;
-    (void)y;
-    shown[0] = t[NORMAL_VELOCITY];
-    shown[1] = -v->aspect*y[ORBITAL_MOMENTUM]/(v->initial_turning*(v->aspect + 4.0)*((v->aspect*y[GAP] +
-        4.0)*(v->aspect*y[GAP] + 4.0)))*t[GAP] + 1.0/(v->initial_turning*(v->aspect + 4.0)*(v->aspect*y[GAP] +
-        4.0))*t[ORBITAL_MOMENTUM];
-    shown[2] = -2.0*v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0)*(v->aspect*y[GAP] + 4.0))*t[GAP] + 1.0/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0))*t[ORBITAL_MOMENTUM];
-    shown[3] = t[SPIN];
-    switch (group) {
-    case BY_ASPECT:
-        shown[1] += -2.0*y[ORBITAL_MOMENTUM]*(v->aspect*y[GAP] + 2.0*y[GAP] +
-        2.0)/(v->initial_turning*((v->aspect + 4.0)*(v->aspect + 4.0))*((v->aspect*y[GAP] +
-        4.0)*(v->aspect*y[GAP] + 4.0)));
-        shown[2] += -2.0*y[GAP]*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0)*(v->aspect*y[GAP] + 4.0));
-        break;
-    case BY_INITIAL_TURNING:
-        shown[1] += -y[ORBITAL_MOMENTUM]/((v->initial_turning*v->initial_turning)*(v->aspect +
-        4.0)*(v->aspect*y[GAP] + 4.0));
-        break;
-    }
-}
+#include "shared/outputs_along_oblique.h"
 
-/* Derivative of the gap beyond which there is no tangential force. */
-static inline vec tangential_edge_along(const constants *v, int group)
-{
-    (void)v;
-    switch (group) {
-    case BY_ASPECT:
-        return shear_edge_by_aspect(v->aspect);
-    default:
-        return splat(0.0);
-    }
-}
+#include "shared/tangential_edge_along_oblique.h"
 
 /* The groups that each quantity in SI moves, as bits. */
 const unsigned moved_groups[QUANTITIES] = { 115, 1, 128, 256, 64, 64, 97, 226, 32, 113, 8, 16 };
 
-/* How the groups change with a quantity in SI. */
-static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)
-{
-    (void)v; (void)q;
-    memset(slope, 0, sizeof(vec)*GROUPS);
-    switch (quantity) {
-    case SI_REDUCED_RADIUS:
-        slope[BY_STOKES] = -2.0*v->stokes/q[SI_REDUCED_RADIUS];
-        slope[BY_ASPECT] = -v->aspect/q[SI_REDUCED_RADIUS];
-        slope[BY_INITIAL_SPIN] = v->initial_spin/q[SI_REDUCED_RADIUS];
-        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_REDUCED_RADIUS];
-        slope[BY_ELASTIC_GAP] = 0.6*v->elastic_gap/q[SI_REDUCED_RADIUS];
-        break;
-    case SI_REDUCED_MASS:
-        slope[BY_STOKES] = v->stokes/q[SI_REDUCED_MASS];
-        break;
-    case SI_ROUGHNESS:
-        slope[BY_ROUGH_GAP] = v->rough_gap/q[SI_ROUGHNESS];
-        break;
-    case SI_DRY_RESTITUTION:
-        slope[BY_DRY_RESTITUTION] = splat(1.0);
-        break;
-    case SI_YOUNGS_MODULUS:
-        slope[BY_ELASTIC_GAP] = -0.4*v->elastic_gap/q[SI_YOUNGS_MODULUS];
-        break;
-    case SI_POISSON_RATIO:
-        slope[BY_ELASTIC_GAP] =
-        -0.8*1.148698354997035*1.5518455739153596*q[SI_POISSON_RATIO]*vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]/(1.0
-        -
-        (q[SI_POISSON_RATIO]*q[SI_POISSON_RATIO]))))*vec_exp(0.4*vec_log(q[SI_SPEED]*q[SI_VISCOSITY]/q[SI_YOUNGS_MODULUS]))/q[SI_FILM_THICKNESS];
-        break;
-    case SI_VISCOSITY:
-        slope[BY_STOKES] = -v->stokes/q[SI_VISCOSITY];
-        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_VISCOSITY];
-        slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_VISCOSITY];
-        break;
-    case SI_FILM_THICKNESS:
-        slope[BY_ASPECT] = v->aspect/q[SI_FILM_THICKNESS];
-        slope[BY_GLASS_NUMBER] = 2.0*v->glass_number/q[SI_FILM_THICKNESS];
-        slope[BY_ELASTIC_GAP] = -v->elastic_gap/q[SI_FILM_THICKNESS];
-        slope[BY_ROUGH_GAP] = -v->rough_gap/q[SI_FILM_THICKNESS];
-        break;
-    case SI_GLASS_TRANSITION_PRESSURE:
-        slope[BY_GLASS_NUMBER] = v->glass_number/q[SI_GLASS_TRANSITION_PRESSURE];
-        break;
-    case SI_SPEED:
-        slope[BY_STOKES] = v->stokes/q[SI_SPEED];
-        slope[BY_INITIAL_SPIN] = -v->initial_spin/q[SI_SPEED];
-        slope[BY_GLASS_NUMBER] = -v->glass_number/q[SI_SPEED];
-        slope[BY_ELASTIC_GAP] = 0.4*v->elastic_gap/q[SI_SPEED];
-        break;
-    case SI_ANGLE:
-        slope[BY_INITIAL_TURNING] = ((vec_tan(q[SI_ANGLE])*vec_tan(q[SI_ANGLE])) + 1.0)/v->obliquity;
-        break;
-    case SI_IMPACT_SPIN:
-        slope[BY_INITIAL_SPIN] = 4.0*q[SI_REDUCED_RADIUS]/(v->obliquity*q[SI_SPEED]);
-        break;
-    }
-}
+#include "shared/scale_along_oblique.h"

@@ -1,32 +1,10 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
  * Equations sha256 9b375d9c055b31fe9c7425d4020956ae98781f125cbf3b4ca045e44ae0894ecf */
 
-/* Oblique doublet with pendulum strings.
+/* Tangent of oblique_strings.h: derivatives of the states by the groups.
  *
- * Time in x0/v0. States (per unit):
- * - gap [x0]: gap over film thickness
- * - normal_velocity [v0]: normal velocity over impact speed, negative on approach
- * - orbital_momentum [a^2 Omega]: orbital angular momentum r^2 omega over a^2 Omega
- * - spin [Omega]: spin of each sphere over its scale Omega
- * - rotation [rad]: angle turned by the line of centres
- *
- * Groups:
- * - stokes [1]: Stokes number m v0/(6 pi mu a^2)
- * - aspect [1]: film thickness over reduced radius, x0/a
- * - obliquity [1]: largest of tan(theta0) and R_i |xi_i|/v0: the scale of tangential speeds over v0
- * - initial_turning [1]: tan(theta0)/T, 1 without spins
- * - initial_spin [Omega]: spin at initial contact over Omega
- * - weight [1]: gravity over impact deceleration, g x0/v0^2
- * - string_ratio [1]: string length over reduced radius
- * - glass_number [1]: glass-transition pressure over 3 mu a v0/x0^2
- * - elastic_gap [x0]: elastic length over film thickness
- * - rough_gap [x0]: roughness over film thickness
- * - dry_restitution [1]: restitution of the dry contact
- *
- * Law slots: film, glass, shear, arm, strings.
- *
- * Tangent: derivatives of the states by the groups. Products of series: 51 and those of the laws, then 13 a
- * direction; backwards 30 and those of the laws' derivatives. */
+ * Products of series: 51 and those of the laws, then 13 a direction; backwards 30 and those of the laws'
+ * derivatives. */
 
 enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_INITIAL_TURNING, BY_INITIAL_SPIN, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_DRY_RESTITUTION };
 const char group_names[] =
@@ -608,26 +586,7 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     }
 }
 
-/* Coefficient k + 1 of a derivative of the states, with its source terms. */
-INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
-    const constants *v, vec film, vec shear, const vec *const *source, int k)
-{
-    double next = 1.0/(k + 1);
-    (void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;
-    t[GAP][k + 1] = (t[NORMAL_VELOCITY][k])*next;
-    t[NORMAL_VELOCITY][k + 1] = (product(s->normal_velocity_by_gap, t[GAP], k) +
-        product(s->normal_velocity_by_normal_velocity, t[NORMAL_VELOCITY], k) +
-        product(s->normal_velocity_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
-        product(s->normal_velocity_by_rotation, t[ROTATION], k) + source[NORMAL_VELOCITY][k])*next;
-    t[ORBITAL_MOMENTUM][k + 1] = (product(s->orbital_momentum_by_gap, t[GAP], k) +
-        product(s->orbital_momentum_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
-        product(s->orbital_momentum_by_spin, t[SPIN], k) + product(s->orbital_momentum_by_rotation,
-        t[ROTATION], k) + source[ORBITAL_MOMENTUM][k])*next;
-    t[SPIN][k + 1] = (product(s->spin_by_gap, t[GAP], k) + product(s->spin_by_orbital_momentum,
-        t[ORBITAL_MOMENTUM], k) + product(s->spin_by_spin, t[SPIN], k) + source[SPIN][k])*next;
-    t[ROTATION][k + 1] = (product(s->rotation_by_gap, t[GAP], k) + product(s->rotation_by_orbital_momentum,
-        t[ORBITAL_MOMENTUM], k) + source[ROTATION][k])*next;
-}
+#include "shared/tangent_coefficients_oblique_strings.h"
 
 /* Source terms of the derivatives by a group; zero ones are left unset. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
@@ -671,84 +630,13 @@ static inline vec contraction(const series *of, const constants *v, vec film, ve
         film*of->film_resistance_law.result[0])/v->stokes;
 }
 
-/* Derivative of the initial state by a group. */
-static inline void start_along(const constants *v, int group, vec *after)
-{
-    (void)v;
-    after[GAP] = splat(0.0);
-    after[NORMAL_VELOCITY] = splat(0.0);
-    after[ORBITAL_MOMENTUM] = splat(0.0);
-    after[SPIN] = splat(0.0);
-    after[ROTATION] = splat(0.0);
-    switch (group) {
-    case BY_ASPECT:
-        after[ORBITAL_MOMENTUM] += 2.0*v->initial_turning*(v->aspect + 4.0);
-        break;
-    case BY_INITIAL_TURNING:
-        after[ORBITAL_MOMENTUM] += ((v->aspect + 4.0)*(v->aspect + 4.0));
-        break;
-    case BY_INITIAL_SPIN:
-        after[SPIN] += 1.0;
-        break;
-    }
-}
+#include "shared/start_along_oblique_strings.h"
 
-/* Derivative of the state just after a rebound. */
-static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
-{
-    (void)v;
-    (void)y;
-    after[GAP] = t[GAP];
-    after[NORMAL_VELOCITY] = -v->dry_restitution*t[NORMAL_VELOCITY];
-    after[ORBITAL_MOMENTUM] = t[ORBITAL_MOMENTUM];
-    after[SPIN] = t[SPIN];
-    after[ROTATION] = t[ROTATION];
-    switch (group) {
-    case BY_DRY_RESTITUTION:
-        after[NORMAL_VELOCITY] += -y[NORMAL_VELOCITY];
-        break;
-    }
-}
+#include "shared/rebound_along_oblique_strings.h"
 
-/* Derivative of the results for a separated doublet. */
-static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)
-{
-    (void)v;
-    (void)y;
-    shown[0] = t[NORMAL_VELOCITY];
-    shown[1] = -v->aspect*y[ORBITAL_MOMENTUM]/(v->initial_turning*(v->aspect + 4.0)*((v->aspect*y[GAP] +
-        4.0)*(v->aspect*y[GAP] + 4.0)))*t[GAP] + 1.0/(v->initial_turning*(v->aspect + 4.0)*(v->aspect*y[GAP] +
-        4.0))*t[ORBITAL_MOMENTUM];
-    shown[2] = -2.0*v->aspect*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0)*(v->aspect*y[GAP] + 4.0))*t[GAP] + 1.0/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0))*t[ORBITAL_MOMENTUM];
-    shown[3] = t[SPIN];
-    switch (group) {
-    case BY_ASPECT:
-        shown[1] += -2.0*y[ORBITAL_MOMENTUM]*(v->aspect*y[GAP] + 2.0*y[GAP] +
-        2.0)/(v->initial_turning*((v->aspect + 4.0)*(v->aspect + 4.0))*((v->aspect*y[GAP] +
-        4.0)*(v->aspect*y[GAP] + 4.0)));
-        shown[2] += -2.0*y[GAP]*y[ORBITAL_MOMENTUM]/((v->aspect*y[GAP] + 4.0)*(v->aspect*y[GAP] +
-        4.0)*(v->aspect*y[GAP] + 4.0));
-        break;
-    case BY_INITIAL_TURNING:
-        shown[1] += -y[ORBITAL_MOMENTUM]/((v->initial_turning*v->initial_turning)*(v->aspect +
-        4.0)*(v->aspect*y[GAP] + 4.0));
-        break;
-    }
-}
+#include "shared/outputs_along_oblique.h"
 
-/* Derivative of the gap beyond which there is no tangential force. */
-static inline vec tangential_edge_along(const constants *v, int group)
-{
-    (void)v;
-    switch (group) {
-    case BY_ASPECT:
-        return shear_edge_by_aspect(v->aspect);
-    default:
-        return splat(0.0);
-    }
-}
+#include "shared/tangential_edge_along_oblique.h"
 
 /* The groups that each quantity in SI moves, as bits. */
 const unsigned moved_groups[QUANTITIES] = { 467, 1, 512, 1024, 256, 256, 385, 930, 128, 64, 32, 433, 8, 16 };
