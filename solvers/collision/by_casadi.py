@@ -78,16 +78,19 @@ def _compute(
     small = load(select_model(scene, n.oblique, fold=True))
     choice = select_model(scene, n.oblique, full=ledger or trajectory, fold=True)
     flow = Flow(choice, Region(1, 1, False), _extras(load(choice), ledger))
-    asked = rtol
+    asked, looser = rtol, None
     while True:
         try:
             located = find(small, n.groups, asked, ())
         except ComputationError as error:
             raise n.in_si(error) from None
         start = flow.model.start(flow.model.group_values(n.groups))
+        tolerance = looser or control(asked, plugin, n.groups)
         try:
-            replayed = replay(located, plugin, control(asked, plugin, n.groups), flow, start)
+            replayed = replay(located, plugin, tolerance, flow, start)
         except Stopped as failure:
+            if not failure.missed and (looser := tolerance.loosened(asked)):
+                continue
             if failure.missed and asked > _TIGHTEST:
                 asked = asked * 1e-2 if asked > 200 * _TIGHTEST else _TIGHTEST
                 continue

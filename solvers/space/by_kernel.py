@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, TURNLESS, Status
+from ..engines.casadi.locate import CHATTERS
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.in_space import run_in_space
 from ..engines.taylor.record import run_with_books
@@ -176,7 +177,7 @@ def _rebounding(answer: np.void, thickness: float, speed: float) -> str:
         phase="opening" if velocity > 0 else "closing",
         time=float(answer["time"]) * thickness / speed,
         state={"gap": gap, "normal velocity": velocity},
-        advice="the doublet rebounds again and again: try a larger --rtol, or another impact",
+        advice=f"{CHATTERS}: try a larger --rtol, or another impact",
     )
     return str(error)
 

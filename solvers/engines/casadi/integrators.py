@@ -9,7 +9,7 @@ import contextlib
 import math
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ from ...model.phases import Flow, WatchedEvents, event_table, expressions, mecha
 from ...settings import STEPS, casadi_steps
 
 _EXPECTED = "Event support is experimental"
+_LOOSER = 1e3  # factor from a tolerance that an integrator cannot meet to the next one
 _FLAT = 1e-12  # of a function per x0/v0: a smaller slope is rounding, whose changes of sign are no minima, at rest
 
 
@@ -78,6 +79,16 @@ class Tolerance:
     absolute: float
     steps: int = STEPS
 
+    def loosened(self, rtol: float) -> Tolerance | None:
+        """A looser tolerance after one tightened for a grazing start fails; None if this is `rtol` already.
+
+        Later states, or losses, may be so large that the tightened tolerance is below their rounding error.
+        """
+        if self.relative >= rtol:
+            return None
+        looser = min(self.relative * _LOOSER, rtol)
+        return replace(self, relative=looser, absolute=self.absolute * looser / self.relative)
+
     @property
     def offset(self) -> float:
         """Initial value of quadratures: 1 if the absolute tolerance is too small to control one that starts at 0."""
@@ -106,6 +117,7 @@ def tolerance_for(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tole
     strings, the doublet is opened by a force of tan^2(theta0) x0/a in v0^2/x0, which must exceed the absolute
     tolerance. Tolerances are rounded to whole decades, so that integrators can be shared.
     """
+    steps = STEPS if plugin == "cvodes" else casadi_steps(rtol)  # by the requested tolerance, not by a tightened one
     centrifugal = groups["obliquity"] ** 2 * groups["aspect"] / 16
     absolute = 1e-3
     if "capillary" not in groups and "weight" not in groups and 0 < centrifugal < 1e-6:
@@ -116,7 +128,7 @@ def tolerance_for(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tole
         rtol = max(rtol * 10.0 ** -math.ceil(math.log10(centrifugal)), min(rtol, _TIGHTEST))
     if plugin == "cvodes":
         rtol = max(rtol * _CVODES_SHARE, _TIGHTEST)
-    return Tolerance(rtol, absolute * rtol)
+    return Tolerance(rtol, absolute * rtol, steps)
 
 
 @dataclass(frozen=True)

@@ -38,13 +38,17 @@ from ...model.rebound import rebounded
 from ...scene.contact import contact_gap, contact_word
 from ...scene.user_model import OwnEvent
 from ...settings import CALL, casadi_steps
-from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance_for
+from .integrators import EventHit, IntegrationFailed, Locator, locator, plain, tolerance_for
+
+# why a collision stays undecided, in messages
+CREEPS, RESTS = "the gap changes too slowly", "the resting doublet turns for too long"
+CHATTERS, REVERSED = "the doublet rebounds again and again", "the rotation reverses the approach"
+ROUNDED = "rounding of its angular momentum decides"
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is abandoned after 16 * 8^21 of them
 _DOUBLED, _MORE = 2.0, 64  # the same where a certificate is tried after each, as no event of it is watched
 _NOW_AND_THEN = 20  # phases of chatter between two checks of the certificate
 _STRONG = 1e4  # square root of a force over m v0^2/x0
-_LOOSER = 1e3  # factor from a tolerance that an integrator cannot meet to the next one
 _EVENT_OF = {event.name: event for event in EVENTS}
 _GAP, _VELOCITY = 0, 1  # indices in the state
 
@@ -146,8 +150,7 @@ class EventLocator:
         """Integrate the collision to separation, to a cut-off, or to a certificate, and from there up to `until`."""
         if self.groups["obliquity"] ** 2 * self.groups["aspect"] / 16 > MOST_OBLIQUE:
             raise self._error(
-                "at this angle, with these spins, the rotation reverses the approach within a rounding error of the "
-                "film thickness",
+                f"at this angle, with these spins, {REVERSED} within a rounding error of the film thickness",
                 "try a smaller angle or slower spins",
             )
         path = self._followed()
@@ -209,12 +212,12 @@ class EventLocator:
             if self.path.decided is not None:
                 message = f"{self.steps} steps have not led from the proof to the time that was asked for"
                 raise self._error(message, "try an earlier --until")
-            why, engine = "the gap changes too slowly", ""
+            why, engine = CREEPS, ""
             if self.phase.resting:
-                why = "the resting doublet turns for too long"
+                why = RESTS
                 engine = "" if self.model.space and self.model.friction else "engine taylor, "  # it has no such rest
             elif phases > min(CHATTER_PHASES, self.steps // (4 * CALL)):
-                why = "the doublet rebounds again and again"
+                why = CHATTERS
             raise self._error(
                 f"{self.steps} steps in {phases + 1} phases have not decided the outcome",
                 f"{why}: try {engine}a larger --rtol, or another impact",
@@ -286,8 +289,7 @@ class EventLocator:
             return True
         raise self._error(
             f"no event within {elapsed:.3g} x0/v0",
-            "the outcome changes within the tolerance of this impact, or the gap changes too slowly: "
-            "try a smaller --rtol, or another impact",
+            f"the outcome changes within the tolerance of this impact, or {CREEPS}: try a smaller --rtol, or another impact",
         )
 
     def _first_stretch(self) -> float:
@@ -306,22 +308,12 @@ class EventLocator:
             return self._overshot(find, stop, level) if stop.event in (None, "turning") else stop
         except IntegrationFailed as error:
             self._spend(find.steps + 1)
-            if self._loosened():
+            if looser := self.tolerance.loosened(self.rtol):
+                self.tolerance = looser
                 find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
                 return self._advance(find, stretch, level)
             self._spend(find.steps)  # an integrator whose steps are used up fails, too
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
-
-    def _loosened(self) -> bool:
-        """Continue with a looser tolerance after the start of a grazing trajectory, for which it had been tightened.
-
-        Later states may be so large that the tightened tolerance is below their rounding error.
-        """
-        if self.tolerance.relative >= self.rtol:
-            return False
-        looser = min(self.tolerance.relative * _LOOSER, self.rtol)
-        self.tolerance = Tolerance(looser, self.tolerance.absolute * looser / self.tolerance.relative)
-        return True
 
     def _overshot(self, find: Locator, stop: EventHit, level: float) -> EventHit:
         """The first event that was crossed before a turning point within one step.
@@ -441,7 +433,7 @@ class EventLocator:
                 least = LEAST_PARTING * self.groups["obliquity"] * self.groups["aspect"] ** 0.5
                 if self.y[_VELOCITY] < least:
                     raise self._error(
-                        "the doublet separates so slowly that rounding of its angular momentum decides",
+                        f"the doublet separates so slowly that {ROUNDED}",
                         "try spins with another angular momentum",
                     )
                 self.path.separated = True

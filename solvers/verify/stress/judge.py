@@ -15,6 +15,7 @@ import numpy as np
 from ....generated.automaton import OUTCOMES
 from ...certificates import Certainty, NoCertificate
 from ...collision.by_casadi import by_casadi
+from ...engines.casadi.locate import CHATTERS
 from ...engines.taylor.build import Variant
 from ...engines.taylor.call import variant_for_many
 from ...errors import ComputationError, ModelWarning
@@ -26,7 +27,7 @@ from ...scene.scene import Scene
 from .answers import Impact, answer, dimensionless
 from .located import LocatedTrajectories
 from .scipy_engine import ScipyLocator
-from .verdict import CHATTER, FAST, RTOL, Case, Found, Issue, Verdict, physical_reason
+from .verdict import FAST, RTOL, Case, Found, Issue, Verdict, physical_reason
 
 SHARE = 1e3  # assumed bound of an engine's error in units of rtol, times the conditioning
 FLOOR = 1e-12  # assumed bound of rounding errors, times the conditioning
@@ -148,7 +149,7 @@ def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
     found: dict[str, Found] = {}
     for name, run in engines.items():
         found[name] = _timed(run, case.scene, RTOL)
-        if CHATTER in found[name].failure:
+        if CHATTERS in found[name].failure:
             break  # the others share the rules of the event location and would chatter too
     issues: list[Issue] = [
         Issue("peer" if name == PEER else "failure", (name,), each.failure, _physical(each.failure, name, case))

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from ...engines.casadi.locate import CHATTERS, CREEPS, RESTS, REVERSED, ROUNDED
 from ...scene.scene import Scene
 from ...settings import ENGINES
 
 RTOL = 1e-9
 FAST = "taylor" if "taylor" in ENGINES else "rosenbrock"
-CHATTER = "the doublet rebounds again and again"
 _REASONS = {  # physical explanations of engine failures, by pattern of the message
-    "the rotation reverses the approach": "turns within a rounding error of x0",
-    CHATTER: "an attraction closes the gap again after every rebound, beyond any count: a cycle of the model",
+    REVERSED: "turns within a rounding error of x0",
+    ROUNDED: "an angular momentum within rounding of its parts: a separation at less than 1e-14 of the speeds",
+    CREEPS: "creeps, or is beside a separatrix, beyond the budget of steps",
+    RESTS: "turns in resting contact, whose force hardly changes, beyond the budget of steps",
+    CHATTERS: "an attraction closes the gap again after every rebound, beyond any count: a cycle of the model",
 }
 
 
