@@ -289,7 +289,8 @@ class EventLocator:
             return True
         raise self._error(
             f"no event within {elapsed:.3g} x0/v0",
-            f"the outcome changes within the tolerance of this impact, or {CREEPS}: try a smaller --rtol, or another impact",
+            f"the outcome changes within the tolerance of this impact, or {CREEPS}: "
+            "try a smaller --rtol, or another impact",
         )
 
     def _first_stretch(self) -> float:
