@@ -103,8 +103,8 @@ def test_a_sphere_and_a_wall_are_those_of_collide_pair(walled: Law):
 
 def test_spheres_that_rub_are_those_of_collide_pair(tmp_path: Path):
     """With Coulomb friction at every rebound, which changes the spins across the plane of approach as well."""
-    rough = {"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5, "model.contact_friction": "all"}
-    scene = OWN.with_entries(rough)
+    rough = {"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5}
+    scene = OWN.with_entries(rough | {"model.contact_friction": "all"})
     law = Law(scene, written(scene, tmp_path / "rough"), *STRICT)
     agree(law, scene, 60)
     pairs = arrivals(OWN, 60)
