@@ -56,6 +56,15 @@ def test_of_spheres_by_entries_and_vectors():
     assert along == pytest.approx(np.zeros((2, 3)), abs=1e-9 * np.abs(found.d_velocities.values).max())
 
 
+@pytest.mark.parametrize("friction", [0.05, 0.5])
+def test_of_spheres_that_rub(friction):
+    """By friction and the tangential restitution too, of a contact that slides (0.05) and of one that grips (0.5)."""
+    rough = {"particles.friction": friction, "particles.contact_tangential_restitution": 0.3}
+    scene = UNEQUAL.with_entries(rough | {"model.contact_friction": "all"})
+    inputs = {"normal": NORMAL, "velocities": 3 * VELOCITIES, "spins": 3 * SPINS}
+    agree(scene, inputs, (*rough, "liquid.viscosity", "spins.0.x", "velocities.1.z"))
+
+
 def test_beside_a_wall():
     """Sliding, rolling and twist, and a wall that moves."""
     inputs = {"normal": NORMAL, "velocities": 5 * VELOCITIES, "spins": 5 * SPINS[:1]}
