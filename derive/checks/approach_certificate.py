@@ -43,7 +43,7 @@ def braking_is_the_films() -> tuple[Check, ...]:
 
 
 def _inward(model: Model) -> sp.Expr:
-    return opened(model, dict(model["inward_force"].outputs)["inward_force"])
+    return opened(model, model["inward_force"]["inward_force"])
 
 
 def closing_speed() -> Check:
@@ -55,7 +55,7 @@ def closing_speed() -> Check:
     left: list[sp.Expr] = []
     for structure in (*_ATTRACTED, _STRINGS):
         model = derive(structure)
-        rate = opened(model, dict(model["right_hand_side"].outputs)["normal_velocity"])
+        rate = opened(model, model["right_hand_side"]["normal_velocity"])
         film = opened(model, FILM_FORCE)
         left.append(rate + film + _inward(model))
         spread = braking(structure, gap)
@@ -80,7 +80,7 @@ def rotation_gains() -> Check:
     for structure in _ATTRACTED:
         model = derive(structure)
         thrown = sp.expand(opened(model, attractions(structure, gap)) - _inward(model))
-        kinetic = opened(model, dict(model["energies"].outputs)["kinetic"])
+        kinetic = opened(model, model["energies"]["kinetic"])
         rotating = sp.expand(kinetic - normal_velocity**2 / 2)
         if not structure.oblique or structure.partner == "wall":
             left.append(thrown)
@@ -108,16 +108,16 @@ def as_emitted() -> Check:
         work = LARGEST_FORCE * (gap - DEEPER)
         gain = work / sp.Max(rest, sp.sqrt(work / 2))
         wanted = {"deeper_gap": DEEPER, "slowed": sp.Max(rest, 0) + gain, "fastest": gain - normal_velocity}
-        found = dict(model["approach_step"].outputs)
+        found = model["approach_step"].by_name
         for symbol in (GAIN, LEFT, PATH):
             found = {name: value.subs(symbol, named[symbol]) for name, value in found.items()}
         left += [found[name] - value for name, value in wanted.items()]
         if structure.strings:
             continue
-        outward = opened(model, dict(model["approach_force"].outputs)["outward"])
+        outward = opened(model, model["approach_force"]["outward"])
         thrown = sp.Integer(0)
         if structure.oblique and structure.partner != "wall":
-            kinetic = opened(model, dict(model["energies"].outputs)["kinetic"])
+            kinetic = opened(model, model["energies"]["kinetic"])
             distance = opened(model, DISTANCE)
             near = distance.subs(gap, contact_gap)
             thrown = 2 * aspect * (kinetic - normal_velocity**2 / 2) * distance**2 / near**3

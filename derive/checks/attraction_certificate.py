@@ -58,7 +58,7 @@ def margins_are_the_forces() -> Check:
         if not admits(structure) or structure.reduced:
             continue
         model = derive(structure)
-        emitted = dict(model["inward_force"].outputs)["inward_force"]
+        emitted = model["inward_force"]["inward_force"]
         force = model.expanded(emitted).subs(DISTANCE, 4 + aspect * gap)
         attraction = force.subs({weight: 0, orbital_momentum: 0})
         strings, outward = force.subs(orbital_momentum, 0) - attraction, force.subs(orbital_momentum, 0) - force

@@ -83,7 +83,7 @@ def slopes() -> Check:
     left = []
     for structure in _ATTRACTED:
         model = derive(structure)
-        outputs, taken = dict(model["effective_potential"].outputs), dict(model["energy_rates"].outputs)
+        outputs, taken = model["effective_potential"].by_name, model["energy_rates"].by_name
         value, slope = opened(model, outputs["energy"]), opened(model, outputs["slope"])
         works = [opened(model, taken[name]) / normal_velocity for name in ("capillary", "attraction") if name in taken]
         left.append(slope - _rises(structure, value) - sum(works))

@@ -29,9 +29,9 @@ def least_energy() -> Check:
     left = []
     for structure in structures():
         model = derive(structure)
-        if "effective_potential" not in [function.name for function in model.functions]:
+        if "effective_potential" not in model:
             continue
-        outputs = dict(model["effective_potential"].outputs)
+        outputs = model["effective_potential"].by_name
         value, slope = model.expanded(outputs["energy"]), model.expanded(outputs["slope"])
         momentum = sp.Symbol("L", real=True)  # over m a^2 Omega
         inertia = (4 + aspect * gap) ** 2 + sp.Rational(32, 5)
@@ -44,11 +44,11 @@ def least_energy() -> Check:
             expected += fixed.subs(momentum, own)
             change += fixed.diff(gap).subs(momentum, own)
         if structure.strings:
-            stored = model.expanded(dict(model["energies"].outputs)["strings"])
+            stored = model.expanded(model["energies"]["strings"])
             expected += stored
             change += slope_along(stored, gap)
         if structure.bridge:
-            work = dict(model["energy_rates"].outputs)["capillary"]
+            work = model["energy_rates"]["capillary"]
             change += model.expanded(work) / normal_velocity
         left += [value - expected, slope - change]
     return vanishing("stick certificate", "slope = d/dx [L^2/(2 I(x)) + U_s(x) + W_c(x)] at fixed L", left)
@@ -67,9 +67,9 @@ def least_energy_is_a_minimum() -> Check:
         if structure.reduced or structure.strings:
             continue  # the strings' energy does not depend on velocities; `reduced form` covers the reduced equations
         model = derive(structure)
-        kinetic = model.expanded(dict(model["energies"].outputs)["kinetic"]).subs(obliquity, tangent)
-        least = model.expanded(dict(model["effective_potential"].outputs)["energy"]).subs(obliquity, tangent)
-        at_least = {s: model.expanded(dict(model["rigid_rotation"].outputs)[s.name]) for s in model.states}
+        kinetic = model.expanded(model["energies"]["kinetic"]).subs(obliquity, tangent)
+        least = model.expanded(model["effective_potential"]["energy"]).subs(obliquity, tangent)
+        at_least = {s: model.expanded(model["rigid_rotation"][s.name]) for s in model.states}
         velocities = [normal_velocity]
         if structure.oblique:
             velocities.append(orbital_momentum)

@@ -17,7 +17,7 @@ __all__ = ["emitted_rates", "filled", "slope_along"]
 @cache
 def emitted_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
     """The emitted right-hand side by state, with every intermediate substituted."""
-    named = dict(model["right_hand_side"].outputs)
+    named = model["right_hand_side"].by_name
     return {state: model.expanded(named[state.name]) for state in model.states}
 
 
@@ -35,7 +35,7 @@ def opened(model: Model, expression: sp.Expr) -> sp.Expr:
 
 def opened_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
     """`emitted_rates`, except for the sizes of an unequal pair."""
-    named = dict(model["right_hand_side"].outputs)
+    named = model["right_hand_side"].by_name
     return {state: opened(model, named[state.name]) for state in model.states}
 
 

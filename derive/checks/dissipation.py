@@ -50,7 +50,7 @@ _OBLIQUE = Structure(oblique=True, bridge=False, strings=False)
 
 def _taken(model: Model, term: str) -> sp.Expr:
     """An emitted loss with the forces substituted; distance and orbital rate stay symbols of known sign."""
-    expression = dict(model["energy_rates"].outputs)[term]
+    expression = model["energy_rates"][term]
     for symbol, value in reversed(model.definitions):
         if symbol not in (ORBITAL_RATE, DISTANCE):
             expression = expression.subs(symbol, value)
@@ -179,7 +179,7 @@ def bridge_does_work() -> Check:
         if structure.bridge:
             model = derive(structure)
             force = model.expanded(BRIDGE_FORCE)
-            power = dict(model["energy_rates"].outputs)["capillary"]
+            power = model["energy_rates"]["capillary"]
             left += [force.diff(state) for state in (normal_velocity, orbital_momentum, spin, beta)]
             left.append(model.expanded(power) - force * normal_velocity)
     return vanishing("bridge does work only", "F_c = F_c(x): its work W_c(x) is a potential, for any bridge law", left)
@@ -191,9 +191,9 @@ def rebound_dissipates() -> tuple[Check, ...]:
     left, charged = [], sp.Integer(0)
     for structure in structures():
         model = derive(structure)
-        before = model.expanded(dict(model["energies"].outputs)["kinetic"])
-        jump = {state: dict(model["rebound"].outputs)[state.name] for state in model.states}
-        charged = model.expanded(dict(model["rebound_loss"].outputs)["dry_contact"])
+        before = model.expanded(model["energies"]["kinetic"])
+        jump = {state: model["rebound"][state.name] for state in model.states}
+        charged = model.expanded(model["rebound_loss"]["dry_contact"])
         left.append(before - before.subs(jump, simultaneous=True) - charged)
     sign = nonnegative(charged, e_dry, sp.Integer(1))
     return (

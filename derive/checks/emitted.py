@@ -50,7 +50,7 @@ _MIDGAP = {"arm": LAWS["arm"]["midgap"], "shear": LAWS["shear"]["immersed"]}
 
 
 def _value(model: Model, function: str, name: str) -> sp.Expr:
-    return model.expanded(dict(model[function].outputs)[name])
+    return model.expanded(model[function][name])
 
 
 def resting_is_held() -> Check:
@@ -73,7 +73,7 @@ def inward_is_minus_the_acceleration() -> Check:
         model = derive(structure)
         inward = -emitted_rates(model)[normal_velocity].subs(FILM, 0)
         left.append(_value(model, "inward_force", "inward_force") - inward)
-        if "release" in dict(model["events"].outputs):
+        if "release" in model["events"].by_name:
             left.append(_value(model, "events", "release") - inward)
     return vanishing("inward force", "inward force = -m du/dt without the film; `release` is where it turns", left)
 

@@ -31,7 +31,7 @@ def floating_doublets() -> Check:
     for structure in _COVERED:
         model = derive(structure)
         rates = {state: rate.subs(SHEAR, 0) for state, rate in opened_rates(model).items()}
-        inward = opened(model, dict(model["inward_force"].outputs)["inward_force"])
+        inward = opened(model, model["inward_force"]["inward_force"])
         drag = -(rates[normal_velocity] + inward)
         left += [rates[gap] - normal_velocity, rates[orbital_momentum], drag.subs(FILM, 0)]
         left += [(drag / (FILM * normal_velocity)).diff(normal_velocity), drag.diff(stokes) * stokes + drag]

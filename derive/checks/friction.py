@@ -44,12 +44,12 @@ _share, _beyond = sp.Symbol("share", positive=True), sp.Symbol("z", nonnegative=
 
 def _after(model: Model, expression: sp.Expr) -> sp.Expr:
     """An expression in the states just after `IMPULSE`."""
-    jump = {s: model.expanded(dict(model["rubbed"].outputs)[s.name]) for s in model.states}
+    jump = {s: model.expanded(model["rubbed"][s.name]) for s in model.states}
     return model.expanded(expression).subs(jump, simultaneous=True)
 
 
 def _kinetic(model: Model) -> sp.Expr:
-    return model.expanded(dict(model["energies"].outputs)["kinetic"])
+    return model.expanded(model["energies"]["kinetic"])
 
 
 def effective_mass() -> Check:
@@ -64,7 +64,7 @@ def sticking_reverses_the_slip() -> Check:
     left = []
     for structure in _FREE:
         model = derive(structure)
-        sticking = model.expanded(dict(model["dry_slip"].outputs)["sticking"])
+        sticking = model.expanded(model["dry_slip"]["sticking"])
         slip = model.expanded(DRY_SLIP)
         left.append(_after(model, DRY_SLIP).subs(IMPULSE, sticking) + beta_0 * slip)
     return vanishing("friction: sticking", "v_s' = -beta_0 v_s after the emitted impulse, for any lever arm", left)
@@ -75,7 +75,7 @@ def energy_is_booked() -> Check:
     left = []
     for structure in _FREE:
         model = derive(structure)
-        kinetic, lost = _kinetic(model), model.expanded(dict(model["friction_loss"].outputs)["dry_friction"])
+        kinetic, lost = _kinetic(model), model.expanded(model["friction_loss"]["dry_friction"])
         left.append(kinetic - _after(model, kinetic) - lost)
     return vanishing("friction: energy", "kinetic energy before - after = friction_loss, for any impulse", left)
 
@@ -83,7 +83,7 @@ def energy_is_booked() -> Check:
 def never_gains() -> Check:
     """An impulse of at most the one that sticks dissipates, for 0 <= beta_0 <= 1."""
     model = derive(_FREE[0])
-    lost = dict(model["friction_loss"].outputs)["dry_friction"]
+    lost = model["friction_loss"]["dry_friction"]
     part = _share * (1 + 1 / (1 + _beyond)) * DRY_SLIP / COMPLIANCE  # beta_0 = 1/(1 + z)
     sign = nonnegative(sp.factor(lost.subs(IMPULSE, part)), _share, sp.Integer(1))
     statement = "friction_loss >= 0 for any part of the impulse that sticks and 0 <= beta_0 <= 1"
@@ -109,8 +109,8 @@ def resting_contact() -> tuple[Check, ...]:
     booked, held = [], []
     for structure in (_FREE[0], _FREE[2]):
         model = derive(structure)
-        rates = {s: model.expanded(dict(model["resting_rates"].outputs)[s.name]) for s in model.states}
-        taken = dict(model["energy_rates"].outputs)
+        rates = {s: model.expanded(model["resting_rates"][s.name]) for s in model.states}
+        taken = model["energy_rates"].by_name
         spent = model.expanded(taken["tangential_lubrication"] + taken["dry_friction"])
         sliding, rolling = {SLIDING: SLIDING, ROLLING: 0}, {SLIDING: 0, ROLLING: 1}
         still = {decay: sp.Integer(0)}  # beside a wall, since the rebound
@@ -130,7 +130,7 @@ def in_space() -> tuple[Check, ...]:
     Energy and angular momentum are those of the plane for each component, so what is shown there holds in space.
     """
     model, pair = derive(replace(_FREE[1], partner="space")), derive(_FREE[1])
-    jump, planar = (dict(each["rubbed"].outputs) for each in (model, pair))
+    jump, planar = (each["rubbed"].by_name for each in (model, pair))
     midgap = {LEVER: dict(model.definitions)[LEVER]}
     twist = [RADIUS * TWIST + PARTNER_RADIUS * PARTNER_TWIST]
     slips = [dict(model.definitions)[each] for each in DRY_SLIPS]

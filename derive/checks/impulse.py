@@ -129,7 +129,7 @@ def impulse_as_emitted() -> Check:
         momentum = later / obliquity
         found = (outward_at(momentum, NEAREST) - _PULL) / turning_at(momentum, NEAREST)
         total += sp.Max(0, sp.factor(found).subs(_PULL, pull))
-    emitted = dict(model["pendulum_margins"].outputs)["impulse"]
+    emitted = model["pendulum_margins"]["impulse"]
     first = {symbol: value for symbol, value in model.definitions if symbol.name == "contact"}
     parts = [sp.expand(part.subs(first)) for part in sp.Mul.make_args(emitted) if part != WIDTH]
     ours = sorted((sp.expand(each.args[1]) for each in total.args), key=str)

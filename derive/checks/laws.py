@@ -89,7 +89,7 @@ def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
     for law in laws:
         integral, integrated = film_integral(law)
         speed = -(1 - integral / stokes)
-        rate = filled(model.expanded(dict(model["right_hand_side"].outputs)["normal_velocity"]), {"film": law})
+        rate = filled(model.expanded(model["right_hand_side"]["normal_velocity"]), {"film": law})
         left = [speed * speed.diff(gap) - rate.subs({closing: speed, film_flag: 1}), speed.subs(gap, 1) + 1]
         left += [integral - each(gap) for each in law.functions if each.name == "stopping"]
         figure = f"Lf(s) = {integral}".replace("gap", "s")

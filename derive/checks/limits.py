@@ -30,7 +30,7 @@ def reduced_is_full() -> Check:
             - filled(full_rates[spin], midgap).subs(eliminated)
         )
         for name in ("events", "energies", "outputs", "effective_potential", "inward_force", "turning_rate", "start"):
-            of_full = dict(full[name].outputs)
+            of_full = full[name].by_name
             for key, expression in reduced[name].outputs:
                 left.append(full.expanded(of_full[key]).subs(eliminated) - reduced.expanded(expression))
     return vanishing(
@@ -50,9 +50,9 @@ def head_on_is_oblique_at_rest() -> Check:
         left += [rates[s].subs(still) - rate for s, rate in emitted_rates(narrow).items()]
         left += [rates[s].subs(still) for s in wide.states if s not in narrow.states]
         for name in ("events", "energies", "energy_rates", "inward_force", "effective_potential", "outputs"):
-            if name not in [function.name for function in wide.functions]:
+            if name not in wide:
                 continue  # rotating strings have no least-energy argument
-            there = dict(wide[name].outputs)
+            there = wide[name].by_name
             left += [
                 wide.expanded(there[key]).subs(still) - narrow.expanded(value) for key, value in narrow[name].outputs
             ]

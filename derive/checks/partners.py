@@ -69,7 +69,7 @@ def momenta_are_found() -> Check:
 def angular_momentum_is_kept() -> Check:
     """The emitted equations conserve the emitted angular momentum, for any laws with the lever arm at mid-gap."""
     model = derive(_PAIR)
-    momentum = opened(model, dict(model["angular_momentum"].outputs)["angular_momentum"])
+    momentum = opened(model, model["angular_momentum"]["angular_momentum"])
     rates = opened_rates(model)
     change = sum(
         (momentum.diff(state) * rates[state] for state in (orbital_momentum, spin, partner_spin)), sp.Integer(0)
@@ -83,7 +83,7 @@ def energy_is_accounted_for() -> Check:
     left = []
     for structure in (_PAIR, _WALL):
         model = derive(structure)
-        stored = opened(model, dict(model["energies"].outputs)["kinetic"])
+        stored = opened(model, model["energies"]["kinetic"])
         change = sum((stored.diff(state) * rate for state, rate in opened_rates(model).items()), sp.Integer(0))
         left.append(change + sum(opened(model, rate) for _, rate in model["energy_rates"].outputs))
     return vanishing("pair, wall: energy", "d(kinetic)/dt = -(film + shear + bridge + attraction power)", left)
@@ -150,7 +150,7 @@ def equal_is_the_doublet() -> Check:
 def _outputs_differ(pair: Model, equal: Model, together: dict[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
     left = []
     for name in ("energies", "angular_momentum", "effective_potential", "inward_force", "turning_rate", "outputs"):
-        there = dict(pair[name].outputs)
+        there = pair[name].by_name
         for key, expression in equal[name].outputs:
             left.append(pair.expanded(there[key]).subs(together) - equal.expanded(expression))
     return left
@@ -165,9 +165,9 @@ def slip_energy_adds() -> Check:
     left = []
     for structure in (_PAIR, replace(_PAIR, partner="")):
         model = derive(structure)
-        kinetic = opened(model, dict(model["energies"].outputs)["kinetic"]).subs(normal_velocity, 0)
-        rigid = {s: opened(model, dict(model["rigid_rotation"].outputs)[s.name]) for s in model.states[2:]}
-        least = opened(model, dict(model["effective_potential"].outputs)["energy"])
+        kinetic = opened(model, model["energies"]["kinetic"]).subs(normal_velocity, 0)
+        rigid = {s: opened(model, model["rigid_rotation"][s.name]) for s in model.states[2:]}
+        least = opened(model, model["effective_potential"]["energy"])
         apart = kinetic.subs({state: state - value for state, value in rigid.items()}, simultaneous=True)
         left.append(kinetic - least - apart)
     return vanishing("pair, doublet: slip energy", "T = L^2/(2 I) + T of the deviation from rigid rotation", left)
@@ -183,7 +183,7 @@ def wall_is_head_on() -> Check:
     rates, expected = emitted_rates(beside), emitted_rates(alone)
     left = [rates[state] - expected[state] for state in (gap, normal_velocity)]
     for name in ("events", "inward_force", "effective_potential", "rebound", "rebound_loss"):
-        here = dict(beside[name].outputs)
+        here = beside[name].by_name
         left += [beside.expanded(here[key]) - alone.expanded(value) for key, value in alone[name].outputs]
     (escape,), (kinetic,) = beside["escape_energy"].outputs, alone["energies"].outputs
     left.append(escape[1] - kinetic[1])

@@ -73,7 +73,7 @@ def ceiling_is_the_published() -> Check:
         if structure.strings:
             continue
         model = derive(structure)
-        emitted = model.expanded(dict(model["restitution_ceiling"].outputs)["squared"])
+        emitted = model.expanded(model["restitution_ceiling"]["squared"])
         left.append(emitted - (model.expanded(scaled) if structure.oblique else 1))
         if structure.oblique:  # from 1 upwards with the angle and, since I(x) grows, with the gap
             left.append(emitted.subs({obliquity: 0}) - 1)
@@ -101,10 +101,10 @@ def decomposition() -> Check:
         if structure.reduced:
             continue  # its shear loss follows from L and not from energy_rates
         model = derive(structure)
-        kinetic = model.expanded(dict(model["energies"].outputs)["kinetic"])
-        start = {s: model.expanded(dict(model["start"].outputs)[s.name]) for s in model.states}
-        jump = {s: dict(model["rebound"].outputs)[s.name] for s in model.states}
-        lost = model.expanded(dict(model["rebound_loss"].outputs)["dry_contact"])
+        kinetic = model.expanded(model["energies"]["kinetic"])
+        start = {s: model.expanded(model["start"][s.name]) for s in model.states}
+        jump = {s: model["rebound"][s.name] for s in model.states}
+        lost = model.expanded(model["rebound_loss"]["dry_contact"])
         turning = sp.expand(kinetic - normal_velocity**2 / 2)
         released = turning.subs(start, simultaneous=True) - turning
         # normal_velocity^2 - 1 - 2 (released - taken); `taken` is the integral of energy_rates plus the strings' energy

@@ -47,7 +47,7 @@ def _closed(symbol: sp.Symbol) -> bool:
 def _rates() -> dict[sp.Symbol, sp.Expr]:
     """Rates as polynomials in the states; the friction's strength, the sizes and the forces along n are left open."""
     model = derive(_SPACE)
-    named = dict(model["right_hand_side"].outputs)
+    named = model["right_hand_side"].by_name
     found: dict[sp.Symbol, sp.Expr] = {}
     for state in model.states:
         rate = sp.sympify(named[state.name])
@@ -100,7 +100,7 @@ def energy_in_space() -> Check:
                 expression = expression.subs(symbol, value)
         return expression
 
-    stored = half_open(dict(model["energies"].outputs)["kinetic"])
+    stored = half_open(model["energies"]["kinetic"])
     change = stored.diff(DISTANCE) * dict(model.definitions)[DISTANCE].diff(gap) * normal_velocity
     change += sum((stored.diff(state) * rate for state, rate in rates.items()), sp.Integer(0))
     lost = sum((half_open(rate) for _, rate in model["energy_rates"].outputs), sp.Integer(0))
@@ -145,8 +145,8 @@ def least_energy_in_space() -> Check:
     rotation about an axis across it: the barrier for |L| holds for good.
     """
     model = derive(_SPACE)
-    kinetic = dict(model["energies"].outputs)["kinetic"] - normal_velocity**2 / 2
-    least = dict(model["effective_potential"].outputs)["energy"]
+    kinetic = model["energies"]["kinetic"] - normal_velocity**2 / 2
+    least = model["effective_potential"]["energy"]
     unit = sp.simplify(kinetic / space.energy(orbital_momenta, spins, partner_spins))
     apart = opened(model, kinetic - least - unit * space.slip_energy())
     statement = "T = |L|^2/(2 I) + T of the deviation from rotation at L/I, for any directions"
@@ -186,7 +186,7 @@ def rebounds_do_not_come_back() -> Check:
     depth + (1 - e^2) s: positive.
     """
     model = derive(_SPACE)
-    rate, inward = (dict(model[each].outputs) for each in ("right_hand_side", "inward_force"))
+    rate, inward = (model[each].by_name for each in ("right_hand_side", "inward_force"))
     film = sp.expand(opened(model, rate[normal_velocity.name] + inward["inward_force"]))
     left = [film.subs(normal_velocity, 0), film.diff(normal_velocity, 2)]
     depth, surplus, spare, centrifugal, lost = sp.symbols("depth surplus spare centrifugal lost", positive=True)
@@ -205,7 +205,7 @@ def reduced_in_space() -> Check:
     assert len(spun) == len(begun) == 3
     left = []
     for name in ("right_hand_side", "energies", "inward_force"):
-        there = dict(full[name].outputs)
+        there = full[name].by_name
         for key, expression in reduced[name].outputs:
             difference = _by_momenta(full, there[key]).subs(spun) - _by_momenta(reduced, expression)
             left.append(_on_the_surface(sp.expand(difference)))
@@ -230,7 +230,7 @@ def plane_in_space() -> Check:
 
     planar = _components((normal, line), (orbital_momenta, upright(orbital_momentum)))
     planar |= _components((spins, upright(spin)), (partner_spins, upright(partner_spin)))
-    turning = opened(pair, dict(pair["turning_rate"].outputs)[beta.name])
+    turning = opened(pair, pair["turning_rate"][beta.name])
     expected = {state: filled(rate, _MIDGAP) for state, rate in opened_rates(pair).items()}
     moved = _components((normal, tuple(each.diff(beta) * turning for each in line)))
     for vector, state in ((orbital_momenta, orbital_momentum), (spins, spin), (partner_spins, partner_spin)):
@@ -239,7 +239,7 @@ def plane_in_space() -> Check:
     rates = opened_rates(model)
     left = [rates[state].subs(planar, simultaneous=True) - moved[state] for state in model.states]
     for name in ("energies", "energy_rates", "inward_force", "effective_potential"):
-        there = dict(pair[name].outputs)
+        there = pair[name].by_name
         for key, expression in model[name].outputs:
             here = opened(model, expression).subs(planar, simultaneous=True)
             left.append(here - filled(opened(pair, there[key]), _MIDGAP))

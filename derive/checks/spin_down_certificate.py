@@ -59,7 +59,7 @@ def _spins(structure: Structure) -> list[sp.Symbol]:
 
 
 def _rotating(model: Model) -> sp.Expr:
-    return opened(model, dict(model["energies"].outputs)["kinetic"]) - normal_velocity**2 / 2
+    return opened(model, model["energies"]["kinetic"]) - normal_velocity**2 / 2
 
 
 def _by_slip(structure: Structure, model: Model) -> dict[sp.Symbol, sp.Expr]:
@@ -67,7 +67,7 @@ def _by_slip(structure: Structure, model: Model) -> dict[sp.Symbol, sp.Expr]:
     turning, spins, named = sp.Symbol("turning", real=True), _spins(structure), slips(structure)
     here = opened(model, DISTANCE)
     state = {orbital_momentum: here**2 * turning, **{s: turning - slip for s, slip in zip(spins, named, strict=True)}}
-    momentum = opened(model, dict(model["angular_momentum"].outputs)["angular_momentum"]).subs(state)
+    momentum = opened(model, model["angular_momentum"]["angular_momentum"]).subs(state)
     (value,) = sp.solve(sp.expand(momentum), turning)
     return {s: sp.cancel(each.subs(turning, value)) for s, each in state.items()}
 
@@ -93,7 +93,7 @@ def slips_decay() -> Check:
         weight = sp.hessian(energy, named)
         product = (weight * matrix).applyfunc(sp.cancel)
         left += [product[0, -1] - product[-1, 0]]
-        taken = _plain(opened(model, dict(model["energy_rates"].outputs)["tangential_lubrication"]))
+        taken = _plain(opened(model, model["energy_rates"]["tangential_lubrication"]))
         vector = sp.Matrix(named)
         left.append(sp.cancel(taken.subs(by_slip, simultaneous=True) - (vector.T * product * vector)[0, 0]))
         minors = [product[:k, :k].det() / obliquity ** (2 * k) for k in range(1, len(named) + 1)]
@@ -149,11 +149,11 @@ def rotation_falls() -> Check:
         model = derive(structure)
         rates = opened_rates(model)
         energy, here = _rotating(model), opened(model, DISTANCE)
-        thrown = -opened(model, dict(model["inward_force"].outputs)["inward_force"])
+        thrown = -opened(model, model["inward_force"]["inward_force"])
         change = sum(
             (energy.diff(state) * rate for state, rate in rates.items() if state != normal_velocity), sp.Integer(0)
         )
-        taken = opened(model, dict(model["energy_rates"].outputs)["tangential_lubrication"])
+        taken = opened(model, model["energy_rates"]["tangential_lubrication"])
         left.append(change + thrown * normal_velocity + taken)
         film = FILM * normal_velocity * slot_call("film", "resistance", gap) / stokes
         left.append(rates[normal_velocity] - thrown + film)
@@ -200,7 +200,7 @@ def as_emitted() -> Check:
         named, own = dict(model.definitions), dict(definitions(structure))
         left += [named[symbol] - value for symbol, value in own.items()]
         left += [named[EDGE] - slot_call("shear", "edge", aspect), named[BEYOND] - (gap + sp.Min(1, EDGE)) / 2]
-        found = dict(model["spin_down_margins"].outputs)
+        found = model["spin_down_margins"].by_name
         film = slot_call("film", "stopping", gap) - slot_call("film", "stopping", BEYOND)
         outward = sp.Max(normal_velocity, -e_dry * normal_velocity)
         left += [found["stays"] - (stokes * outward + stokes * impulse(structure) - film), found["rate"] - RATE]

@@ -33,7 +33,7 @@ def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """State at initial contact: closing at v0, with the rotation of the line of centres and the spins of the impact."""
     touching: dict[sp.Symbol, sp.Expr] = {gap: sp.Integer(1), normal_velocity: sp.Integer(-1)}
     if structure.partner:
-        return touching | dict(rotation(structure.partner, structure.friction, structure.reduced).start)
+        return touching | dict(rotation(structure).start)
     return touching | {
         orbital_momentum: (4 + aspect) ** 2 * initial_turning,
         spin: initial_spin,

@@ -41,7 +41,7 @@ def intermediates(structure: Structure, conserved: Sequence[Conserved] = ()) -> 
     if structure.partner == "space" and conserved:
         definitions = list(space.definitions(_eliminated(conserved)))
     elif structure.partner:
-        definitions = list(rotation(structure.partner, structure.friction, structure.reduced).definitions)
+        definitions = list(rotation(structure).definitions)
     elif structure.oblique:
         definitions += _rotation(conserved[0] if conserved else None)
         slip_form = _scaled(laws[F_t], TANGENTIAL)

@@ -47,7 +47,6 @@ from .intermediates import (
     by_orbital_rate,
 )
 from .invariants import angular_momentum as angular_momentum_invariant
-from .rates import inward_force
 
 
 def energies(structure: Structure) -> dict[str, sp.Expr]:
@@ -60,7 +59,7 @@ def energies(structure: Structure) -> dict[str, sp.Expr]:
 
 def _kinetic(structure: Structure) -> sp.Expr:
     if structure.partner:
-        return normal_velocity**2 / 2 + rotation(structure.partner, structure.friction, structure.reduced).kinetic
+        return normal_velocity**2 / 2 + rotation(structure).kinetic
     energy = sp.expand(equations_of_motion().kinetic_energy / (m * v0**2))
     if not structure.oblique:
         energy = energy.subs({omega: 0, xi: 0})
@@ -86,7 +85,7 @@ def energy_rates(structure: Structure) -> dict[str, sp.Expr]:
     if structure.attraction:
         taken["attraction"] = ATTRACTION_FORCE * normal_velocity
     if structure.partner:
-        taken["tangential_lubrication"] = rotation(structure.partner, structure.friction, structure.reduced).power
+        taken["tangential_lubrication"] = rotation(structure).power
     elif structure.oblique and not structure.reduced:
         power = TANGENTIAL * SHEAR_FORCE * (a * DISTANCE * rate_scale * ORBITAL_RATE - 2 * a * LEVER * xi)
         taken["tangential_lubrication"] = nondimensional(power * x0 / v0 / (m * v0**2))
@@ -101,7 +100,7 @@ def angular_momentum(structure: Structure) -> sp.Expr | None:
     Its size is the sum of the magnitudes of the orbital part and of the spins': L itself may vanish.
     """
     if structure.partner:
-        return rotation(structure.partner, structure.friction, structure.reduced).momentum
+        return rotation(structure).momentum
     whole = angular_momentum_invariant()
     first = start(structure)
     parts = [whole.coeff(each) * first[each] for each in (orbital_momentum, spin)]
@@ -112,7 +111,7 @@ def outputs(structure: Structure) -> dict[str, sp.Expr]:
     """Results for a separated doublet: restitutions, and rates over Omega."""
     shown: dict[str, sp.Expr] = {"restitution": normal_velocity}
     if structure.partner:
-        return shown | dict(rotation(structure.partner, structure.friction, structure.reduced).outputs)
+        return shown | dict(rotation(structure).outputs)
     if structure.oblique:
         shown["tangential_restitution"] = DISTANCE * ORBITAL_RATE / ((4 + aspect) * initial_turning)
         shown["final_rotation_rate"] = ORBITAL_RATE
@@ -123,7 +122,7 @@ def outputs(structure: Structure) -> dict[str, sp.Expr]:
 def surface_slip(structure: Structure) -> sp.Expr:
     """Relative velocity of the surfaces at the contact, at the lever arms of the torques, over a Omega."""
     if structure.partner:
-        return rotation(structure.partner, structure.friction, structure.reduced).surface_slip
+        return rotation(structure).surface_slip
     if structure.reduced:  # the lever arm is r/2
         return DISTANCE * SLIP
     return DISTANCE * ORBITAL_RATE - 2 * LEVER * spin
@@ -133,7 +132,7 @@ def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
     """Least energy at a gap for the state's angular momentum, and its slope along the gap (stick certificate)."""
     energy, slope = sp.Integer(0), sp.Integer(0)
     if structure.partner:
-        energy, slope = rotation(structure.partner, structure.friction, structure.reduced).least
+        energy, slope = rotation(structure).least
     elif structure.oblique:
         square = (m * a**2 * rate_scale * MOMENTUM) ** 2
         energy += nondimensional(square / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
@@ -152,37 +151,9 @@ def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
 def rigid_rotation(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """The state of least energy at this gap for the state's angular momentum: u = 0, omega = xi = L/I."""
     if structure.partner:
-        rigid = rotation(structure.partner, structure.friction, structure.reduced).rigid
-        assert rigid is not None
-        return {gap: gap, normal_velocity: sp.Integer(0), **rigid}
+        return {gap: gap, normal_velocity: sp.Integer(0), **rotation(structure).rigid}
     rate = MOMENTUM / INERTIA_RATIO if structure.oblique else sp.Integer(0)
     return {gap: gap, normal_velocity: sp.Integer(0), orbital_momentum: DISTANCE**2 * rate, spin: rate}
-
-
-def outward_at_most(structure: Structure) -> sp.Expr:
-    """Bound of the centrifugal force on a resting doublet in space from now on."""
-    found = rotation(structure.partner, structure.friction, structure.reduced).outward_at_most
-    assert found is not None
-    return found
-
-
-def wobble(structure: Structure) -> sp.Expr:
-    """Energy of all motion but rigid rotation across the line of centres, and twist."""
-    found = rotation(structure.partner, structure.friction, structure.reduced).wobble
-    assert found is not None
-    return normal_velocity**2 / 2 + found
-
-
-def precession(structure: Structure) -> dict[str, sp.Expr]:
-    """Angular momentum in space, and the rate by which a rigid doublet turns about it, over its length."""
-    found = rotation(structure.partner, structure.friction, structure.reduced).rigid_rotation
-    assert found is not None
-    return dict(found)
-
-
-def inward_at_rest(structure: Structure) -> sp.Expr:
-    """Normal forces, positive inward, without the film's and the centrifugal force."""
-    return inward_force(structure) + rotation(structure.partner, structure.friction, structure.reduced).centrifugal
 
 
 def restitution_ceiling(structure: Structure) -> dict[str, sp.Expr]:

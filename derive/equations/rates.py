@@ -58,7 +58,7 @@ def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
         rate[normal_velocity] = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
         return rate
     if structure.partner:
-        beside = rotation(structure.partner, structure.friction, structure.reduced)
+        beside = rotation(structure)
         forces = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
         return rate | {normal_velocity: beside.centrifugal + forces} | dict(beside.rates)
     # the centrifugal term has a name of its own: the remainder is minus the forces
@@ -83,7 +83,7 @@ def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
 def turning_rate(structure: Structure | None = None) -> sp.Expr | None:
     """Angular velocity of the line of centres; None if it cannot turn."""
     if structure is not None and structure.partner:
-        return rotation(structure.partner, structure.friction, structure.reduced).turning
+        return rotation(structure).turning
     return by_orbital_rate(nondimensional(omega * x0 / v0))
 
 

@@ -15,7 +15,8 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from ..equations.automaton import CLOSING, EVENTS, OPENING, WORDS, Event
-from ..equations.model import GROUPS, Model, ModelFunction
+from ..equations.functions import ModelFunction
+from ..equations.model import GROUPS, Model
 from ..physics.mechanics import equations_of_motion
 from ..physics.partners.bodies import CENTRES
 from ..physics.scaling import DISTANCE, EQUAL, ScalingError, to_groups

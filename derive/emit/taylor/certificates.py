@@ -38,7 +38,7 @@ def pendulum_functions(model: Model, constants: Constants, prepared: dict[tuple[
         constants: of the structure; factors that do not vary are added to them.
         prepared: by slot and function, the name of the law's constants in those of the structure.
     """
-    outputs = dict(model["pendulum_margins"].outputs)
+    outputs = model["pendulum_margins"].by_name
     asked = {
         node.func.__name__.replace(".", "_").upper()
         for _, expression in (*needed(list(outputs.values()), model.definitions)[0], *outputs.items())
@@ -55,7 +55,7 @@ def pendulum_functions(model: Model, constants: Constants, prepared: dict[tuple[
 
 def attraction_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
     """The margins of the attraction certificate, for laws whose force decreases with the gap; arguments as above."""
-    outputs = dict(model["attraction_margins"].outputs)
+    outputs = model["attraction_margins"].by_name
     falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]
     moving = {state: f"y[{state.name.upper()}]" for state in model.states}
     kept, _ = needed(list(outputs.values()), model.definitions)
@@ -76,7 +76,7 @@ def spin_down_functions(model: Model, constants: Constants, prepared: dict[tuple
 
     The angular momentum at initial contact is one of the constants.
     """
-    outputs = dict(model["spin_down_margins"].outputs)
+    outputs = model["spin_down_margins"].by_name
     moving = {state: f"y[{state.name.upper()}]" for state in model.states}
     by_state = {key: value for key, value in outputs.items() if key != "momentum"}
     kept, _ = needed(list(by_state.values()), model.definitions)

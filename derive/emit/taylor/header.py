@@ -67,7 +67,7 @@ class Header:
         self.flow = self._program("right_hand_side")
         self.rates = dict(self._outputs)
         self.turning: str | sp.Expr | None = None
-        if any(each.name == "turning_rate" for each in model.functions) and not model.structure.strings:
+        if "turning_rate" in model and not model.structure.strings:
             self.turning = self._more(self.flow, self.model["turning_rate"].outputs)["rotation"]
         self.work_rate: str | sp.Expr | None = None
         self._work_operations: set[str] = set()
@@ -104,7 +104,7 @@ class Header:
 
     def _resting(self) -> Resting:
         """The motion in resting contact with friction."""
-        program, forces = Program(self.model.states), dict(self.model["dry_forces"].outputs)
+        program, forces = Program(self.model.states), self.model["dry_forces"].by_name
         rates = self.model["resting_rates"].outputs
         more = (
             ("slip", friction.DRY_SLIP),
@@ -203,9 +203,7 @@ class Header:
 
     def _glass_groups(self) -> str:
         """Additional arguments of a user's glass law, as C text."""
-        (call,) = (
-            node for node in dict(self.model["events"].outputs)["glass"].atoms(AppliedUndef) if is_slot_call(node)
-        )
+        (call,) = (node for node in self.model["events"]["glass"].atoms(AppliedUndef) if is_slot_call(node))
         return "".join(f", {self._passed(argument)}" for argument in call.args[2:])
 
     def _passed(self, argument: sp.Expr) -> str:
@@ -348,7 +346,7 @@ class Header:
         lines += self._value(
             "outputs", "static inline void outputs(const constants *c, const vec *y, vec *shown)", shown
         )
-        if any(each.name == "effective_potential" for each in model.functions):
+        if "effective_potential" in model:
             lines += ["#define POTENTIAL 1"]
             for key in ("energy", "slope"):
                 lines += self._value(
@@ -411,19 +409,19 @@ class Header:
                 {"angular_momentum": "return"},
             )
         prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
-        if any(each.name == "pendulum_margins" for each in model.functions):
+        if "pendulum_margins" in model:
             lines += pendulum_functions(model, self.constants, prepared)
-        if any(each.name == "attraction_margins" for each in model.functions):
+        if "attraction_margins" in model:
             lines += attraction_functions(model, self.constants, prepared)
-        if any(each.name == "orbital_margins" for each in model.functions):
+        if "orbital_margins" in model:
             lines += transfer_functions(model, self.constants, prepared)
-        if any(each.name == "spin_down_margins" for each in model.functions):
+        if "spin_down_margins" in model:
             lines += spin_down_functions(model, self.constants, prepared)
         if self.beside.events:
             lines += ["#define SLOW_MANIFOLD 0", ""]  # whose tubes know of no declared event
         else:
             lines += slow_manifold_functions(model, self.constants, prepared)
-        if any(each.name == "approach_step" for each in model.functions):
+        if "approach_step" in model:
             lines += approach_functions(model, self.constants, prepared)
         if attracting(self.model):
             lines += work_function(model, self.constants, self.calls)
@@ -431,7 +429,7 @@ class Header:
             lines += momentum_functions(model, self.constants, self.calls)
         lines += self.ledger.functions(self._valued)
         if shape.oblique:
-            edge = dict(model["events"].outputs)["tangential_edge"]
+            edge = model["events"]["tangential_edge"]
             lines += edge_function(edge, self.constants)
         return lines
 

@@ -50,7 +50,7 @@ class Ledger:
         self.there = not model.structure.reduced
         self.constants = constants.beside("c->ledger.")
         self.program = flow.continued()
-        rates = dict(model["energy_rates"].outputs) if self.there else {}
+        rates = model["energy_rates"].by_name if self.there else {}
         more, _ = needed([rate for key, rate in rates.items() if key in TERMS], model.definitions)
         for symbol, expression in more:  # intermediates that the equations of motion do not use
             if symbol not in flow.named and not flow.moves(symbol):
@@ -131,7 +131,7 @@ class Ledger:
         head = "static inline vec rebound_loss(const constants *c, const vec *y)"
         lines += valued(list(loss.outputs), head, {"dry_contact": "return"}, loss.doc, self.constants)
         head = "static inline vec booked_momentum(const constants *c, const vec *y)"
-        if any(each.name == "angular_momentum" for each in model.functions):
+        if "angular_momentum" in model:
             momentum = model["angular_momentum"]
             lines += valued(list(momentum.outputs), head, {"angular_momentum": "return"}, momentum.doc, self.constants)
         else:

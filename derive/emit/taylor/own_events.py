@@ -37,7 +37,7 @@ def own_event_functions(
         return [], []
     if len(model.states) - 1 > _SHOWN:
         raise EmissionError(f"{len(own)} declared events are more than the kernel has room for")
-    guards = dict(model["events"].outputs)
+    guards = model["events"].by_name
     program = Program(model.states)
     kept, _ = needed([sp.sympify(guards[each.name]) for each in own], model.definitions)
     for symbol, expression in kept:

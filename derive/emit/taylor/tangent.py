@@ -281,7 +281,7 @@ class Tangent(LinearFlow):
         return f"y[{symbol.name.upper()}]" if symbol in self.model.states else f"v->{symbol.name}"
 
     def _edge(self) -> list[str]:
-        edge = dict(self.model["events"].outputs)["tangential_edge"]
+        edge = self.model["events"]["tangential_edge"]
         call = next(node for node in edge.atoms(AppliedUndef) if is_slot_call(node))
         slot, name = call.func.__name__.split(".")
         passed = ", ".join(f"v->{argument}" for argument in call.args)

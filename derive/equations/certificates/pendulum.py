@@ -70,6 +70,12 @@ ANGLES = sp.symbols(f"angle_:{PANELS}", nonnegative=True)
 TURNINGS = sp.symbols(f"turning_:{PANELS}", nonnegative=True)
 
 
+def admits(structure: Structure) -> bool:
+    """True for the structures covered: oblique, on strings, with a film only."""
+    alone = not (structure.bridge or structure.attraction or structure.friction)
+    return structure.oblique and structure.strings and alone
+
+
 def rigid_momentum(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
     """r^2 omega over a^2 Omega in rigid rotation with this angular momentum."""
     inertia = nondimensional(doublet_inertia() / (m * a**2)).subs(DISTANCE, distance)

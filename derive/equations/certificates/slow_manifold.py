@@ -56,7 +56,7 @@ def coefficients(model: Model) -> dict[str, sp.Expr] | None:
     rate = {key: value.subs({FILM: 1, SHEAR: 1}) for key, value in _rates(model).items()}
     u, momentum = normal_velocity, orbital_momentum
     push, turn = rate[u.name], rate[momentum.name]
-    rigid = _in_gap_and_distance(model, dict(model["rigid_rotation"].outputs)[momentum.name])
+    rigid = _in_gap_and_distance(model, model["rigid_rotation"][momentum.name])
     film = -push.diff(u)
     centrifugal = push.diff(momentum, 2) / 2
     attractions = -push.subs({u: 0, momentum: 0})

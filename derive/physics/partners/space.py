@@ -274,7 +274,7 @@ def rotation(reduced: bool) -> Rotation:
         outputs=_outputs(),
         surface_slip=surface_slip(),
         least=(least, least.diff(INERTIA_RATIO) * 2 * DISTANCE * aspect),
-        rigid=None,
+        rigid={},
         start=start(),
         outward_at_most=outward_at_most(),
         wobble=energy_unit() * wobble(),
