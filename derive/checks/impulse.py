@@ -30,8 +30,7 @@ from ..physics.laws.strings import offset_squared
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import aspect, beta, gap, obliquity, orbital_momentum, spin, string_ratio, weight
-from .base import Check, vanishing
-from .closed import emitted_rates
+from .base import Check, Evidence, check, vanishing
 from .signs import positive
 
 _PENDULUM = Structure(oblique=True, bridge=False, strings=True)
@@ -52,7 +51,7 @@ def strings_take() -> Check:
 
     There J >= s L, with s the largest share: F_t reduces J, and the strings take the whole of what they take from L.
     """
-    found = emitted_rates(_model())
+    found = _model().by_state("right_hand_side")
     log_factor = sp.Function("shear.log_factor", real=True)(gap, aspect)
     alone = sp.expand(found[orbital_momentum].subs(log_factor, 0))
     spun = found[spin].subs(log_factor, 0)
@@ -97,34 +96,34 @@ def integrand_is_largest_in_contact() -> Check:
     )
 
 
-def angle_is_beyond() -> Check:
+@check("arcsine", "arcsin(z) <= z + (pi/2 - 1) z^3, equal at z = 1")
+def angle_is_beyond() -> Evidence:
     """arcsin(z) <= z + (pi/2 - 1) z^3 up to z = 1, where both are equal: (arcsin(z) - z)/z^3 has positive terms."""
     z, n = sp.Symbol("z"), sp.Symbol("n", integer=True, positive=True)
     ends = sp.asin(1) - 1 - (sp.pi / 2 - 1)
     first = sp.series(sp.asin(z), z, 0, 12).removeO()
     coefficient = sp.binomial(2 * n, n) / (4**n * (2 * n + 1))
-    left = [ends] + [first.coeff(z, 2 * k + 1) - coefficient.subs(n, k) for k in range(1, 6)]
-    return vanishing("arcsine", "arcsin(z) <= z + (pi/2 - 1) z^3, equal at z = 1", left)
+    yield from [ends] + [first.coeff(z, 2 * k + 1) - coefficient.subs(n, k) for k in range(1, 6)]
 
 
-def impulse_as_emitted() -> Check:
+@check("impulse: as emitted", "left sums of the falling integrand, up to where it has vanished")
+def impulse_as_emitted() -> Evidence:
     """The emitted impulse sums the integrand at the start of equal panels up to the angle at which it has vanished."""
     model = _model()
     named = dict(model.definitions)
-    left: list[sp.Expr] = []
     risen = aspect * contact_gap + 8 * sp.sin(beta / 2) ** 2
-    left.append(model.expanded(WEIGHING) * risen - model.expanded(pull_at(contact_gap, beta)))
-    left.append(named[TURNING] - obliquity * LARGEST_MOMENTUM)
+    yield model.expanded(WEIGHING) * risen - model.expanded(pull_at(contact_gap, beta))
+    yield named[TURNING] - obliquity * LARGEST_MOMENTUM
     # at sin(beta/2) = final the pull, with the present stiffness, equals the centrifugal force of J_max
     level = named[FINAL].args[0]
     inner = next(part for part in level.atoms(sp.Min)).args
     (zero,) = (part for part in inner if part != 1)
-    left.append(model.expanded(WEIGHING * (aspect * contact_gap + 8 * zero) - OUTWARD))
-    left.append(named[WIDTH] * PANELS - sp.Max(0, 2 * FINAL + (sp.pi - 2) * FINAL**3 - beta))
+    yield model.expanded(WEIGHING * (aspect * contact_gap + 8 * zero) - OUTWARD)
+    yield named[WIDTH] * PANELS - sp.Max(0, 2 * FINAL + (sp.pi - 2) * FINAL**3 - beta)
     total = sp.Integer(0)
     for k, (angle, later) in enumerate(zip(ANGLES, TURNINGS, strict=True)):
-        left.append(named[angle] - beta - k * WIDTH)
-        left.append(named[later] ** 2 - sp.Max(0, TURNING**2 - TAKEN * (sp.cos(beta) - sp.cos(angle))))
+        yield named[angle] - beta - k * WIDTH
+        yield named[later] ** 2 - sp.Max(0, TURNING**2 - TAKEN * (sp.cos(beta) - sp.cos(angle)))
         pull = WEIGHING * (aspect * contact_gap + 4 * (1 - sp.cos(angle)))
         momentum = later / obliquity
         found = (outward_at(momentum, NEAREST) - _PULL) / turning_at(momentum, NEAREST)
@@ -134,16 +133,9 @@ def impulse_as_emitted() -> Check:
     parts = [sp.expand(part.subs(first)) for part in sp.Mul.make_args(emitted) if part != WIDTH]
     ours = sorted((sp.expand(each.args[1]) for each in total.args), key=str)
     theirs = sorted((sp.expand(each.args[1]) for part in parts for each in sp.Add.make_args(part)), key=str)
-    left += [a - b for a, b in zip(ours, theirs, strict=True)]
-    return vanishing("impulse: as emitted", "left sums of the falling integrand, up to where it has vanished", left)
+    yield from [a - b for a, b in zip(ours, theirs, strict=True)]
 
 
-def impulse_is_bounded() -> tuple[Check, ...]:
-    """Every check of the impulse bound."""
-    return (
-        strings_take(),
-        torque_is_least_in_contact(),
-        integrand_is_largest_in_contact(),
-        angle_is_beyond(),
-        impulse_as_emitted(),
-    )
+CHECKS = (
+    strings_take, torque_is_least_in_contact, integrand_is_largest_in_contact, angle_is_beyond, impulse_as_emitted,
+)  # fmt: skip

@@ -19,11 +19,11 @@ from ..equations.certificates.orbital_momentum import (
 )
 from ..equations.model import derive
 from ..physics.laws import LAWS
+from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import aspect, gap, obliquity, orbital_momentum, spin
-from .base import Check, vanishing
-from .closed import emitted_rates, filled
+from .base import Check, Evidence, check, vanishing
 
 _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
 # square roots of momentum and spin, in which all expressions are rational
@@ -34,23 +34,21 @@ _FULL = Structure(oblique=True, bridge=True, strings=False)
 _REACH = 4  # the rupture distance is below 4 a: 2 V^(1/3) (1 + phi/2) with V <= 1 and phi <= pi/2
 
 
-def exchange() -> Check:
+@check("F_t exchanges momenta", "dJ = -(32/5)(d/(2 lever)) a^2 dxi")
+def exchange() -> Evidence:
     """The emitted rates of J and xi have the ratio `exchanged`, for every arm."""
-    left = []
-    rates = emitted_rates(derive(_FULL))
+    rates = derive(_FULL).by_state("right_hand_side")
     here = 4 + aspect * gap
     for law in LAWS["arm"].values():
         to_orbit, to_spin = (filled(rates[state], {"arm": law}) for state in (orbital_momentum, spin))
-        left.append(to_orbit + exchanged(here, law["lever"](here)) * to_spin)
-    return vanishing("F_t exchanges momenta", "dJ = -(32/5)(d/(2 lever)) a^2 dxi", left)
+        yield to_orbit + exchanged(here, law["lever"](here)) * to_spin
 
 
-def stationary() -> Check:
+@check("slip energy", "zero where omega = xi at d; exchange where omega = xi changes nothing")
+def stationary() -> Evidence:
     """The slip energy vanishes at omega = xi at d; with J^2/2 (1/r^2 - 1/d^2) it is stationary where omega = xi."""
-    left: list[sp.Expr] = []
     for lever, energy in (("midgap", _midgap()), ("surface", _surface())):
-        left += [_settled(energy.subs(_P, _FAR * _Q)), _settled(_change(lever, energy).subs(_P, _NEAR * _Q))]
-    return vanishing("slip energy", "zero where omega = xi at d; exchange where omega = xi changes nothing", left)
+        yield from (_settled(energy.subs(_P, _FAR * _Q)), _settled(_change(lever, energy).subs(_P, _NEAR * _Q)))
 
 
 def _settled(expression: sp.Expr) -> sp.Expr:
@@ -161,32 +159,21 @@ def _no_negative(part: sp.Expr) -> bool:
     return all(c >= 0 for c in sp.Poly(expanded, *sorted(expanded.free_symbols, key=str)).coeffs())
 
 
-def as_emitted() -> Check:
+@check("orbital: as emitted", "slip and slip energies over m v0^2")
+def as_emitted() -> Evidence:
     """The emitted margins are this energy, in units of m v0^2, and the slip."""
-    left: list[sp.Expr] = []
     for structure in (_FULL, replace(_FULL, reduced=True)):
         model = derive(structure)
         found = {name: model.expanded(value) for name, value in model["orbital_margins"].outputs}
         here, turning = model.expanded(DISTANCE), model.expanded(spin) if structure.reduced else spin
         unit = obliquity**2 / 16  # omega0 = v0 tan(theta0)/(4a)
-        left.append(found["slip"] - (orbital_momentum / here**2 - turning))
-        left.append(found["orbital_energy"] - unit * orbital_momentum**2 / (2 * here**2))
+        yield found["slip"] - (orbital_momentum / here**2 - turning)
+        yield found["orbital_energy"] - unit * orbital_momentum**2 / (2 * here**2)
         rigid = sp.cancel(rigid_momentum(here, orbital_momentum, turning))
-        left.append(_clamped(found["midgap"] / unit) - _clamped(midgap_of(here, orbital_momentum, rigid)))
+        yield _clamped(found["midgap"] / unit) - _clamped(midgap_of(here, orbital_momentum, rigid))
         if "surface" in found:
             own = surface(here, orbital_momentum, turning, rigid_share(orbital_momentum, turning))
-            left.append(found["surface"] - unit * own)
-    return vanishing("orbital: as emitted", "slip and slip energies over m v0^2", left)
+            yield found["surface"] - unit * own
 
 
-def orbital_momentum_certificate() -> tuple[Check, ...]:
-    """Every check of the orbital-momentum certificate."""
-    return (
-        exchange(),
-        stationary(),
-        midgap_takes(),
-        midgap_ends(),
-        *transferable_bounds(),
-        surface_takes(),
-        as_emitted(),
-    )
+CHECKS = (exchange, stationary, midgap_takes, midgap_ends, transferable_bounds, surface_takes, as_emitted)

@@ -10,11 +10,10 @@ import sympy as sp
 from ..equations.invariants import invariants
 from ..equations.model import derive
 from ..physics.laws import LAWS
-from ..physics.laws.base import Law
+from ..physics.laws.base import Law, filled
 from ..physics.structure import Structure
 from ..user_model.own_events import OwnEvent
 from ..user_model.structures import UserModel
-from .closed import filled
 from .conservation import momentum_rate
 
 _ANGULAR_MOMENTUM = "angular momentum L = m [r^2 omega + (32/5) a^2 xi]"

@@ -78,7 +78,7 @@ class Invariant:
 
     @property
     def expression(self) -> sp.Expr:
-        return sum((factor * momentum for momentum, factor in self.coefficients), sp.Integer(0))
+        return sp.Add(*(factor * momentum for momentum, factor in self.coefficients))
 
     @property
     def is_angular_momentum(self) -> bool:

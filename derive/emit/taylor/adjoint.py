@@ -266,7 +266,7 @@ def contraction(tangent: LinearFlow) -> list[str]:
     slopes = [_diagonal(tangent, state) for state in tangent.model.states]
     # the slope of a law that depends on a rate is only available in the tangent
     known = [slope for slope in slopes if not any(symbol.name in tangent.slopes for symbol in slope.free_symbols)]
-    trace = sum(known, sp.Integer(0))
+    trace = sp.Add(*known)
     calls = {node: tangent.header.flow.series(node) for node in trace.atoms(AppliedUndef) if is_slot_call(node)}
     shown = {node: sp.Symbol(f"{name}.result", real=True) for node, name in calls.items()}
     moving = {f"{name}.result" for name in calls.values()} | tangent.flow

@@ -56,7 +56,7 @@ def attractions(structure: Structure, at: sp.Expr) -> sp.Expr:
     )
     forces = dict(intermediates(full))
     named = [force for force in (BRIDGE_FORCE, ATTRACTION_FORCE) if force in forces]
-    return sum((forces[force].subs(gap, at) for force in named), sp.Integer(0))
+    return sp.Add(*(forces[force].subs(gap, at) for force in named))
 
 
 def braking(structure: Structure, at: sp.Expr) -> sp.Expr:

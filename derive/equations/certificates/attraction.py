@@ -24,15 +24,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ...physics.structure import Structure
-from ...vocabulary.quantities import (
-    aspect,
-    beta,
-    e_dry,
-    gap,
-    normal_velocity,
-    orbital_momentum,
-    rupture_gap,
-)
+from ...vocabulary import quantities as q
 from ..events import contact_gap
 from ..intermediates import ATTRACTION_FORCE, BRIDGE_FORCE, MOMENTUM, intermediates
 from .pendulum import (
@@ -59,9 +51,9 @@ def admits(structure: Structure) -> bool:
 def _least(structure: Structure) -> sp.Expr:
     """The attractions at the rupture distance (without a bridge at x0, the edge of the film)."""
     forces = dict(intermediates_of(structure))
-    end = rupture_gap if structure.bridge else sp.Integer(1)
+    end = q.rupture_gap if structure.bridge else sp.Integer(1)
     named = [force for force in (BRIDGE_FORCE, ATTRACTION_FORCE) if force in forces]
-    return sum((forces[force].subs(gap, end) for force in named), sp.Integer(0))
+    return sp.Add(*(forces[force].subs(q.gap, end) for force in named))
 
 
 def intermediates_of(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
@@ -74,15 +66,15 @@ def intermediates_of(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], .
 
 def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
-    end = rupture_gap if structure.bridge else sp.Integer(1)
-    pull = pull_at(CONTACT, beta) if structure.strings else sp.Integer(0)
+    end = q.rupture_gap if structure.bridge else sp.Integer(1)
+    pull = pull_at(CONTACT, q.beta) if structure.strings else sp.Integer(0)
     largest = pull_at(end, sp.pi) if structure.strings else sp.Integer(0)
     found = [
         (CONTACT, contact_gap),
-        (NEAREST, 4 + aspect * CONTACT),
-        (FARTHEST, 4 + aspect * end),
+        (NEAREST, 4 + q.aspect * CONTACT),
+        (FARTHEST, 4 + q.aspect * end),
         (SPUN_UP, rigid_momentum(MOMENTUM, FARTHEST)),
-        (LARGEST_MOMENTUM, sp.Max(orbital_momentum, -orbital_momentum, SPUN_UP, -SPUN_UP)),
+        (LARGEST_MOMENTUM, sp.Max(q.orbital_momentum, -q.orbital_momentum, SPUN_UP, -SPUN_UP)),
         (LEAST, _least(structure)),
         (HOLD, LEAST + pull - outward_at(LARGEST_MOMENTUM, NEAREST)),
     ]
@@ -91,11 +83,11 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
     """The margins: a stick is certain if `hold` > 0, `escape` < 0 and `rebound` < 0; over m v0^2/x0 and m v0^2."""
-    end = rupture_gap if structure.bridge else sp.Integer(1)
-    outward = sp.Max(normal_velocity, -e_dry * normal_velocity)
+    end = q.rupture_gap if structure.bridge else sp.Integer(1)
+    outward = sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity)
     pulled = LEAST + (LARGEST_PULL if structure.strings else 0)
     return {
         "hold": HOLD,
-        "escape": outward**2 / 2 - HOLD * (end - gap),
-        "rebound": e_dry**2 * pulled - HOLD,
+        "escape": outward**2 / 2 - HOLD * (end - q.gap),
+        "rebound": q.e_dry**2 * pulled - HOLD,
     }

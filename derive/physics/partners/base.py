@@ -54,5 +54,5 @@ class Rotation:
 
 def relative_change(momentum: sp.Expr, first: Sequence[sp.Expr]) -> sp.Expr:
     """1 + the change of an angular momentum over the sum of the magnitudes of its first parts."""
-    size = sum((sp.Abs(part) for part in first), sp.Integer(0))
-    return 1 + (momentum - sum(first, sp.Integer(0))) / size
+    size = sp.Add(*(sp.Abs(part) for part in first))
+    return 1 + (momentum - sp.Add(*first)) / size
