@@ -18,7 +18,7 @@ from ...vocabulary.quantities import normal_velocity
 from ..casadi.printer import EmissionError
 from .c_text import Text
 from .law_slopes import UNUSED
-from .layout import comment, function
+from .layout import comment, documented, function
 from .linear_flow import LinearFlow
 from .program import Operation
 
@@ -68,7 +68,7 @@ class Adjoint:
         return [operation for operation in self._operations if operation.kind == "call"]
 
     def _law_slopes(self) -> list[str]:
-        calls = [(each.name, *each.call) for each in self._laws() if each.call is not None]
+        calls = [(each.name, *each.call) for each in self._laws()]
         fields = [f"    {slot}_{call}_slopes {name};" for name, slot, call, _ in calls]
         constants = [f"    {slot}_{call}_slope_constants {name};" for name, slot, call, _ in calls]
         none = ["    char none[0];"]
@@ -203,7 +203,6 @@ class Adjoint:
         return lines
 
     def _call(self, operation: Operation) -> list[str]:
-        assert operation.call is not None
         slot, call, given = operation.call
         own, lines = f"bar->{operation.name}", []
         names = self._tangent.law_arguments(slot, call, len(given))
@@ -258,7 +257,7 @@ class Adjoint:
                 body.append(f"by_group[BY_{group.name.upper()}] += {' + '.join(terms)};")
         head = "static inline void along_constants(const constants *v, const vec *constant, vec *by_group)"
         doc = "From derivatives by the constants of the recurrences to those by the groups."
-        return [*comment(doc), *function(head, body), ""]
+        return documented(doc, head, body)
 
 
 def contraction(tangent: LinearFlow) -> list[str]:
@@ -280,7 +279,7 @@ def contraction(tangent: LinearFlow) -> list[str]:
     ]
     head = "static inline vec contraction(const series *of, const constants *v, vec film, vec shear)"
     doc = "Contraction rate of a volume of states at the start of a step, dominated by the fast modes."
-    return [*comment(doc), *function(head, body), ""]
+    return documented(doc, head, body)
 
 
 def _diagonal(tangent: LinearFlow, state: sp.Symbol) -> sp.Expr:

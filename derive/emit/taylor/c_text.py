@@ -250,6 +250,12 @@ class Recurrences:
         """C text of coefficient k of a series."""
         return f"{self.array(name)}[{'PASSING(k)' if name in self._passing else 'k'}]"
 
+    def rate(self, rate: str | sp.Expr) -> str:
+        """C text of coefficient k of a series, or of a constant."""
+        if isinstance(rate, str):
+            return self.coefficient(rate)
+        return f"(k == 0 ? {self.constants.text.vector(rate)} : splat(0.0))"
+
     def _place(self, name: str) -> str:
         return "" if self._local(name) else "s->"
 
@@ -260,7 +266,6 @@ class Recurrences:
             if self._local(operation.name) != local:
                 continue
             if operation.kind == "call":
-                assert operation.call is not None
                 lines.append(f"{operation.call[0]}_{operation.call[1]}_series {operation.name};")
                 continue
             arrays = [operation.name]
@@ -307,7 +312,6 @@ class Recurrences:
             return f"circular({series[0]}, {place}slope_of_{inner}, {whole}, {cosine}, k);"
         if kind == "cosine":
             return f"/* {name} comes with its sine */"
-        assert operation.call is not None
         slot, function, arguments = operation.call
         passed = "".join(f", {self.array(a)}" for a in arguments if isinstance(a, str))
         return f"{slot}_{function}_next(&s->{name}, &c->{name}{passed}, k);"
@@ -335,7 +339,6 @@ class Recurrences:
         if kind == "product":
             return f"{_times(factors[0])}{series[0]}*{series[1]}"
         if kind == "call":
-            assert operation.call is not None
             slot, function, _ = operation.call
             return f"{slot}_{function}_value(&c->{operation.name}, {', '.join(series)})"
         return _VALUES[kind].format(*series, factor=factors[0] if factors else "")

@@ -21,7 +21,7 @@ from .adjoint import Adjoint, contraction
 from .c_text import Text
 from .groups_from_si import scale_slopes
 from .header import Beside
-from .layout import comment, each_term, function
+from .layout import comment, documented, each_term, function
 from .linear_flow import LinearFlow
 
 _IN = "    "
@@ -118,7 +118,7 @@ class Tangent(LinearFlow):
             "const series *of, const constants *v, vec film, vec shear, unsigned asked)"
         )
         doc = "Derivatives of the rates by the states, and by the requested groups."
-        return [*comment(doc), *function(head, body), ""]
+        return documented(doc, head, body)
 
     def _guarded(self) -> list[str]:
         """C lines of the operations; those needed for some groups only are conditional on these."""
@@ -183,7 +183,7 @@ class Tangent(LinearFlow):
             "const series *of, const constants *v, vec film, vec shear, const vec *const *source, int k)"
         )
         doc = "Coefficient k + 1 of a derivative of the states, with its source terms."
-        return [*comment(doc), *function(head, body), ""]
+        return documented(doc, head, body)
 
     def _sources(self) -> list[str]:
         body = ["(void)s; (void)of;", "switch (group) {"]
@@ -199,7 +199,7 @@ class Tangent(LinearFlow):
         body.append("}")
         head = "static inline void sources(const slopes *s, const series *of, int group, const vec **source)"
         doc = "Source terms of the derivatives by a group; zero ones are left unset."
-        return [*comment(doc), *function(head, body), ""]
+        return documented(doc, head, body)
 
     def _values(self) -> list[str]:
         """Start, jump and outputs in a direction: derivatives of the states `t`, and explicit ones by each group."""
@@ -275,7 +275,7 @@ class Tangent(LinearFlow):
             (group.name, [(target, outputs[key].diff(group)) for key, target in targets.items()], text)
             for group in self.model.groups
         )
-        return [*comment(doc), *function(head, body), ""]
+        return documented(doc, head, body)
 
     def _plain_name(self, symbol: sp.Symbol) -> str:
         return f"y[{symbol.name.upper()}]" if symbol in self.model.states else f"v->{symbol.name}"
