@@ -152,6 +152,14 @@ def number(value: sp.Expr) -> str:
     return f"({text})" if text.startswith("-") else text
 
 
+def split_flags(expression: sp.Expr, flags: Iterable[sp.Symbol]) -> tuple[list[sp.Symbol], sp.Expr]:
+    """The flags of the region that are factors of an expression, and the rest."""
+    found, rest = [flag for flag in flags if flag in expression.free_symbols], expression
+    for flag in found:
+        rest = sp.cancel(rest / flag)
+    return found, rest
+
+
 class Constants:
     """Quantities computed once per collision: given and named values, and factors hoisted out of the recurrences."""
 
@@ -179,6 +187,16 @@ class Constants:
             raise EmissionError(f"{symbol} is neither given nor defined")
         return found
 
+    def assignments(self) -> list[str]:
+        """C statements that compute what is prepared, in order."""
+        return [f"{self._place}{name} = {self.text.vector(value)};" for name, value in self.prepared.items()]
+
+    def level(self, expression: sp.Expr, hint: str) -> str:
+        """Text of coefficient k of a constant."""
+        text = self.factor(expression, hint)
+        value = text if expression.free_symbols and "->" in text else f"splat({text})"
+        return f"k == 0 ? {value} : splat(0.0)"
+
     def define(self, symbol: sp.Symbol, expression: sp.Expr) -> None:
         """Add a named constant."""
         if symbol not in self._defined:
@@ -187,10 +205,7 @@ class Constants:
 
     def factor(self, expression: sp.Expr, hint: str) -> str:
         """Text of a constant: a literal, a name, or a value hoisted under `hint`; the region's flags as factors."""
-        flags = [flag for flag in self._flags if flag in expression.free_symbols]
-        rest = expression
-        for flag in flags:
-            rest = sp.cancel(rest / flag)
+        flags, rest = split_flags(expression, self._flags)
         text = self._plain(rest, hint)
         return "*".join([*(flag.name for flag in flags), *([text] if text != "1.0" else [])]) or text
 

@@ -158,7 +158,7 @@ class Header:
         fields += [f"vec {name};" for name in constants.prepared]
         fields += [f"{slot}_{call}_constants {name};" for name, (slot, call, _) in self.calls.items()]
         fields += ["glass_pressure_clearance_constants glass;", *self.ledger.member()]
-        body = [f"c->{name} = {constants.text.vector(value)};" for name, value in constants.prepared.items()]
+        body = constants.assignments()
         for name, (slot, call, arguments) in self.calls.items():
             passed = "".join(f", {self._passed(argument)}" for argument in arguments if not isinstance(argument, str))
             body.append(f"{slot}_{call}_prepare(&c->{name}{passed});")

@@ -115,9 +115,7 @@ class Ledger:
 
     def prepare(self) -> list[str]:
         """Statements that compute the ledger's constants."""
-        prepared = self.constants.prepared.items()
-        text = self.constants.text
-        return compiled_if(_FLAG, [f"c->ledger.{name} = {text.vector(value)};" for name, value in prepared])
+        return compiled_if(_FLAG, self.constants.assignments())
 
     def functions(self, valued: Valued) -> list[str]:
         """Energies of a state, its angular momentum, and the loss at a rebound."""
