@@ -22,12 +22,9 @@ from .closed import SIZES
 
 _BRIDGE = Structure(oblique=True, bridge=True, strings=False)
 _ATTRACTED = (
-    replace(_BRIDGE, oblique=False),
-    _BRIDGE,
-    replace(_BRIDGE, bridge=False, attraction=True),
-    replace(_BRIDGE, partner="pair"),
-    replace(_BRIDGE, partner="wall"),
-)
+    replace(_BRIDGE, oblique=False), _BRIDGE, replace(_BRIDGE, bridge=False, attraction=True),
+    replace(_BRIDGE, partner="pair"), replace(_BRIDGE, partner="wall"),
+)  # fmt: skip
 _STRINGS = Structure(oblique=True, bridge=False, strings=True)
 _PULL, _DEPTH, _LEFT = sp.symbols("pull depth left", positive=True)
 

@@ -6,18 +6,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ..equations.certificates.spin_down import (
-    BEYOND,
-    EDGE,
-    FAR,
-    NEAR,
-    RATE,
-    decay,
-    definitions,
-    impulse,
-    slips,
-    slowest,
-)
+from ..equations.certificates import spin_down
 from ..equations.model import Model, derive
 from ..physics.forces import FILM, SHEAR
 from ..physics.laws import LAWS, slot_call
@@ -53,7 +42,7 @@ def _rotating(model: Model) -> sp.Expr:
 
 def _by_slip(structure: Structure, model: Model) -> dict[sp.Symbol, sp.Expr]:
     """The rotation by the slips, for L = 0."""
-    turning, spins, named = sp.Symbol("turning", real=True), _spins(structure), slips(structure)
+    turning, spins, named = sp.Symbol("turning", real=True), _spins(structure), spin_down.slips(structure)
     here = model.expanded(DISTANCE, SIZES)
     state = {q.orbital_momentum: here**2 * turning, **{s: turning - slip for s, slip in zip(spins, named, strict=True)}}
     momentum = model.expanded(model["angular_momentum"]["angular_momentum"], SIZES).subs(state)
@@ -69,9 +58,9 @@ def slips_decay() -> Evidence:
     """
     positive = True
     for structure in _COVERED:
-        model, named = derive(structure), slips(structure)
+        model, named = derive(structure), spin_down.slips(structure)
         here = model.expanded(DISTANCE, SIZES)
-        matrix = decay(structure, DISTANCE, DISTANCE, _LOG).subs(DISTANCE, here)
+        matrix = spin_down.decay(structure, DISTANCE, DISTANCE, _LOG).subs(DISTANCE, here)
         rates = {state: _plain(rate) for state, rate in model.by_state("right_hand_side", SIZES).items()}
         moved = {s: q.orbital_momentum / here**2 - each for s, each in zip(named, _spins(structure), strict=True)}
         for row, each in enumerate(_spins(structure)):
@@ -105,10 +94,10 @@ def mobility_is_monotonic() -> Evidence:
     """
     ok = True
     for structure in _COVERED:
-        matrix = decay(structure, NEAR, FAR, _LOG)
-        line = (matrix.subs(NEAR, 0) * FAR).applyfunc(sp.cancel)
-        turn = ((matrix - line / FAR) / NEAR).applyfunc(sp.cancel)
-        yield from matrix - line / FAR - turn * NEAR
+        matrix = spin_down.decay(structure, spin_down.NEAR, spin_down.FAR, _LOG)
+        line = (matrix.subs(spin_down.NEAR, 0) * spin_down.FAR).applyfunc(sp.cancel)
+        turn = ((matrix - line / spin_down.FAR) / spin_down.NEAR).applyfunc(sp.cancel)
+        yield from matrix - line / spin_down.FAR - turn * spin_down.NEAR
         if structure.partner:
             friction = torque_matrix().subs({R_1: RADIUS, R_2: PARTNER_RADIUS}) / q.mu
             inverse = friction.inv()
@@ -117,10 +106,10 @@ def mobility_is_monotonic() -> Evidence:
             yield from (turn[0, 1], turn[1, 0])
         scaled = [part / (q.aspect * _LOG) for part in (line[0, 0], *(turn[k, k] for k in range(turn.rows)))]
         ok &= all(_is_positive(part.subs(sp.Symbol("a", positive=True), 1)) for part in scaled)
-        ok &= not any(part.free_symbols & {NEAR, FAR} for part in scaled)
+        ok &= not any(part.free_symbols & {spin_down.NEAR, spin_down.FAR} for part in scaled)
     one, other = sp.symbols("one other", positive=True)
     two = sp.diag(one, other)
-    yield one - slowest(two) - one**2 / (one + other)
+    yield one - spin_down.slowest(two) - one**2 / (one + other)
     yield ok, "a part of the mobility is negative"
 
 
@@ -177,18 +166,26 @@ def as_emitted() -> Evidence:
     """The emitted margins are these bounds."""
     for structure in (*_COVERED, replace(_ALONE, reduced=True)):
         model = derive(structure)
-        named, own = dict(model.definitions), dict(definitions(structure))
+        named, own = dict(model.definitions), dict(spin_down.definitions(structure))
         yield from [named[symbol] - value for symbol, value in own.items()]
-        yield from (named[EDGE] - slot_call("shear", "edge", q.aspect), named[BEYOND] - (q.gap + sp.Min(1, EDGE)) / 2)
+        yield from (
+            named[spin_down.EDGE] - slot_call("shear", "edge", q.aspect),
+            named[spin_down.BEYOND] - (q.gap + sp.Min(1, spin_down.EDGE)) / 2,
+        )
         found = model["spin_down_margins"].by_name
-        film = slot_call("film", "stopping", q.gap) - slot_call("film", "stopping", BEYOND)
+        film = slot_call("film", "stopping", q.gap) - slot_call("film", "stopping", spin_down.BEYOND)
         outward = sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity)
-        yield from (found["stays"] - (q.stokes * outward + q.stokes * impulse(structure) - film), found["rate"] - RATE)
+        yield from (
+            found["stays"] - (q.stokes * outward + q.stokes * spin_down.impulse(structure) - film),
+            found["rate"] - spin_down.RATE,
+        )
         opens = q.stokes * outward - slot_call("film", "stopping", q.gap)
         closes = (
-            -q.stokes * q.normal_velocity - slot_call("film", "stopping", EDGE) + slot_call("film", "stopping", q.gap)
+            -q.stokes * q.normal_velocity
+            - slot_call("film", "stopping", spin_down.EDGE)
+            + slot_call("film", "stopping", q.gap)
         )
-        yield from (found["apart"] - sp.Max(opens, closes), found["inside"] - (EDGE - q.gap))
+        yield from (found["apart"] - sp.Max(opens, closes), found["inside"] - (spin_down.EDGE - q.gap))
 
 
 CHECKS = (slips_decay, mobility_is_monotonic, rotation_falls, film_takes, apart_from_shear, as_emitted)

@@ -10,6 +10,7 @@ from sympy.core.function import AppliedUndef
 
 from ...equations.automaton import CRITERIA
 from ...equations.events import rebound
+from ...physics import mechanics
 from ...physics.contact_friction import equal_spheres
 from ...physics.forces import FILM, SHEAR, force_laws
 from ...physics.laws import LAWS, Law, fill
@@ -19,30 +20,13 @@ from ...physics.laws.rupture import rupture_distance
 from ...physics.laws.start import initial_rate, start_values
 from ...physics.laws.strings import r as string_distance
 from ...physics.laws.strings import swing_squared
-from ...physics.mechanics import (
-    F_c,
-    F_n,
-    F_t,
-    F_w,
-    S_n,
-    S_t,
-    arm,
-    doublet_inertia,
-    equations_of_motion,
-    sphere_inertia,
-)
 from ...physics.scaling import LUBRICATION_PRESSURE, group_definitions
 from ...vocabulary import quantities as q
 from .latex import latex
 
 DEFAULTS: Mapping[str, str] = {
-    "film": "finite",
-    "shear": "immersed",
-    "arm": "midgap",
-    "glass": "literal",
-    "bridge": "mikami",
-    "strings": "exact",
-}
+    "film": "finite", "shear": "immersed", "arm": "midgap", "glass": "literal", "bridge": "mikami", "strings": "exact",
+}  # fmt: skip
 """The law of each slot where no other is asked for."""
 
 _SWING, _COMPLIANCE = sp.symbols("swing compliance", positive=True)  # distance d of the strings, theta_e of the spheres
@@ -85,21 +69,30 @@ def _rate(symbol: sp.Symbol) -> str:
 
 
 def _motion(laws: Mapping[str, Law]) -> Iterator[Equation]:
-    group, motion = "Motion", equations_of_motion()
-    opened = motion.separation_acceleration if "attraction" in laws else motion.separation_acceleration.subs(F_w, 0)
+    group, motion = "Motion", mechanics.equations_of_motion()
+    opened = (
+        motion.separation_acceleration
+        if "attraction" in laws
+        else motion.separation_acceleration.subs(mechanics.F_w, 0)
+    )
     radial = sp.collect(sp.expand(q.m * opened), q.omega**2, evaluate=False)
     balance = sp.Add(*(sp.factor(part) * power if power != 1 else part for power, part in radial.items()))
-    lever = sp.expand(fill(force_laws()[arm], laws))
-    turning = sp.simplify(sphere_inertia() * motion.spin_acceleration).subs(arm, lever)
+    lever = sp.expand(fill(force_laws()[mechanics.arm], laws))
+    turning = sp.simplify(mechanics.sphere_inertia() * motion.spin_acceleration).subs(mechanics.arm, lever)
     yield Equation(group, _rate(q.x), q.u, "gap; the paper's $v_n$ is $-u$")
     yield Equation(group, _rate(q.beta), q.omega, "angle of the line of centres")
     yield Equation(group, f"{latex(q.m)} {_rate(q.u)}", balance, "along the line of centres")
     momentum = rf"\frac{{d}}{{dt}} \left[ {latex(motion.orbital_momentum)} \right]"
     yield Equation(group, momentum, motion.orbital_momentum_rate, "across the line of centres")
     yield Equation(
-        group, f"{latex(sphere_inertia())} {_rate(q.xi)}", turning, f"spin of each sphere ({laws['arm'].name} arm)"
+        group,
+        f"{latex(mechanics.sphere_inertia())} {_rate(q.xi)}",
+        turning,
+        f"spin of each sphere ({laws['arm'].name} arm)",
     )
-    yield Equation(group, f"I({latex(q.x)})", _square_completed(doublet_inertia()), "inertia in rigid rotation")
+    yield Equation(
+        group, f"I({latex(q.x)})", _square_completed(mechanics.doublet_inertia()), "inertia in rigid rotation"
+    )
 
 
 def _square_completed(inertia: sp.Expr) -> sp.Expr:
@@ -114,22 +107,22 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     # written with the factor 1 - x/x0 instead of x0 - x
     law = laws["film"]
     resistance, rim = law["resistance"], _rim(law)
-    whole = force_laws(spread=rim is not None)[F_n].subs(inside)
+    whole = force_laws(spread=rim is not None)[mechanics.F_n].subs(inside)
     call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
     arguments = dict(zip(resistance.arguments, call.args, strict=True))
     named = resistance.result.subs({**arguments, _RIM: _RIM / q.x0}, simultaneous=True)
     end = q.x0 if rim is None else _RIM
     normal = sp.factor(sp.simplify(whole.xreplace({call: named})))
     normal = normal.subs((q.x - end) ** 2, (end - q.x) ** 2).subs(end - q.x, end * (1 - q.x / end))
-    shear = fill(force_laws()[F_t].subs(inside), laws)
+    shear = fill(force_laws()[mechanics.F_t].subs(inside), laws)
     for call in shear.atoms(sp.log):
         shear = shear.subs(-call, sp.log(1 / call.args[0]))  # ln(x0/x) instead of -ln(x/x0)
     edge = sp.simplify(q.x0 * laws["shear"]["edge"](q.x0 / q.a))
-    yield Equation("Lubrication", latex(F_n), normal, _where(law))
+    yield Equation("Lubrication", latex(mechanics.F_n), normal, _where(law))
     if rim is not None:
         squared = sp.expand((rim**2).subs(arguments, simultaneous=True) * q.x0**2)
         yield Equation("Lubrication", latex(_RIM), sp.sqrt(squared), "rim of the disc that holds the bridge's volume")
-    yield Equation("Lubrication", latex(F_t), shear, _inside(edge))
+    yield Equation("Lubrication", latex(mechanics.F_t), shear, _inside(edge))
 
 
 def _where(law: Law) -> str:
@@ -150,7 +143,7 @@ def _attraction(laws: Mapping[str, Law]) -> Iterator[Equation]:
     if "attraction" not in laws:
         return
     law = laws["attraction"]
-    yield Equation("Attraction", latex(F_w), sp.simplify(fill(force_laws()[F_w], laws)), law.source)
+    yield Equation("Attraction", latex(mechanics.F_w), sp.simplify(fill(force_laws()[mechanics.F_w], laws)), law.source)
 
 
 def _inside(edge: sp.Expr) -> str:
@@ -159,7 +152,7 @@ def _inside(edge: sp.Expr) -> str:
 
 def _bridge(law: Law) -> Iterator[Equation]:
     group, force = "Capillary bridge", law["force"]
-    whole = force_laws()[F_c]
+    whole = force_laws()[mechanics.F_c]
     call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
     arguments = dict(zip(force.arguments, call.args, strict=True))
 
@@ -168,14 +161,14 @@ def _bridge(law: Law) -> Iterator[Equation]:
         fitted = {n: sp.Float(str(float(n))) for n in expression.atoms(sp.Rational) if n.q not in (1, 2)}
         return expression.xreplace(fitted).subs(arguments, simultaneous=True)
 
-    yield Equation(group, latex(F_c), whole.xreplace({call: put(force.result)}), law.source)
+    yield Equation(group, latex(mechanics.F_c), whole.xreplace({call: put(force.result)}), law.source)
     for symbol, value in force.definitions:
         yield Equation(group, latex(symbol), put(value))
 
 
 def _strings(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, named = "Pendulum strings", False
-    for force in (S_n, S_t):
+    for force in (mechanics.S_n, mechanics.S_t):
         whole = force_laws()[force]
         call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
         swung = call.func(call.args[0], (_SWING / q.a) ** 2)
@@ -216,16 +209,16 @@ def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
 
 def _friction(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, answer = "Friction of the dry contact", equal_spheres()
-    lever = sp.expand(fill(force_laws()[arm], laws))
+    lever = sp.expand(fill(force_laws()[mechanics.arm], laws))
     sticking = _TANGENTIAL_MASS * (1 + q.beta_0) * sp.Abs(_SLIP)
     limit = q.mu_f * q.m * (1 + q.e_dry) * sp.Abs(q.u)
-    mass = sp.simplify(1 / answer.compliance.subs(arm, lever))
-    yield Equation(group, latex(_SLIP), answer.slip.subs(arm, lever), "slip of the surfaces")
+    mass = sp.simplify(1 / answer.compliance.subs(mechanics.arm, lever))
+    yield Equation(group, latex(_SLIP), answer.slip.subs(mechanics.arm, lever), "slip of the surfaces")
     yield Equation(group, latex(_TANGENTIAL_MASS), mass, f"effective tangential mass ({laws['arm'].name} arm)")
     yield Equation(group, "|Q|", sticking, "tangential impulse of a rebound that sticks")
     yield Equation(group, "|Q|", limit, "of one that slides: the smaller of the two acts")
     for rate, change in answer.rates.items():
-        yield Equation(group, rf"\Delta {latex(rate)}", change.subs(arm, lever) * _IMPULSE)
+        yield Equation(group, rf"\Delta {latex(rate)}", change.subs(mechanics.arm, lever) * _IMPULSE)
 
 
 def _groups() -> Iterator[Equation]:

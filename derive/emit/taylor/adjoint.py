@@ -67,12 +67,12 @@ class Adjoint:
             passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
             prepare.append(f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});")
             expand.append(f"{slot}_{call}_slopes_of(&s->{name}, &c->{name}, &of->{name}, &v->{name}{passed});")
+        constants = [f"{slot}_{call}_slope_constants {name};" for name, slot, call, _ in calls]
+        slopes = [f"{slot}_{call}_slopes {name};" for name, slot, call, _ in calls]
         none = ["char none[0];"]
         return [
-            *struct(
-                "slope_constants", [f"{slot}_{call}_slope_constants {name};" for name, slot, call, _ in calls] or none
-            ),
-            *struct("slopes", [f"{slot}_{call}_slopes {name};" for name, slot, call, _ in calls] or none),
+            *struct("slope_constants", constants or none),
+            *struct("slopes", slopes or none),
             *documented(
                 "Constants of the laws' derivatives, computed once per collision.",
                 "static inline void prepare_slopes(slope_constants *c, const constants *v)",

@@ -125,25 +125,16 @@ def _roots_together(node: sp.Mul) -> list[sp.Expr]:
 # C text of the recurrence of an operation and of its value at order zero: `{0}`, `{1}` are its operands, `whole` is
 # its own series; `over`, `slope` and `inner` are auxiliary series (functions of `engines/taylor/runtime/series.h`).
 _RECURRENCES = {
-    "square": "square({0}, k)",
-    "reciprocal": "reciprocal({0}, {whole}, k)",
-    "quotient": "quotient({0}, {1}, {whole}, {over}, k)",
-    "sqrt": "root({0}, {whole}, {over}, k)",
-    "power": "power({0}, {whole}, {factor}, {over}, k)",
-    "exp": "exponential({0}, {inner}, {whole}, k)",
+    "square": "square({0}, k)", "reciprocal": "reciprocal({0}, {whole}, k)",
+    "quotient": "quotient({0}, {1}, {whole}, {over}, k)", "sqrt": "root({0}, {whole}, {over}, k)",
+    "power": "power({0}, {whole}, {factor}, {over}, k)", "exp": "exponential({0}, {inner}, {whole}, k)",
     "log": "logarithm({0}, {whole}, {slope}, {over}, k)",
-}
+}  # fmt: skip
 _VALUES = {
-    "square": "{0}*{0}",
-    "reciprocal": "1.0/{0}",
-    "quotient": "{0}/{1}",
-    "power": "vec_exp({factor}*vec_log({0}))",
-    "sqrt": "vec_sqrt({0})",
-    "exp": "vec_exp({0})",
-    "log": "vec_log({0})",
-    "sine": "vec_sin({0})",
+    "square": "{0}*{0}", "reciprocal": "1.0/{0}", "quotient": "{0}/{1}", "power": "vec_exp({factor}*vec_log({0}))",
+    "sqrt": "vec_sqrt({0})", "exp": "vec_exp({0})", "log": "vec_log({0})", "sine": "vec_sin({0})",
     "cosine": "vec_cos({0})",
-}
+}  # fmt: skip
 
 
 def number(value: sp.Expr) -> str:
@@ -193,9 +184,12 @@ class Constants:
 
     def level(self, expression: sp.Expr, hint: str) -> str:
         """Text of coefficient k of a constant."""
+        return f"k == 0 ? {self.vector(expression, hint)} : splat(0.0)"
+
+    def vector(self, expression: sp.Expr, hint: str) -> str:
+        """`factor` as a vector, also if it is a number."""
         text = self.factor(expression, hint)
-        value = text if expression.free_symbols and "->" in text else f"splat({text})"
-        return f"k == 0 ? {value} : splat(0.0)"
+        return text if expression.free_symbols else f"splat({text})"
 
     def define(self, symbol: sp.Symbol, expression: sp.Expr) -> None:
         """Add a named constant."""

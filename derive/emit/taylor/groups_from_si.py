@@ -11,7 +11,7 @@ from ...physics.laws.base import slot_call
 from ...physics.scaling import group_definitions, impact_groups, scale_definitions
 from ...vocabulary import quantities as q
 from .c_text import Text
-from .layout import comment, function
+from .layout import comment, documented
 
 _PER_DISTANCE = q.R / q.x0
 # the distance of the bridge law itself
@@ -33,7 +33,7 @@ def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     if q.rupture_gap in expressions:
         body += ["#if OWN_RUPTURE", f"c->rupture_gap = {text.vector(_OWN_RUPTURE)};", "#endif"]
     doc = "The groups of a collision from its quantities in SI."
-    lines += [*comment(doc), *function("static inline void scale(constants *c, const vec *q)", body), ""]
+    lines += documented(doc, "static inline void scale(constants *c, const vec *q)", body)
     return lines + (_rate_scale(model, text) if q.obliquity in expressions else [])
 
 
@@ -42,11 +42,7 @@ def _rate_scale(model: Model, text: Text) -> list[str]:
     scales = {"": q.rate_scale, "wall": q.rate_scale_wall, "pair": q.rate_scale_pair, "space": q.rate_scale_pair}
     value = scale_definitions()[scales[model.structure.partner]]
     head = "static inline vec rate_scale(const constants *c, const vec *q)"
-    return [
-        *comment("Omega, the unit of angular velocities, in rad/s."),
-        *function(head, [f"return {text(value)};"]),
-        "",
-    ]
+    return documented("Omega, the unit of angular velocities, in rad/s.", head, [f"return {text(value)};"])
 
 
 def _expressions(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
@@ -91,7 +87,7 @@ def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     head = "static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)"
     moved = f"const unsigned moved_groups[QUANTITIES] = {{ {', '.join(map(str, bits.values()))} }};"
     lines = [*comment("The groups that each quantity in SI moves, as bits."), moved, ""]
-    return [*lines, *comment("How the groups change with a quantity in SI."), *function(head, body), ""]
+    return lines + documented("How the groups change with a quantity in SI.", head, body)
 
 
 def _own_rupture_slope(symbol: sp.Symbol) -> sp.Expr:

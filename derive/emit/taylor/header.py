@@ -160,7 +160,11 @@ class Header:
         fields += ["glass_pressure_clearance_constants glass;", *self.ledger.member()]
         body = constants.assignments()
         for name, (slot, call, arguments) in self.calls.items():
-            passed = "".join(f", {self._passed(argument)}" for argument in arguments if not isinstance(argument, str))
+            passed = "".join(
+                f", {self.constants.vector(argument, 'argument')}"
+                for argument in arguments
+                if not isinstance(argument, str)
+            )
             body.append(f"{slot}_{call}_prepare(&c->{name}{passed});")
         body.append(f"glass_pressure_clearance_prepare(&c->glass{self._glass_groups()}, c->glass_number);")
         body += self.ledger.prepare()
@@ -181,11 +185,7 @@ class Header:
     def _glass_groups(self) -> str:
         """Additional arguments of a user's glass law, as C text."""
         (call,) = slot_calls(self.model["events"]["glass"])
-        return "".join(f", {self._passed(argument)}" for argument in call.args[2:])
-
-    def _passed(self, argument: sp.Expr) -> str:
-        text = self.constants.factor(argument, "argument")
-        return text if argument.free_symbols else f"splat({text})"
+        return "".join(f", {self.constants.vector(argument, 'argument')}" for argument in call.args[2:])
 
     def _series(self) -> list[str]:
         fields = [f"vec {state.name}[TERMS]; /* {self._meaning(state)} */" for state in self.model.states]

@@ -101,7 +101,7 @@ class Tangent(LinearFlow):
         body += self._guarded()
         for (row, by), entry in self.sources.items():
             if not isinstance(entry, str):
-                body.append(each_term(f"s->{row}_by_{by}[k] = k == 0 ? {self._constant(entry)} : splat(0.0);"))
+                body.append(each_term(f"s->{row}_by_{by}[k] = {self.constants.level(entry, 'slope')};"))
         head = (
             "OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, "
             "const series *of, const constants *v, vec film, vec shear, unsigned asked)"
@@ -145,10 +145,6 @@ class Tangent(LinearFlow):
     @property
     def _groups(self) -> list[str]:
         return [group.name for group in self.model.groups]
-
-    def _constant(self, entry: sp.Expr, hint: str = "slope") -> str:
-        text = self.constants.factor(entry, hint)
-        return text if entry.free_symbols else f"splat({text})"
 
     def _row(self) -> list[str]:
         body = ["double next = 1.0/(k + 1);", "(void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;"]

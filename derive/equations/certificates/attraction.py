@@ -27,17 +27,7 @@ from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..events import contact_gap
 from ..intermediates import ATTRACTION_FORCE, BRIDGE_FORCE, MOMENTUM, intermediates
-from .pendulum import (
-    CONTACT,
-    FARTHEST,
-    LARGEST_MOMENTUM,
-    LARGEST_PULL,
-    NEAREST,
-    SPUN_UP,
-    outward_at,
-    pull_at,
-    rigid_momentum,
-)
+from . import pendulum
 
 LEAST, HOLD = sp.symbols("least_attraction hold", real=True)
 
@@ -67,25 +57,28 @@ def intermediates_of(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], .
 def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
     end = q.rupture_gap if structure.bridge else sp.Integer(1)
-    pull = pull_at(CONTACT, q.beta) if structure.strings else sp.Integer(0)
-    largest = pull_at(end, sp.pi) if structure.strings else sp.Integer(0)
+    pull = pendulum.pull_at(pendulum.CONTACT, q.beta) if structure.strings else sp.Integer(0)
+    largest = pendulum.pull_at(end, sp.pi) if structure.strings else sp.Integer(0)
     found = [
-        (CONTACT, contact_gap),
-        (NEAREST, 4 + q.aspect * CONTACT),
-        (FARTHEST, 4 + q.aspect * end),
-        (SPUN_UP, rigid_momentum(MOMENTUM, FARTHEST)),
-        (LARGEST_MOMENTUM, sp.Max(q.orbital_momentum, -q.orbital_momentum, SPUN_UP, -SPUN_UP)),
+        (pendulum.CONTACT, contact_gap),
+        (pendulum.NEAREST, 4 + q.aspect * pendulum.CONTACT),
+        (pendulum.FARTHEST, 4 + q.aspect * end),
+        (pendulum.SPUN_UP, pendulum.rigid_momentum(MOMENTUM, pendulum.FARTHEST)),
+        (
+            pendulum.LARGEST_MOMENTUM,
+            sp.Max(q.orbital_momentum, -q.orbital_momentum, pendulum.SPUN_UP, -pendulum.SPUN_UP),
+        ),
         (LEAST, _least(structure)),
-        (HOLD, LEAST + pull - outward_at(LARGEST_MOMENTUM, NEAREST)),
+        (HOLD, LEAST + pull - pendulum.outward_at(pendulum.LARGEST_MOMENTUM, pendulum.NEAREST)),
     ]
-    return (*found, (LARGEST_PULL, largest)) if structure.strings else tuple(found)
+    return (*found, (pendulum.LARGEST_PULL, largest)) if structure.strings else tuple(found)
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
     """The margins: a stick is certain if `hold` > 0, `escape` < 0 and `rebound` < 0; over m v0^2/x0 and m v0^2."""
     end = q.rupture_gap if structure.bridge else sp.Integer(1)
     outward = sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity)
-    pulled = LEAST + (LARGEST_PULL if structure.strings else 0)
+    pulled = LEAST + (pendulum.LARGEST_PULL if structure.strings else 0)
     return {
         "hold": HOLD,
         "escape": outward**2 / 2 - HOLD * (end - q.gap),
