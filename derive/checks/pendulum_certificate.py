@@ -27,7 +27,6 @@ from .signs import positive
 
 _PENDULUM = Structure(oblique=True, bridge=False, strings=True)
 _HALF = sp.Symbol("half_angle_sine", nonnegative=True)  # sin(beta/2), which grows with beta up to half a turn
-_COS = sp.Symbol("half_angle_cosine", nonnegative=True)
 _BEYOND = sp.Symbol("beyond", nonnegative=True)  # a quantity minus its least value
 
 
