@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ..equations.certificates.approach import DEEPER, GAIN, LARGEST_FORCE, LEFT, PATH, RATIO, attractions, braking
+from ..equations.certificates.approach import DEEPER, GAIN, LARGEST_FORCE, LEFT, PATH, RATIO, braking
 from ..equations.certificates.pendulum import pull_at
 from ..equations.events import contact_gap
-from ..equations.intermediates import FILM_FORCE
+from ..equations.intermediates import FILM_FORCE, attractions
 from ..equations.model import Model, derive
 from ..physics.forces import FILM
 from ..physics.laws import LAWS

@@ -62,7 +62,7 @@ def margins_are_the_forces() -> Evidence:
             simultaneous=True,
         )
         hold = least + strings.subs(q.gap, contact) - away
-        found = {name: model.expanded(value) for name, value in model["attraction_margins"].outputs}
+        found = model.results("attraction_margins")
         yield from (
             found["hold"] - hold,
             found["escape"] - (sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity) ** 2 / 2 - hold * (end - q.gap)),

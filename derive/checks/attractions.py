@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..equations.model import derive
+from ..equations.model import Model, derive
 from ..physics.forces import force_laws
 from ..physics.laws import LAWS, attraction, fill, film
 from ..physics.laws.start import initial_rate
@@ -80,28 +80,19 @@ def slopes() -> Evidence:
     """The certificate's slope is that of its energy plus the work against every attraction."""
     for structure in _ATTRACTED:
         model = derive(structure)
-        outputs, taken = model["effective_potential"].by_name, model["energy_rates"].by_name
-        value, slope = model.expanded(outputs["energy"], SIZES), model.expanded(outputs["slope"], SIZES)
-        works = [
-            model.expanded(taken[name], SIZES) / normal_velocity
-            for name in ("capillary", "attraction")
-            if name in taken
-        ]
-        yield slope - _rises(structure, value) - sum(works)
+        least, taken = (model.results(name, SIZES) for name in ("effective_potential", "energy_rates"))
+        work = sp.Add(*(taken[name] / normal_velocity for name in ("capillary", "attraction") if name in taken))
+        yield least["slope"] - _slope(model, least["energy"]) - work
 
 
-def _rises(structure: Structure, value: sp.Expr) -> sp.Expr:
+def _slope(model: Model, energy: sp.Expr) -> sp.Expr:
     """Slope of the least energy along the gap at a fixed angular momentum."""
-    momentum, model = sp.Symbol("L", positive=True), derive(structure)
-    if structure.oblique and structure.partner != "wall":
-        definitions = dict(model.definitions)
-        own = next(model.expanded(each, SIZES) for symbol, each in definitions.items() if symbol.name == "momentum")
-        inertia = next(
-            model.expanded(each, SIZES) for symbol, each in definitions.items() if symbol.name == "inertia_ratio"
-        )
-        scale = sp.simplify(value * inertia / own**2)
-        return (scale * momentum**2 / inertia).diff(gap).subs(momentum, own)
-    return slope_along(value, gap)
+    if not model.structure.oblique or model.structure.partner == "wall":
+        return slope_along(energy, gap)
+    by_name = {symbol.name: symbol for symbol, _ in model.definitions}
+    own, inertia = (model.expanded(by_name[name], SIZES) for name in ("momentum", "inertia_ratio"))
+    momentum, scale = sp.Symbol("L", positive=True), sp.simplify(energy * inertia / own**2)
+    return (scale * momentum**2 / inertia).diff(gap).subs(momentum, own)
 
 
 CHECKS = (films, resistances, generalised_number, slopes)

@@ -28,15 +28,9 @@ def momentum_rate(structure: Structure, laws: Mapping[str, Law]) -> sp.Expr:
 def energy_balance(structure: Structure) -> sp.Expr:
     """d/dtau of the emitted energies plus the emitted energy_rates, for any laws (and either arm)."""
     model = derive(structure)
-    stored = [model.expanded(expression) for _, expression in model["energies"].outputs]
-    total = sp.Add(
-        *(
-            slope_along(each, state) * rate
-            for state, rate in model.by_state("right_hand_side").items()
-            for each in stored
-        )
-    )
-    lost = sp.Add(*(model.expanded(expression) for _, expression in model["energy_rates"].outputs))
+    rates, stored = model.by_state("right_hand_side"), sp.Add(*model.results("energies").values())
+    total = sp.Add(*(slope_along(stored, state) * rate for state, rate in rates.items()))
+    lost = sp.Add(*model.results("energy_rates").values())
     return sp.factor(sp.expand(strings.half_angles(total + lost)))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from operator import methodcaller
+
 import sympy as sp
 
 from ..equations.model import derive
@@ -10,6 +12,7 @@ from ..physics.laws.base import filled
 from ..physics.structure import Structure, structures
 from ..vocabulary.quantities import aspect, beta, initial_spin, initial_turning, orbital_momentum, spin
 from .base import Evidence, check
+from .closed import special_case
 
 
 @check("reduced form", "full equations with xi = (L - m r^2 omega)/((32/5) m a^2) are the reduced ones")
@@ -22,17 +25,14 @@ def reduced_is_full() -> Evidence:
         reduced, full = derive(structure), derive(Structure(True, structure.bridge, False))
         initial = (4 + aspect) ** 2 * initial_turning + sp.Rational(32, 5) * initial_spin  # L/(m a^2 Omega) at first
         eliminated = {spin: (initial - orbital_momentum) * sp.Rational(5, 32)}
-        rates, full_rates = reduced.by_state("right_hand_side"), full.by_state("right_hand_side")
-        yield from [filled(full_rates[s], midgap).subs(eliminated) - rate for s, rate in rates.items()]
+        rates, full_rates = (each.by_state("right_hand_side") for each in (reduced, full))
+
+        yield from (filled(full_rates[s], midgap).subs(eliminated) - rate for s, rate in rates.items())
         # the eliminated spin has the rate of the full equations
-        yield (
-            eliminated[spin].diff(orbital_momentum) * rates[orbital_momentum]
-            - filled(full_rates[spin], midgap).subs(eliminated)
-        )
-        for name in ("events", "energies", "outputs", "effective_potential", "inward_force", "turning_rate", "start"):
-            of_full = full[name].by_name
-            for key, expression in reduced[name].outputs:
-                yield full.expanded(of_full[key]).subs(eliminated) - reduced.expanded(expression)
+        turned = eliminated[spin].diff(orbital_momentum) * rates[orbital_momentum]
+        yield turned - filled(full_rates[spin], midgap).subs(eliminated)
+        names = ("events", "energies", "outputs", "effective_potential", "inward_force", "turning_rate", "start")
+        yield from special_case(reduced, names, full, methodcaller("subs", eliminated))
 
 
 @check("head-on limit", "oblique equations at zero rotation are the head-on ones")
@@ -44,15 +44,10 @@ def head_on_is_oblique_at_rest() -> Evidence:
             continue
         narrow, wide = derive(head_on), derive(Structure(True, head_on.bridge, head_on.strings))
         rates = wide.by_state("right_hand_side")
-        yield from [rates[s].subs(still) - rate for s, rate in narrow.by_state("right_hand_side").items()]
-        yield from [rates[s].subs(still) for s in wide.states if s not in narrow.states]
-        for name in ("events", "energies", "energy_rates", "inward_force", "effective_potential", "outputs"):
-            if name not in wide:
-                continue  # rotating strings have no least-energy argument
-            there = wide[name].by_name
-            yield from [
-                wide.expanded(there[key]).subs(still) - narrow.expanded(value) for key, value in narrow[name].outputs
-            ]
+        yield from (rates[s].subs(still) for s in wide.states if s not in narrow.states)
+        names = ["right_hand_side", "events", "energies", "energy_rates", "inward_force", "outputs"]
+        names += ["effective_potential"] if "effective_potential" in wide else []  # not for rotating strings
+        yield from special_case(narrow, names, wide, methodcaller("subs", still))
 
 
 CHECKS = (reduced_is_full, head_on_is_oblique_at_rest)

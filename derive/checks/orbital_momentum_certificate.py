@@ -156,7 +156,7 @@ def as_emitted() -> Evidence:
     """The emitted margins are this energy, in units of m v0^2, and the slip."""
     for structure in (_FULL, replace(_FULL, reduced=True)):
         model = derive(structure)
-        found = {name: model.expanded(value) for name, value in model["orbital_margins"].outputs}
+        found = model.results("orbital_margins")
         here, turning = model.expanded(DISTANCE), model.expanded(spin) if structure.reduced else spin
         unit = obliquity**2 / 16  # omega0 = v0 tan(theta0)/(4a)
         yield found["slip"] - (orbital_momentum / here**2 - turning)

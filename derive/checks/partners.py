@@ -6,14 +6,14 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ..equations.model import Model, derive
+from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.partners import bodies, rolling, wall
 from ..physics.structure import Partner, Structure
 from ..vocabulary import quantities as q
 from .base import Check, Evidence, check
-from .closed import SIZES
+from .closed import SIZES, special_case
 
 _PARTNERS: tuple[Partner, ...] = ("pair", "wall")
 _MIDGAP = {"arm": LAWS["arm"]["midgap"]}
@@ -68,7 +68,7 @@ def energy_is_accounted_for() -> Evidence:
         change = sp.Add(
             *(stored.diff(state) * rate for state, rate in model.by_state("right_hand_side", SIZES).items())
         )
-        yield change + sum(model.expanded(rate, SIZES) for _, rate in model["energy_rates"].outputs)
+        yield change + sum(model.results("energy_rates", SIZES).values())
 
 
 @check("pair: friction", "T_i = A_ij (omega - xi_j) ln(h_outer/x): A symmetric, positive definite; r F_t = T_1 + T_2")
@@ -120,16 +120,8 @@ def equal_is_the_doublet() -> Evidence:
         expected = {s: filled(rate, {"arm": arm}) for s, rate in equal.by_state("right_hand_side").items()}
         yield from [rates[s] - rate for s, rate in expected.items()]
         yield rates[q.partner_spin] - rates[q.spin]
-    yield from _outputs_differ(pair, equal, together)
-
-
-def _outputs_differ(pair: Model, equal: Model, together: dict[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
-    left = []
-    for name in ("energies", "angular_momentum", "effective_potential", "inward_force", "turning_rate", "outputs"):
-        there = pair[name].by_name
-        for key, expression in equal[name].outputs:
-            left.append(pair.expanded(there[key]).subs(together) - equal.expanded(expression))
-    return left
+    names = ("energies", "angular_momentum", "effective_potential", "inward_force", "turning_rate", "outputs")
+    yield from special_case(equal, names, pair, lambda each: each.subs(together))
 
 
 @check("pair, doublet: slip energy", "T = L^2/(2 I) + T of the deviation from rigid rotation")
@@ -161,9 +153,8 @@ def wall_is_head_on() -> Evidence:
     beside, alone = derive(_WALL), derive(Structure(False, True, False, attraction=True))
     rates, expected = beside.by_state("right_hand_side"), alone.by_state("right_hand_side")
     yield from [rates[state] - expected[state] for state in (q.gap, q.normal_velocity)]
-    for name in ("events", "inward_force", "effective_potential", "rebound", "rebound_loss"):
-        here = beside[name].by_name
-        yield from [beside.expanded(here[key]) - alone.expanded(value) for key, value in alone[name].outputs]
+    names = ("events", "inward_force", "effective_potential", "rebound", "rebound_loss")
+    yield from special_case(alone, names, beside, lambda each: each)
     (escape,), (kinetic,) = beside["escape_energy"].outputs, alone["energies"].outputs
     yield escape[1] - kinetic[1]
 

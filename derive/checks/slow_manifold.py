@@ -30,11 +30,11 @@ def rates_have_the_form() -> Check:
     """du/dt = c J^2 - A - f u and dJ/dt = -s (J - J_r), with the coefficients that are emitted."""
     left = []
     for model, found in _models():
-        rates = {key: model.expanded(value) for key, value in model["right_hand_side"].outputs}
+        rates = model.by_state("right_hand_side")
         push = found["centrifugal"] * orbital_momentum**2 - found["attractions"] - found["slowing"] * normal_velocity
         turn = -found["relaxation"] * (orbital_momentum - found["rigid"])
         for state, rate in ((normal_velocity, push), (orbital_momentum, turn)):
-            inside = rates[state.name].subs({FILM: 1, SHEAR: 1})
+            inside = rates[state].subs({FILM: 1, SHEAR: 1})
             left.append(sp.simplify(inside - model.expanded(rate)))
     assert left
     return vanishing("slow manifold: rates", "du/dt = c J^2 - A - f u, dJ/dt = -s (J - J_r)", left)

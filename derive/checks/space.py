@@ -18,7 +18,7 @@ from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from .base import Check, Evidence, check, vanishing
-from .closed import SIZES
+from .closed import SIZES, special_case
 
 _SPACE = Structure(True, True, False, attraction=True, partner="space")
 _MIDGAP = {"arm": LAWS["arm"]["midgap"]}
@@ -73,7 +73,7 @@ def energy_in_space() -> Evidence:
     stored = model.expanded(model["energies"]["kinetic"], _OPEN)
     change = stored.diff(DISTANCE) * dict(model.definitions)[DISTANCE].diff(q.gap) * q.normal_velocity
     change += sp.Add(*(stored.diff(state) * rate for state, rate in rates.items()))
-    lost = sp.Add(*(model.expanded(rate, _OPEN) for _, rate in model["energy_rates"].outputs))
+    lost = sp.Add(*model.results("energy_rates", _OPEN).values())
     yield _on_the_surface(sp.expand(change + lost))
 
 
@@ -173,11 +173,9 @@ def reduced_in_space() -> Evidence:
     begun = {symbol: value for symbol, value in reduced.definitions if symbol in space.MOMENTA}
     keep = (*_OPEN, *(momentum.name for momentum in space.MOMENTA))
     assert len(spun) == len(begun) == 3
-    for name in ("right_hand_side", "energies", "inward_force"):
-        there = full[name].by_name
-        for key, expression in reduced[name].outputs:
-            difference = full.expanded(there[key], keep).subs(spun) - reduced.expanded(expression, keep)
-            yield _on_the_surface(sp.expand(difference))
+    names = ("right_hand_side", "energies", "inward_force")
+    for difference in special_case(reduced, names, full, lambda each: each.subs(spun), keep):
+        yield _on_the_surface(sp.expand(difference))
 
 
 @check("space: plane", "in the plane, rates and energies are those of the planar pair")
@@ -204,10 +202,9 @@ def plane_in_space() -> Evidence:
     rates = model.by_state("right_hand_side", SIZES)
     yield from [rates[state].subs(planar, simultaneous=True) - moved[state] for state in model.states]
     for name in ("energies", "energy_rates", "inward_force", "effective_potential"):
-        there = pair[name].by_name
-        for key, expression in model[name].outputs:
-            here = model.expanded(expression, SIZES).subs(planar, simultaneous=True)
-            yield here - filled(pair.expanded(there[key], SIZES), _MIDGAP)
+        of_pair = pair.results(name, SIZES)
+        for key, expression in model.results(name, SIZES).items():
+            yield expression.subs(planar, simultaneous=True) - filled(of_pair[key], _MIDGAP)
 
 
 def _components(*pairs: tuple[q.Vector, tuple[sp.Expr, ...]]) -> dict[sp.Symbol, sp.Expr]:

@@ -53,6 +53,10 @@ class Model:
         """The expanded outputs of a function that has one for each state."""
         return {state: self.expanded(self[name][state.name], keep) for state in self.states}
 
+    def results(self, name: str, keep: Collection[str] = ()) -> dict[str, sp.Expr]:
+        """The expanded outputs of a function by name."""
+        return {key: self.expanded(value, keep) for key, value in self[name].outputs}
+
 
 @cache
 def _without_names(_definitions: tuple[Definition, ...]) -> dict[sp.Basic, sp.Expr]:

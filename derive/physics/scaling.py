@@ -26,18 +26,6 @@ def dimension_matrix(symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     return sp.Matrix([[sp.Rational(q.DIMENSIONS[s].exponents[row]) for s in symbols] for row in range(3)])
 
 
-def pi_groups(symbols: Sequence[sp.Symbol]) -> list[sp.Expr]:
-    """A basis of the dimensionless monomials of `symbols`, from the nullspace of their dimension matrix."""
-    basis = dimension_matrix(symbols).nullspace()
-    return [sp.prod([s**power for s, power in zip(symbols, vector, strict=True)]) for vector in basis]
-
-
-def exponents(monomial: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
-    """Exponents of `symbols` in a monomial (numeric factors ignored)."""
-    powers = sp.powsimp(monomial).as_powers_dict()
-    return sp.Matrix([powers.get(s, 0) for s in symbols])
-
-
 EQUAL = sp.Integer(4)  # centre distance at contact over a, of equal spheres
 
 # The force scales in the equation of motion at initial contact
@@ -206,15 +194,3 @@ def _substituted(expression: sp.Expr, rules: dict[sp.Symbol, sp.Expr]) -> sp.Exp
     if isinstance(expression, AppliedUndef):
         return expression.func(*(sp.simplify(argument) for argument in expression.args))
     return expression
-
-
-def centrifugal_identity() -> sp.Expr:
-    """Ce in terms of the other groups: (pi/8) (x0/a) tan^2(theta0) St Ca."""
-    definition = group_definitions()[q.centrifugal].subs(sp.tan(q.theta0), q.obliquity)
-    return nondimensional(definition)
-
-
-def paper_normalisation() -> sp.Expr:
-    """The centrifugal term m r omega^2 over a sigma, scaled as in the paper: Ce (4 + x/a) (omega/omega0)^2."""
-    term = q.m * q.r * q.omega**2 / (q.a * q.sigma)
-    return sp.factor(term.subs(q.m, q.centrifugal * q.sigma / q.omega0**2))

@@ -63,14 +63,9 @@ def law_module(law: Law) -> str:
             else [*lines, f"{INDENT}return result", ""]
         )
     doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
-    body = [*_validity(law), *_falls(law), *body]
+    falls = any(each.falls and each.name in ("force", "log_factor") for each in law.functions)  # with the gap
+    body = [*_validity(law), *(["", "FALLS = True", ""] if falls else []), *body]
     return module(_header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
-
-
-def _falls(law: Law) -> list[str]:
-    """The constant FALLS of a law whose force, or shear, decreases with the gap; no lines for other laws."""
-    falls = any(each.falls and each.name in ("force", "log_factor") for each in law.functions)
-    return ["", "FALLS = True", ""] if falls else []
 
 
 def _validity(law: Law) -> list[str]:

@@ -111,7 +111,7 @@ class Printer:
         under: list[str] = []
         for factor in node.as_ordered_factors():
             if isinstance(factor, sp.Rational) and not isinstance(factor, sp.Integer):
-                decimal = _decimal(factor) if not _is_binary(factor.q) else None
+                decimal = _decimal(factor) if factor.q & (factor.q - 1) else None
                 if decimal is not None:
                     over.append(decimal)
                 else:
@@ -204,10 +204,6 @@ def _inside(variable: sp.Symbol, facts: list[tuple[sp.Basic, bool]]) -> sp.Expr:
         assert high is not None
         return high / 2 if variable.is_positive else high - 1
     return low + 1 if high is None else (low + high) / 2
-
-
-def _is_binary(number: int) -> bool:
-    return number & (number - 1) == 0
 
 
 def _decimal(value: sp.Rational) -> str | None:

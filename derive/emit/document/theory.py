@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ...equations.automaton import CRITERIA
 from ...equations.events import rebound
@@ -14,7 +13,7 @@ from ...physics import mechanics
 from ...physics.contact_friction import equal_spheres
 from ...physics.forces import FILM, SHEAR, force_laws
 from ...physics.laws import LAWS, Law, fill
-from ...physics.laws.base import is_slot_call
+from ...physics.laws.base import slot_calls
 from ...physics.laws.elastic_length import elastic_compliance, elastic_length
 from ...physics.laws.rupture import rupture_distance
 from ...physics.laws.start import initial_rate, start_values
@@ -90,16 +89,9 @@ def _motion(laws: Mapping[str, Law]) -> Iterator[Equation]:
         turning,
         f"spin of each sphere ({laws['arm'].name} arm)",
     )
-    yield Equation(
-        group, f"I({latex(q.x)})", _square_completed(mechanics.doublet_inertia()), "inertia in rigid rotation"
-    )
-
-
-def _square_completed(inertia: sp.Expr) -> sp.Expr:
-    """I(x) as the paper prints it, m a^2 [(4 + x/a)^2 + ...]."""
-    scaled = sp.expand(inertia / (q.m * q.a**2))
-    square = (4 + q.x / q.a) ** 2
-    return sp.Mul(q.m * q.a**2, square + sp.expand(scaled - square), evaluate=False)
+    scaled, square = sp.expand(mechanics.doublet_inertia() / (q.m * q.a**2)), (4 + q.x / q.a) ** 2  # as in the paper
+    inertia = sp.Mul(q.m * q.a**2, square + sp.expand(scaled - square), evaluate=False)
+    yield Equation(group, f"I({latex(q.x)})", inertia, "inertia in rigid rotation")
 
 
 def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
@@ -108,7 +100,7 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     law = laws["film"]
     resistance, rim = law["resistance"], _rim(law)
     whole = force_laws(spread=rim is not None)[mechanics.F_n].subs(inside)
-    call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
+    (call,) = slot_calls(whole)
     arguments = dict(zip(resistance.arguments, call.args, strict=True))
     named = resistance.result.subs({**arguments, _RIM: _RIM / q.x0}, simultaneous=True)
     end = q.x0 if rim is None else _RIM
@@ -153,7 +145,7 @@ def _inside(edge: sp.Expr) -> str:
 def _bridge(law: Law) -> Iterator[Equation]:
     group, force = "Capillary bridge", law["force"]
     whole = force_laws()[mechanics.F_c]
-    call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
+    (call,) = slot_calls(whole)
     arguments = dict(zip(force.arguments, call.args, strict=True))
 
     def put(expression: sp.Expr) -> sp.Expr:
@@ -170,7 +162,7 @@ def _strings(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, named = "Pendulum strings", False
     for force in (mechanics.S_n, mechanics.S_t):
         whole = force_laws()[force]
-        call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
+        (call,) = slot_calls(whole)
         swung = call.func(call.args[0], (_SWING / q.a) ** 2)
         closed = sp.simplify(fill(whole.xreplace({call: swung}), laws))
         named |= _SWING in closed.free_symbols

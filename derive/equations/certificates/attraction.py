@@ -26,7 +26,7 @@ import sympy as sp
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..events import contact_gap
-from ..intermediates import ATTRACTION_FORCE, BRIDGE_FORCE, MOMENTUM, intermediates
+from ..intermediates import MOMENTUM, attractions
 from . import pendulum
 
 LEAST, HOLD = sp.symbols("least_attraction hold", real=True)
@@ -38,25 +38,14 @@ def admits(structure: Structure) -> bool:
     return structure.oblique and attracts and not (structure.partner or structure.friction)
 
 
-def _least(structure: Structure) -> sp.Expr:
-    """The attractions at the rupture distance (without a bridge at x0, the edge of the film)."""
-    forces = dict(intermediates_of(structure))
-    end = q.rupture_gap if structure.bridge else sp.Integer(1)
-    named = [force for force in (BRIDGE_FORCE, ATTRACTION_FORCE) if force in forces]
-    return sp.Add(*(forces[force].subs(q.gap, end) for force in named))
-
-
-def intermediates_of(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
-    """The named forces of a structure, without those that only a reduced structure has."""
-    full = Structure(
-        structure.oblique, structure.bridge, structure.strings, attraction=structure.attraction, spread=structure.spread
-    )
-    return intermediates(full)
+def _end(structure: Structure) -> sp.Expr:
+    """The rupture gap; without a bridge x0, the edge of the film."""
+    return q.rupture_gap if structure.bridge else sp.S.One
 
 
 def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
-    end = q.rupture_gap if structure.bridge else sp.Integer(1)
+    end = _end(structure)
     pull = pendulum.pull_at(pendulum.CONTACT, q.beta) if structure.strings else sp.Integer(0)
     largest = pendulum.pull_at(end, sp.pi) if structure.strings else sp.Integer(0)
     found = [
@@ -68,7 +57,7 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
             pendulum.LARGEST_MOMENTUM,
             sp.Max(q.orbital_momentum, -q.orbital_momentum, pendulum.SPUN_UP, -pendulum.SPUN_UP),
         ),
-        (LEAST, _least(structure)),
+        (LEAST, attractions(structure, end)),
         (HOLD, LEAST + pull - pendulum.outward_at(pendulum.LARGEST_MOMENTUM, pendulum.NEAREST)),
     ]
     return (*found, (pendulum.LARGEST_PULL, largest)) if structure.strings else tuple(found)
@@ -76,7 +65,7 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
     """The margins: a stick is certain if `hold` > 0, `escape` < 0 and `rebound` < 0; over m v0^2/x0 and m v0^2."""
-    end = q.rupture_gap if structure.bridge else sp.Integer(1)
+    end = _end(structure)
     outward = sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity)
     pulled = LEAST + (pendulum.LARGEST_PULL if structure.strings else 0)
     return {

@@ -33,7 +33,7 @@ import sympy as sp
 
 from ...physics.forces import scaled_strings
 from ...physics.laws import slot_call
-from ...physics.laws.base import is_slot_call
+from ...physics.laws.base import slot_calls
 from ...physics.laws.strings import offset_squared
 from ...physics.mechanics import doublet_inertia
 from ...physics.scaling import DISTANCE, INERTIA, nondimensional
@@ -123,7 +123,7 @@ def _pull_by_stiffness(angle: sp.Expr) -> sp.Expr:
 
 
 def _stiffness() -> sp.Expr:
-    (call,) = (node for node in pull_at(CONTACT, q.beta).atoms(sp.Function) if is_slot_call(node))
+    (call,) = slot_calls(pull_at(CONTACT, q.beta))
     return call
 
 

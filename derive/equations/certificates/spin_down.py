@@ -35,7 +35,7 @@ import sympy as sp
 
 from ...physics.forces import SHEAR
 from ...physics.laws import LAWS, slot_call
-from ...physics.laws.base import filled, is_slot_call
+from ...physics.laws.base import filled, slot_calls
 from ...physics.scaling import DISTANCE
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
@@ -80,8 +80,7 @@ def decay(structure: Structure, near: sp.Expr, far: sp.Expr, logarithm: sp.Expr)
             if symbol not in kept:
                 expression = expression.subs(symbol, value)
         expression = filled(expression, {"arm": LAWS["arm"]["midgap"]}).subs(SHEAR, 1)
-        calls = {node: logarithm for node in expression.atoms(sp.Function) if is_slot_call(node)}
-        return sp.expand(expression.xreplace(calls))
+        return sp.expand(expression.xreplace(dict.fromkeys(slot_calls(expression), logarithm)))
 
     line = opened(named[q.orbital_momentum] / DISTANCE**2).subs(DISTANCE, far)
     own = [opened(named[state]).subs(DISTANCE, near) for state in states]
