@@ -55,6 +55,7 @@ def command(
       wetdoublet averages granulation --speeds "maxwell:0.5 m/s" --radii "log:30:300 um:16" -o averages.nc
     """  # noqa: D301 # click wants the character itself
     by = RTOL if rtol is None else check_rtol(rtol, "--rtol")
+    names = [] if wrt is None else options.listed(wrt, "--wrt")
     file = options.check_file(output, "-o", (".nc", ".csv"), replaced=True)
     entry = FIELDS["particles.radius"]
     sizes = None if radii is None else options.entry_range(entry, radii, "--radii", most=MOST)
@@ -78,7 +79,6 @@ def command(
     distribution = Speeds.of(given, "--speeds")
     rule = FIXED if films is None else check_name(films, FILMS, "--films")
     within = check_tolerance(1e-6 if tolerance is None else tolerance, "--tolerance")
-    names = [] if wrt is None else [name.strip() for name in wrt.split(",")]
     journal = None if file is None else beside(file)
     done = (0, 0)
     try:

@@ -177,7 +177,7 @@ def _names(scene: Scene, wrt: str | None) -> tuple[str, ...] | None:
         return None
     from ..sensitivity.boundaries import check_boundary_wrt
 
-    names = [name.strip() for name in wrt.split(",") if name.strip()]
+    names = options.listed(wrt, "--wrt")
     return check_boundary_wrt(scene, None if names == ["all"] else names, "--wrt")
 
 

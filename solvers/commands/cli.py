@@ -113,7 +113,9 @@ def _check_once(ctx: click.Context, args: list[str]) -> None:
         return  # reported when the command is called
     for option in (each for each in order if isinstance(each, click.Option) and not (each.multiple or each.is_flag)):
         if order.count(option) > 1:
-            raise InputError(option.opts[0], str(values[str(option.name)]), "a single value", "is given twice or more")
+            raise InputError(
+                option.opts[0], str(values[str(option.name)]), f"{option.opts[0]} once", "is given twice or more"
+            )
 
 
 def _settle_streams() -> None:

@@ -85,7 +85,7 @@ def command(
         raise InputError("--free", None, "entries to estimate, as --free particles.roughness,liquid.viscosity")
     if over is None:
         raise InputError("--over", None, "the impacts that can be made, as --over stokes=0.02:0.5,angle=0:80")
-    names = [name.strip() for name in free.split(",") if name.strip()]
+    names = options.listed(free, "--free")
     window = _window(over)
     angle_sd = None if angle_sd is None else options.with_degrees(FIELDS["impact.angle"], angle_sd)
     asked = options.SceneRequest.check(source, changes, model=model)

@@ -75,14 +75,14 @@ def command(
     if free is None:
         accepted = "entries to estimate, as --free particles.roughness,liquid.viscosity"
         raise InputError("--free", None, accepted)
-    names = [name.strip() for name in free.split(",") if name.strip()]
+    names = options.listed(free, "--free")
     asked = options.SceneRequest.check(source, changes, model=model, hold=hold)
     if data is None:
         raise InputError("DATA.csv", None, "a CSV file with a row for each impact")
     scene = asked.scene(remark=True)
     table = None
     with options.arguments_as_options(_OPTIONS):
-        over = None if compare is None else check_choices(scene, [name.strip() for name in compare.split(",")])
+        over = None if compare is None else check_choices(scene, options.listed(compare, "--compare"))
         found = fit(scene, data, names, prior=given or None, rtol=tolerance)
         if over is not None:
             table = compare_models(scene, data, names, over=over, prior=given or None, rtol=tolerance)

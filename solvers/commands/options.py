@@ -153,6 +153,15 @@ class SceneRequest:
 
 def of_scene(command: Command) -> Command:
     """Add the impact's options, --set, --hold and --model; the command receives them and SCENE as `request`."""
+    return _of_scene(command, varies=False)
+
+
+def of_varied_scene(command: Command) -> Command:
+    """The same for a command that varies entries itself, which --hold concerns as well."""
+    return _of_scene(command, varies=True)
+
+
+def _of_scene(command: Command, varies: bool) -> Command:
 
     @impact
     @changes
@@ -171,6 +180,10 @@ def of_scene(command: Command) -> Command:
         **others: Any,
     ) -> Any:
         request = SceneRequest.check(source, changes, stokes, speed, angle, relative_speed, model, hold)
+        if hold is not None and not varies:
+            for key in (key for key in request.impact if key != "angle"):
+                problem = f"is given together with {_option(key)}, which sets the impact anew"
+                raise InputError("--hold", hold, f"--hold without {_option(key)}", problem)
         return command(request, **others)
 
     return with_request
@@ -196,6 +209,17 @@ def entries(changes: Sequence[str]) -> dict[str, str]:
 def typed(found: Mapping[str, str]) -> dict[str, str]:
     """Entries by dotted name, a bare angle in degrees."""
     return {name: with_degrees(FIELDS[name], value) if name in FIELDS else value for name, value in found.items()}
+
+
+def listed(text: str, label: str) -> list[str]:
+    """The names of a list NAME,NAME; InputError for a name that is given twice."""
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    if not names:
+        raise InputError(label, text, "names, separated by commas", "names nothing")
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(label, text, "every name once", f"has {shown(name)} twice")
+    return names
 
 
 def assigned(given: Sequence[str], label: str, accepted: str) -> dict[str, str]:

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 )
 @click.option("--over-time", is_flag=True, help="Derivatives of the whole trajectory; --plot draws them.")
 @click.option("--hessian", is_flag=True, help="Second derivatives as well.")
-@options.of_scene
+@options.of_varied_scene
 @options.rtol
 @options.engine
 @options.as_json
@@ -80,7 +80,7 @@ def command(
     tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
     chosen = check_engine(engine, "--engine")
     how = "forward" if method is None else check_method(method, "--method")
-    asked = ("restitution",) if of is None else check_quantities(_names(of), "--of")
+    asked = ("restitution",) if of is None else check_quantities(options.listed(of, "--of"), "--of")
     if hessian and chosen in ("cvodes", "taylor"):
         raise InputError("--engine", chosen, "rosenbrock with --hessian", "has no second derivatives")
     if chosen == "taylor" and how != "forward":
@@ -104,7 +104,7 @@ def command(
         if picture is not None:
             data.wetdoublet.plot(picture)
         return
-    names = None if wrt is None else check_wrt(scene, _names(wrt), "--wrt")
+    names = None if wrt is None else check_wrt(scene, options.listed(wrt, "--wrt"), "--wrt")
     scene.need_impact()
     deviation = deviations(scene, _assigned(uncertain), "--uncertainty") if uncertain else {}
     if names is not None:
@@ -131,7 +131,7 @@ def _trajectory(
     from ..sensitivity.parameters import check_wrt
     from ..sensitivity.trajectory import trajectory_sensitivities
 
-    names = None if wrt is None else check_wrt(scene, _names(wrt), "--wrt")
+    names = None if wrt is None else check_wrt(scene, options.listed(wrt, "--wrt"), "--wrt")
     found = trajectory_sensitivities(scene, names, rtol=rtol, engine=engine, hold=hold)
     parameters = [str(name) for name in found.parameter.values]
     width = max(map(len, parameters))
@@ -179,10 +179,6 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(each) for each in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _names(text: str) -> list[str]:
-    return [name.strip() for name in text.split(",") if name.strip()]
 
 
 def _assigned(given: Sequence[str]) -> dict[str, str]:

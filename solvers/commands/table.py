@@ -85,7 +85,7 @@ def command(
 
 
 def _names(of: str | None, known: tuple[str, ...]) -> tuple[str, ...]:
-    names = known[:2] if of is None else tuple(name.strip() for name in of.split(",") if name.strip())
+    names = known[:2] if of is None else tuple(options.listed(of, "--of"))
     for name in names:
         if name not in known:
             raise InputError("--of", name, ", ".join(known), "is not known" + did_you_mean(name, known))

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FixedLocator, MaxNLocator
 
 from ...generated.automaton import OUTCOMES
 from ..collision.text import against, name_of, plain, quantity
@@ -324,6 +324,10 @@ def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = Tru
     axes.set_ylim(up[0], up[-1])
     steps = (1, 1.5, 3, 10) if across[-1] - across[0] > 20 else (1, 2, 5, 10)
     axes.xaxis.set_major_locator(MaxNLocator(7, steps=steps))
+    for axis, values in ((axes.xaxis, np.degrees(data["angle"].values)), (axes.yaxis, data[name].values)):
+        if values.size == 1:  # a strip: what it shows is computed there only
+            axis.set_major_locator(FixedLocator(values))
+            axis.set_major_formatter(f"{values[0]:g}")
     if lowest:
         axes.set_xlabel("impact angle $\\theta_0$ (deg)")
     if left_most:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from math import nan
 from typing import Any
 
-from casadi import SX, cross, densify, fmax, fmin, if_else, logic_and, vertcat
+from casadi import SX, cross, densify, fabs, fmax, fmin, if_else, logic_and, vertcat
 
 from ...generated.automaton import CLOSING, EVENTS, VOID_WITHOUT
 from ...generated.automaton import Event as Row
@@ -99,6 +99,9 @@ class Expressions:
     rates: SX
 
 
+_NEGLIGIBLE = 1e-100  # in m v0^3/x0; CasADi's Rosenbrock divides by squares of slopes, which underflow
+
+
 @own_cache(256)
 def expressions(flow: Flow) -> Expressions:
     """Variables and rates of a flow, in time x0/v0."""
@@ -111,7 +114,8 @@ def expressions(flow: Flow) -> Expressions:
     extra_rates: dict[str, SX] = {}
     if flow.extras:
         flags.pop("rolling", None)  # rolling loses nothing
-        extra_rates = model("energy_rates", state, flags)
+        energy_rates = model("energy_rates", state, flags)
+        extra_rates = {name: rate * (fabs(rate) > _NEGLIGIBLE) for name, rate in energy_rates.items()}
         if model.has("turning_rate"):
             extra_rates |= model("turning_rate", state)
     if model.space and "rotation" in flow.extras:

@@ -102,10 +102,12 @@ def _bent(scene: Scene, values: Values) -> Any:
     """Angle by which the relative velocity has turned, of spheres that would have missed each other; else NaN."""
     if scene.wall:
         return math.nan
-    angle, touching = values["angle"], sum(_radii(values))
-    misses = (touching + values["film_thickness"]) * np.sin(angle) > touching
-    along = np.arctan2(values["tangential_restitution"] * np.tan(angle), values["restitution"])
-    bent = np.abs(values["rotation"] + along - (math.pi - angle))
+    touching = sum(_radii(values))
+    apart = touching + values["film_thickness"]
+    sliding = np.tan(values["angle"]) * apart / touching  # per normal speed: omega is v0 tan(theta0)/touching
+    misses = apart * np.sin(np.arctan(sliding)) > touching
+    along = np.arctan2(values["tangential_restitution"] * sliding, values["restitution"])
+    bent = np.abs(values["rotation"] + along - (math.pi - np.arctan(sliding)))
     return np.where(misses & (np.asarray(values["outcome"]) == _SRS), bent, math.nan)
 
 

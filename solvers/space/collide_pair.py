@@ -22,7 +22,7 @@ from .books import GREW, OPEN, named
 from .by_casadi import by_casadi
 from .by_kernel import by_kernel
 from .ends import FAILED, Ends, Motions, after, after_wall, gains_energy
-from .pairs import Pairs, checked, dot, length
+from .pairs import Bodies, Pairs, checked, dot, length
 
 if TYPE_CHECKING:
     import xarray
@@ -209,16 +209,19 @@ def _validity(pairs: Pairs, ends: Ends, motions: Motions) -> list[str]:
         return []
     some = pairs.part(which)
     before, after = (each[:, 1] - each[:, 0] for each in (some.velocities, motions.velocities[which]))
-    angle = np.arctan2(length(some.sliding), -some.opening)
     bent = np.arctan2(length(np.cross(before, after)), dot(before, after)[:, 0])
+    known = si_values(some.scene, None, None)
+    touching = np.inf if some.scene.wall else sum(Bodies.of(some.scene).radius)
+    sliding = length(some.sliding) / (1 + known["film_thickness"] / touching)  # the planar angle's, of touching spheres
+    angle = np.arctan2(sliding, -some.opening)
     course = {
-        "rotation": np.pi - angle + bent,
+        "rotation": np.pi - np.arctan2(length(some.sliding), -some.opening) + bent,
         "tangential_restitution": 0.0,
         "restitution": 1.0,
         "smallest_gap": np.nan,
     }
-    values = si_values(some.scene, None, None) | {"speed": -some.opening, "angle": angle}
-    return sentences_of_many(some.scene, values | course | {"outcome": ends.outcome[which]})
+    known |= {"speed": -some.opening, "angle": angle}
+    return sentences_of_many(some.scene, known | course | {"outcome": ends.outcome[which]})
 
 
 def _dataset(

@@ -255,3 +255,23 @@ def test_circling_is_decided_by_its_limit() -> None:
     if told is not None:  # there is a kernel
         assert told["status"].tolist() == [0, 0]
         assert told["outcome"].tolist() == [0, 1]
+
+
+def test_a_sliding_that_has_died_away_does_not_stop_rosenbrock():
+    """Far from the wall the energy's rates are of the order exp(-370): their squares, which underflow, once failed."""
+    scene = Scene.from_dict(
+        {
+            "particles": {"reduced_radius": 8.95e-6, "density": 1611.0, "roughness": 3.69e-10, "dry_restitution": 0.081,
+                          "youngs_modulus": 4.4757e6, "poisson_ratio": 0.216},
+            "liquid": {"viscosity": 1063.0, "film_thickness": 1.598e-7, "glass_transition_pressure": 1.01e7},
+            "bridge": {"surface_tension": 0.607, "volume": 1.86e-5, "contact_angle": 1.541, "law": "constant"},
+            "model": {"glass": "film-corrected"},
+            "partner": {"wall": True},
+            "impact": {"stokes": 0.0098, "angle": 1.56875},
+        }
+    )  # fmt: skip
+    ours, kernel = (collide(scene, engine=engine, rtol=1e-9) for engine in ("rosenbrock", "taylor"))
+    assert ours.outcome == kernel.outcome == "bounce"
+    assert ours.restitution == pytest.approx(kernel.restitution, rel=1e-8)
+    assert ours.energy is not None
+    assert abs(ours.energy.residual) < 1e-9 * ours.energy.initial

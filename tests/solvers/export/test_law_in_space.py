@@ -101,6 +101,17 @@ def test_a_sphere_and_a_wall_are_those_of_collide_pair(walled: Law):
     agree(walled, WALL, 60)
 
 
+def test_spheres_that_rub_are_those_of_collide_pair(tmp_path: Path):
+    """With Coulomb friction at every rebound, which changes the spins across the plane of approach as well."""
+    rough = {"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5, "model.contact_friction": "all"}
+    scene = OWN.with_entries(rough)
+    law = Law(scene, written(scene, tmp_path / "rough"), *STRICT)
+    agree(law, scene, 60)
+    pairs = arrivals(OWN, 60)
+    spins = [collide_pair(each, *pairs, engine="taylor").spins.values for each in (scene, OWN)]
+    assert np.nanmax(np.abs(spins[0] - spins[1])) > 1.0  # rad/s: friction acts
+
+
 def test_a_stick_depends_on_the_pair_alone(law: Law, folder: Path):
     """Another compilation, lanes and tolerance change when its integration stops, and nothing of what is returned."""
     rows = law.pairs(*arrivals(OWN, 150, seed=7))

@@ -75,11 +75,12 @@ def test_flags_are_set_where_a_number_passes_its_limit(random_collisions):
 def test_a_fly_by_hardly_bends_the_path(random_collisions):
     """A fly-by meets no criterion, would miss the solids, and leaves within 10 deg of its direction."""
     data = random_collisions
-    angle, reach = data.angle.values, 200e-6
-    misses = (reach + data["liquid.film_thickness"].values) * np.sin(angle) > reach
+    reach, film = 200e-6, data["liquid.film_thickness"].values
+    sliding = np.tan(data.angle.values) * (1 + film / reach)  # r omega at r = reach + film
+    misses = (reach + film) * np.sin(np.arctan(sliding)) > reach
     turn = data.rotation.values
-    before = np.stack([-np.ones_like(angle), np.tan(angle)])
-    final = np.stack([data.restitution.values, data.tangential_restitution.values * np.tan(angle)])
+    before = np.stack([-np.ones_like(sliding), sliding])
+    final = np.stack([data.restitution.values, data.tangential_restitution.values * sliding])
     after = np.stack(
         [np.cos(turn) * final[0] - np.sin(turn) * final[1], np.sin(turn) * final[0] + np.cos(turn) * final[1]]
     )
@@ -87,6 +88,14 @@ def test_a_fly_by_hardly_bends_the_path(random_collisions):
     expected = (data.outcome.values == 1) & misses & (cosine > math.cos(math.radians(10))) & (turn < math.pi)
     assert (bits(data)["fly_by"] == expected).all()
     assert expected.any()
+
+
+def test_without_forces_the_path_is_straight():
+    """Almost no liquid forces act: the path is bent by less than 1e-6 deg, which the sentence shows."""
+    weak = {"liquid.viscosity": 1e-12, "bridge.surface_tension": 1e-12, "liquid.film_thickness": 2e-5}
+    scene = Scene.load("granulation").with_entries(weak).with_impact(speed=0.5, angle=1.45)
+    (sentence,) = [said for said in collide(scene, ledger=False).validity if "fly-by" in said]
+    assert float(sentence.partition("is bent by ")[2].partition(" deg")[0]) < 1e-6
 
 
 @pytest.mark.parametrize(("smallest", "published"), [(0.003, 1.66), (0.01, 1.95)])

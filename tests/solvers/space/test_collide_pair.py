@@ -376,9 +376,8 @@ def test_validity_has_the_sentences_of_a_planar_collision():
     velocities = [[[0.0, 0, 0], [y, 0, -speed]] for y in across]
     found = collide_pair(scene, [0, 0, 1], velocities, np.zeros((2, 3)), engine="taylor")
     alone = [set(collide(scene, speed=speed, angle=each, ledger=False).validity) for each in angle.tolist()]
-    flies, exact = ([said for said in some if "fly-by" in said] for some in (alone[1], found.attrs["validity"]))
-    assert len(flies) == len(exact) == 1
-    assert set(found.attrs["validity"]) - {*exact} == (alone[0] | alone[1]) - {*flies}
+    assert any("fly-by" in sentence for sentence in alone[1])
+    assert set(found.attrs["validity"]) == alone[0] | alone[1]
     assert collide_pair(GRANULATION, [0, 0, 1], [[0, 0, 0], [0, 0, -1.0]], np.zeros((2, 3))).attrs["validity"] == []
 
 

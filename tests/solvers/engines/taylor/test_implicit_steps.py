@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from wetdoublet.generated.automaton import Status
 from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.host.compiler import compiler
@@ -94,3 +95,25 @@ def test_collisions_that_creep_to_no_avail_keep_to_their_budget():
     assert found is not None
     assert found["status"].tolist() == [2]
     assert found["steps"][0] < 1500 + 4100
+
+
+def test_a_separation_that_rounding_decides_is_none():
+    """Spins cancel the orbital angular momentum but for 1e-6 of it, without a film edge: the speed of separation falls
+    as that part squared, to the rounding of the momenta. What the kernel says then is a status, and no outcome.
+    """
+    film = {"viscosity": 0.1, "film_thickness": 2e-6, "glass_transition_pressure": 1e15}
+    sphere = {"radius": 1e-4, "mass": 1e-8, "roughness": 1e-8, "dry_restitution": 0.6}
+    scene = Scene.from_dict({"particles": sphere, "liquid": film, "model": {"film": "infinite"}})
+    left = 10 ** -np.linspace(5.3, 6.0, 40)
+    speed, angle = np.full(40, scene.speed_of(0.5)), np.full(40, 0.5)
+    orbital = 0.5e-8 * (2e-4 + 2e-6) ** 2 * speed * np.tan(angle) / 2e-4
+    spins = -orbital * (1 + left) / (2 * 0.4 * 1e-8 * 1e-4**2)
+    others = {"impact_spin": spins, "impact_partner_spin": spins.copy()}
+    found = engine.run_kernel(engine.Impacts(scene, speed, angle, others), 1e-9)
+    assert found is not None
+    within = found["status"] == Status.WITHIN_ROUNDING
+    assert within.any()
+    assert (found["outcome"][within] < 1).all()
+    assert (left[within] < 10**-5.5).all()
+    decided = found["status"] == Status.DECIDED
+    assert (found["shown"][decided, 0] > 1e-15).all()
