@@ -109,8 +109,8 @@ def _has_barrier(structure: Structure) -> bool:
     model = derive(structure)
     if structure.strings or not structure.oblique:
         return True  # head-on with a film only, the film's momentum integral decides instead
-    slope = model.expanded(dict(model["effective_potential"].outputs)["slope"])
-    start = {s: model.expanded(dict(model["start"].outputs)[s.name]) for s in model.states if s != gap}
+    slope = model.expanded(model["effective_potential"]["slope"])
+    start = {s: model.expanded(model["start"][s.name]) for s in model.states if s != gap}
     return not sp.factor(-slope.subs(start)).is_nonnegative
 
 

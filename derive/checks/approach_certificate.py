@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ..equations.certificates.approach import DEEPER, GAIN, LARGEST_FORCE, LEFT, PATH, RATIO, attractions, braking
+from ..equations.certificates.approach import DEEPER, GAIN, LARGEST_FORCE, LEFT, PATH, RATIO, braking
 from ..equations.certificates.pendulum import pull_at
 from ..equations.events import contact_gap
-from ..equations.intermediates import FILM_FORCE
+from ..equations.intermediates import FILM_FORCE, attractions
 from ..equations.model import Model, derive
 from ..physics.forces import FILM
 from ..physics.laws import LAWS
@@ -17,17 +17,14 @@ from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import aspect, beta, gap, normal_velocity, obliquity, orbital_momentum, stokes
-from .base import Check, vanishing
-from .closed import opened
+from .base import Check, Evidence, check, vanishing
+from .closed import SIZES
 
 _BRIDGE = Structure(oblique=True, bridge=True, strings=False)
 _ATTRACTED = (
-    replace(_BRIDGE, oblique=False),
-    _BRIDGE,
-    replace(_BRIDGE, bridge=False, attraction=True),
-    replace(_BRIDGE, partner="pair"),
-    replace(_BRIDGE, partner="wall"),
-)
+    replace(_BRIDGE, oblique=False), _BRIDGE, replace(_BRIDGE, bridge=False, attraction=True),
+    replace(_BRIDGE, partner="pair"), replace(_BRIDGE, partner="wall"),
+)  # fmt: skip
 _STRINGS = Structure(oblique=True, bridge=False, strings=True)
 _PULL, _DEPTH, _LEFT = sp.symbols("pull depth left", positive=True)
 
@@ -43,89 +40,84 @@ def braking_is_the_films() -> tuple[Check, ...]:
 
 
 def _inward(model: Model) -> sp.Expr:
-    return opened(model, dict(model["inward_force"].outputs)["inward_force"])
+    return model.expanded(model["inward_force"]["inward_force"], SIZES)
 
 
-def closing_speed() -> Check:
+@check("approach: closing speed", "dw/dy <= P/w - g/St, and the bound of w rises as fast")
+def closing_speed() -> Evidence:
     """dw/dy = (F - C)/w - g/St with C >= 0, and both comparison functions rise at least as fast.
 
     Where a bound z is reached, it has to rise by P/z - g/St at least: P/left with z >= left, or P/sqrt(2 P y) with
     z >= sqrt(2 P y). At left = sqrt(P y/2) both gains agree, so that the larger denominator takes the smaller gain.
     """
-    left: list[sp.Expr] = []
     for structure in (*_ATTRACTED, _STRINGS):
         model = derive(structure)
-        rate = opened(model, dict(model["right_hand_side"].outputs)["normal_velocity"])
-        film = opened(model, FILM_FORCE)
-        left.append(rate + film + _inward(model))
+        rate = model.expanded(model["right_hand_side"]["normal_velocity"], SIZES)
+        film = model.expanded(FILM_FORCE, SIZES)
+        yield rate + film + _inward(model)
         spread = braking(structure, gap)
         resistance = sp.Function("film.resistance", real=True)(*spread.args)
-        left.append(film - FILM * normal_velocity * resistance / stokes)
+        yield film - FILM * normal_velocity * resistance / stokes
         if structure.strings:
             pull = _inward(model).subs(orbital_momentum, 0)
-            left.append(pull - model.expanded(pull_at(gap, beta)).subs(DISTANCE, 4 + aspect * gap))
+            yield pull - model.expanded(pull_at(gap, beta)).subs(DISTANCE, 4 + aspect * gap)
         else:
             still = {state: 0 for state in model.states if state != gap}
-            left.append(_inward(model).subs(still) - opened(model, attractions(structure, gap)))
+            yield _inward(model).subs(still) - model.expanded(attractions(structure, gap), SIZES)
     straight, rooted = _PULL * _DEPTH / _LEFT, sp.sqrt(2 * _PULL * _DEPTH)
-    left += [straight.diff(_DEPTH) * _LEFT - _PULL, rooted.diff(_DEPTH) * rooted - _PULL]
-    left.append(straight.subs(_LEFT, sp.sqrt(_PULL * _DEPTH / 2)) - rooted)
-    return vanishing("approach: closing speed", "dw/dy <= P/w - g/St, and the bound of w rises as fast", left)
+    yield from (straight.diff(_DEPTH) * _LEFT - _PULL, rooted.diff(_DEPTH) * rooted - _PULL)
+    yield straight.subs(_LEFT, sp.sqrt(_PULL * _DEPTH / 2)) - rooted
 
 
-def rotation_gains() -> Check:
+@check("approach: rotation", "C = 2 E_orb/r <= 2 E_rot/r, dE_rot/dx = -C + what shear takes")
+def rotation_gains() -> Evidence:
     """C = -dE_orb/dx at fixed J = 2 E_orb/r, and E_rot - E_orb is a sum of squares: E_rot r^2 never grows going in."""
-    left: list[sp.Expr] = []
     squares = True
     for structure in _ATTRACTED:
         model = derive(structure)
-        thrown = sp.expand(opened(model, attractions(structure, gap)) - _inward(model))
-        kinetic = opened(model, dict(model["energies"].outputs)["kinetic"])
+        thrown = sp.expand(model.expanded(attractions(structure, gap), SIZES) - _inward(model))
+        kinetic = model.expanded(model["energies"]["kinetic"], SIZES)
         rotating = sp.expand(kinetic - normal_velocity**2 / 2)
         if not structure.oblique or structure.partner == "wall":
-            left.append(thrown)
+            yield thrown
             continue
-        distance = opened(model, DISTANCE)
+        distance = model.expanded(DISTANCE, SIZES)
         orbital = rotating.subs(dict.fromkeys(model.states[3:], 0))
-        left += [thrown + orbital.diff(gap), thrown - 2 * aspect * orbital / distance]
+        yield from (thrown + orbital.diff(gap), thrown - 2 * aspect * orbital / distance)
         spins = sp.Poly(sp.expand(rotating - orbital), *model.states[3:], obliquity)
         squares &= all(c.is_positive and all(n % 2 == 0 for n in powers) for powers, c in spins.terms())
-    found = vanishing("approach: rotation", "C = 2 E_orb/r <= 2 E_rot/r, dE_rot/dx = -C + what shear takes", left)
-    return found if squares else replace(found, ok=False, figure="the energy of the spins is no sum of squares")
+    yield squares, "the energy of the spins is no sum of squares"
 
 
-def as_emitted() -> Check:
+@check("approach: as emitted", "the step and the outward force are the bounds")
+def as_emitted() -> Evidence:
     """The emitted step and outward force are these bounds."""
-    left: list[sp.Expr] = []
     for structure in (*_ATTRACTED, _STRINGS):
         model = derive(structure)
         named = dict(model.definitions)
         force, deeper = named[LARGEST_FORCE], named[DEEPER]
         whole = pull_at(sp.Integer(1), sp.pi) if structure.strings else sp.Max(attractions(structure, DEEPER), 0)
-        left += [model.expanded(force) - model.expanded(whole), deeper - gap * RATIO]
-        left.append(named[RATIO] ** 24 - sp.Max(contact_gap, sp.Rational(1, 100)))
+        yield from (model.expanded(force) - model.expanded(whole), deeper - gap * RATIO)
+        yield named[RATIO] ** 24 - sp.Max(contact_gap, sp.Rational(1, 100))
         rest = -normal_velocity - (braking(structure, DEEPER) - braking(structure, gap)) / stokes
         work = LARGEST_FORCE * (gap - DEEPER)
         gain = work / sp.Max(rest, sp.sqrt(work / 2))
         wanted = {"deeper_gap": DEEPER, "slowed": sp.Max(rest, 0) + gain, "fastest": gain - normal_velocity}
-        found = dict(model["approach_step"].outputs)
+        found = model["approach_step"].by_name
         for symbol in (GAIN, LEFT, PATH):
             found = {name: value.subs(symbol, named[symbol]) for name, value in found.items()}
-        left += [found[name] - value for name, value in wanted.items()]
+        yield from [found[name] - value for name, value in wanted.items()]
         if structure.strings:
             continue
-        outward = opened(model, dict(model["approach_force"].outputs)["outward"])
+        outward = model.expanded(model["approach_force"]["outward"], SIZES)
         thrown = sp.Integer(0)
         if structure.oblique and structure.partner != "wall":
-            kinetic = opened(model, dict(model["energies"].outputs)["kinetic"])
-            distance = opened(model, DISTANCE)
+            kinetic = model.expanded(model["energies"]["kinetic"], SIZES)
+            distance = model.expanded(DISTANCE, SIZES)
             near = distance.subs(gap, contact_gap)
             thrown = 2 * aspect * (kinetic - normal_velocity**2 / 2) * distance**2 / near**3
         inner = outward.args[1] if outward.args[0] == 0 else outward.args[0]
-        left.append(filled(inner - (thrown - opened(model, attractions(structure, gap))), {}))
-    return vanishing("approach: as emitted", "the step and the outward force are the bounds", left)
+        yield filled(inner - (thrown - model.expanded(attractions(structure, gap), SIZES)), {})
 
 
-def approach_certificate() -> tuple[Check, ...]:
-    """Every check of the approach certificate."""
-    return (*braking_is_the_films(), closing_speed(), rotation_gains(), as_emitted())
+CHECKS = (braking_is_the_films, closing_speed, rotation_gains, as_emitted)

@@ -11,23 +11,11 @@ from ..equations.events import contact_gap
 from ..equations.model import derive
 from ..physics.forces import SHEAR
 from ..physics.laws import LAWS, Law
+from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure, structures
-from ..vocabulary.quantities import (
-    aspect,
-    beta,
-    contact_angle,
-    e_dry,
-    gap,
-    normal_velocity,
-    orbital_momentum,
-    rupture_gap,
-    spin,
-    volume,
-    weight,
-)
-from .base import Check, vanishing
-from .closed import emitted_rates, filled
+from ..vocabulary import quantities as q
+from .base import Check, Evidence, check
 
 _COSINE = sp.Symbol("cosine", nonnegative=True)  # for a contact angle up to 90 deg
 
@@ -39,9 +27,9 @@ def force_falls(laws: Iterable[Law], last: sp.Expr = sp.oo) -> tuple[Check, ...]
         for each in law.functions:
             if each.falls:
                 first = sp.Symbol(each.arguments[0].name, positive=True)
-                force = each(*each.arguments).subs(each.arguments[0], first).subs(sp.cos(contact_angle), _COSINE)
-                if aspect in each.arguments:  # a volume per film thickness, to keep the expressions short
-                    force = force.subs(volume, sp.pi * aspect**2 * volume)
+                force = each(*each.arguments).subs(each.arguments[0], first).subs(sp.cos(q.contact_angle), _COSINE)
+                if q.aspect in each.arguments:  # a volume per film thickness, to keep the expressions short
+                    force = force.subs(q.volume, sp.pi * q.aspect**2 * q.volume)
                 slope = sp.factor(sp.simplify(sp.simplify(force).diff(first)))
                 if slope.is_nonpositive is None and last != sp.oo:
                     slope = sp.factor(slope.subs(first, last / (1 + first)))  # any gap below the last
@@ -51,36 +39,35 @@ def force_falls(laws: Iterable[Law], last: sp.Expr = sp.oo) -> tuple[Check, ...]
     return tuple(checks)
 
 
-def margins_are_the_forces() -> Check:
+@check("held: margins", "inward force at its least, at J_max and at the rupture distance")
+def margins_are_the_forces() -> Evidence:
     """`hold`, `escape` and `rebound` from the emitted inward force at the gaps and momenta that bound it."""
-    left: list[sp.Expr] = []
     for structure in structures():
         if not admits(structure) or structure.reduced:
             continue
         model = derive(structure)
-        emitted = dict(model["inward_force"].outputs)["inward_force"]
-        force = model.expanded(emitted).subs(DISTANCE, 4 + aspect * gap)
-        attraction = force.subs({weight: 0, orbital_momentum: 0})
-        strings, outward = force.subs(orbital_momentum, 0) - attraction, force.subs(orbital_momentum, 0) - force
-        contact, end = contact_gap, rupture_gap
-        share = (4 + aspect * end) ** 2 / ((4 + aspect * end) ** 2 + sp.Rational(32, 5))
-        momentum = orbital_momentum + sp.Rational(32, 5) * spin
-        least, most = attraction.subs(gap, end), strings.subs({gap: end, beta: sp.pi}, simultaneous=True)
+        emitted = model["inward_force"]["inward_force"]
+        force = model.expanded(emitted).subs(DISTANCE, 4 + q.aspect * q.gap)
+        attraction = force.subs({q.weight: 0, q.orbital_momentum: 0})
+        strings, outward = force.subs(q.orbital_momentum, 0) - attraction, force.subs(q.orbital_momentum, 0) - force
+        contact, end = contact_gap, q.rupture_gap
+        share = (4 + q.aspect * end) ** 2 / ((4 + q.aspect * end) ** 2 + sp.Rational(32, 5))
+        momentum = q.orbital_momentum + sp.Rational(32, 5) * q.spin
+        least, most = attraction.subs(q.gap, end), strings.subs({q.gap: end, q.beta: sp.pi}, simultaneous=True)
         away = outward.subs(
             {
-                gap: contact,
-                orbital_momentum: sp.Max(*(s * j for j in (orbital_momentum, momentum * share) for s in (1, -1))),
+                q.gap: contact,
+                q.orbital_momentum: sp.Max(*(s * j for j in (q.orbital_momentum, momentum * share) for s in (1, -1))),
             },
             simultaneous=True,
         )
-        hold = least + strings.subs(gap, contact) - away
-        found = {name: model.expanded(value) for name, value in model["attraction_margins"].outputs}
-        left += [
+        hold = least + strings.subs(q.gap, contact) - away
+        found = model.results("attraction_margins")
+        yield from (
             found["hold"] - hold,
-            found["escape"] - (sp.Max(normal_velocity, -e_dry * normal_velocity) ** 2 / 2 - hold * (end - gap)),
-            found["rebound"] - (e_dry**2 * (least + most) - hold),
-        ]
-    return vanishing("held: margins", "inward force at its least, at J_max and at the rupture distance", left)
+            found["escape"] - (sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity) ** 2 / 2 - hold * (end - q.gap)),
+            found["rebound"] - (q.e_dry**2 * (least + most) - hold),
+        )
 
 
 def momentum_is_bounded() -> Check:
@@ -90,18 +77,18 @@ def momentum_is_bounded() -> Check:
     J - s L, to which the slip is proportional, is positive for every L between -|L| and |L|.
     """
     model = derive(Structure(oblique=True, bridge=True, strings=False))
-    here = 4 + aspect * gap
-    momentum = orbital_momentum + sp.Rational(32, 5) * spin
+    here = 4 + q.aspect * q.gap
+    momentum = q.orbital_momentum + sp.Rational(32, 5) * q.spin
     share = here**2 / (here**2 + sp.Rational(32, 5))
-    rate = filled(emitted_rates(model)[orbital_momentum], {"arm": LAWS["arm"]["midgap"]})
-    log_factor = sp.Function("shear.log_factor", real=True)(gap, aspect)
-    relaxation = sp.factor(-rate / (orbital_momentum - share * momentum))
+    rate = filled(model.by_state("right_hand_side")[q.orbital_momentum], {"arm": LAWS["arm"]["midgap"]})
+    log_factor = sp.Function("shear.log_factor", real=True)(q.gap, q.aspect)
+    relaxation = sp.factor(-rate / (q.orbital_momentum - share * momentum))
     grows = sp.factor(sp.together((DISTANCE**2 / (DISTANCE**2 + sp.Rational(32, 5))).diff(DISTANCE)))
     excess, whole, rest, now, later = sp.symbols("excess whole rest now later", nonnegative=True)
     above = (now + later) * whole + excess - now * (whole - rest)  # J - s L with J >= (s + later) |L|, L = |L| - rest
     ok = (
-        not relaxation.free_symbols & {orbital_momentum, spin}
-        and (relaxation / (SHEAR * log_factor)).subs(gap, sp.Symbol("x", positive=True)).is_positive is True
+        not relaxation.free_symbols & {q.orbital_momentum, q.spin}
+        and (relaxation / (SHEAR * log_factor)).subs(q.gap, sp.Symbol("x", positive=True)).is_positive is True
         and grows.is_positive is True
         and sp.expand(above).is_nonnegative is True
     )
@@ -110,7 +97,9 @@ def momentum_is_bounded() -> Check:
     )
 
 
-def attraction_certificate() -> tuple[Check, ...]:
-    """Every check of the attraction certificate."""
-    laws = [law for slot in ("bridge", "attraction") for law in LAWS[slot].values()]
-    return (*force_falls(laws), momentum_is_bounded(), margins_are_the_forces())
+def attractions_fall() -> tuple[Check, ...]:
+    """`force_falls` for the attractions."""
+    return force_falls(law for slot in ("bridge", "attraction") for law in LAWS[slot].values())
+
+
+CHECKS = (attractions_fall, momentum_is_bounded, margins_are_the_forces)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..equations.model import derive
+from ..equations.model import Model, derive
 from ..physics.forces import force_laws
 from ..physics.laws import LAWS, attraction, fill, film
 from ..physics.laws.start import initial_rate
@@ -13,8 +13,8 @@ from ..physics.scaling import generalised_centrifugal, group_definitions
 from ..physics.structure import Structure
 from ..vocabulary.dimensions import ENERGY, FORCE, LENGTH, PRESSURE, demand_dimension
 from ..vocabulary.quantities import DIMENSIONS, centrifugal, contact_angle, gap, normal_velocity, omega0, x, x0
-from .base import Check, vanishing
-from .closed import opened, slope_along
+from .base import Check, Evidence, check, vanishing
+from .closed import SIZES, slope_along
 
 _H = sp.Symbol("h", positive=True)
 _ATTRACTED = (
@@ -62,46 +62,37 @@ def resistances() -> Check:
     return Check("films dissipate", "resistance >= 0 at every gap", not wrong, ", ".join(wrong) or "4 films")
 
 
-def generalised_number() -> Check:
+@check("generalised centrifugal number", "m omega0^2 a/F = Ce/(4 pi cos(phi)) for the constant bridge")
+def generalised_number() -> Evidence:
     """Ce_F is a constant times Ce for the constant bridge: Ce/(4 pi cos(phi))."""
     force = fill(force_laws()[F_c], {"bridge": LAWS["bridge"]["constant"]})
     own = sp.simplify(generalised_centrifugal(force) / _centrifugal())
-    return vanishing(
-        "generalised centrifugal number",
-        "m omega0^2 a/F = Ce/(4 pi cos(phi)) for the constant bridge",
-        [own - 1 / (4 * sp.pi * sp.cos(contact_angle))],
-        f"Ce_F/Ce = {own}",
-    )
+    yield own - 1 / (4 * sp.pi * sp.cos(contact_angle))
+    yield f"Ce_F/Ce = {own}"
 
 
 def _centrifugal() -> sp.Expr:
     return sp.simplify(group_definitions()[centrifugal] / initial_rate() ** 2) * omega0**2
 
 
-def slopes() -> Check:
+@check("stick certificate, attractions", "slope = d/dx [L^2/(2 I) + U_s + W_c + W_w] at fixed L")
+def slopes() -> Evidence:
     """The certificate's slope is that of its energy plus the work against every attraction."""
-    left = []
     for structure in _ATTRACTED:
         model = derive(structure)
-        outputs, taken = dict(model["effective_potential"].outputs), dict(model["energy_rates"].outputs)
-        value, slope = opened(model, outputs["energy"]), opened(model, outputs["slope"])
-        works = [opened(model, taken[name]) / normal_velocity for name in ("capillary", "attraction") if name in taken]
-        left.append(slope - _rises(structure, value) - sum(works))
-    return vanishing("stick certificate, attractions", "slope = d/dx [L^2/(2 I) + U_s + W_c + W_w] at fixed L", left)
+        least, taken = (model.results(name, SIZES) for name in ("effective_potential", "energy_rates"))
+        work = sp.Add(*(taken[name] / normal_velocity for name in ("capillary", "attraction") if name in taken))
+        yield least["slope"] - _slope(model, least["energy"]) - work
 
 
-def _rises(structure: Structure, value: sp.Expr) -> sp.Expr:
+def _slope(model: Model, energy: sp.Expr) -> sp.Expr:
     """Slope of the least energy along the gap at a fixed angular momentum."""
-    momentum, model = sp.Symbol("L", positive=True), derive(structure)
-    if structure.oblique and structure.partner != "wall":
-        definitions = dict(model.definitions)
-        own = next(opened(model, each) for symbol, each in definitions.items() if symbol.name == "momentum")
-        inertia = next(opened(model, each) for symbol, each in definitions.items() if symbol.name == "inertia_ratio")
-        scale = sp.simplify(value * inertia / own**2)
-        return (scale * momentum**2 / inertia).diff(gap).subs(momentum, own)
-    return slope_along(value, gap)
+    if not model.structure.oblique or model.structure.partner == "wall":
+        return slope_along(energy, gap)
+    by_name = {symbol.name: symbol for symbol, _ in model.definitions}
+    own, inertia = (model.expanded(by_name[name], SIZES) for name in ("momentum", "inertia_ratio"))
+    momentum, scale = sp.Symbol("L", positive=True), sp.simplify(energy * inertia / own**2)
+    return (scale * momentum**2 / inertia).diff(gap).subs(momentum, own)
 
 
-def law_checks() -> tuple[Check, ...]:
-    """Every check of films and attractions."""
-    return (*films(), resistances(), generalised_number(), slopes())
+CHECKS = (films, resistances, generalised_number, slopes)

@@ -2,21 +2,59 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import wraps
+from typing import ParamSpec
 
 import sympy as sp
 
 from ..vocabulary.quantities import VOCABULARY
 
+P = ParamSpec("P")
+Evidence = Iterator[sp.Expr | tuple[bool | None, str] | str]
+"""What a check yields: expressions that must vanish, claims (truth, figure if false), and the figure to show."""
+
 
 @dataclass(frozen=True)
 class Check:
-    """A statement about the derivation, its result (None: reported, not required), and the figure found."""
+    """A statement about the derivation, its result (None: reported, not required), and a figure."""
 
     name: str
     statement: str
     ok: bool | None
     figure: str
+
+
+def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callable[P, Check]]:
+    """Decorator that makes the check of a statement from a function that yields the evidence for it."""
+
+    def checked(function: Callable[P, Evidence]) -> Callable[P, Check]:
+        @wraps(function)
+        def run(*args: P.args, **kwargs: P.kwargs) -> Check:
+            left, false, figure = list[sp.Expr](), list[str](), ""
+            for part in function(*args, **kwargs):
+                if isinstance(part, str):
+                    figure = part
+                elif isinstance(part, tuple):
+                    false += [] if part[0] else [part[1]]
+                else:
+                    left.append(part)
+            found = vanishing(name, statement, left, figure)
+            return replace(found, ok=False, figure=false[0]) if false and found.ok else found
+
+        return run
+
+    return checked
+
+
+def run(checks: Iterable[Callable[[], Check | Iterable[Check]]]) -> tuple[Check, ...]:
+    """The results of checks; one function may give several."""
+    found: list[Check] = []
+    for each in checks:
+        result = each()
+        found += [result] if isinstance(result, Check) else result
+    return tuple(found)
 
 
 def vanishing(name: str, statement: str, left: list[sp.Expr], figure: str = "", *, holds: bool | None = True) -> Check:
@@ -34,24 +72,16 @@ def vanishing(name: str, statement: str, left: list[sp.Expr], figure: str = "", 
 
 def settled(expression: sp.Expr) -> sp.Expr:
     """Zero if the expression vanishes identically: expanded, as one fraction, or simplified if neither shows it."""
-    quick = sp.expand(expression)
-    if quick == 0:
-        return quick
+    expanded = sp.expand(expression)
+    if expanded == 0:
+        return expanded
     top, _ = sp.fraction(sp.together(expression))  # not of the expanded form, whose terms have a denominator each
-    if sp.expand(top) == 0:
-        return sp.Integer(0)
-    return sp.simplify(sp.factor(quick))
+    return sp.S.Zero if sp.expand(top) == 0 else sp.simplify(sp.factor(expanded))
 
 
 def readable(expression: sp.Expr) -> str:
     """The expression as text, with the literature's symbols for quantities."""
-    short = {
-        quantity.symbol: sp.Symbol(_plain(quantity.latex))
-        for name, quantity in VOCABULARY.items()
-        if quantity.symbol in expression.free_symbols and any(quantity.dimension.exponents)
-    }
-    return str(expression.xreplace(short))
-
-
-def _plain(latex: str) -> str:
-    return latex.replace("\\", "").replace("_", "").replace("{", "").replace("}", "").replace(",", "")
+    quantities = (each for each in VOCABULARY.values() if each.symbol in expression.free_symbols)
+    latex = {each.symbol: each.latex for each in quantities if any(each.dimension.exponents)}
+    without = str.maketrans("", "", "\\_{},")
+    return str(expression.xreplace({symbol: sp.Symbol(text.translate(without)) for symbol, text in latex.items()}))

@@ -2,46 +2,31 @@
 
 from __future__ import annotations
 
-from functools import cache
+from collections.abc import Callable, Collection, Iterable, Iterator
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ..equations.model import Model
 from ..physics.laws import slot_call
-from ..physics.laws.base import filled, is_slot_call
+from ..physics.laws.base import slot_calls
 
-__all__ = ["emitted_rates", "filled", "slope_along"]
-
-
-@cache
-def emitted_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
-    """The emitted right-hand side by state, with every intermediate substituted."""
-    named = dict(model["right_hand_side"].outputs)
-    return {state: model.expanded(named[state.name]) for state in model.states}
-
-
-# of an unequal pair, kept as symbols
 SIZES = ("centres", "radius", "partner_radius", "spin_inertia", "partner_inertia")
+"""Intermediates of an unequal pair that are kept as symbols, so that results hold for any sizes."""
 
 
-def opened(model: Model, expression: sp.Expr) -> sp.Expr:
-    """`Model.expanded`, except for the sizes of an unequal pair: results hold for any sizes."""
-    for symbol, value in reversed(model.definitions):
-        if symbol.name not in SIZES:
-            expression = expression.subs(symbol, value)
-    return expression
-
-
-def opened_rates(model: Model) -> dict[sp.Symbol, sp.Expr]:
-    """`emitted_rates`, except for the sizes of an unequal pair."""
-    named = dict(model["right_hand_side"].outputs)
-    return {state: opened(model, named[state.name]) for state in model.states}
+def special_case(
+    special: Model, names: Iterable[str], general: Model, rule: Callable[[sp.Expr], sp.Expr], keep: Collection[str] = ()
+) -> Iterator[sp.Expr]:
+    """What functions of a general model are, under a rule, in excess of those of a special one: zero if they agree."""
+    for name in names:
+        whole = general.results(name, keep)
+        for key, value in special.results(name, keep).items():
+            yield rule(whole[key]) - value
 
 
 def slope_along(energy: sp.Expr, variable: sp.Symbol) -> sp.Expr:
     """Derivative of an energy, with d rise/d offset_squared = stiffness/2 (checked by strings_are_conservative)."""
-    heights = {node: sp.Dummy("height") for node in energy.atoms(AppliedUndef) if is_slot_call(node)}
+    heights = {node: sp.Dummy("height") for node in slot_calls(energy)}
     flat = energy.xreplace(heights)
     slope = flat.diff(variable)
     for node, height in heights.items():

@@ -9,17 +9,18 @@ import sympy as sp
 
 from ..equations.model import derive
 from ..physics.laws import Law, strings
+from ..physics.laws.base import filled
 from ..physics.structure import Structure, structures
 from ..vocabulary.quantities import orbital_momentum, spin
 from .base import Check, vanishing
-from .closed import emitted_rates, filled, slope_along
+from .closed import slope_along
 
 _FULL = tuple(structure for structure in structures() if not structure.reduced)
 
 
 def momentum_rate(structure: Structure, laws: Mapping[str, Law]) -> sp.Expr:
     """d/dtau of orbital_momentum + (32/5) spin, L over m a^2 omega0, along the emitted right-hand side."""
-    rates = emitted_rates(derive(structure))
+    rates = derive(structure).by_state("right_hand_side")
     return sp.factor(sp.expand(filled(rates[orbital_momentum] + sp.Rational(32, 5) * rates[spin], laws)))
 
 
@@ -27,12 +28,9 @@ def momentum_rate(structure: Structure, laws: Mapping[str, Law]) -> sp.Expr:
 def energy_balance(structure: Structure) -> sp.Expr:
     """d/dtau of the emitted energies plus the emitted energy_rates, for any laws (and either arm)."""
     model = derive(structure)
-    stored = [model.expanded(expression) for _, expression in model["energies"].outputs]
-    total = sum(
-        (slope_along(each, state) * rate for state, rate in emitted_rates(model).items() for each in stored),
-        sp.Integer(0),
-    )
-    lost = sum((model.expanded(expression) for _, expression in model["energy_rates"].outputs), sp.Integer(0))
+    rates, stored = model.by_state("right_hand_side"), sp.Add(*model.results("energies").values())
+    total = sp.Add(*(slope_along(stored, state) * rate for state, rate in rates.items()))
+    lost = sp.Add(*model.results("energy_rates").values())
     return sp.factor(sp.expand(strings.half_angles(total + lost)))
 
 
@@ -46,3 +44,6 @@ def energy(among: Iterable[Structure] = _FULL) -> tuple[Check, ...]:
         )
         for structure in among
     )
+
+
+CHECKS = (energy,)

@@ -115,3 +115,6 @@ def dimension_checks(rooms: Mapping[str, Equations] | None = None) -> tuple[Chec
         figure = "; ".join(errors) or f"{len(equations)} equations"
         checks.append(Check(f"dimensions: {room}", statement, not errors, figure))
     return tuple(checks)
+
+
+CHECKS = (dimension_checks,)

@@ -16,60 +16,39 @@ from sympy.core.function import AppliedUndef
 
 from ..equations.intermediates import BRIDGE_FORCE, ORBITAL_RATE
 from ..equations.invariants import Invariant, invariants
-from ..equations.model import Model, derive
+from ..equations.model import derive
 from ..physics.forces import SHEAR, force_laws
 from ..physics.laws import Law
 from ..physics.laws.base import filled
 from ..physics.mechanics import F_t, S_t, arm, equations_of_motion, sphere_inertia
 from ..physics.scaling import DISTANCE, nondimensional
 from ..physics.structure import Structure, structures
-from ..vocabulary.quantities import (
-    a,
-    aspect,
-    beta,
-    e_dry,
-    gap,
-    m,
-    normal_velocity,
-    omega,
-    orbital_momentum,
-    r,
-    rate_scale,
-    spin,
-    v0,
-    x,
-    x0,
-    xi,
-)
+from ..vocabulary import quantities as q
 from .base import Check, readable, settled, vanishing
-from .closed import emitted_rates
 from .signs import nonnegative
 
 _OBLIQUE = Structure(oblique=True, bridge=False, strings=False)
 
 
-def _taken(model: Model, term: str) -> sp.Expr:
+def _taken(term: str) -> sp.Expr:
     """An emitted loss with the forces substituted; distance and orbital rate stay symbols of known sign."""
-    expression = dict(model["energy_rates"].outputs)[term]
-    for symbol, value in reversed(model.definitions):
-        if symbol not in (ORBITAL_RATE, DISTANCE):
-            expression = expression.subs(symbol, value)
-    return expression
+    model = derive(_OBLIQUE)
+    return model.expanded(model["energy_rates"][term], (ORBITAL_RATE.name, DISTANCE.name))
 
 
 @cache
 def film_dissipates(law: Law) -> Check:
     """The power of the film, F_n u, is not negative at any gap inside it."""
-    rate = filled(_taken(derive(_OBLIQUE), "normal_lubrication"), {"film": law})
-    sign = nonnegative(rate, gap, sp.Integer(1))
+    rate = filled(_taken("normal_lubrication"), {"film": law})
+    sign = nonnegative(rate, q.gap, sp.Integer(1))
     return Check(f"film dissipates: {law.name}", "F_n u >= 0 for 0 < x <= x0", sign.proved, sign.shown)
 
 
 @cache
 def shear_dissipates(law: Law, lever: Law) -> Check:
     """The power of the shear, F_t (r omega - 2 arm xi), is not negative inside its edge if the arm conserves L."""
-    rate = filled(_taken(derive(_OBLIQUE), "tangential_lubrication"), {"shear": law, "arm": lever})
-    sign = nonnegative(rate, gap, law["edge"](aspect))
+    rate = filled(_taken("tangential_lubrication"), {"shear": law, "arm": lever})
+    sign = nonnegative(rate, q.gap, law["edge"](q.aspect))
     statement = "F_t (r omega - 2 arm xi) >= 0 inside the edge of the tangential force"
     return Check(f"shear dissipates: {law.name}, {lever.name} arm", statement, sign.proved, sign.shown)
 
@@ -96,21 +75,21 @@ def found(lever: Law, structure: Structure = _OBLIQUE) -> tuple[Invariant, ...]:
 
 def is_known(lever: Law) -> bool:
     """True for the paper's leading-order arm, which does not conserve L: dL/dt = -x F_t."""
-    return settled(torque(lever) + x * F_t) == 0
+    return settled(torque(lever) + q.x * F_t) == 0
 
 
 def angular_momentum(lever: Law) -> Check:
     """dL/dt for an arm along the emitted equations, for any tangential and bridge law: zero, -x F_t, or a failure."""
     name, left = f"angular momentum, {lever.name} arm", []
     expected = torque(lever)
-    per_time = x0 / (v0 * m * a**2 * rate_scale)
+    per_time = q.x0 / (q.v0 * q.m * q.a**2 * q.rate_scale)
     lost = nondimensional(expected.subs(F_t, force_laws()[F_t]) * per_time) if expected != 0 else expected
     for structure in structures():
         if structure.oblique and not structure.strings and not structure.reduced:
             model = derive(structure)
-            rates = emitted_rates(model)
+            rates = model.by_state("right_hand_side")
             left.append(
-                filled(rates[orbital_momentum] + sp.Rational(32, 5) * rates[spin], {"arm": lever})
+                filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], {"arm": lever})
                 - model.expanded(lost)
             )
     if conserves(lever):
@@ -133,12 +112,12 @@ def shear_range(law: Law, lever: Law) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Exp
     ratio, log_factor = sp.Symbol("ratio", real=True), sp.Symbol("log_factor", positive=True)
     force = force_laws()[F_t].subs(SHEAR, 1)
     call = next(node for node in force.atoms(AppliedUndef) if node.func.__name__ == "shear.log_factor")
-    rate = force.xreplace({call: log_factor}) * (r * omega - 2 * filled(force_laws()[arm], {"arm": lever}) * xi)
-    turning = sp.expand(rate.subs(xi, ratio * omega) / omega**2)
+    rate = force.xreplace({call: log_factor}) * (q.r * q.omega - 2 * filled(force_laws()[arm], {"arm": lever}) * q.xi)
+    turning = sp.expand(rate.subs(q.xi, ratio * q.omega) / q.omega**2)
     low, high = sp.roots(sp.Poly(turning, ratio))
     if low != 1:
         low, high = high, low
-    least = sp.factor(sp.simplify(turning.subs(ratio, (low + high) / 2))) * omega**2
+    least = sp.factor(sp.simplify(turning.subs(ratio, (low + high) / 2))) * q.omega**2
     logarithm = filled(call, {"shear": law})
     return sp.factor(rate).subs(log_factor, logarithm), low, sp.expand(high), least.subs(log_factor, logarithm)
 
@@ -155,8 +134,8 @@ def indefinite_shear(law: Law, lever: Law) -> Check:
         f"at the least {readable(least)} half-way between"
     )
     if known:
-        per_slip = filled(force_laws()[F_t], {"shear": law}).subs(SHEAR, 1).subs(xi, 0) / omega
-        left = [least + per_slip * x**2 * omega**2 / (16 * a), high - 1 - x / (4 * a)]
+        per_slip = filled(force_laws()[F_t], {"shear": law}).subs(SHEAR, 1).subs(q.xi, 0) / q.omega
+        left = [least + per_slip * q.x**2 * q.omega**2 / (16 * q.a), high - 1 - q.x / (4 * q.a)]
         return vanishing(name, statement, left, f"{figure}: a known violation of the leading-order arm", holds=None)
     return Check(name, statement, False, f"{figure}; dL/dt = {readable(torque(lever))}")
 
@@ -179,9 +158,9 @@ def bridge_does_work() -> Check:
         if structure.bridge:
             model = derive(structure)
             force = model.expanded(BRIDGE_FORCE)
-            power = dict(model["energy_rates"].outputs)["capillary"]
-            left += [force.diff(state) for state in (normal_velocity, orbital_momentum, spin, beta)]
-            left.append(model.expanded(power) - force * normal_velocity)
+            power = model["energy_rates"]["capillary"]
+            left += [force.diff(state) for state in (q.normal_velocity, q.orbital_momentum, q.spin, q.beta)]
+            left.append(model.expanded(power) - force * q.normal_velocity)
     return vanishing("bridge does work only", "F_c = F_c(x): its work W_c(x) is a potential, for any bridge law", left)
 
 
@@ -191,12 +170,15 @@ def rebound_dissipates() -> tuple[Check, ...]:
     left, charged = [], sp.Integer(0)
     for structure in structures():
         model = derive(structure)
-        before = model.expanded(dict(model["energies"].outputs)["kinetic"])
-        jump = {state: dict(model["rebound"].outputs)[state.name] for state in model.states}
-        charged = model.expanded(dict(model["rebound_loss"].outputs)["dry_contact"])
+        before = model.expanded(model["energies"]["kinetic"])
+        jump = model.by_state("rebound")
+        charged = model.expanded(model["rebound_loss"]["dry_contact"])
         left.append(before - before.subs(jump, simultaneous=True) - charged)
-    sign = nonnegative(charged, e_dry, sp.Integer(1))
+    sign = nonnegative(charged, q.e_dry, sp.Integer(1))
     return (
         vanishing("rebound's energy", "kinetic energy before - after = (1 - e_dry^2) u^2/2, all else continuous", left),
         Check("rebound dissipates", "(1 - e_dry^2) u^2/2 >= 0 for 0 < e_dry <= 1", sign.proved, sign.shown),
     )
+
+
+CHECKS = (bridge_does_work, rebound_dissipates)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 
 import sympy as sp
 
@@ -12,29 +11,15 @@ from ..equations.intermediates import MOMENTUM
 from ..equations.model import Model, derive
 from ..physics.contact_friction import beside_wall, equal_spheres, unequal_spheres
 from ..physics.laws import LAWS
+from ..physics.laws.base import filled
 from ..physics.mechanics import arm
 from ..physics.partners.bodies import CENTRES
 from ..physics.partners.pair import LEVER, ORBITAL_RATE, PARTNER_RADIUS, RADIUS
 from ..physics.partners.space import PARTNER_SLIPS, PARTNER_TWIST, SLIPS, TWIST
 from ..physics.partners.vectors import dot, on_the_sphere
 from ..physics.structure import Partner, Structure
-from ..vocabulary.quantities import (
-    a,
-    aspect,
-    beta_0,
-    decay,
-    gap,
-    m,
-    normal,
-    orbital_momenta,
-    orbital_momentum,
-    partner_spin,
-    partner_spins,
-    spin,
-    spins,
-)
-from .base import Check, vanishing
-from .closed import filled
+from ..vocabulary import quantities as q
+from .base import Check, Evidence, check, vanishing
 from .signs import nonnegative
 
 _PARTNERS: tuple[Partner, ...] = ("", "pair", "wall")
@@ -44,46 +29,44 @@ _share, _beyond = sp.Symbol("share", positive=True), sp.Symbol("z", nonnegative=
 
 def _after(model: Model, expression: sp.Expr) -> sp.Expr:
     """An expression in the states just after `IMPULSE`."""
-    jump = {s: model.expanded(dict(model["rubbed"].outputs)[s.name]) for s in model.states}
+    jump = model.by_state("rubbed")
     return model.expanded(expression).subs(jump, simultaneous=True)
 
 
 def _kinetic(model: Model) -> sp.Expr:
-    return model.expanded(dict(model["energies"].outputs)["kinetic"])
+    return model.expanded(model["energies"]["kinetic"])
 
 
-def effective_mass() -> Check:
+@check("friction: effective mass", "2 m/7 for spheres: equal, unequal, beside a wall (surface arm)")
+def effective_mass() -> Evidence:
     """With the lever arm on the surface, spheres answer a tangential impulse with 2/7 of their reduced mass."""
     answers = (equal_spheres(), unequal_spheres(), beside_wall())
-    left = [answer.compliance.subs({arm: 2 * a, LEVER: 1}) - sp.Rational(7, 2) / m for answer in answers]
-    return vanishing("friction: effective mass", "2 m/7 for spheres: equal, unequal, beside a wall (surface arm)", left)
+    yield from [answer.compliance.subs({arm: 2 * q.a, LEVER: 1}) - sp.Rational(7, 2) / q.m for answer in answers]
 
 
-def sticking_reverses_the_slip() -> Check:
+@check("friction: sticking", "v_s' = -beta_0 v_s after the emitted impulse, for any lever arm")
+def sticking_reverses_the_slip() -> Evidence:
     """The impulse that sticks leaves -beta_0 times the slip."""
-    left = []
     for structure in _FREE:
         model = derive(structure)
-        sticking = model.expanded(dict(model["dry_slip"].outputs)["sticking"])
+        sticking = model.expanded(model["dry_slip"]["sticking"])
         slip = model.expanded(DRY_SLIP)
-        left.append(_after(model, DRY_SLIP).subs(IMPULSE, sticking) + beta_0 * slip)
-    return vanishing("friction: sticking", "v_s' = -beta_0 v_s after the emitted impulse, for any lever arm", left)
+        yield _after(model, DRY_SLIP).subs(IMPULSE, sticking) + q.beta_0 * slip
 
 
-def energy_is_booked() -> Check:
+@check("friction: energy", "kinetic energy before - after = friction_loss, for any impulse")
+def energy_is_booked() -> Evidence:
     """Any impulse takes from the kinetic energy what `friction_loss` says."""
-    left = []
     for structure in _FREE:
         model = derive(structure)
-        kinetic, lost = _kinetic(model), model.expanded(dict(model["friction_loss"].outputs)["dry_friction"])
-        left.append(kinetic - _after(model, kinetic) - lost)
-    return vanishing("friction: energy", "kinetic energy before - after = friction_loss, for any impulse", left)
+        kinetic, lost = _kinetic(model), model.expanded(model["friction_loss"]["dry_friction"])
+        yield kinetic - _after(model, kinetic) - lost
 
 
 def never_gains() -> Check:
     """An impulse of at most the one that sticks dissipates, for 0 <= beta_0 <= 1."""
     model = derive(_FREE[0])
-    lost = dict(model["friction_loss"].outputs)["dry_friction"]
+    lost = model["friction_loss"]["dry_friction"]
     part = _share * (1 + 1 / (1 + _beyond)) * DRY_SLIP / COMPLIANCE  # beta_0 = 1/(1 + z)
     sign = nonnegative(sp.factor(lost.subs(IMPULSE, part)), _share, sp.Integer(1))
     statement = "friction_loss >= 0 for any part of the impulse that sticks and 0 <= beta_0 <= 1"
@@ -97,7 +80,7 @@ def angular_momentum() -> tuple[Check, ...]:
         model = derive(structure)
         change = _after(model, MOMENTUM) - model.expanded(MOMENTUM)
         kept.append(filled(change, {"arm": LAWS["arm"]["midgap"]}))
-        moved.append(filled(change, {"arm": LAWS["arm"]["surface"]}) + aspect * gap * IMPULSE)
+        moved.append(filled(change, {"arm": LAWS["arm"]["surface"]}) + q.aspect * q.gap * IMPULSE)
     return (
         vanishing("friction: angular momentum", "an impulse keeps L (midgap arm)", kept),
         vanishing("friction: its drift", "an impulse Q changes L by -x Q (surface arm)", moved),
@@ -109,11 +92,11 @@ def resting_contact() -> tuple[Check, ...]:
     booked, held = [], []
     for structure in (_FREE[0], _FREE[2]):
         model = derive(structure)
-        rates = {s: model.expanded(dict(model["resting_rates"].outputs)[s.name]) for s in model.states}
-        taken = dict(model["energy_rates"].outputs)
+        rates = model.by_state("resting_rates")
+        taken = model["energy_rates"].by_name
         spent = model.expanded(taken["tangential_lubrication"] + taken["dry_friction"])
         sliding, rolling = {SLIDING: SLIDING, ROLLING: 0}, {SLIDING: 0, ROLLING: 1}
-        still = {decay: sp.Integer(0)}  # beside a wall, since the rebound
+        still = {q.decay: sp.Integer(0)}  # beside a wall, since the rebound
         kinetic, slip = _kinetic(model), model.expanded(DRY_SLIP)
         changing = [s for s in model.states if rates[s] != 0]
         booked.append((sum(kinetic.diff(s) * rates[s] for s in changing) + spent).subs(sliding).subs(still))
@@ -130,26 +113,30 @@ def in_space() -> tuple[Check, ...]:
     Energy and angular momentum are those of the plane for each component, so what is shown there holds in space.
     """
     model, pair = derive(replace(_FREE[1], partner="space")), derive(_FREE[1])
-    jump, planar = (dict(each["rubbed"].outputs) for each in (model, pair))
+    jump, planar = (each["rubbed"].by_name for each in (model, pair))
     midgap = {LEVER: dict(model.definitions)[LEVER]}
     twist = [RADIUS * TWIST + PARTNER_RADIUS * PARTNER_TWIST]
     slips = [dict(model.definitions)[each] for each in DRY_SLIPS]
     flat = dict(pair.definitions)[DRY_SLIP].subs(midgap)
     size, left = sp.sqrt(dot(DRY_SLIPS, DRY_SLIPS) + LEAST_DIRECTION**2), []
     across = on_the_sphere(
-        dot(slips, normal).subs({TWIST: dot(SLIPS, normal), PARTNER_TWIST: dot(PARTNER_SLIPS, normal)}),
-        normal,
-        orbital_momenta,
+        dot(slips, q.normal).subs({TWIST: dot(SLIPS, q.normal), PARTNER_TWIST: dot(PARTNER_SLIPS, q.normal)}),
+        q.normal,
+        q.orbital_momenta,
     )
     for k, slip in enumerate(slips):
         of_plane = {
-            ORBITAL_RATE: SLIPS[k] + spins[k],
-            spin: spins[k],
-            partner_spin: SLIPS[k] + spins[k] - PARTNER_SLIPS[k],
+            ORBITAL_RATE: SLIPS[k] + q.spins[k],
+            q.spin: q.spins[k],
+            q.partner_spin: SLIPS[k] + q.spins[k] - PARTNER_SLIPS[k],
         }
-        there = sp.expand(flat.subs(of_plane, simultaneous=True) - midgap[LEVER] * twist[0] * normal[k])
+        there = sp.expand(flat.subs(of_plane, simultaneous=True) - midgap[LEVER] * twist[0] * q.normal[k])
         left.append((slip - there).subs(CENTRES, RADIUS + PARTNER_RADIUS))
-        for vector, state in ((orbital_momenta, orbital_momentum), (spins, spin), (partner_spins, partner_spin)):
+        for vector, state in (
+            (q.orbital_momenta, q.orbital_momentum),
+            (q.spins, q.spin),
+            (q.partner_spins, q.partner_spin),
+        ):
             change = (planar[state.name] - state) * DRY_SLIPS[k] / size
             left.append(jump[vector[k].name] - vector[k] - change)
     part = sp.factor(1 - dot(DRY_SLIPS, DRY_SLIPS) / size**2)
@@ -160,15 +147,7 @@ def in_space() -> tuple[Check, ...]:
     )
 
 
-@cache
-def friction_checks() -> tuple[Check, ...]:
-    """All of them."""
-    return (
-        effective_mass(),
-        sticking_reverses_the_slip(),
-        energy_is_booked(),
-        never_gains(),
-        *angular_momentum(),
-        *resting_contact(),
-        *in_space(),
-    )
+CHECKS = (
+    effective_mass, sticking_reverses_the_slip, energy_is_booked, never_gains, angular_momentum, resting_contact,
+    in_space,
+)  # fmt: skip

@@ -4,99 +4,70 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..physics.scaling import (
-    centrifugal_identity,
-    dimension_matrix,
-    exponents,
-    group_definitions,
-    paper_normalisation,
-    pi_groups,
-)
-from ..vocabulary.quantities import (
-    VOCABULARY,
-    a,
-    aspect,
-    capillary,
-    centrifugal,
-    m,
-    mu,
-    obliquity,
-    omega,
-    omega0,
-    sigma,
-    stokes,
-    theta0,
-    u,
-    v0,
-    x,
-    x0,
-    xi,
-)
-from ..vocabulary.quantities import t as time
-from .base import Check, readable, vanishing
+from ..physics.scaling import dimension_matrix, group_definitions, nondimensional
+from ..vocabulary import quantities as q
+from .base import Check, Evidence, check, readable, vanishing
 
 
-def centrifugal_number() -> Check:
+def _dimensional(symbols: set[sp.Basic]) -> list[sp.Symbol]:
+    """Those of the symbols that have a dimension, in the order of the vocabulary."""
+    return [s for s, dimension in q.DIMENSIONS.items() if s in symbols and any(dimension.exponents)]
+
+
+@check("centrifugal number", "Ce = (pi/8) (x0/a) tan^2(theta0) St Ca")
+def centrifugal_number() -> Evidence:
     """Ce is a function of the other groups if the angle is counted among them."""
-    expected = sp.pi / 8 * aspect * obliquity**2 * stokes * capillary
-    found = centrifugal_identity()
-    return vanishing(
-        "centrifugal number", "Ce = (pi/8) (x0/a) tan^2(theta0) St Ca", [found - expected], f"Ce = {found}"
-    )
+    by_groups = nondimensional(group_definitions()[q.centrifugal].subs(sp.tan(q.theta0), q.obliquity))
+    yield by_groups - sp.pi / 8 * q.aspect * q.obliquity**2 * q.stokes * q.capillary
+    yield f"Ce = {by_groups}"
 
 
-def normalisation_of_the_paper() -> Check:
+@check("paper's normalisation", "m r omega^2/(a sigma) = Ce (4 + x/a) (omega/omega0)^2")
+def normalisation_of_the_paper() -> Evidence:
     """The centrifugal term over a sigma is Ce times a function of the state alone."""
-    expected = centrifugal * (4 + x / a) * (omega / omega0) ** 2
-    return vanishing(
-        "paper's normalisation",
-        "m r omega^2/(a sigma) = Ce (4 + x/a) (omega/omega0)^2",
-        [paper_normalisation() - expected],
-    )
+    term = (q.m * q.r * q.omega**2 / (q.a * q.sigma)).subs(q.m, q.centrifugal * q.sigma / q.omega0**2)
+    yield term - q.centrifugal * (4 + q.x / q.a) * (q.omega / q.omega0) ** 2
 
 
-def number_of_groups() -> Check:
+@check("number of groups", "groups = dimensional quantities - rank of their dimension matrix (density included)")
+def number_of_groups() -> Evidence:
     """Buckingham: as many independent groups as quantities minus the rank of their dimension matrix."""
-    motion = {time, x, u, omega, xi, omega0}
-    used = {s for group in group_definitions().values() for s in group.free_symbols}
-    given = [q.symbol for q in VOCABULARY.values() if any(q.dimension.exponents) and q.symbol in used - motion]
-    dimensions = dimension_matrix(given)
+    groups = group_definitions().values()
+    used = set().union(*(group.free_symbols for group in groups))
+    quantities = _dimensional(used - {q.t, q.x, q.u, q.omega, q.xi, q.omega0})
+    dimensions = dimension_matrix(quantities)
     # exponent of a quantity in a group: d ln(group)/d ln(quantity)
-    powers = sp.Matrix(
-        [[sp.simplify(group.diff(s) * s / group) for s in given] for group in group_definitions().values()]
-    )
-    found, rank = powers.rank(), dimensions.rank()
-    left = [sp.Integer(found - (len(given) - rank)), *(dimensions * powers.T)]
-    statement = "groups = dimensional quantities - rank of their dimension matrix (density included)"
-    return vanishing("number of groups", statement, left, f"{found} = {len(given)} - {rank}")
+    powers = sp.Matrix([[sp.simplify(group.diff(s) * s / group) for s in quantities] for group in groups])
+    independent, rank = powers.rank(), dimensions.rank()
+    yield sp.Integer(independent - (len(quantities) - rank))
+    yield from dimensions * powers.T
+    yield f"{independent} = {len(quantities)} - {rank}"
 
 
 def groups_span_the_nullspace() -> Check:
     """St, Ca and Ce are combinations of the dimensionless monomials of their quantities (nullspace)."""
     left, shown = [], []
-    for group, label in ((stokes, "St"), (capillary, "Ca"), (centrifugal, "Ce")):
+    for group, label in ((q.stokes, "St"), (q.capillary, "Ca"), (q.centrifugal, "Ce")):
         definition = group_definitions()[group]
-        used = [
-            q.symbol for q in VOCABULARY.values() if q.symbol in definition.free_symbols and any(q.dimension.exponents)
-        ]
+        used = _dimensional(definition.free_symbols)
         powers = sp.Matrix([sp.simplify(definition.diff(s) * s / definition) for s in used])
-        monomials = pi_groups(used)
-        basis = (
-            sp.Matrix.hstack(*(exponents(each, used) for each in monomials)) if monomials else sp.zeros(len(used), 1)
-        )
-        left.append(sp.Integer(sp.Matrix.hstack(basis, powers).rank() - len(monomials)))
+        basis = dimension_matrix(used).nullspace()
+        left.append(sp.Integer(sp.Matrix.hstack(*basis, powers).rank() - len(basis)))
         shown.append(f"{label} = {readable(definition)}")
     return vanishing("St, Ca, Ce", "each in the span of the nullspace of its dimension matrix", left, "; ".join(shown))
 
 
-def groups_are_the_papers() -> Check:
+@check("paper's groups", "St = m v0/(6 pi mu a^2), Ca = 3 mu a v0/(sigma x0), Ce = m omega0^2/sigma")
+def groups_are_the_papers() -> Evidence:
     """St, Ca and Ce as ratios of terms are the paper's numbers, Ce with omega0 = v0 tan(theta0)/(4a)."""
     expected = {
-        stokes: m * v0 / (6 * sp.pi * mu * a**2),
-        capillary: 3 * mu * a * v0 / (sigma * x0),
-        centrifugal: m * (v0 * sp.tan(theta0) / (4 * a)) ** 2 / sigma,
+        q.stokes: q.m * q.v0 / (6 * sp.pi * q.mu * q.a**2),
+        q.capillary: 3 * q.mu * q.a * q.v0 / (q.sigma * q.x0),
+        q.centrifugal: q.m * (q.v0 * sp.tan(q.theta0) / (4 * q.a)) ** 2 / q.sigma,
     }
-    left = [group_definitions()[group] - value for group, value in expected.items()]
-    return vanishing(
-        "paper's groups", "St = m v0/(6 pi mu a^2), Ca = 3 mu a v0/(sigma x0), Ce = m omega0^2/sigma", left
-    )
+    yield from [group_definitions()[group] - value for group, value in expected.items()]
+
+
+CHECKS = (
+    groups_span_the_nullspace, groups_are_the_papers, centrifugal_number, normalisation_of_the_paper, number_of_groups,
+)  # fmt: skip

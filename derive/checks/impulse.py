@@ -4,24 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..equations.certificates.pendulum import (
-    ANGLES,
-    FARTHEST,
-    FINAL,
-    LARGEST_MOMENTUM,
-    NEAREST,
-    OUTWARD,
-    PANELS,
-    TAKEN,
-    TURNING,
-    TURNINGS,
-    WEIGHING,
-    WIDTH,
-    outward_at,
-    pull_at,
-    torque_at,
-    turning_at,
-)
+from ..equations.certificates import pendulum
 from ..equations.events import contact_gap
 from ..equations.model import Model, derive
 from ..physics.forces import SHEAR
@@ -30,8 +13,7 @@ from ..physics.laws.strings import offset_squared
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import aspect, beta, gap, obliquity, orbital_momentum, spin, string_ratio, weight
-from .base import Check, vanishing
-from .closed import emitted_rates
+from .base import Check, Evidence, check, vanishing
 from .signs import positive
 
 _PENDULUM = Structure(oblique=True, bridge=False, strings=True)
@@ -52,14 +34,14 @@ def strings_take() -> Check:
 
     There J >= s L, with s the largest share: F_t reduces J, and the strings take the whole of what they take from L.
     """
-    found = emitted_rates(_model())
+    found = _model().by_state("right_hand_side")
     log_factor = sp.Function("shear.log_factor", real=True)(gap, aspect)
     alone = sp.expand(found[orbital_momentum].subs(log_factor, 0))
     spun = found[spin].subs(log_factor, 0)
-    torque = _model().expanded(torque_at(gap, beta))
+    torque = _model().expanded(pendulum.torque_at(gap, beta))
     shear = sp.simplify((found[orbital_momentum] - found[orbital_momentum].subs(log_factor, 0)) / (SHEAR * log_factor))
     slip = orbital_momentum / _HERE**2 - spin
-    rest = vanishing("", "", [alone + torque, spun, found[beta] - turning_at(orbital_momentum, _HERE)])
+    rest = vanishing("", "", [alone + torque, spun, found[beta] - pendulum.turning_at(orbital_momentum, _HERE)])
     reduces = sp.simplify(-shear / slip)
     grows, below = _share(DISTANCE).diff(DISTANCE), 1 - _share(DISTANCE)
     ok = rest.ok and all(map(positive, (reduces, sp.together(grows), sp.together(below))))
@@ -73,15 +55,17 @@ def torque_is_least_in_contact() -> Check:
     With J dD/dbeta >= S sin(beta), J^2 falls by `taken` (cos(beta_0) - cos(beta)) at least.
     """
     stiffness = slot_call("strings", "stiffness", string_ratio, offset_squared)
-    (call,) = (node for node in torque_at(gap, beta).atoms(sp.Function) if "." in str(node.func))
-    per_angle = torque_at(gap, beta).subs(call, stiffness) / turning_at(sp.Integer(1), _HERE)
+    (call,) = (node for node in pendulum.torque_at(gap, beta).atoms(sp.Function) if "." in str(node.func))
+    per_angle = pendulum.torque_at(gap, beta).subs(call, stiffness) / pendulum.turning_at(sp.Integer(1), _HERE)
     bare = sp.simplify(per_angle / stiffness / sp.sin(beta))
     named = dict(_model().definitions)
-    weighing = named[WEIGHING] / weight
+    weighing = named[pendulum.WEIGHING] / weight
     swing = weighing.args[1].subs(beta, 2 * sp.asin(_RISE))
     in_contact = bare.subs(gap, contact_gap) * weighing.subs(named) * obliquity**2
-    taken = _model().expanded(TAKEN)
-    wanted = _model().expanded(2 * _share(FARTHEST) * in_contact.subs(4 + aspect * contact_gap, NEAREST))
+    taken = _model().expanded(pendulum.TAKEN)
+    wanted = _model().expanded(
+        2 * _share(pendulum.FARTHEST) * in_contact.subs(4 + aspect * contact_gap, pendulum.NEAREST)
+    )
     rest = vanishing("", "", [taken - wanted])
     ok = rest.ok and positive(bare) and positive(sp.together(bare.diff(gap))) and positive(sp.expand(swing.diff(_RISE)))
     return Check("least torque", "J^2 <= J_max^2 - 2 s r^3 S (cos(beta_0) - cos(beta))", bool(ok), f"r^3 S_t ~ {bare}")
@@ -89,7 +73,7 @@ def torque_is_least_in_contact() -> Check:
 
 def integrand_is_largest_in_contact() -> Check:
     """(J^2/r^3 - S_n)/(J/r^2) grows with J and falls with r and S_n, which grows with r and beta (`pull_grows`)."""
-    found = (outward_at(_MOMENTUM, DISTANCE) - _PULL) / turning_at(_MOMENTUM, DISTANCE)
+    found = (pendulum.outward_at(_MOMENTUM, DISTANCE) - _PULL) / pendulum.turning_at(_MOMENTUM, DISTANCE)
     slopes = (found.diff(_MOMENTUM), -found.diff(DISTANCE), -found.diff(_PULL))
     ok = all(positive(sp.together(slope)) for slope in slopes)
     return Check(
@@ -97,53 +81,50 @@ def integrand_is_largest_in_contact() -> Check:
     )
 
 
-def angle_is_beyond() -> Check:
+@check("arcsine", "arcsin(z) <= z + (pi/2 - 1) z^3, equal at z = 1")
+def angle_is_beyond() -> Evidence:
     """arcsin(z) <= z + (pi/2 - 1) z^3 up to z = 1, where both are equal: (arcsin(z) - z)/z^3 has positive terms."""
     z, n = sp.Symbol("z"), sp.Symbol("n", integer=True, positive=True)
     ends = sp.asin(1) - 1 - (sp.pi / 2 - 1)
     first = sp.series(sp.asin(z), z, 0, 12).removeO()
     coefficient = sp.binomial(2 * n, n) / (4**n * (2 * n + 1))
-    left = [ends] + [first.coeff(z, 2 * k + 1) - coefficient.subs(n, k) for k in range(1, 6)]
-    return vanishing("arcsine", "arcsin(z) <= z + (pi/2 - 1) z^3, equal at z = 1", left)
+    yield from [ends] + [first.coeff(z, 2 * k + 1) - coefficient.subs(n, k) for k in range(1, 6)]
 
 
-def impulse_as_emitted() -> Check:
+@check("impulse: as emitted", "left sums of the falling integrand, up to where it has vanished")
+def impulse_as_emitted() -> Evidence:
     """The emitted impulse sums the integrand at the start of equal panels up to the angle at which it has vanished."""
     model = _model()
     named = dict(model.definitions)
-    left: list[sp.Expr] = []
     risen = aspect * contact_gap + 8 * sp.sin(beta / 2) ** 2
-    left.append(model.expanded(WEIGHING) * risen - model.expanded(pull_at(contact_gap, beta)))
-    left.append(named[TURNING] - obliquity * LARGEST_MOMENTUM)
+    yield model.expanded(pendulum.WEIGHING) * risen - model.expanded(pendulum.pull_at(contact_gap, beta))
+    yield named[pendulum.TURNING] - obliquity * pendulum.LARGEST_MOMENTUM
     # at sin(beta/2) = final the pull, with the present stiffness, equals the centrifugal force of J_max
-    level = named[FINAL].args[0]
+    level = named[pendulum.FINAL].args[0]
     inner = next(part for part in level.atoms(sp.Min)).args
     (zero,) = (part for part in inner if part != 1)
-    left.append(model.expanded(WEIGHING * (aspect * contact_gap + 8 * zero) - OUTWARD))
-    left.append(named[WIDTH] * PANELS - sp.Max(0, 2 * FINAL + (sp.pi - 2) * FINAL**3 - beta))
+    yield model.expanded(pendulum.WEIGHING * (aspect * contact_gap + 8 * zero) - pendulum.OUTWARD)
+    yield named[pendulum.WIDTH] * pendulum.PANELS - sp.Max(
+        0, 2 * pendulum.FINAL + (sp.pi - 2) * pendulum.FINAL**3 - beta
+    )
     total = sp.Integer(0)
-    for k, (angle, later) in enumerate(zip(ANGLES, TURNINGS, strict=True)):
-        left.append(named[angle] - beta - k * WIDTH)
-        left.append(named[later] ** 2 - sp.Max(0, TURNING**2 - TAKEN * (sp.cos(beta) - sp.cos(angle))))
-        pull = WEIGHING * (aspect * contact_gap + 4 * (1 - sp.cos(angle)))
+    for k, (angle, later) in enumerate(zip(pendulum.ANGLES, pendulum.TURNINGS, strict=True)):
+        yield named[angle] - beta - k * pendulum.WIDTH
+        yield named[later] ** 2 - sp.Max(0, pendulum.TURNING**2 - pendulum.TAKEN * (sp.cos(beta) - sp.cos(angle)))
+        pull = pendulum.WEIGHING * (aspect * contact_gap + 4 * (1 - sp.cos(angle)))
         momentum = later / obliquity
-        found = (outward_at(momentum, NEAREST) - _PULL) / turning_at(momentum, NEAREST)
+        found = (pendulum.outward_at(momentum, pendulum.NEAREST) - _PULL) / pendulum.turning_at(
+            momentum, pendulum.NEAREST
+        )
         total += sp.Max(0, sp.factor(found).subs(_PULL, pull))
-    emitted = dict(model["pendulum_margins"].outputs)["impulse"]
+    emitted = model["pendulum_margins"]["impulse"]
     first = {symbol: value for symbol, value in model.definitions if symbol.name == "contact"}
-    parts = [sp.expand(part.subs(first)) for part in sp.Mul.make_args(emitted) if part != WIDTH]
+    parts = [sp.expand(part.subs(first)) for part in sp.Mul.make_args(emitted) if part != pendulum.WIDTH]
     ours = sorted((sp.expand(each.args[1]) for each in total.args), key=str)
     theirs = sorted((sp.expand(each.args[1]) for part in parts for each in sp.Add.make_args(part)), key=str)
-    left += [a - b for a, b in zip(ours, theirs, strict=True)]
-    return vanishing("impulse: as emitted", "left sums of the falling integrand, up to where it has vanished", left)
+    yield from [a - b for a, b in zip(ours, theirs, strict=True)]
 
 
-def impulse_is_bounded() -> tuple[Check, ...]:
-    """Every check of the impulse bound."""
-    return (
-        strings_take(),
-        torque_is_least_in_contact(),
-        integrand_is_largest_in_contact(),
-        angle_is_beyond(),
-        impulse_as_emitted(),
-    )
+CHECKS = (
+    strings_take, torque_is_least_in_contact, integrand_is_largest_in_contact, angle_is_beyond, impulse_as_emitted,
+)  # fmt: skip

@@ -17,18 +17,18 @@ from ..physics.mechanics import F_n, F_t, S_n, S_t
 from ..physics.scaling import DISTANCE
 from ..physics.structure import structures
 from ..vocabulary.quantities import aspect, gap, l_s, omega, orbital_momentum, spin, string_ratio, x, x0, xi
-from .base import Check, vanishing
+from .base import Check, Evidence, check, vanishing
 
 
-def rigid_rotation_is_free() -> Check:
+@check("rigid rotation", "omega = xi: no tangential force, for every tangential law")
+def rigid_rotation_is_free() -> Evidence:
     """The tangential force vanishes in rigid rotation, in SI and as emitted, for any tangential law."""
-    left = [force_laws()[F_t].subs(xi, omega)]
+    yield force_laws()[F_t].subs(xi, omega)
     for structure in structures():
         if structure.oblique and not structure.reduced:
             model = derive(structure)
             rigid = {orbital_momentum: spin * model.expanded(DISTANCE) ** 2}
-            left.append(model.expanded(SHEAR_FORCE).subs(rigid))
-    return vanishing("rigid rotation", "omega = xi: no tangential force, for every tangential law", left)
+            yield model.expanded(SHEAR_FORCE).subs(rigid)
 
 
 def film_ends(films: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
@@ -68,16 +68,15 @@ def long_strings_vanish(laws: Iterable[Law]) -> tuple[Check, ...]:
     return tuple(checks)
 
 
-def small_angle_is_linear() -> Check:
+@check("small-angle strings", "forces and energy are the exact ones to leading order in the swing")
+def small_angle_is_linear() -> Evidence:
     """Small-angle strings are the exact ones to leading order in the swing: forces linear, energy quadratic."""
     exact, small = LAWS["strings"]["exact"], LAWS["strings"]["small-angle"]
     size = sp.Symbol("size", positive=True)  # of the swing d
-    left = []
     for function, order in (("stiffness", 0), ("rise", 2)):
         swung = exact[function](string_ratio, size**2 * offset_squared)
         leading = sp.limit(swung / size**order, size, 0)
-        left.append(leading - small[function](string_ratio, offset_squared))
-    return vanishing("small-angle strings", "forces and energy are the exact ones to leading order in the swing", left)
+        yield leading - small[function](string_ratio, offset_squared)
 
 
 def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
@@ -89,7 +88,7 @@ def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
     for law in laws:
         integral, integrated = film_integral(law)
         speed = -(1 - integral / stokes)
-        rate = filled(model.expanded(dict(model["right_hand_side"].outputs)["normal_velocity"]), {"film": law})
+        rate = filled(model.expanded(model["right_hand_side"]["normal_velocity"]), {"film": law})
         left = [speed * speed.diff(gap) - rate.subs({closing: speed, film_flag: 1}), speed.subs(gap, 1) + 1]
         left += [integral - each(gap) for each in law.functions if each.name == "stopping"]
         figure = f"Lf(s) = {integral}".replace("gap", "s")
@@ -107,3 +106,6 @@ def film_integral(law: Law) -> tuple[sp.Expr, bool]:
     if integral.has(sp.Integral):
         return sp.Integral(resistance, (inner, gap, 1)), False
     return sp.expand(integral), True
+
+
+CHECKS = (rigid_rotation_is_free, small_angle_is_linear)

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from operator import methodcaller
+
 import sympy as sp
 
 from ..equations.model import derive
 from ..physics.laws import LAWS
+from ..physics.laws.base import filled
 from ..physics.structure import Structure, structures
 from ..vocabulary.quantities import aspect, beta, initial_spin, initial_turning, orbital_momentum, spin
-from .base import Check, vanishing
-from .closed import emitted_rates, filled
+from .base import Evidence, check
+from .closed import special_case
 
 
-def reduced_is_full() -> Check:
+@check("reduced form", "full equations with xi = (L - m r^2 omega)/((32/5) m a^2) are the reduced ones")
+def reduced_is_full() -> Evidence:
     """With the spin eliminated by conserved L, the full equations and the spin's rate are the reduced ones."""
-    left = []
     midgap = {"arm": LAWS["arm"]["midgap"]}
     for structure in structures():
         if not structure.reduced:
@@ -22,38 +25,29 @@ def reduced_is_full() -> Check:
         reduced, full = derive(structure), derive(Structure(True, structure.bridge, False))
         initial = (4 + aspect) ** 2 * initial_turning + sp.Rational(32, 5) * initial_spin  # L/(m a^2 Omega) at first
         eliminated = {spin: (initial - orbital_momentum) * sp.Rational(5, 32)}
-        rates, full_rates = emitted_rates(reduced), emitted_rates(full)
-        left += [filled(full_rates[s], midgap).subs(eliminated) - rate for s, rate in rates.items()]
+        rates, full_rates = (each.by_state("right_hand_side") for each in (reduced, full))
+
+        yield from (filled(full_rates[s], midgap).subs(eliminated) - rate for s, rate in rates.items())
         # the eliminated spin has the rate of the full equations
-        left.append(
-            eliminated[spin].diff(orbital_momentum) * rates[orbital_momentum]
-            - filled(full_rates[spin], midgap).subs(eliminated)
-        )
-        for name in ("events", "energies", "outputs", "effective_potential", "inward_force", "turning_rate", "start"):
-            of_full = dict(full[name].outputs)
-            for key, expression in reduced[name].outputs:
-                left.append(full.expanded(of_full[key]).subs(eliminated) - reduced.expanded(expression))
-    return vanishing(
-        "reduced form", "full equations with xi = (L - m r^2 omega)/((32/5) m a^2) are the reduced ones", left
-    )
+        turned = eliminated[spin].diff(orbital_momentum) * rates[orbital_momentum]
+        yield turned - filled(full_rates[spin], midgap).subs(eliminated)
+        names = ("events", "energies", "outputs", "effective_potential", "inward_force", "turning_rate", "start")
+        yield from special_case(reduced, names, full, methodcaller("subs", eliminated))
 
 
-def head_on_is_oblique_at_rest() -> Check:
+@check("head-on limit", "oblique equations at zero rotation are the head-on ones")
+def head_on_is_oblique_at_rest() -> Evidence:
     """An oblique doublet without rotation follows the head-on equations, and does not start to rotate."""
     still = {orbital_momentum: 0, spin: 0, beta: 0}
-    left = []
     for head_on in structures():
         if head_on.oblique:
             continue
         narrow, wide = derive(head_on), derive(Structure(True, head_on.bridge, head_on.strings))
-        rates = emitted_rates(wide)
-        left += [rates[s].subs(still) - rate for s, rate in emitted_rates(narrow).items()]
-        left += [rates[s].subs(still) for s in wide.states if s not in narrow.states]
-        for name in ("events", "energies", "energy_rates", "inward_force", "effective_potential", "outputs"):
-            if name not in [function.name for function in wide.functions]:
-                continue  # rotating strings have no least-energy argument
-            there = dict(wide[name].outputs)
-            left += [
-                wide.expanded(there[key]).subs(still) - narrow.expanded(value) for key, value in narrow[name].outputs
-            ]
-    return vanishing("head-on limit", "oblique equations at zero rotation are the head-on ones", left)
+        rates = wide.by_state("right_hand_side")
+        yield from (rates[s].subs(still) for s in wide.states if s not in narrow.states)
+        names = ["right_hand_side", "events", "energies", "energy_rates", "inward_force", "outputs"]
+        names += ["effective_potential"] if "effective_potential" in wide else []  # not for rotating strings
+        yield from special_case(narrow, names, wide, methodcaller("subs", still))
+
+
+CHECKS = (reduced_is_full, head_on_is_oblique_at_rest)

@@ -11,18 +11,8 @@ from ..equations.model import derive
 from ..equations.rates import rates
 from ..physics.laws import LAWS, slot_call
 from ..physics.structure import Structure
-from ..vocabulary.quantities import (
-    aspect,
-    beta,
-    e_dry,
-    gap,
-    glass_number,
-    normal_velocity,
-    orbital_momentum,
-    spin,
-    stokes,
-)
-from .base import Check, readable, vanishing
+from ..vocabulary import quantities as q
+from .base import Check, Evidence, check, readable
 
 _PENDULUM = Structure(oblique=True, bridge=False, strings=True)
 
@@ -30,22 +20,24 @@ _PENDULUM = Structure(oblique=True, bridge=False, strings=True)
 def _bounds() -> dict[str, tuple[sp.Expr, str]]:
     """Each margin with its lemma at the gap, angle and speed of the worst case, and a description."""
     contact, touch = contact_gap, sp.Integer(1)
-    largest = sp.Max(orbital_momentum, rigid_momentum(orbital_momentum + sp.Rational(32, 5) * spin, 4 + aspect * touch))
-    fastest = sp.sqrt(sp.Min(normal_velocity, 0) ** 2 + 2 * pull_at(touch, sp.pi))
-    reach = sp.Max(contact, slot_call("glass", "reach", fastest, glass_number))
+    largest = sp.Max(
+        q.orbital_momentum, rigid_momentum(q.orbital_momentum + sp.Rational(32, 5) * q.spin, 4 + q.aspect * touch)
+    )
+    fastest = sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + 2 * pull_at(touch, sp.pi))
+    reach = sp.Max(contact, slot_call("glass", "reach", fastest, q.glass_number))
     closing = sp.Symbol("closing", real=True)
-    stopped = stokes * e_dry * closing - slot_call("film", "stopping", gap)
+    stopped = q.stokes * q.e_dry * closing - slot_call("film", "stopping", q.gap)
     return {
-        "outward": (outward_at(largest, 4 + aspect * contact), "J_max^2/r^3, J_max of r_f, r in contact"),
-        "pull": (pull_at(contact, beta), "S_n in contact at the present beta"),
-        "film": (stokes * normal_velocity - slot_call("film", "stopping", gap), "u St/v0 - Lf(x)"),
+        "outward": (outward_at(largest, 4 + q.aspect * contact), "J_max^2/r^3, J_max of r_f, r in contact"),
+        "pull": (pull_at(contact, q.beta), "S_n in contact at the present beta"),
+        "film": (q.stokes * q.normal_velocity - slot_call("film", "stopping", q.gap), "u St/v0 - Lf(x)"),
         "recoil": (
-            stokes * e_dry * fastest - slot_call("film", "stopping", reach),
+            q.stokes * q.e_dry * fastest - slot_call("film", "stopping", reach),
             "e_dry u_max St/v0 - Lf(x_R), u_max^2 = min(u, 0)^2 + 2 S_n(x0, pi) x0/m, x_R = max(contact, reach(u_max))",
         ),
-        "rebound": (stopped.subs(closing, -normal_velocity), "e_dry |u| St/v0 - Lf(x)"),
+        "rebound": (stopped.subs(closing, -q.normal_velocity), "e_dry |u| St/v0 - Lf(x)"),
         "beneath": (
-            stopped.subs(closing, -normal_velocity + sp.sqrt(2 * pull_at(touch, sp.pi) * gap)),
+            stopped.subs(closing, -q.normal_velocity + sp.sqrt(2 * pull_at(touch, sp.pi) * q.gap)),
             "the same with |u| + sqrt(2 S_n(x0, pi) x/m), the most that closing from x adds",
         ),
     }
@@ -72,24 +64,22 @@ def margins_are_the_lemmas() -> tuple[Check, ...]:
     return tuple(checks)
 
 
-def closing_gains_the_pull() -> Check:
+@check("closing gains the pull", "d(u^2/2)/dx = -S_n/m + what slows: u_max^2 - u^2 <= 2 S x0/m")
+def closing_gains_the_pull() -> Evidence:
     """u_max: while closing, only the strings increase the speed, by their pull over a gap of at most x0."""
     model = derive(_PENDULUM)
-    left = [
-        rates(_PENDULUM)[normal_velocity].coeff(STRING_PULL) + 1,  # du/dt = u du/dx, over v0^2/x0
-        model.expanded(STRING_PULL) - pull_at(gap, beta),  # the bound of the lemmas is the emitted one
-        model.expanded(CENTRIFUGAL_FORCE) - outward_at(orbital_momentum, 4 + aspect * gap),
-    ]
-    return vanishing("closing gains the pull", "d(u^2/2)/dx = -S_n/m + what slows: u_max^2 - u^2 <= 2 S x0/m", left)
+    yield from (
+        rates(_PENDULUM)[q.normal_velocity].coeff(STRING_PULL) + 1,  # du/dt = u du/dx, over v0^2/x0
+        model.expanded(STRING_PULL) - pull_at(q.gap, q.beta),  # the bound of the lemmas is the emitted one
+        model.expanded(CENTRIFUGAL_FORCE) - outward_at(q.orbital_momentum, 4 + q.aspect * q.gap),
+    )
 
 
 def stopping_falls() -> Check:
     """Lf decreases with the gap, so a velocity stopped by the film from x_R is stopped from any smaller gap."""
-    slope = sp.factor(LAWS["film"]["finite"]["stopping"].result.diff(gap))
+    slope = sp.factor(LAWS["film"]["finite"]["stopping"].result.diff(q.gap))
     falls = sp.factor(-slope).is_nonnegative is True
     return Check("stopping falls", "dLf/dx <= 0: the furthest rebound is the worst", falls, f"dLf/dx = {slope}")
 
 
-def margins() -> tuple[Check, ...]:
-    """Every check of the emitted margins."""
-    return (*margins_are_the_lemmas(), closing_gains_the_pull(), stopping_falls())
+CHECKS = (margins_are_the_lemmas, closing_gains_the_pull, stopping_falls)

@@ -9,20 +9,19 @@ import sympy as sp
 
 from ..physics.forces import force_laws
 from ..physics.laws import LAWS, Law, strings
+from ..physics.laws.base import filled
 from ..physics.mechanics import S_n, S_t, doublet_inertia, equations_of_motion, string_forces
 from ..vocabulary.quantities import a, beta, g, l_s, m, omega, r, u, x, xi
-from .base import Check, vanishing
-from .closed import filled
+from .base import Check, Evidence, check, vanishing
 
 
-def inertia_is_rigid_rotation() -> Check:
+@check("inertia", "I(x) = 2 T(u = 0, xi = omega)/omega^2 = m a^2 [(4 + x/a)^2 + 32/5]")
+def inertia_is_rigid_rotation() -> Evidence:
     """I(x) from the parallel-axis theorem gives the kinetic energy of a doublet in rigid rotation."""
     rigid = equations_of_motion().kinetic_energy.subs({u: 0, xi: omega})
     left = sp.expand(2 * rigid / omega**2 - doublet_inertia())
     left_paper = sp.expand(doublet_inertia() - m * a**2 * ((4 + x / a) ** 2 + sp.Rational(32, 5)))
-    return vanishing(
-        "inertia", "I(x) = 2 T(u = 0, xi = omega)/omega^2 = m a^2 [(4 + x/a)^2 + 32/5]", [left, left_paper]
-    )
+    yield from (left, left_paper)
 
 
 def strings_are_conservative(laws: Iterable[Law]) -> tuple[Check, ...]:
@@ -48,3 +47,6 @@ def _conservative(law: Law) -> Check:
     arguments = rise.arguments
     left.append(sp.simplify(2 * rise(*arguments).diff(arguments[1]) - stiffness(*arguments)))
     return vanishing(f"strings: {law.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", left)
+
+
+CHECKS = (inertia_is_rigid_rotation,)

@@ -6,24 +6,14 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ..equations.certificates.orbital_momentum import (
-    exchanged,
-    lag,
-    midgap,
-    midgap_of,
-    midgap_within,
-    rigid_momentum,
-    rigid_share,
-    spheres_inertia,
-    surface,
-)
+from ..equations.certificates import orbital_momentum as orbital
 from ..equations.model import derive
 from ..physics.laws import LAWS
+from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import aspect, gap, obliquity, orbital_momentum, spin
-from .base import Check, vanishing
-from .closed import emitted_rates, filled
+from .base import Check, Evidence, check, vanishing
 
 _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
 # square roots of momentum and spin, in which all expressions are rational
@@ -34,23 +24,21 @@ _FULL = Structure(oblique=True, bridge=True, strings=False)
 _REACH = 4  # the rupture distance is below 4 a: 2 V^(1/3) (1 + phi/2) with V <= 1 and phi <= pi/2
 
 
-def exchange() -> Check:
+@check("F_t exchanges momenta", "dJ = -(32/5)(d/(2 lever)) a^2 dxi")
+def exchange() -> Evidence:
     """The emitted rates of J and xi have the ratio `exchanged`, for every arm."""
-    left = []
-    rates = emitted_rates(derive(_FULL))
+    rates = derive(_FULL).by_state("right_hand_side")
     here = 4 + aspect * gap
     for law in LAWS["arm"].values():
         to_orbit, to_spin = (filled(rates[state], {"arm": law}) for state in (orbital_momentum, spin))
-        left.append(to_orbit + exchanged(here, law["lever"](here)) * to_spin)
-    return vanishing("F_t exchanges momenta", "dJ = -(32/5)(d/(2 lever)) a^2 dxi", left)
+        yield to_orbit + orbital.exchanged(here, law["lever"](here)) * to_spin
 
 
-def stationary() -> Check:
+@check("slip energy", "zero where omega = xi at d; exchange where omega = xi changes nothing")
+def stationary() -> Evidence:
     """The slip energy vanishes at omega = xi at d; with J^2/2 (1/r^2 - 1/d^2) it is stationary where omega = xi."""
-    left: list[sp.Expr] = []
     for lever, energy in (("midgap", _midgap()), ("surface", _surface())):
-        left += [_settled(energy.subs(_P, _FAR * _Q)), _settled(_change(lever, energy).subs(_P, _NEAR * _Q))]
-    return vanishing("slip energy", "zero where omega = xi at d; exchange where omega = xi changes nothing", left)
+        yield from (_settled(energy.subs(_P, _FAR * _Q)), _settled(_change(lever, energy).subs(_P, _NEAR * _Q)))
 
 
 def _settled(expression: sp.Expr) -> sp.Expr:
@@ -58,17 +46,17 @@ def _settled(expression: sp.Expr) -> sp.Expr:
 
 
 def _midgap() -> sp.Expr:
-    return midgap(_FAR, _P**2, _Q**2)
+    return orbital.midgap(_FAR, _P**2, _Q**2)
 
 
 def _surface() -> sp.Expr:
-    return surface(_FAR, _P**2, _Q**2, rigid_share(_P**2, _Q**2))
+    return orbital.surface(_FAR, _P**2, _Q**2, orbital.rigid_share(_P**2, _Q**2))
 
 
 def _change(lever: str, energy: sp.Expr) -> sp.Expr:
     """Change of the margin per dxi by the exchange at the distance `near`."""
     margin = _P**4 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + energy
-    rate = exchanged(_NEAR, LAWS["arm"][lever]["lever"](_NEAR))
+    rate = orbital.exchanged(_NEAR, LAWS["arm"][lever]["lever"](_NEAR))
     return margin.diff(_Q) / (2 * _Q) - rate * margin.diff(_P) / (2 * _P)
 
 
@@ -81,13 +69,13 @@ def midgap_takes() -> Check:
 
 def midgap_ends() -> Check:
     """Beyond the edge of the shear: the same exchange, zero once omega = xi at the edge, and positive before."""
-    within = midgap_within(_FAR, _EDGE, _P**2, _Q**2)
+    within = orbital.midgap_within(_FAR, _EDGE, _P**2, _Q**2)
     left = [
         _settled(_change("midgap", within) - _change("midgap", _midgap())),
         _settled(within.subs(_P, _EDGE * _Q)),
     ]
     # on the way to the edge J grows while xi > J/e^2, and each step transfers xi - J/d^2
-    to_spin = 1 / exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
+    to_spin = 1 / orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
     slope = within.diff(_P) / (2 * _P) - to_spin * within.diff(_Q) / (2 * _Q)
     ahead = {_FAR: _EDGE + _BEYOND, _P: _EDGE * _Q / (1 + _CLOSER)}
     top, bottom = sp.fraction(sp.cancel(sp.together(-slope.subs(ahead))))
@@ -103,17 +91,19 @@ def transferable_bounds() -> tuple[Check, ...]:
     and for J > J_d, J (J - J_r) >= 0. The slip energy of J is a square that vanishes at J_d, and at the ends of both
     ranges the bound is continuous: 0 at J_d, the slip energy of J = 0 at 0.
     """
-    inertia = spheres_inertia()
+    inertia = orbital.spheres_inertia()
     momentum, turning = sp.symbols("momentum turning", real=True)
-    rigid = rigid_momentum(_FAR, momentum, turning)
+    rigid = orbital.rigid_momentum(_FAR, momentum, turning)
     energy = (momentum - rigid) ** 2 * (1 / _FAR**2 + 1 / inertia) / 2
-    left = [energy - midgap(_FAR, momentum, turning)]  # for every sign: no square roots
-    margin = momentum**2 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + midgap(_FAR, momentum, turning)
-    change = margin.diff(turning) - exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR)) * margin.diff(momentum)
+    left = [energy - orbital.midgap(_FAR, momentum, turning)]  # for every sign: no square roots
+    margin = momentum**2 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + orbital.midgap(_FAR, momentum, turning)
+    change = margin.diff(turning) - orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR)) * margin.diff(
+        momentum
+    )
     ratio = _settled(change / (momentum / _NEAR**2 - turning))
     whole, excess = sp.symbols("whole excess", nonnegative=True)
     closer = 4 + _CLOSER
-    share = rigid_momentum(sp.Symbol("r", positive=True), whole, sp.Integer(0))
+    share = orbital.rigid_momentum(sp.Symbol("r", positive=True), whole, sp.Integer(0))
     here, there = (share.subs(sp.Symbol("r", positive=True), d) for d in (closer, closer + _BEYOND))
     products = [(there + excess) * (there + excess - here), -excess * (-excess - here)]
     fall = all(_no_negative(part) for value in products for part in sp.fraction(sp.cancel(sp.together(value))))
@@ -150,7 +140,7 @@ def surface_takes() -> Check:
     )
     rate = sp.fraction(_settled(_change("surface", _surface()) * _NEAR))
     quadratic = sp.degree(rate[0], _NEAR) == 2 and not rate[1].has(_NEAR)
-    figure = f"-dJ/dxi = {lag()} a r; d - rho <= {_REACH} a"
+    figure = f"-dJ/dxi = {orbital.lag()} a r; d - rho <= {_REACH} a"
     return Check("exchange takes, surface", "d(margin)/dxi has the sign of -(omega - xi)", ok and quadratic, figure)
 
 
@@ -161,32 +151,21 @@ def _no_negative(part: sp.Expr) -> bool:
     return all(c >= 0 for c in sp.Poly(expanded, *sorted(expanded.free_symbols, key=str)).coeffs())
 
 
-def as_emitted() -> Check:
+@check("orbital: as emitted", "slip and slip energies over m v0^2")
+def as_emitted() -> Evidence:
     """The emitted margins are this energy, in units of m v0^2, and the slip."""
-    left: list[sp.Expr] = []
     for structure in (_FULL, replace(_FULL, reduced=True)):
         model = derive(structure)
-        found = {name: model.expanded(value) for name, value in model["orbital_margins"].outputs}
+        found = model.results("orbital_margins")
         here, turning = model.expanded(DISTANCE), model.expanded(spin) if structure.reduced else spin
         unit = obliquity**2 / 16  # omega0 = v0 tan(theta0)/(4a)
-        left.append(found["slip"] - (orbital_momentum / here**2 - turning))
-        left.append(found["orbital_energy"] - unit * orbital_momentum**2 / (2 * here**2))
-        rigid = sp.cancel(rigid_momentum(here, orbital_momentum, turning))
-        left.append(_clamped(found["midgap"] / unit) - _clamped(midgap_of(here, orbital_momentum, rigid)))
+        yield found["slip"] - (orbital_momentum / here**2 - turning)
+        yield found["orbital_energy"] - unit * orbital_momentum**2 / (2 * here**2)
+        rigid = sp.cancel(orbital.rigid_momentum(here, orbital_momentum, turning))
+        yield _clamped(found["midgap"] / unit) - _clamped(orbital.midgap_of(here, orbital_momentum, rigid))
         if "surface" in found:
-            own = surface(here, orbital_momentum, turning, rigid_share(orbital_momentum, turning))
-            left.append(found["surface"] - unit * own)
-    return vanishing("orbital: as emitted", "slip and slip energies over m v0^2", left)
+            own = orbital.surface(here, orbital_momentum, turning, orbital.rigid_share(orbital_momentum, turning))
+            yield found["surface"] - unit * own
 
 
-def orbital_momentum_certificate() -> tuple[Check, ...]:
-    """Every check of the orbital-momentum certificate."""
-    return (
-        exchange(),
-        stationary(),
-        midgap_takes(),
-        midgap_ends(),
-        *transferable_bounds(),
-        surface_takes(),
-        as_emitted(),
-    )
+CHECKS = (exchange, stationary, midgap_takes, midgap_ends, transferable_bounds, surface_takes, as_emitted)

@@ -11,27 +11,8 @@ from ..physics.laws.start import initial_rate, start_values
 from ..physics.mechanics import doublet_inertia, equations_of_motion
 from ..physics.scaling import nondimensional
 from ..physics.structure import structures
-from ..vocabulary.quantities import (
-    a,
-    aspect,
-    gap,
-    impact_spin,
-    initial_spin,
-    initial_turning,
-    m,
-    normal_velocity,
-    obliquity,
-    omega,
-    r,
-    rate_scale,
-    theta0,
-    u,
-    v0,
-    x,
-    x0,
-    xi,
-)
-from .base import Check, vanishing
+from ..vocabulary import quantities as q
+from .base import Check, Evidence, check, vanishing
 from .conservation import energy_balance
 
 _final = sp.Symbol("x_f", positive=True)  # gap at rupture
@@ -49,37 +30,37 @@ def ceiling() -> sp.Expr:
     motion, at_start = equations_of_motion(), start_values()
     energy, momentum = motion.kinetic_energy, motion.angular_momentum
     initial, fixed = energy.subs(at_start), momentum.subs(at_start)
-    turning = energy.subs(u, 0).subs(x, _final)
-    held = sp.solve(sp.Eq(momentum.subs(x, _final), fixed), xi)[0]
-    along = sp.expand(turning.subs(xi, held))
-    if not sp.factor(along.diff(omega, 2)).is_positive:
+    turning = energy.subs(q.u, 0).subs(q.x, _final)
+    held = sp.solve(sp.Eq(momentum.subs(q.x, _final), fixed), q.xi)[0]
+    along = sp.expand(turning.subs(q.xi, held))
+    if not sp.factor(along.diff(q.omega, 2)).is_positive:
         raise ArithmeticError("the rotational energy has no minimum at fixed angular momentum")
-    least = along.subs(omega, sp.solve(along.diff(omega), omega)[0])
-    return sp.factor(initial - least) * 2 / (m * v0**2) - 2 * _work / (m * v0**2)
+    least = along.subs(q.omega, sp.solve(along.diff(q.omega), q.omega)[0])
+    return sp.factor(initial - least) * 2 / (q.m * q.v0**2) - 2 * _work / (q.m * q.v0**2)
 
 
 def ceiling_is_the_published() -> Check:
     """The derived bound and the emitted one are 1 + (r0 tan/(4a))^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2)."""
     found = ceiling()
-    start_distance, inertia = r.subs(x, x0), doublet_inertia().subs(x, _final)
-    oblique = (start_distance * sp.tan(theta0) / (4 * a)) ** 2
-    published = 1 + oblique * (1 - m * start_distance**2 / inertia) - 2 * _work / (m * v0**2)
-    left, grows = [found.subs(impact_spin, 0) - published], True
+    start_distance, inertia = q.r.subs(q.x, q.x0), doublet_inertia().subs(q.x, _final)
+    oblique = (start_distance * sp.tan(q.theta0) / (4 * q.a)) ** 2
+    published = 1 + oblique * (1 - q.m * start_distance**2 / inertia) - 2 * _work / (q.m * q.v0**2)
+    left, grows = [found.subs(q.impact_spin, 0) - published], True
     turned = found.subs(
-        {_final: x, sp.tan(theta0): obliquity * initial_turning, impact_spin: rate_scale * initial_spin}
+        {_final: q.x, sp.tan(q.theta0): q.obliquity * q.initial_turning, q.impact_spin: q.rate_scale * q.initial_spin}
     )
-    scaled = nondimensional(turned + 2 * _work / (m * v0**2))
+    scaled = nondimensional(turned + 2 * _work / (q.m * q.v0**2))
     for structure in structures():
         if structure.strings:
             continue
         model = derive(structure)
-        emitted = model.expanded(dict(model["restitution_ceiling"].outputs)["squared"])
+        emitted = model.expanded(model["restitution_ceiling"]["squared"])
         left.append(emitted - (model.expanded(scaled) if structure.oblique else 1))
         if structure.oblique:  # from 1 upwards with the angle and, since I(x) grows, with the gap
-            left.append(emitted.subs({obliquity: 0}) - 1)
-            slope = sp.factor(emitted.diff(gap) / obliquity**2)  # a square, of L, times what is positive
-            grows &= slope.subs({initial_spin: 0, initial_turning: 1}).is_positive is True
-            grows &= slope.subs(initial_spin, sp.Symbol("any", positive=True)).is_nonnegative is True
+            left.append(emitted.subs({q.obliquity: 0}) - 1)
+            slope = sp.factor(emitted.diff(q.gap) / q.obliquity**2)  # a square, of L, times what is positive
+            grows &= slope.subs({q.initial_spin: 0, q.initial_turning: 1}).is_positive is True
+            grows &= slope.subs(q.initial_spin, sp.Symbol("any", positive=True)).is_nonnegative is True
     check = vanishing(
         "ceiling of e_n^2",
         "e_n^2 <= 1 + (r0 tan(theta0)/4a)^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2), from L and the ledger",
@@ -89,47 +70,50 @@ def ceiling_is_the_published() -> Check:
     return check if grows else replace(check, ok=False, figure="it does not grow with the gap")
 
 
-def decomposition() -> Check:
+@check(
+    "decomposition of e_n^2 - 1", "e_n^2 - 1 = 2 (rotational energy released - D_n - D_t - W_c - D_dry - dU_s)/(m v0^2)"
+)
+def decomposition() -> Evidence:
     """e_n^2 - 1 is the rotational energy released minus all losses, over m v0^2/2: exactly the ledger.
 
     Both sides vanish at the start. The emitted equations and energy_rates keep them equal along the trajectory, the
     emitted jump and rebound_loss at a rebound. The energy released is rotational, and the normal part of T is e_n^2/2,
     at all times.
     """
-    left = []
     for structure in structures():
         if structure.reduced:
             continue  # its shear loss follows from L and not from energy_rates
         model = derive(structure)
-        kinetic = model.expanded(dict(model["energies"].outputs)["kinetic"])
-        start = {s: model.expanded(dict(model["start"].outputs)[s.name]) for s in model.states}
-        jump = {s: dict(model["rebound"].outputs)[s.name] for s in model.states}
-        lost = model.expanded(dict(model["rebound_loss"].outputs)["dry_contact"])
-        turning = sp.expand(kinetic - normal_velocity**2 / 2)
+        kinetic = model.expanded(model["energies"]["kinetic"])
+        start = model.by_state("start")
+        jump = model.by_state("rebound")
+        lost = model.expanded(model["rebound_loss"]["dry_contact"])
+        turning = sp.expand(kinetic - q.normal_velocity**2 / 2)
         released = turning.subs(start, simultaneous=True) - turning
         # normal_velocity^2 - 1 - 2 (released - taken); `taken` is the integral of energy_rates plus the strings' energy
-        open_by = normal_velocity**2 - 1 - 2 * released
-        left.append(open_by.subs(start, simultaneous=True))
-        left.append(open_by.subs(jump, simultaneous=True) + 2 * lost - open_by)
+        open_by = q.normal_velocity**2 - 1 - 2 * released
+        yield open_by.subs(start, simultaneous=True)
+        yield open_by.subs(jump, simultaneous=True) + 2 * lost - open_by
         # half its rate, since normal_velocity^2/2 + the rotational energy is `kinetic`
-        left.append(energy_balance(structure))
-        left.append(turning.diff(normal_velocity))
-    return vanishing(
-        "decomposition of e_n^2 - 1",
-        "e_n^2 - 1 = 2 (rotational energy released - D_n - D_t - W_c - D_dry - dU_s)/(m v0^2)",
-        left,
-    )
+        yield energy_balance(structure)
+        yield turning.diff(q.normal_velocity)
 
 
 def rotation_can_be_released() -> Check:
     """The energy that rigid rotation can release grows with the gap: I(x) grows and L^2/(2 I) decreases."""
-    momentum = equations_of_motion().angular_momentum.subs(start_values()).subs({initial_rate(): omega, impact_spin: 0})
+    momentum = (
+        equations_of_motion().angular_momentum.subs(start_values()).subs({initial_rate(): q.omega, q.impact_spin: 0})
+    )
     least = momentum**2 / (2 * doublet_inertia())
-    slope = sp.factor(least.diff(x))
-    growing = sp.factor(-slope / omega**2).is_positive
+    slope = sp.factor(least.diff(q.x))
+    growing = sp.factor(-slope / q.omega**2).is_positive
+    per_gap = sp.factor(slope.subs(q.x0, q.aspect * q.a).subs(q.x, q.gap * q.aspect * q.a) / (q.m * q.a * q.omega**2))
     return Check(
         "rotational energy released",
         "d/dx L^2/(2 I(x)) < 0: a doublet that opens gives rotational energy to the opening",
         bool(growing),
-        f"slope {sp.factor(slope.subs(x0, aspect * a).subs(x, gap * aspect * a) / (m * a * omega**2))} m a omega0^2",
+        f"slope {per_gap} m a omega0^2",
     )
+
+
+CHECKS = (decomposition, ceiling_is_the_published, rotation_can_be_released)

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import sympy as sp
 
 from ..equations.certificates.slow_manifold import admits, coefficients
 from ..equations.intermediates import MOMENTUM
 from ..equations.model import Model, derive
 from ..physics.forces import FILM, SHEAR
-from ..physics.laws import Law
 from ..physics.laws.base import slot_call
 from ..physics.scaling import DISTANCE
 from ..physics.structure import structures
 from ..vocabulary.quantities import aspect, gap, normal_velocity, orbital_momentum
-from .attraction_certificate import force_falls
-from .base import Check, vanishing
+from .base import Check, Evidence, check, vanishing
 
 _OPEN = sp.Symbol("beyond_touching", nonnegative=True)  # centre distance over a, above 4
 
@@ -34,17 +30,18 @@ def rates_have_the_form() -> Check:
     """du/dt = c J^2 - A - f u and dJ/dt = -s (J - J_r), with the coefficients that are emitted."""
     left = []
     for model, found in _models():
-        rates = {key: model.expanded(value) for key, value in model["right_hand_side"].outputs}
+        rates = model.by_state("right_hand_side")
         push = found["centrifugal"] * orbital_momentum**2 - found["attractions"] - found["slowing"] * normal_velocity
         turn = -found["relaxation"] * (orbital_momentum - found["rigid"])
         for state, rate in ((normal_velocity, push), (orbital_momentum, turn)):
-            inside = rates[state.name].subs({FILM: 1, SHEAR: 1})
+            inside = rates[state].subs({FILM: 1, SHEAR: 1})
             left.append(sp.simplify(inside - model.expanded(rate)))
     assert left
     return vanishing("slow manifold: rates", "du/dt = c J^2 - A - f u, dJ/dt = -s (J - J_r)", left)
 
 
-def secants() -> Check:
+@check("slow manifold: difference", "two solutions over the gap differ by the Jacobian at secants")
+def secants() -> Evidence:
     """The difference of two solutions over the gap obeys the equations from which the contraction is bounded."""
     c, attractions, f, s, rigid = sp.symbols("c A f s J_r", real=True)
     u1, u2 = sp.symbols("u1 u2", positive=True)
@@ -57,11 +54,7 @@ def secants() -> Check:
     force, e, j = c * j2**2 - attractions, u1 - u2, j1 - j2
     normal = -force * e / (u1 * u2) + c * (j1 + j2) * j / u1
     tangential = s * (j2 - rigid) * e / (u1 * u2) - s * j / u1
-    return vanishing(
-        "slow manifold: difference",
-        "two solutions over the gap differ by the Jacobian at secants",
-        [rise1 - rise2 - normal, turn1 - turn2 - tangential],
-    )
+    yield from (rise1 - rise2 - normal, turn1 - turn2 - tangential)
 
 
 def coefficients_are_monotonic() -> Check:
@@ -90,11 +83,4 @@ def coefficients_are_monotonic() -> Check:
     )
 
 
-def slow_manifold() -> tuple[Check, ...]:
-    """Every check of the slow manifold that does not depend on laws."""
-    return (rates_have_the_form(), secants(), coefficients_are_monotonic())
-
-
-def films_fall(laws: Iterable[Law]) -> tuple[Check, ...]:
-    """Film and shear laws declared to fall with the gap do so inside the film."""
-    return force_falls(laws, last=sp.Integer(1))
+CHECKS = (rates_have_the_form, secants, coefficients_are_monotonic)

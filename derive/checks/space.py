@@ -8,63 +8,39 @@ from functools import cache
 import sympy as sp
 
 from ..equations.invariants import NoInvariantError, conserved_components
-from ..equations.model import Model, derive
+from ..equations.model import derive
 from ..equations.quadratic_invariants import quadratic_invariants
 from ..physics.laws import LAWS
+from ..physics.laws.base import filled
 from ..physics.partners import space, vectors
 from ..physics.partners.pair import INERTIA_RATIO
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
-from ..vocabulary.quantities import (
-    Vector,
-    aspect,
-    beta,
-    gap,
-    normal,
-    normal_velocity,
-    orbital_momenta,
-    orbital_momentum,
-    partner_spin,
-    partner_spins,
-    spin,
-    spins,
-)
-from .base import Check, vanishing
-from .closed import SIZES, filled, opened, opened_rates
+from ..vocabulary import quantities as q
+from .base import Check, Evidence, check, vanishing
+from .closed import SIZES, special_case
 
 _SPACE = Structure(True, True, False, attraction=True, partner="space")
 _MIDGAP = {"arm": LAWS["arm"]["midgap"]}
-_OPEN = ("strength", "distance", "film_force", "bridge_force", "attraction_force")
-_UNIT = vectors.dot(normal, normal) - 1
-_ORTHOGONAL = vectors.dot(orbital_momenta, normal)
-
-
-def _closed(symbol: sp.Symbol) -> bool:
-    return symbol.name not in (*_OPEN, *SIZES)
+_OPEN = ("strength", "distance", "film_force", "bridge_force", "attraction_force", *SIZES)
+_UNIT = vectors.dot(q.normal, q.normal) - 1
+_ORTHOGONAL = vectors.dot(q.orbital_momenta, q.normal)
 
 
 @cache
 def _rates() -> dict[sp.Symbol, sp.Expr]:
     """Rates as polynomials in the states; the friction's strength, the sizes and the forces along n are left open."""
-    model = derive(_SPACE)
-    named = dict(model["right_hand_side"].outputs)
-    found: dict[sp.Symbol, sp.Expr] = {}
-    for state in model.states:
-        rate = sp.sympify(named[state.name])
-        for symbol, value in reversed(model.definitions):
-            if _closed(symbol):
-                rate = rate.subs(symbol, value)
-        found[state] = sp.expand(rate)
-    return found
+    return {s: sp.expand(rate) for s, rate in derive(_SPACE).by_state("right_hand_side", _OPEN).items()}
 
 
 def _on_the_surface(expression: sp.Expr) -> sp.Expr:
-    return vectors.on_the_sphere(expression, normal, orbital_momenta)
+    return vectors.on_the_sphere(expression, q.normal, q.orbital_momenta)
 
 
-def spin_turns_with_the_torque() -> Check:
+@check("space: spin", "I dw/dt = T for a sphere, from Lagrange's equations")
+def spin_turns_with_the_torque() -> Evidence:
     """Lagrange's equations of a sphere in Euler angles: in the laboratory's axes, only a torque changes its spin."""
-    return vanishing("space: spin", "I dw/dt = T for a sphere, from Lagrange's equations", list(vectors.spin_balance()))
+    yield from vectors.spin_balance()
 
 
 def momenta_in_space_are_found() -> Check:
@@ -82,34 +58,27 @@ def momenta_in_space_are_found() -> Check:
 
 def directions_are_found() -> Check:
     """|n|^2 and, where it is 1, J . n are the only invariants quadratic in n and J."""
-    unit = quadratic_invariants(_rates(), normal)
-    across = quadratic_invariants(_rates(), (*normal, *orbital_momenta), _UNIT)
+    unit = quadratic_invariants(_rates(), q.normal)
+    across = quadratic_invariants(_rates(), (*q.normal, *q.orbital_momenta), _UNIT)
     expected = [_UNIT + 1, _ORTHOGONAL]
     missing = [each for each in expected if not any(sp.expand(each - one) == 0 for one in across)]
     ok = not missing and len(across) == 2 and list(unit) == expected[:1]
     return Check("space: directions", "|n| = 1 and J . n = 0 are conserved", ok, "; ".join(map(str, across)))
 
 
-def energy_in_space() -> Check:
+@check("space: energy", "d(kinetic)/dt = -(film + shear + bridge + attraction power)")
+def energy_in_space() -> Evidence:
     """The kinetic energy changes by the work of film, shear, bridge and attraction only."""
     model, rates = derive(_SPACE), _rates()
-
-    def half_open(expression: sp.Expr) -> sp.Expr:
-        for symbol, value in reversed(model.definitions):
-            if _closed(symbol):
-                expression = expression.subs(symbol, value)
-        return expression
-
-    stored = half_open(dict(model["energies"].outputs)["kinetic"])
-    change = stored.diff(DISTANCE) * dict(model.definitions)[DISTANCE].diff(gap) * normal_velocity
-    change += sum((stored.diff(state) * rate for state, rate in rates.items()), sp.Integer(0))
-    lost = sum((half_open(rate) for _, rate in model["energy_rates"].outputs), sp.Integer(0))
-    left = _on_the_surface(sp.expand(change + lost))
-    statement = "d(kinetic)/dt = -(film + shear + bridge + attraction power)"
-    return vanishing("space: energy", statement, [left])
+    stored = model.expanded(model["energies"]["kinetic"], _OPEN)
+    change = stored.diff(DISTANCE) * dict(model.definitions)[DISTANCE].diff(q.gap) * q.normal_velocity
+    change += sp.Add(*(stored.diff(state) * rate for state, rate in rates.items()))
+    lost = sp.Add(*model.results("energy_rates", _OPEN).values())
+    yield _on_the_surface(sp.expand(change + lost))
 
 
-def friction_in_space_dissipates() -> Check:
+@check("space: friction", "shear takes energy from every slip across n, and none from twist")
+def friction_in_space_dissipates() -> Evidence:
     """The power of shear is the planar quadratic form of the slips, summed over the directions: never negative."""
     first, second = sp.symbols("s_1 s_2", real=True)
     one, other = space.torques((first, second))
@@ -118,8 +87,8 @@ def friction_in_space_dissipates() -> Check:
     positive = bool(hessian[0, 0].is_positive and sp.expand(hessian.det()).is_positive)
     parts = sp.Integer(0)
     for each in range(3):
-        across = {first: space.SLIPS[each] - space.TWIST * normal[each]}
-        across[second] = space.PARTNER_SLIPS[each] - space.PARTNER_TWIST * normal[each]
+        across = {first: space.SLIPS[each] - space.TWIST * q.normal[each]}
+        across[second] = space.PARTNER_SLIPS[each] - space.PARTNER_TWIST * q.normal[each]
         parts += form.subs(across, simultaneous=True)
     model = derive(_SPACE)
     torque = {
@@ -129,31 +98,32 @@ def friction_in_space_dissipates() -> Check:
     along = {space.ALONG: space.torques((space.TWIST, space.PARTNER_TWIST))[0]}
     along[space.PARTNER_ALONG] = space.torques((space.TWIST, space.PARTNER_TWIST))[1]
     twists = {
-        space.TWIST: vectors.dot(space.SLIPS, normal),
-        space.PARTNER_TWIST: vectors.dot(space.PARTNER_SLIPS, normal),
+        space.TWIST: vectors.dot(space.SLIPS, q.normal),
+        space.PARTNER_TWIST: vectors.dot(space.PARTNER_SLIPS, q.normal),
     }
     left = lost.subs(torque).subs(along) - space.STRENGTH * parts
     rest = _on_the_surface(sp.expand(left.subs(twists)))
-    check = vanishing("space: friction", "shear takes energy from every slip across n, and none from twist", [rest])
-    return check if positive else Check(check.name, check.statement, False, "not positive definite")
+    yield rest
+    yield positive, "not positive definite"
 
 
-def least_energy_in_space() -> Check:
+@check("space: least energy", "T = |L|^2/(2 I) + T of the deviation from rotation at L/I, for any directions")
+def least_energy_in_space() -> Evidence:
     """E_rot - |L|^2/(2 I) is a sum of squares for every n, J and both spins, I the inertia across the line of centres.
 
     So no direction of the line of centres, and no twist about it, takes the energy at a gap below that of rigid
     rotation about an axis across it: the barrier for |L| holds for good.
     """
     model = derive(_SPACE)
-    kinetic = dict(model["energies"].outputs)["kinetic"] - normal_velocity**2 / 2
-    least = dict(model["effective_potential"].outputs)["energy"]
-    unit = sp.simplify(kinetic / space.energy(orbital_momenta, spins, partner_spins))
-    apart = opened(model, kinetic - least - unit * space.slip_energy())
-    statement = "T = |L|^2/(2 I) + T of the deviation from rotation at L/I, for any directions"
-    return vanishing("space: least energy", statement, [apart])
+    kinetic = model["energies"]["kinetic"] - q.normal_velocity**2 / 2
+    least = model["effective_potential"]["energy"]
+    unit = sp.simplify(kinetic / space.energy(q.orbital_momenta, q.spins, q.partner_spins))
+    apart = model.expanded(kinetic - least - unit * space.slip_energy(), SIZES)
+    yield apart
 
 
-def outward_at_smaller_gaps() -> Check:
+@check("space: rebounds", "C' <= (sqrt C + sqrt(2 work/r))^2 (r/r')^4 for a smaller distance r'")
+def outward_at_smaller_gaps() -> Evidence:
     """The bound of the centrifugal force by which `solvers.certificates.rebounds` excludes that a gap is reached again.
 
     It is J^2/r^3 with |J| <= |L| r^2/I + r sqrt(2 D), D the slip energy. While the gap closes from r to a smaller r', D
@@ -170,13 +140,13 @@ def outward_at_smaller_gaps() -> Check:
         sp.expand(far**3 - near**3),  # sqrt(r/r') <= (r/r')^2
         sp.expand(here - there),  # L^2/(2 I) is no smaller at r'
     ]
-    statement = "C' <= (sqrt C + sqrt(2 work/r))^2 (r/r')^4 for a smaller distance r'"
-    check = vanishing("space: rebounds", statement, [added - 2 * work * aspect / DISTANCE])
     positive = all(each.is_positive for each in falls)
-    return check if positive else replace(check, ok=False, figure=f"not all positive: {falls}")
+    yield added - 2 * work * q.aspect / DISTANCE
+    yield positive, f"not all positive: {falls}"
 
 
-def rebounds_do_not_come_back() -> Check:
+@check("space: no return", "e^2 W < W - C depth if C < (1 - e^2) P and P falls with the gap")
+def rebounds_do_not_come_back() -> Evidence:
     """The balance by which `solvers.certificates.rebounds` excludes that a maximum of the gap is reached again.
 
     Along the line of centres u^2/2 changes at the rate u (C - P - film), P the attraction and C the centrifugal force:
@@ -186,81 +156,63 @@ def rebounds_do_not_come_back() -> Check:
     depth + (1 - e^2) s: positive.
     """
     model = derive(_SPACE)
-    rate, inward = (dict(model[each].outputs) for each in ("right_hand_side", "inward_force"))
-    film = sp.expand(opened(model, rate[normal_velocity.name] + inward["inward_force"]))
-    left = [film.subs(normal_velocity, 0), film.diff(normal_velocity, 2)]
+    rate, inward = (model[each].by_name for each in ("right_hand_side", "inward_force"))
+    film = sp.expand(model.expanded(rate[q.normal_velocity.name] + inward["inward_force"], SIZES))
+    yield from (film.subs(q.normal_velocity, 0), film.diff(q.normal_velocity, 2))
     depth, surplus, spare, centrifugal, lost = sp.symbols("depth surplus spare centrifugal lost", positive=True)
     work = (centrifugal + spare) / lost * depth + surplus  # lost = 1 - e^2
     lack = sp.expand(work - centrifugal * depth - (1 - lost) * work)
-    left.append(lack - spare * depth - lost * surplus)
-    statement = "e^2 W < W - C depth if C < (1 - e^2) P and P falls with the gap"
-    return vanishing("space: no return", statement, left)
+    yield lack - spare * depth - lost * surplus
 
 
-def reduced_in_space() -> Check:
+@check("space: reduced", "with the partner's spin from L and its twist from J . n = 0, the rates are the full ones")
+def reduced_in_space() -> Evidence:
     """The form without the partner's spin has the rates of the full one."""
     reduced, full = derive(replace(_SPACE, reduced=True)), derive(_SPACE)
-    spun = {symbol: value for symbol, value in reduced.definitions if symbol in partner_spins}
+    spun = {symbol: value for symbol, value in reduced.definitions if symbol in q.partner_spins}
     begun = {symbol: value for symbol, value in reduced.definitions if symbol in space.MOMENTA}
+    keep = (*_OPEN, *(momentum.name for momentum in space.MOMENTA))
     assert len(spun) == len(begun) == 3
-    left = []
-    for name in ("right_hand_side", "energies", "inward_force"):
-        there = dict(full[name].outputs)
-        for key, expression in reduced[name].outputs:
-            difference = _by_momenta(full, there[key]).subs(spun) - _by_momenta(reduced, expression)
-            left.append(_on_the_surface(sp.expand(difference)))
-    statement = "with the partner's spin from L and its twist from J . n = 0, the rates are the full ones"
-    return vanishing("space: reduced", statement, left)
+    names = ("right_hand_side", "energies", "inward_force")
+    for difference in special_case(reduced, names, full, lambda each: each.subs(spun), keep):
+        yield _on_the_surface(sp.expand(difference))
 
 
-def _by_momenta(model: Model, expression: sp.Expr) -> sp.Expr:
-    for symbol, value in reversed(model.definitions):
-        if symbol.name not in (*_OPEN, *SIZES) and symbol not in space.MOMENTA:
-            expression = expression.subs(symbol, value)
-    return expression
-
-
-def plane_in_space() -> Check:
+@check("space: plane", "in the plane, rates and energies are those of the planar pair")
+def plane_in_space() -> Evidence:
     """With n in a plane, and J and both spins along its normal, every equation is the planar pair's."""
     model, pair = derive(_SPACE), derive(replace(_SPACE, partner="pair"))
-    line = (sp.cos(beta), sp.sin(beta), sp.Integer(0))
+    line = (sp.cos(q.beta), sp.sin(q.beta), sp.Integer(0))
 
     def upright(scalar: sp.Expr) -> tuple[sp.Expr, ...]:
         return sp.Integer(0), sp.Integer(0), scalar
 
-    planar = _components((normal, line), (orbital_momenta, upright(orbital_momentum)))
-    planar |= _components((spins, upright(spin)), (partner_spins, upright(partner_spin)))
-    turning = opened(pair, dict(pair["turning_rate"].outputs)[beta.name])
-    expected = {state: filled(rate, _MIDGAP) for state, rate in opened_rates(pair).items()}
-    moved = _components((normal, tuple(each.diff(beta) * turning for each in line)))
-    for vector, state in ((orbital_momenta, orbital_momentum), (spins, spin), (partner_spins, partner_spin)):
+    planar = _components((q.normal, line), (q.orbital_momenta, upright(q.orbital_momentum)))
+    planar |= _components((q.spins, upright(q.spin)), (q.partner_spins, upright(q.partner_spin)))
+    turning = pair.expanded(pair["turning_rate"][q.beta.name], SIZES)
+    expected = {state: filled(rate, _MIDGAP) for state, rate in pair.by_state("right_hand_side", SIZES).items()}
+    moved = _components((q.normal, tuple(each.diff(q.beta) * turning for each in line)))
+    for vector, state in (
+        (q.orbital_momenta, q.orbital_momentum),
+        (q.spins, q.spin),
+        (q.partner_spins, q.partner_spin),
+    ):
         moved |= _components((vector, upright(expected[state])))
-    moved |= {state: expected[state] for state in (gap, normal_velocity)}
-    rates = opened_rates(model)
-    left = [rates[state].subs(planar, simultaneous=True) - moved[state] for state in model.states]
+    moved |= {state: expected[state] for state in (q.gap, q.normal_velocity)}
+    rates = model.by_state("right_hand_side", SIZES)
+    yield from [rates[state].subs(planar, simultaneous=True) - moved[state] for state in model.states]
     for name in ("energies", "energy_rates", "inward_force", "effective_potential"):
-        there = dict(pair[name].outputs)
-        for key, expression in model[name].outputs:
-            here = opened(model, expression).subs(planar, simultaneous=True)
-            left.append(here - filled(opened(pair, there[key]), _MIDGAP))
-    return vanishing("space: plane", "in the plane, rates and energies are those of the planar pair", left)
+        of_pair = pair.results(name, SIZES)
+        for key, expression in model.results(name, SIZES).items():
+            yield expression.subs(planar, simultaneous=True) - filled(of_pair[key], _MIDGAP)
 
 
-def _components(*pairs: tuple[Vector, tuple[sp.Expr, ...]]) -> dict[sp.Symbol, sp.Expr]:
+def _components(*pairs: tuple[q.Vector, tuple[sp.Expr, ...]]) -> dict[sp.Symbol, sp.Expr]:
     return {of: value for vector, values in pairs for of, value in zip(vector, values, strict=True)}
 
 
-def space_checks() -> tuple[Check, ...]:
-    """Every check of two spheres in space."""
-    return (
-        spin_turns_with_the_torque(),
-        momenta_in_space_are_found(),
-        directions_are_found(),
-        energy_in_space(),
-        friction_in_space_dissipates(),
-        least_energy_in_space(),
-        outward_at_smaller_gaps(),
-        rebounds_do_not_come_back(),
-        reduced_in_space(),
-        plane_in_space(),
-    )
+CHECKS = (
+    spin_turns_with_the_torque, momenta_in_space_are_found, directions_are_found, energy_in_space,
+    friction_in_space_dissipates, least_energy_in_space, outward_at_smaller_gaps, rebounds_do_not_come_back,
+    reduced_in_space, plane_in_space,
+)  # fmt: skip

@@ -10,11 +10,10 @@ import sympy as sp
 from ..equations.invariants import invariants
 from ..equations.model import derive
 from ..physics.laws import LAWS
-from ..physics.laws.base import Law
+from ..physics.laws.base import Law, filled
 from ..physics.structure import Structure
 from ..user_model.own_events import OwnEvent
 from ..user_model.structures import UserModel
-from .closed import filled
 from .conservation import momentum_rate
 
 _ANGULAR_MOMENTUM = "angular momentum L = m [r^2 omega + (32/5) a^2 xi]"
@@ -32,19 +31,19 @@ def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
 def _of_event(event: OwnEvent) -> str:
     """What is shown of a declared event."""
     ends = {"": "", "separated": ", ends the collision as separated", "stick": ", cuts the collision off as a stick"}
-    said = f"Event {event.proposed.word}, {event.proposed.where}{ends[event.proposed.ends]}: "
+    text = f"Event {event.proposed.word}, {event.proposed.where}{ends[event.proposed.ends]}: "
     if event.jump:
-        said += "its jump is shown to add no kinetic energy" if event.takes else (
+        text += "its jump is shown to add no kinetic energy" if event.takes else (
             "that its jump adds no kinetic energy is not shown, and tested at each"
         )  # fmt: skip
-        said += "; angular momentum jumps. " if event.spins else "; angular momentum is kept. "
+        text += "; angular momentum jumps. " if event.spins else "; angular momentum is kept. "
     else:
-        said += "the motion is continuous. "
+        text += "the motion is continuous. "
     if event.harmless:
-        return said + "The energy certificate holds beside it."
+        return text + "The energy certificate holds beside it."
     if event.reach(_FULL).known:
-        return said + "Sticks are proved where the energy does not suffice for it, or after it."
-    return said + "Sticks are proved after it only."
+        return text + "Sticks are proved where the energy does not suffice for it, or after it."
+    return text + "Sticks are proved after it only."
 
 
 @cache

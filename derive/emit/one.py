@@ -14,14 +14,8 @@ from ..physics.structure import Structure, known
 from ..user_model.modelfile import read
 from ..user_model.structures import UserModel
 from ..vocabulary.quantities import normal_velocity
+from .casadi import modules
 from .casadi.automaton import provenance
-from .casadi.modules import (
-    law_kernel,
-    law_slopes,
-    structure_kernel,
-    structure_module,
-    structure_tangent,
-)
 from .casadi.printer import EmissionError
 from .taylor.automaton import automaton_header, effects_header
 from .taylor.header import Beside
@@ -36,19 +30,19 @@ def named(name: str) -> Structure:
 
 def structure_text(name: str) -> str:
     """Text of a structure's module."""
-    return structure_module(derive(named(name)))
+    return modules.structure_module(derive(named(name)))
 
 
 def user_structure_text(source: str, model: str, name: str) -> str:
     """Text of a structure's module with the calls of a user's model, given as the text of the model file."""
     found = read(Path(f"{model}.py"), source, model)
-    return structure_module(found.extended(derive(named(name))), own_names(found))
+    return modules.structure_module(found.extended(derive(named(name))), own_names(found))
 
 
 def structure_header_text(name: str) -> str:
     """Text of a structure's C header for the kernel; `#error` and a sentence if it has none."""
     try:
-        return structure_kernel(derive(named(name)))
+        return modules.structure_kernel(derive(named(name)))
     except EmissionError as error:
         return _none(error)
 
@@ -56,7 +50,7 @@ def structure_header_text(name: str) -> str:
 def structure_tangent_text(name: str) -> str:
     """Text of the C header of a structure's tangent; `#error` and a sentence if it has none."""
     try:
-        return structure_tangent(derive(named(name)))
+        return modules.structure_tangent(derive(named(name)))
     except EmissionError as error:
         return _none(error)
 
@@ -71,7 +65,9 @@ def user_structure_header_text(source: str, model: str, name: str, tangent: bool
         return _none(EmissionError("declared events have no derivatives in C"))
     try:
         extended = found.extended(derive(named(name)))
-        return structure_tangent(extended, beside) if tangent else structure_kernel(extended, own, beside)
+        return (
+            modules.structure_tangent(extended, beside) if tangent else modules.structure_kernel(extended, own, beside)
+        )
     except EmissionError as error:
         return _none(error)
 
@@ -83,7 +79,7 @@ def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: 
     """
     found = read(Path(f"{model}.py"), source, model)
     groups = {group.symbol for group in found.groups}
-    made = law_slopes if slopes else law_kernel
+    made = modules.law_slopes if slopes else modules.law_kernel
     try:
         for law in found.laws:
             if (law.slot, law.name) == (slot, name):

@@ -9,17 +9,9 @@ from dataclasses import dataclass
 import sympy as sp
 
 _SIGNED = {
-    "normal_velocity",
-    "orbital_momentum",
-    "spin",
-    "orbital_rate",
-    "slip",
-    "log_volume",
-    "log_scaled_gap",
-    "decay",
-    "offset",
-    "tail",
-}
+    "normal_velocity", "orbital_momentum", "spin", "orbital_rate", "slip", "log_volume", "log_scaled_gap", "decay",
+    "offset", "tail",
+}  # fmt: skip
 _FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
     "exp": sp.exp, "log": sp.log, "sqrt": sp.sqrt, "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin,
     "acos": sp.acos, "atan": sp.atan, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "fabs": sp.Abs,

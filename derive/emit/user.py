@@ -49,9 +49,9 @@ def package(model: UserModel, source: str, library: str, origin: str = "") -> di
     for law in model.laws:
         path = f"laws/{law.module}.py"
         files[path] = law_module(law)
-        told = {"slot": law.slot, "name": law.name, "file": path, "digest": law_digest(law), "meaning": law.meaning}
+        entry = {"slot": law.slot, "name": law.name, "file": path, "digest": law_digest(law), "meaning": law.meaning}
         bibtex = model.declarations.laws[law.slot, law.name].bibtex
-        laws.append({**told, "source": law.source, "bibtex": bibtex})
+        laws.append({**entry, "source": law.source, "bibtex": bibtex})
     changed = {key.split(".")[0] for key in model.extra}
     digests: dict[str, str] = {}
     for structure in structures():

@@ -13,21 +13,9 @@ from types import MappingProxyType
 from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.structure import Structure, committed, structures
+from .casadi import modules
 from .casadi.assemble import ASSEMBLE
 from .casadi.automaton import automaton_digest, automaton_module, provenance
-from .casadi.modules import (
-    _PROVENANCE,
-    law_digest,
-    law_kernel,
-    law_module,
-    law_slopes,
-    model_digest,
-    scaling_digest,
-    scaling_module,
-    structure_kernel,
-    structure_module,
-    structure_tangent,
-)
 from .casadi.references import references_module
 from .document.automaton import DIAGRAM, automaton_page
 from .document.diagram import diagram
@@ -39,7 +27,7 @@ _IGNORED = ("__pycache__",)
 
 
 def _package(doc: str) -> str:
-    return f'# {_PROVENANCE}\n"""{doc}"""\n'
+    return f'# {modules.PROVENANCE}\n"""{doc}"""\n'
 
 
 def sha256(text: str) -> str:
@@ -57,8 +45,8 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
     files = {
         "__init__.py": _package("Emitted CasADi modules: one per structure, laws in `laws`, groups in `scaling`."),
         "laws/__init__.py": _package("Emitted laws: `<slot>_<name>`, functions of dimensionless arguments."),
-        "assemble.py": f"# {_PROVENANCE}\n{ASSEMBLE}",
-        "scaling.py": scaling_module(),
+        "assemble.py": f"# {modules.PROVENANCE}\n{ASSEMBLE}",
+        "scaling.py": modules.scaling_module(),
         "automaton.py": automaton_module(),
         "references.py": references_module(),
         "automaton.md": automaton_page(provenance()),
@@ -71,25 +59,25 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
     manifest: dict[str, dict[str, object]] = {
         "laws": {},
         "structures": {},
-        "scaling": {"scaling": scaling_digest()},
+        "scaling": {"scaling": modules.scaling_digest()},
         "automaton": {"automaton": automaton_digest()},
     }
     for slot, laws in LAWS.items():
         for law in laws.values():
-            files[f"laws/{law.module}.py"] = law_module(law)
-            files[f"taylor/laws/{law.module}.h"] = law_kernel(law)
-            files[f"taylor/tangent/laws/{law.module}.h"] = law_slopes(law)
-            manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
+            files[f"laws/{law.module}.py"] = modules.law_module(law)
+            files[f"taylor/laws/{law.module}.h"] = modules.law_kernel(law)
+            files[f"taylor/tangent/laws/{law.module}.h"] = modules.law_slopes(law)
+            manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": modules.law_digest(law)}
     models = [derive(structure) for structure in (committed() if chosen is None else chosen)]
     shared, headers = homes(models), {}
     for model in models:
         structure = model.structure
-        files[f"{structure.name}.py"] = structure_module(model, shared=shared)
+        files[f"{structure.name}.py"] = modules.structure_module(model, shared=shared)
         if structure in structures():
-            headers[f"taylor/{structure.name}.h"] = structure_kernel(model)
-            headers[f"taylor/tangent/{structure.name}.h"] = structure_tangent(model)
-        manifest["structures"][structure.name] = model_digest(model)
-    files |= with_shared_functions(headers, f"/* {_PROVENANCE} */\n")
+            headers[f"taylor/{structure.name}.h"] = modules.structure_kernel(model)
+            headers[f"taylor/tangent/{structure.name}.h"] = modules.structure_tangent(model)
+        manifest["structures"][structure.name] = modules.model_digest(model)
+    files |= with_shared_functions(headers, f"/* {modules.PROVENANCE} */\n")
     manifest["files"] = {name: sha256(text) for name, text in sorted(files.items()) if name.endswith((".py", ".h"))}
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
     return MappingProxyType(dict(sorted(files.items())))

@@ -7,68 +7,55 @@ import sympy as sp
 from ..physics.laws import slot_call
 from ..physics.partners import rotation
 from ..physics.structure import Structure
-from ..vocabulary.quantities import (
-    VOCABULARY,
-    aspect,
-    beta,
-    e_dry,
-    gap,
-    glass_number,
-    initial_spin,
-    initial_turning,
-    normal_velocity,
-    orbital_momentum,
-    rupture_gap,
-    spin,
-)
+from ..vocabulary import quantities as q
 from . import friction
 from .automaton import CONTACTS
 from .rates import inward_force
 
-CONTACT_GAPS = {each.word: VOCABULARY[each.limit].symbol for each in CONTACTS}
+CONTACT_GAPS = {each.word: q.VOCABULARY[each.limit].symbol for each in CONTACTS}
 contact_gap = sp.Max(*CONTACT_GAPS.values())  # gap at which the solids meet
 
 
 def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """State at initial contact: closing at v0, with the rotation of the line of centres and the spins of the impact."""
-    touching: dict[sp.Symbol, sp.Expr] = {gap: sp.Integer(1), normal_velocity: sp.Integer(-1)}
+    touching: dict[sp.Symbol, sp.Expr] = {q.gap: sp.Integer(1), q.normal_velocity: sp.Integer(-1)}
     if structure.partner:
-        return touching | dict(rotation(structure.partner, structure.friction, structure.reduced).start)
+        return touching | dict(rotation(structure).start)
     return touching | {
-        orbital_momentum: (4 + aspect) ** 2 * initial_turning,
-        spin: initial_spin,
-        beta: sp.Integer(0),
+        q.orbital_momentum: (4 + q.aspect) ** 2 * q.initial_turning,
+        q.spin: q.initial_spin,
+        q.beta: sp.Integer(0),
     }
 
 
 def events(structure: Structure) -> dict[str, sp.Expr]:
     """Event functions by name, each positive before its event."""
     functions: dict[str, sp.Expr] = {
-        "glass": glass_number - slot_call("glass", "pressure", gap, -normal_velocity),
-        **{word: gap - limit for word, limit in CONTACT_GAPS.items()},
-        "turning": normal_velocity,
-        "rupture": (rupture_gap if structure.bridge else 1) - gap,
+        "glass": q.glass_number - slot_call("glass", "pressure", q.gap, -q.normal_velocity),
+        **{word: q.gap - limit for word, limit in CONTACT_GAPS.items()},
+        "turning": q.normal_velocity,
+        "rupture": (q.rupture_gap if structure.bridge else 1) - q.gap,
     }
     if structure.bridge and not structure.spread:
-        functions["film_edge"] = 1 - gap
+        functions["film_edge"] = 1 - q.gap
     if structure.oblique:
-        functions["tangential_edge"] = slot_call("shear", "edge", aspect) - gap
+        functions["tangential_edge"] = slot_call("shear", "edge", q.aspect) - q.gap
     if structure.oblique and structure.partner != "wall":  # beside a wall there is no centrifugal force
         functions["release"] = inward_force(structure)
     if structure.friction and structure.partner != "space":
         functions["slipping"] = friction.DRY_SLIP
         functions["rolling"] = friction.GRIP**2 - friction.HOLDING_FORCE**2
     if structure.oblique and structure.strings:
-        functions["half_turn"] = sp.pi - beta
-        functions["unwinding"] = orbital_momentum
+        functions["half_turn"] = sp.pi - q.beta
+        functions["unwinding"] = q.orbital_momentum
     return functions
 
 
 def rebound(states: tuple[sp.Symbol, ...]) -> dict[sp.Symbol, sp.Expr]:
     """State just after a rebound: u -> -e_dry u; the other states are continuous."""
-    return {state: -e_dry * normal_velocity if state == normal_velocity else state for state in states}
+    return {state: -q.e_dry * q.normal_velocity if state == q.normal_velocity else state for state in states}
 
 
 def rebound_loss() -> sp.Expr:
     """Energy lost in a rebound, over m v0^2."""
-    return sp.Rational(1, 2) * normal_velocity**2 * (1 - e_dry**2)
+    return sp.Rational(1, 2) * q.normal_velocity**2 * (1 - q.e_dry**2)

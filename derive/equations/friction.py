@@ -12,24 +12,7 @@ from ..physics.partners.pair import LEVER
 from ..physics.partners.vectors import dot
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
-from ..vocabulary.quantities import (
-    beta_0,
-    decay,
-    e_dry,
-    gap,
-    last_roll,
-    last_slide,
-    mu_f,
-    normal_velocity,
-    orbital_momenta,
-    orbital_momentum,
-    partner_spin,
-    partner_spins,
-    roll,
-    slide,
-    spin,
-    spins,
-)
+from ..vocabulary import quantities as q
 from .automaton import CREEP
 from .intermediates import ORBITAL_RATE
 from .rates import rates
@@ -57,15 +40,15 @@ def definitions(structure: Structure, reaction: sp.Expr) -> tuple[Definition, ..
             (COMPLIANCE, contact.compliance),
             *zip(DRY_SLIPS, space.surface_slips(), strict=True),
             (DRY_SLIP, sp.sqrt(dot(DRY_SLIPS, DRY_SLIPS))),
-            (GRIP, mu_f * contact.grip * reaction),
+            (GRIP, q.mu_f * contact.grip * reaction),
         )
     held = _smooth_rates(structure)
-    slip = contact.slip.subs(ORBITAL_RATE, orbital_momentum / DISTANCE**2)
-    slipping = sum((slip.diff(state) * rate for state, rate in held.items()), _ZERO)  # the gap is held
+    slip = contact.slip.subs(ORBITAL_RATE, q.orbital_momentum / DISTANCE**2)
+    slipping = sp.Add(*(slip.diff(state) * rate for state, rate in held.items()))  # the gap is held
     return (
         (COMPLIANCE, contact.compliance),
         (DRY_SLIP, contact.slip),
-        (GRIP, mu_f * contact.grip * reaction),
+        (GRIP, q.mu_f * contact.grip * reaction),
         (HOLDING_FORCE, slipping / COMPLIANCE),
         (DRY_FORCE, SLIDING * GRIP + ROLLING * HOLDING_FORCE),
     )
@@ -85,11 +68,11 @@ def at_rebound(structure: Structure) -> dict[str, sp.Expr]:
     Where the doublet comes to rest instead (`rest_most`), the contact has stopped the approach only: the rebounds that
     are left out press as hard in the mean as resting contact, which begins at once.
     """
-    stopping = mu_f * rubbing(structure.partner).grip * -normal_velocity
+    stopping = q.mu_f * rubbing(structure.partner).grip * -q.normal_velocity
     return {
         "slip": DRY_SLIP,
-        "sticking": (1 + beta_0) * DRY_SLIP / COMPLIANCE,
-        "most": (1 + e_dry) * stopping,
+        "sticking": (1 + q.beta_0) * DRY_SLIP / COMPLIANCE,
+        "most": (1 + q.e_dry) * stopping,
         "rest_most": stopping,
     }
 
@@ -103,9 +86,9 @@ def rubbed(structure: Structure, states: tuple[sp.Symbol, ...]) -> dict[sp.Symbo
     if structure.partner == "wall":
         return {
             **{state: state for state in states},
-            decay: _ZERO,
-            last_slide: slide + contact.changes[slide] * IMPULSE,
-            last_roll: roll + contact.changes[roll] * IMPULSE,
+            q.decay: _ZERO,
+            q.last_slide: q.slide + contact.changes[q.slide] * IMPULSE,
+            q.last_roll: q.roll + contact.changes[q.roll] * IMPULSE,
         }
     return {state: state + contact.changes.get(state, _ZERO) * IMPULSE for state in states}
 
@@ -116,7 +99,7 @@ def _along_the_slip(size: sp.Expr, least: sp.Expr | float) -> dict[sp.Symbol, sp
     Where the slip is less than `least` it is as much smaller than `size`.
     """
     answer = rubbing("space").changes
-    vectors = ((orbital_momentum, orbital_momenta), (spin, spins), (partner_spin, partner_spins))
+    vectors = ((q.orbital_momentum, q.orbital_momenta), (q.spin, q.spins), (q.partner_spin, q.partner_spins))
     share = size / sp.sqrt(dot(DRY_SLIPS, DRY_SLIPS) + least**2)
     return {
         state: answer[planar] * share * slip
@@ -135,17 +118,17 @@ def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     contact, held = rubbing(structure.partner), _smooth_rates(structure)
     if structure.partner == "space":
         pushed = _along_the_slip(SLIDING * GRIP, CREEP)
-        return {**{s: rate + pushed.get(s, _ZERO) for s, rate in held.items()}, gap: _ZERO, normal_velocity: _ZERO}
+        return {**{s: rate + pushed.get(s, _ZERO) for s, rate in held.items()}, q.gap: _ZERO, q.normal_velocity: _ZERO}
     if structure.partner == "wall":  # since the rebound, `decay` is zero
         return {
-            gap: _ZERO,
-            normal_velocity: _ZERO,
-            decay: _ZERO,
-            last_slide: held[slide] + contact.changes[slide] * DRY_FORCE,
-            last_roll: held[roll] + contact.changes[roll] * DRY_FORCE,
+            q.gap: _ZERO,
+            q.normal_velocity: _ZERO,
+            q.decay: _ZERO,
+            q.last_slide: held[q.slide] + contact.changes[q.slide] * DRY_FORCE,
+            q.last_roll: held[q.roll] + contact.changes[q.roll] * DRY_FORCE,
         }
     rubbing_rates = {state: rate + contact.changes.get(state, _ZERO) * DRY_FORCE for state, rate in held.items()}
-    return {**rubbing_rates, gap: _ZERO, normal_velocity: _ZERO}
+    return {**rubbing_rates, q.gap: _ZERO, q.normal_velocity: _ZERO}
 
 
 def resting_power(structure: Structure) -> sp.Expr:

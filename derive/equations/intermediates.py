@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import sympy as sp
 
@@ -41,7 +42,7 @@ def intermediates(structure: Structure, conserved: Sequence[Conserved] = ()) -> 
     if structure.partner == "space" and conserved:
         definitions = list(space.definitions(_eliminated(conserved)))
     elif structure.partner:
-        definitions = list(rotation(structure.partner, structure.friction, structure.reduced).definitions)
+        definitions = list(rotation(structure).definitions)
     elif structure.oblique:
         definitions += _rotation(conserved[0] if conserved else None)
         slip_form = _scaled(laws[F_t], TANGENTIAL)
@@ -65,16 +66,14 @@ def intermediates(structure: Structure, conserved: Sequence[Conserved] = ()) -> 
 
 def _eliminated(conserved: Sequence[Conserved]) -> space.Eliminated:
     """The components of L, and those of the partner's spin that they give."""
-    each = list(zip(conserved, space.MOMENTA, partner_spins, strict=True))
-    momenta = [(momentum, value) for (_, value), momentum, _ in each]
-    return (*momenta, *((spun, sp.expand(_by_size(invariant).solved(spun, L))) for (invariant, _), L, spun in each))
-
-
-def _by_size(invariant: Invariant) -> Invariant:
-    """The invariant with the moments of inertia by their names."""
     sizes = dict(space.sizes())
-    names = {sp.factor(sizes[name]): name for name in (SPIN_INERTIA, PARTNER_INERTIA)}
-    return Invariant(tuple((of, names.get(sp.factor(factor), factor)) for of, factor in invariant.coefficients))
+    names = {sp.factor(sizes[name]): name for name in (SPIN_INERTIA, PARTNER_INERTIA)}  # moments of inertia by name
+    momenta, spun = [], []
+    for (invariant, value), momentum, partner_spin in zip(conserved, space.MOMENTA, partner_spins, strict=True):
+        named = tuple((state, names.get(sp.factor(factor), factor)) for state, factor in invariant.coefficients)
+        momenta.append((momentum, value))
+        spun.append((partner_spin, sp.expand(Invariant(named).solved(partner_spin, momentum))))
+    return (*momenta, *spun)
 
 
 def _rotation(conserved: Conserved | None) -> list[Definition]:
@@ -94,6 +93,18 @@ def _rotation(conserved: Conserved | None) -> list[Definition]:
 def by_orbital_rate(expression: sp.Expr) -> sp.Expr:
     """The nondimensional `expression` with the orbital angular momentum replaced by the orbital rate."""
     return expression.subs(orbital_momentum, ORBITAL_RATE * DISTANCE**2)
+
+
+def forces(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
+    """The named intermediates of equal spheres with the same forces along the line of centres, none eliminated."""
+    equal = replace(structure, reduced=False, partner="", friction="")
+    return dict(intermediates(equal))
+
+
+def attractions(structure: Structure, at: sp.Expr) -> sp.Expr:
+    """The attractions at a gap, over m v0^2/x0."""
+    named = forces(structure)
+    return sp.Add(*(named[force].subs(gap, at) for force in (BRIDGE_FORCE, ATTRACTION_FORCE) if force in named))
 
 
 def _scaled(force: sp.Expr, scale: sp.Expr) -> sp.Expr:

@@ -58,7 +58,7 @@ def open_rates(system: OpenSystem, closed: Callable[[sp.Symbol], bool] = lambda 
         elif not closed(symbol):
             continue
         whole[symbol] = value.xreplace(whole)
-    named = dict(system["right_hand_side"].outputs)
+    named = system["right_hand_side"].by_name
     return {state: sp.sympify(named[state.name]).xreplace(whole) for state in system.states}
 
 
@@ -78,7 +78,7 @@ class Invariant:
 
     @property
     def expression(self) -> sp.Expr:
-        return sum((factor * momentum for momentum, factor in self.coefficients), sp.Integer(0))
+        return sp.Add(*(factor * momentum for momentum, factor in self.coefficients))
 
     @property
     def is_angular_momentum(self) -> bool:
@@ -137,7 +137,7 @@ def invariants(
         degree: highest power of the gap in a coefficient.
     """
     if not isinstance(system, Mapping):
-        named = dict(system["right_hand_side"].outputs)
+        named = system["right_hand_side"].by_name
         system = {state: system.expanded(named[state.name]) for state in system.states}
     rates = {state: filled(sp.sympify(rate), laws or {}) for state, rate in system.items()}
     momenta = [state for state in rates if state not in coordinates]

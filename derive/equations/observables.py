@@ -12,25 +12,7 @@ from ..physics.partners import rotation
 from ..physics.partners.base import relative_change
 from ..physics.scaling import DISTANCE, nondimensional
 from ..physics.structure import Structure
-from ..vocabulary.quantities import (
-    a,
-    aspect,
-    g,
-    gap,
-    initial_turning,
-    m,
-    normal_velocity,
-    omega,
-    orbital_momentum,
-    r,
-    rate_scale,
-    spin,
-    string_ratio,
-    v0,
-    x,
-    x0,
-    xi,
-)
+from ..vocabulary import quantities as q
 from . import friction
 from .events import start
 from .intermediates import (
@@ -47,7 +29,6 @@ from .intermediates import (
     by_orbital_rate,
 )
 from .invariants import angular_momentum as angular_momentum_invariant
-from .rates import inward_force
 
 
 def energies(structure: Structure) -> dict[str, sp.Expr]:
@@ -60,11 +41,11 @@ def energies(structure: Structure) -> dict[str, sp.Expr]:
 
 def _kinetic(structure: Structure) -> sp.Expr:
     if structure.partner:
-        return normal_velocity**2 / 2 + rotation(structure.partner, structure.friction, structure.reduced).kinetic
-    energy = sp.expand(equations_of_motion().kinetic_energy / (m * v0**2))
+        return q.normal_velocity**2 / 2 + rotation(structure).kinetic
+    energy = sp.expand(equations_of_motion().kinetic_energy / (q.m * q.v0**2))
     if not structure.oblique:
-        energy = energy.subs({omega: 0, xi: 0})
-    orbital = sp.Rational(1, 2) * m * r**2 * omega**2 / (m * v0**2)
+        energy = energy.subs({q.omega: 0, q.xi: 0})
+    orbital = sp.Rational(1, 2) * q.m * q.r**2 * q.omega**2 / (q.m * q.v0**2)
     rest = sp.expand(energy - sp.expand(orbital)) if structure.oblique else energy
     result = nondimensional(rest)
     if structure.oblique:
@@ -74,22 +55,22 @@ def _kinetic(structure: Structure) -> sp.Expr:
 
 def _lifted() -> sp.Expr:
     """Potential energy of the spheres on their strings."""
-    rise = slot_call("strings", "rise", string_ratio, offset_squared)
-    return nondimensional(4 * m * g * a / (m * v0**2)) * rise
+    rise = slot_call("strings", "rise", q.string_ratio, offset_squared)
+    return nondimensional(4 * q.m * q.g * q.a / (q.m * q.v0**2)) * rise
 
 
 def energy_rates(structure: Structure) -> dict[str, sp.Expr]:
     """Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2."""
-    taken = {"normal_lubrication": FILM_FORCE * normal_velocity}
+    taken = {"normal_lubrication": FILM_FORCE * q.normal_velocity}
     if structure.bridge:
-        taken["capillary"] = BRIDGE_FORCE * normal_velocity
+        taken["capillary"] = BRIDGE_FORCE * q.normal_velocity
     if structure.attraction:
-        taken["attraction"] = ATTRACTION_FORCE * normal_velocity
+        taken["attraction"] = ATTRACTION_FORCE * q.normal_velocity
     if structure.partner:
-        taken["tangential_lubrication"] = rotation(structure.partner, structure.friction, structure.reduced).power
+        taken["tangential_lubrication"] = rotation(structure).power
     elif structure.oblique and not structure.reduced:
-        power = TANGENTIAL * SHEAR_FORCE * (a * DISTANCE * rate_scale * ORBITAL_RATE - 2 * a * LEVER * xi)
-        taken["tangential_lubrication"] = nondimensional(power * x0 / v0 / (m * v0**2))
+        power = TANGENTIAL * SHEAR_FORCE * (q.a * DISTANCE * q.rate_scale * ORBITAL_RATE - 2 * q.a * LEVER * q.xi)
+        taken["tangential_lubrication"] = nondimensional(power * q.x0 / q.v0 / (q.m * q.v0**2))
     if structure.friction:
         taken["dry_friction"] = friction.resting_power(structure)
     return taken
@@ -101,43 +82,43 @@ def angular_momentum(structure: Structure) -> sp.Expr | None:
     Its size is the sum of the magnitudes of the orbital part and of the spins': L itself may vanish.
     """
     if structure.partner:
-        return rotation(structure.partner, structure.friction, structure.reduced).momentum
+        return rotation(structure).momentum
     whole = angular_momentum_invariant()
     first = start(structure)
-    parts = [whole.coeff(each) * first[each] for each in (orbital_momentum, spin)]
+    parts = [whole.coeff(each) * first[each] for each in (q.orbital_momentum, q.spin)]
     return relative_change(MOMENTUM, parts)
 
 
 def outputs(structure: Structure) -> dict[str, sp.Expr]:
     """Results for a separated doublet: restitutions, and rates over Omega."""
-    shown: dict[str, sp.Expr] = {"restitution": normal_velocity}
+    shown: dict[str, sp.Expr] = {"restitution": q.normal_velocity}
     if structure.partner:
-        return shown | dict(rotation(structure.partner, structure.friction, structure.reduced).outputs)
+        return shown | dict(rotation(structure).outputs)
     if structure.oblique:
-        shown["tangential_restitution"] = DISTANCE * ORBITAL_RATE / ((4 + aspect) * initial_turning)
+        shown["tangential_restitution"] = DISTANCE * ORBITAL_RATE / ((4 + q.aspect) * q.initial_turning)
         shown["final_rotation_rate"] = ORBITAL_RATE
-        shown["final_spin"] = spin
+        shown["final_spin"] = q.spin
     return shown
 
 
 def surface_slip(structure: Structure) -> sp.Expr:
     """Relative velocity of the surfaces at the contact, at the lever arms of the torques, over a Omega."""
     if structure.partner:
-        return rotation(structure.partner, structure.friction, structure.reduced).surface_slip
+        return rotation(structure).surface_slip
     if structure.reduced:  # the lever arm is r/2
         return DISTANCE * SLIP
-    return DISTANCE * ORBITAL_RATE - 2 * LEVER * spin
+    return DISTANCE * ORBITAL_RATE - 2 * LEVER * q.spin
 
 
 def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
     """Least energy at a gap for the state's angular momentum, and its slope along the gap (stick certificate)."""
     energy, slope = sp.Integer(0), sp.Integer(0)
     if structure.partner:
-        energy, slope = rotation(structure.partner, structure.friction, structure.reduced).least
+        energy, slope = rotation(structure).least
     elif structure.oblique:
-        square = (m * a**2 * rate_scale * MOMENTUM) ** 2
-        energy += nondimensional(square / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
-        body = (doublet_inertia() / (m * a**2)).diff(x) * x0  # d inertia_ratio / d gap
+        square = (q.m * q.a**2 * q.rate_scale * MOMENTUM) ** 2
+        energy += nondimensional(square / (2 * q.m * q.a**2 * INERTIA_RATIO) / (q.m * q.v0**2))
+        body = (doublet_inertia() / (q.m * q.a**2)).diff(q.x) * q.x0  # d inertia_ratio / d gap
         slope += energy.diff(INERTIA_RATIO) * nondimensional(body)
     if structure.bridge:
         slope += BRIDGE_FORCE
@@ -152,37 +133,9 @@ def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
 def rigid_rotation(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """The state of least energy at this gap for the state's angular momentum: u = 0, omega = xi = L/I."""
     if structure.partner:
-        rigid = rotation(structure.partner, structure.friction, structure.reduced).rigid
-        assert rigid is not None
-        return {gap: gap, normal_velocity: sp.Integer(0), **rigid}
+        return {q.gap: q.gap, q.normal_velocity: sp.Integer(0), **rotation(structure).rigid}
     rate = MOMENTUM / INERTIA_RATIO if structure.oblique else sp.Integer(0)
-    return {gap: gap, normal_velocity: sp.Integer(0), orbital_momentum: DISTANCE**2 * rate, spin: rate}
-
-
-def outward_at_most(structure: Structure) -> sp.Expr:
-    """Bound of the centrifugal force on a resting doublet in space from now on."""
-    found = rotation(structure.partner, structure.friction, structure.reduced).outward_at_most
-    assert found is not None
-    return found
-
-
-def wobble(structure: Structure) -> sp.Expr:
-    """Energy of all motion but rigid rotation across the line of centres, and twist."""
-    found = rotation(structure.partner, structure.friction, structure.reduced).wobble
-    assert found is not None
-    return normal_velocity**2 / 2 + found
-
-
-def precession(structure: Structure) -> dict[str, sp.Expr]:
-    """Angular momentum in space, and the rate by which a rigid doublet turns about it, over its length."""
-    found = rotation(structure.partner, structure.friction, structure.reduced).rigid_rotation
-    assert found is not None
-    return dict(found)
-
-
-def inward_at_rest(structure: Structure) -> sp.Expr:
-    """Normal forces, positive inward, without the film's and the centrifugal force."""
-    return inward_force(structure) + rotation(structure.partner, structure.friction, structure.reduced).centrifugal
+    return {q.gap: q.gap, q.normal_velocity: sp.Integer(0), q.orbital_momentum: DISTANCE**2 * rate, q.spin: rate}
 
 
 def restitution_ceiling(structure: Structure) -> dict[str, sp.Expr]:
@@ -192,13 +145,13 @@ def restitution_ceiling(structure: Structure) -> dict[str, sp.Expr]:
     """
     first = start(structure)
     at_start = {
-        ORBITAL_RATE: first[orbital_momentum] / DISTANCE**2,
-        normal_velocity: first[normal_velocity],
-        spin: first[spin],
+        ORBITAL_RATE: first[q.orbital_momentum] / DISTANCE**2,
+        q.normal_velocity: first[q.normal_velocity],
+        q.spin: first[q.spin],
     }
-    initial = _kinetic(structure).subs(at_start).subs(DISTANCE, 4 + aspect)
+    initial = _kinetic(structure).subs(at_start).subs(DISTANCE, 4 + q.aspect)
     least = sp.Integer(0)
     if structure.oblique:
-        momentum = (m * a**2 * rate_scale * angular_momentum_invariant().subs(first)) ** 2
-        least = nondimensional(momentum / (2 * m * a**2) / (m * v0**2)) / INERTIA_RATIO
+        momentum = (q.m * q.a**2 * q.rate_scale * angular_momentum_invariant().subs(first)) ** 2
+        least = nondimensional(momentum / (2 * q.m * q.a**2) / (q.m * q.v0**2)) / INERTIA_RATIO
     return {"squared": 2 * initial - 2 * least}

@@ -26,7 +26,7 @@ def quadratic_invariants(
     unknown = sp.symbols(f"c:{len(forms)}", cls=sp.Dummy)
     change = sp.Integer(0)
     for factor, form in zip(unknown, forms, strict=True):
-        change += factor * sum((form.diff(state) * rates[state] for state in form.free_symbols), sp.Integer(0))
+        change += factor * sp.Add(*(form.diff(state) * rates[state] for state in form.free_symbols))
     change = sp.expand(change)
     if relation is not None:
         last = max(relation.free_symbols, key=lambda symbol: str(symbol))

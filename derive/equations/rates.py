@@ -11,21 +11,7 @@ from ..physics.mechanics import F_c, F_n, F_t, F_w, S_n, S_t, arm, equations_of_
 from ..physics.partners import rotation
 from ..physics.scaling import INERTIA, nondimensional
 from ..physics.structure import Structure
-from ..vocabulary.quantities import (
-    a,
-    beta,
-    gap,
-    m,
-    normal_velocity,
-    omega,
-    orbital_momentum,
-    r,
-    rate_scale,
-    spin,
-    u,
-    v0,
-    x0,
-)
+from ..vocabulary import quantities as q
 from .intermediates import (
     ATTRACTION_FORCE,
     BRIDGE_FORCE,
@@ -52,41 +38,43 @@ def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     named_tangential = {F_t: SHEAR_FORCE, S_t: STRING_SIDEWAYS if structure.strings else 0}
     normal = {force: INERTIA * value for force, value in named.items()}
     tangential = {force: TANGENTIAL * value for force, value in named_tangential.items()}
-    rate: dict[sp.Symbol, sp.Expr] = {gap: nondimensional(u / v0)}
+    rate: dict[sp.Symbol, sp.Expr] = {q.gap: nondimensional(q.u / q.v0)}
     acceleration = motion.separation_acceleration.subs(normal)
     if not structure.oblique:
-        rate[normal_velocity] = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
+        rate[q.normal_velocity] = sp.expand(nondimensional(acceleration.subs(q.omega, 0) * q.x0 / q.v0**2))
         return rate
     if structure.partner:
-        beside = rotation(structure.partner, structure.friction, structure.reduced)
-        forces = sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
-        return rate | {normal_velocity: beside.centrifugal + forces} | dict(beside.rates)
+        beside = rotation(structure)
+        forces = sp.expand(nondimensional(acceleration.subs(q.omega, 0) * q.x0 / q.v0**2))
+        return rate | {q.normal_velocity: beside.centrifugal + forces} | dict(beside.rates)
     # the centrifugal term has a name of its own: the remainder is minus the forces
-    centrifugal = sp.expand(acceleration - acceleration.subs(omega, 0))
-    assert sp.expand(centrifugal - r * omega**2) == 0
-    rate[normal_velocity] = CENTRIFUGAL_FORCE + sp.expand(nondimensional(acceleration.subs(omega, 0) * x0 / v0**2))
-    pull_round = motion.orbital_momentum_rate.subs(tangential) / (m * a**2 * rate_scale) * x0 / v0
-    rate[orbital_momentum] = nondimensional(pull_round)
+    centrifugal = sp.expand(acceleration - acceleration.subs(q.omega, 0))
+    assert sp.expand(centrifugal - q.r * q.omega**2) == 0
+    rate[q.normal_velocity] = CENTRIFUGAL_FORCE + sp.expand(
+        nondimensional(acceleration.subs(q.omega, 0) * q.x0 / q.v0**2)
+    )
+    pull_round = motion.orbital_momentum_rate.subs(tangential) / (q.m * q.a**2 * q.rate_scale) * q.x0 / q.v0
+    rate[q.orbital_momentum] = nondimensional(pull_round)
     if not structure.reduced:
-        spin_up = motion.spin_acceleration.subs(tangential).subs(arm, a * LEVER)
-        rate[spin] = nondimensional(spin_up * x0 / (v0 * rate_scale))
+        spin_up = motion.spin_acceleration.subs(tangential).subs(arm, q.a * LEVER)
+        rate[q.spin] = nondimensional(spin_up * q.x0 / (q.v0 * q.rate_scale))
     if structure.strings:
-        rate[beta] = turning_rate()
+        rate[q.beta] = turning_rate()
     return rate
 
 
 def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """Time derivatives of the states in resting contact: the gap is held, the rotation goes on."""
-    return {**rates(structure), gap: sp.Integer(0), normal_velocity: sp.Integer(0)}
+    return {**rates(structure), q.gap: sp.Integer(0), q.normal_velocity: sp.Integer(0)}
 
 
 def turning_rate(structure: Structure | None = None) -> sp.Expr | None:
     """Angular velocity of the line of centres; None if it cannot turn."""
     if structure is not None and structure.partner:
-        return rotation(structure.partner, structure.friction, structure.reduced).turning
-    return by_orbital_rate(nondimensional(omega * x0 / v0))
+        return rotation(structure).turning
+    return by_orbital_rate(nondimensional(q.omega * q.x0 / q.v0))
 
 
 def inward_force(structure: Structure) -> sp.Expr:
     """Sum of all normal forces except the film's, positive inward: positive if a doublet at rest stays in contact."""
-    return -(rates(structure)[normal_velocity].subs(FILM_FORCE, 0))
+    return -(rates(structure)[q.normal_velocity].subs(FILM_FORCE, 0))

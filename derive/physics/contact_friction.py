@@ -14,22 +14,7 @@ from functools import cache
 
 import sympy as sp
 
-from ..vocabulary.quantities import (
-    a,
-    m,
-    obliquity,
-    omega,
-    orbital_momentum,
-    partner_spin,
-    partner_spin_rate,
-    rate_scale,
-    roll,
-    slide,
-    slide_rate,
-    spin,
-    v0,
-    xi,
-)
+from ..vocabulary import quantities as q
 from .mechanics import F_t, arm, equations_of_motion
 from .partners import bodies, pair, wall
 from .partners.pair import LEVER, ORBITAL_RATE
@@ -73,9 +58,9 @@ def equal_spheres() -> Answer:
     """Two equal spheres with one spin, the force at `arm` from the centres."""
     motion = equations_of_motion()
     moment = motion.orbital_momentum_rate.diff(F_t)  # virtual work per angle of the line of centres
-    turning = motion.spin_momentum.diff(xi) * motion.spin_acceleration.diff(F_t)  # per spin angle
-    rates = {omega: motion.orbital_acceleration.diff(F_t), xi: motion.spin_acceleration.diff(F_t)}
-    return Answer(sp.expand(-moment * omega - turning * xi), rates)
+    turning = motion.spin_momentum.diff(q.xi) * motion.spin_acceleration.diff(F_t)  # per spin angle
+    rates = {q.omega: motion.orbital_acceleration.diff(F_t), q.xi: motion.spin_acceleration.diff(F_t)}
+    return Answer(sp.expand(-moment * q.omega - turning * q.xi), rates)
 
 
 @cache
@@ -83,7 +68,7 @@ def unequal_spheres() -> Answer:
     """Two spheres with two spins, the force at `LEVER` times the radius from either centre."""
     motion, (one, other) = bodies.equations_of_motion(), bodies.radii()
     at_contact = {bodies.T_1: LEVER * one * bodies.F_t, bodies.T_2: LEVER * other * bodies.F_t}
-    coordinates = {"beta": omega, "alpha_1": xi, "alpha_2": partner_spin_rate}
+    coordinates = {"beta": q.omega, "alpha_1": q.xi, "alpha_2": q.partner_spin_rate}
 
     def per_force(expression: sp.Expr) -> sp.Expr:
         return sp.factor(expression.subs(at_contact).diff(bodies.F_t))
@@ -98,7 +83,7 @@ def beside_wall() -> Answer:
     radius = wall.limit(bodies.radii()[0])
     _, along, spun = (each.subs(bodies.T_1, radius * bodies.F_t).diff(bodies.F_t) for each in wall.accelerations())
     inertia = wall.limit(bodies.inertias()[0])
-    return Answer(-m * along * slide_rate - inertia * spun * xi, {slide_rate: along, xi: spun})
+    return Answer(-q.m * along * q.slide_rate - inertia * spun * q.xi, {q.slide_rate: along, q.xi: spun})
 
 
 def rubbing(partner: str) -> Rubbing:
@@ -114,47 +99,50 @@ def rubbing(partner: str) -> Rubbing:
 @cache
 def _equal() -> Rubbing:
     def scaled(expression: sp.Expr) -> sp.Expr:
-        turned = nondimensional(expression.subs(arm, a * LEVER))
-        return sp.sympify(turned).subs(orbital_momentum, ORBITAL_RATE * DISTANCE**2)
+        turned = nondimensional(expression.subs(arm, q.a * LEVER))
+        return sp.sympify(turned).subs(q.orbital_momentum, ORBITAL_RATE * DISTANCE**2)
 
     answer = equal_spheres()
-    return _scaled(answer, scaled, {omega: orbital_momentum, xi: spin})
+    return _scaled(answer, scaled, {q.omega: q.orbital_momentum, q.xi: q.spin})
 
 
 @cache
 def _pair() -> Rubbing:
     def scaled(expression: sp.Expr) -> sp.Expr:
         one, other = bodies.radii()
-        named = expression.subs({one: a * pair.RADIUS, other: a * pair.PARTNER_RADIUS})
-        return pair.scaled(named).subs(orbital_momentum, ORBITAL_RATE * DISTANCE**2)
+        named = expression.subs({one: q.a * pair.RADIUS, other: q.a * pair.PARTNER_RADIUS})
+        return pair.scaled(named).subs(q.orbital_momentum, ORBITAL_RATE * DISTANCE**2)
 
-    spins = {xi: spin, partner_spin_rate: partner_spin}
-    return _scaled(unequal_spheres(), scaled, {omega: orbital_momentum, **spins})
+    spins = {q.xi: q.spin, q.partner_spin_rate: q.partner_spin}
+    return _scaled(unequal_spheres(), scaled, {q.omega: q.orbital_momentum, **spins})
 
 
 def _scaled(answer: Answer, scaled: Callable[[sp.Expr], sp.Expr], states: Mapping[sp.Symbol, sp.Symbol]) -> Rubbing:
     """The dry contact of two spheres: velocities in a rate_scale, impulses in m a rate_scale."""
-    unit = m * a * rate_scale
+    unit = q.m * q.a * q.rate_scale
     changes = {}
     for rate, state in states.items():
-        change = scaled(answer.rates[rate] * unit / rate_scale)
-        changes[state] = sp.factor(change * DISTANCE**2 if state == orbital_momentum else change)
+        change = scaled(answer.rates[rate] * unit / q.rate_scale)
+        changes[state] = sp.factor(change * DISTANCE**2 if state == q.orbital_momentum else change)
     return Rubbing(
-        slip=sp.expand(scaled(answer.slip / (a * rate_scale))),
-        compliance=sp.expand(scaled(answer.compliance * m)),
+        slip=sp.expand(scaled(answer.slip / (q.a * q.rate_scale))),
+        compliance=sp.expand(scaled(answer.compliance * q.m)),
         changes=changes,
-        grip=scaled(v0 / (a * rate_scale)),
-        energy=scaled(a**2 * rate_scale**2 / v0**2),
+        grip=scaled(q.v0 / (q.a * q.rate_scale)),
+        energy=scaled(q.a**2 * q.rate_scale**2 / q.v0**2),
     )
 
 
 @cache
 def _beside_wall() -> Rubbing:
-    answer, sideways = beside_wall(), v0 * obliquity
+    answer, sideways = beside_wall(), q.v0 * q.obliquity
     return Rubbing(
         slip=sp.expand(wall.scaled(answer.slip / sideways)),
-        compliance=wall.scaled(answer.compliance * m),
-        changes={slide: wall.scaled(answer.rates[slide_rate] * m), roll: wall.scaled(answer.rates[xi] * m * a)},
-        grip=1 / obliquity,
-        energy=obliquity**2,
+        compliance=wall.scaled(answer.compliance * q.m),
+        changes={
+            q.slide: wall.scaled(answer.rates[q.slide_rate] * q.m),
+            q.roll: wall.scaled(answer.rates[q.xi] * q.m * q.a),
+        },
+        grip=1 / q.obliquity,
+        energy=q.obliquity**2,
     )

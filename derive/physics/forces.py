@@ -10,29 +10,7 @@ from functools import cache
 
 import sympy as sp
 
-from ..vocabulary.quantities import (
-    R,
-    a,
-    aspect,
-    beta,
-    contact_angle,
-    g,
-    gap,
-    l_s,
-    m,
-    mu,
-    omega,
-    r,
-    rate_scale,
-    sigma,
-    string_ratio,
-    u,
-    v0,
-    volume,
-    x,
-    x0,
-    xi,
-)
+from ..vocabulary import quantities as q
 from .laws import slot_call
 from .laws.strings import offset_squared, swing_squared
 from .laws.strings import r as string_distance
@@ -42,7 +20,7 @@ from .scaling import DISTANCE, INERTIA, VAN_DER_WAALS, nondimensional
 # Flags for where film and shear act, named as in emitted code
 FILM, SHEAR = sp.symbols("film shear", nonnegative=True)
 
-TANGENTIAL = m * a * rate_scale * v0 / x0  # scale of the tangential force
+TANGENTIAL = q.m * q.a * q.rate_scale * q.v0 / q.x0  # scale of the tangential force
 
 
 @cache
@@ -52,38 +30,46 @@ def force_laws(spread: bool = False) -> dict[sp.Symbol, sp.Expr]:
     Arguments:
         spread: the film law depends on the bridge volume.
     """
-    offset = (swing_squared() / a**2).subs(string_distance, r)
-    stiffness = slot_call("strings", "stiffness", l_s / a, offset)
+    offset = (swing_squared() / q.a**2).subs(string_distance, q.r)
+    stiffness = slot_call("strings", "stiffness", q.l_s / q.a, offset)
     # S = dU/dr with U = 4 m g a rise(l/a, (d/a)^2) and stiffness = 2 d rise/d (d/a)^2
-    lift = 4 * m * g * a * stiffness / 2
-    film = (x / x0, x0 / a, volume) if spread else (x / x0,)
+    lift = 4 * q.m * q.g * q.a * stiffness / 2
+    film = (q.x / q.x0, q.x0 / q.a, q.volume) if spread else (q.x / q.x0,)
     return {
-        F_n: FILM * 6 * sp.pi * mu * a**2 * u / x0 * slot_call("film", "resistance", *film),
-        F_w: VAN_DER_WAALS * slot_call("attraction", "force", x / x0),
-        F_c: sp.pi * R * sigma * slot_call("bridge", "force", x / R, volume, contact_angle),
-        F_t: SHEAR * 8 * sp.pi * mu * a**2 * (omega - xi) * slot_call("shear", "log_factor", x / x0, x0 / a),
-        arm: a * slot_call("arm", "lever", r / a),
-        S_n: lift * (swing_squared().diff(string_distance) / a**2).subs(string_distance, r),
-        S_t: lift * (swing_squared().diff(beta) / string_distance / a**2).subs(string_distance, r),
+        F_n: FILM * 6 * sp.pi * q.mu * q.a**2 * q.u / q.x0 * slot_call("film", "resistance", *film),
+        F_w: VAN_DER_WAALS * slot_call("attraction", "force", q.x / q.x0),
+        F_c: sp.pi * q.R * q.sigma * slot_call("bridge", "force", q.x / q.R, q.volume, q.contact_angle),
+        F_t: SHEAR
+        * 8
+        * sp.pi
+        * q.mu
+        * q.a**2
+        * (q.omega - q.xi)
+        * slot_call("shear", "log_factor", q.x / q.x0, q.x0 / q.a),
+        arm: q.a * slot_call("arm", "lever", q.r / q.a),
+        S_n: lift * (swing_squared().diff(string_distance) / q.a**2).subs(string_distance, q.r),
+        S_t: lift * (swing_squared().diff(q.beta) / string_distance / q.a**2).subs(string_distance, q.r),
     }
 
 
 @cache
 def scaled_strings(oblique: bool) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """Dimensionless normal and tangential string force and squared swing over a^2; head-on beta = 0."""
-    turn = beta if oblique else sp.Integer(0)
-    apart = swing_squared().subs(string_distance - 4 * a, x)  # x and r = 4a + x kept separate: no cancellation
-    by_distance = apart.diff(x) + apart.diff(string_distance)
-    by_angle = sp.simplify(apart.diff(beta) / string_distance)
+    turn = q.beta if oblique else sp.Integer(0)
+    apart = swing_squared().subs(string_distance - 4 * q.a, q.x)  # x and r = 4a + x kept separate: no cancellation
+    by_distance = apart.diff(q.x) + apart.diff(string_distance)
+    by_angle = sp.simplify(apart.diff(q.beta) / string_distance)
 
     def scaled(expression: sp.Expr) -> sp.Expr:
-        return expression.subs(beta, turn).subs({x: a * aspect * gap, string_distance: a * DISTANCE}, simultaneous=True)
+        return expression.subs(q.beta, turn).subs(
+            {q.x: q.a * q.aspect * q.gap, string_distance: q.a * DISTANCE}, simultaneous=True
+        )
 
-    stiffness = slot_call("strings", "stiffness", string_ratio, offset_squared)
-    pull = nondimensional(4 * m * g / INERTIA) * stiffness / 2
-    sideways = nondimensional(4 * m * g / TANGENTIAL) * stiffness / 2 if oblique else sp.Integer(0)
+    stiffness = slot_call("strings", "stiffness", q.string_ratio, offset_squared)
+    pull = nondimensional(4 * q.m * q.g / INERTIA) * stiffness / 2
+    sideways = nondimensional(4 * q.m * q.g / TANGENTIAL) * stiffness / 2 if oblique else sp.Integer(0)
     return (
-        sp.expand(2 * scaled(by_distance) / a) * (pull / 2),
-        sp.expand(scaled(by_angle) / a) * sideways,
-        sp.expand(scaled(apart) / a**2),
+        sp.expand(2 * scaled(by_distance) / q.a) * (pull / 2),
+        sp.expand(scaled(by_angle) / q.a) * sideways,
+        sp.expand(scaled(apart) / q.a**2),
     )

@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ..vocabulary.dimensions import ONE, Dimension, dimension_of
 from ..vocabulary.quantities import DIMENSIONS, normal_velocity, u, v0, x, x0
 from .forces import FILM, SHEAR, force_laws
 from .laws import LAWS
-from .laws.base import is_slot_call
+from .laws.base import slot_calls
 from .scaling import LUBRICATION_PRESSURE
 
 
@@ -61,7 +60,7 @@ def _scaled() -> dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]]:
         "shear.edge": ((next(iter(LAWS["shear"].values()))["edge"].arguments), x0),
     }
     for force in force_laws().values():
-        calls = [node for node in force.atoms(AppliedUndef) if is_slot_call(node)]
+        calls = slot_calls(force)
         if len(calls) != 1 or calls[0].func.__name__.startswith("strings."):
             continue  # rise and stiffness of the strings share one pair of arguments
         factor = force.subs({FILM: 1, SHEAR: 1}).xreplace({calls[0]: sp.Integer(1)})

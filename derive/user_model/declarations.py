@@ -318,12 +318,12 @@ def event(
     if name in own_events.TAKEN_NAMES:
         raise ModelFileError("event", name, "a name of your own", "is an event of the library")
     _check_name(f"{label}, mark", own_events.MARK + name, there)
-    said = word or name.replace("_", " ") if isinstance(name, str) else word
-    if not isinstance(said, str) or not own_events.WORD.fullmatch(said):
-        raise ModelFileError(f"{label}.word", said, "small letters, digits and single spaces")
-    if said in own_events.TAKEN_WORDS or said in [known.word for known in there.events.values()]:
+    reported = word or name.replace("_", " ") if isinstance(name, str) else word
+    if not isinstance(reported, str) or not own_events.WORD.fullmatch(reported):
+        raise ModelFileError(f"{label}.word", reported, "small letters, digits and single spaces")
+    if reported in own_events.TAKEN_WORDS or reported in [known.word for known in there.events.values()]:
         taken = ", ".join(sorted({*own_events.TAKEN_WORDS, *(known.word for known in there.events.values())}))
-        raise ModelFileError(f"{label}.word", said, f"any word but {taken}", "exists already")
+        raise ModelFileError(f"{label}.word", reported, f"any word but {taken}", "exists already")
     if where not in own_events.PLACES:
         raise ModelFileError(f"{label}.where", where, ", ".join(own_events.PLACES))
     if ends not in own_events.ENDINGS:
@@ -359,8 +359,9 @@ def event(
         raise ModelFileError(f"{label}.jump", jump, 'no jump beside ends = "stick"', "would not be seen")
     mark = sp.Symbol(own_events.MARK + name, nonnegative=True)
     there.events[name] = own_events.Proposed(
-        name, said, mark, tested, where, tuple(after), ends, _of_event(f"{label}.releases", releases, there, ENERGY),
-        meaning or f"{said}, a user's event", source or "no source given",
+        name, reported, mark, tested, where, tuple(after), ends,
+        _of_event(f"{label}.releases", releases, there, ENERGY),
+        meaning or f"{reported}, a user's event", source or "no source given",
     )  # fmt: skip
     return mark
 

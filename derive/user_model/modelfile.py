@@ -32,8 +32,8 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
             ) from None
         except Exception as error:  # noqa: BLE001 # whatever a user's file does
             where = f"{path}, line {_line(error, path)}"
-            said = " ".join(f"{type(error).__name__}: {error}".split())
-            raise ModelFileError(where, None, "a model file (see `wetdoublet generate --template`)", said) from None
+            reason = " ".join(f"{type(error).__name__}: {error}".split())
+            raise ModelFileError(where, None, "a model file (see `wetdoublet generate --template`)", reason) from None
     if not found.laws and not found.events:
         accepted = "law(SLOT, NAME, ...) or event(NAME, ...), at least once"
         raise ModelFileError(str(path), None, accepted, "declares no law and no event")

@@ -15,36 +15,18 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from ..equations.automaton import CLOSING, EVENTS, OPENING, WORDS, Event
-from ..equations.model import GROUPS, Model, ModelFunction
+from ..equations.functions import ModelFunction
+from ..equations.model import GROUPS, Model
 from ..physics.mechanics import equations_of_motion
 from ..physics.partners.bodies import CENTRES
 from ..physics.scaling import DISTANCE, EQUAL, ScalingError, to_groups
 from ..physics.structure import Structure
+from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import RATE, SPEED, Dimension
-from ..vocabulary.quantities import (
-    DIMENSIONS,
-    a,
-    gap,
-    m,
-    mu,
-    normal_velocity,
-    omega,
-    omega0,
-    orbital_momentum,
-    partner_spin,
-    partner_spin_rate,
-    rate_scale,
-    spin,
-    u,
-    v0,
-    x,
-    x0,
-    xi,
-)
 
 ACCEPTED = "x, u, omega, xi, r, quantities of a scene and of the model file, marks of other events"
-MOVING = (x, u, omega, xi)  # a guard depends on one of them at least
-JUMPS: dict[sp.Symbol, Dimension] = {u: SPEED, omega: RATE, xi: RATE}
+MOVING = (q.x, q.u, q.omega, q.xi)  # a guard depends on one of them at least
+JUMPS: dict[sp.Symbol, Dimension] = {q.u: SPEED, q.omega: RATE, q.xi: RATE}
 WORD = re.compile(r"[a-z][a-z0-9]*( [a-z0-9]+)*")
 TAKEN_WORDS = {each.word for each in WORDS}
 TAKEN_NAMES = {name for row in EVENTS for name in (row.name, *row.functions)}
@@ -148,23 +130,23 @@ class OwnEvent:
         """The guard or the jump speaks of a rotation, which there is none of beside a wall."""
         free = {symbol for part in self.expressions for symbol in part.free_symbols}
         free |= {target for target, _ in self.jump}
-        return bool(free & {omega, xi, omega0})
+        return bool(free & {q.omega, q.xi, q.omega0})
 
     @property
     def turns(self) -> bool:
         """Its guard varies with a rotation only, so that nothing happens head-on."""
-        still = sp.simplify(self.guard.xreplace({omega: sp.Integer(0), xi: sp.Integer(0)}))
-        return not still.free_symbols & {x, u}
+        still = sp.simplify(self.guard.xreplace({q.omega: sp.Integer(0), q.xi: sp.Integer(0)}))
+        return not still.free_symbols & {q.x, q.u}
 
     @property
     def spins(self) -> bool:
         """The jump changes the rotation, so that the spin cannot be eliminated by the angular momentum."""
-        return any(target in (omega, xi) for target, _ in self.jump)
+        return any(target in (q.omega, q.xi) for target, _ in self.jump)
 
     @property
     def takes(self) -> bool:
         """True if its jump is shown to never add kinetic energy."""
-        after = {target: value * (v0 if target == u else rate_scale) for target, value in self.jump}
+        after = {target: value * (q.v0 if target == q.u else q.rate_scale) for target, value in self.jump}
         kinetic = equations_of_motion().kinetic_energy
         change = sp.factor(sp.simplify(sp.expand(kinetic.xreplace(after)) - sp.expand(kinetic)))
         return bool(change == 0 or change.is_nonpositive)
@@ -178,14 +160,14 @@ class OwnEvent:
         """How its guard varies in a structure, by the signs of its derivatives for every positive group."""
         guard = self.in_structure(of)[0]
         speed, closer = sp.Symbol("speed", positive=True), sp.Symbol("gap", positive=True)
-        moving = {orbital_momentum, spin, partner_spin} & guard.free_symbols
+        moving = {q.orbital_momentum, q.spin, q.partner_spin} & guard.free_symbols
 
         def sign(value: sp.Expr) -> int | None:
             value = sp.factor(sp.simplify(value))
             return 1 if value.is_nonnegative else -1 if value.is_nonpositive else None
 
         def along(direction: int) -> tuple[int | None, int | None]:
-            one = guard.xreplace({normal_velocity: direction * speed, gap: closer})
+            one = guard.xreplace({q.normal_velocity: direction * speed, q.gap: closer})
             return sign(one.diff(closer)), sign(one.diff(speed))
 
         (first, opening), (second, closing) = along(OPENING), along(CLOSING)
@@ -209,20 +191,20 @@ class OwnEvent:
 
         jump: dict[sp.Symbol, sp.Expr] = {}
         for target, value in self.jump:
-            if target == u:
-                jump[normal_velocity] = put(value)
-            elif structure.oblique and target == omega:
-                jump[orbital_momentum] = put(value) * DISTANCE**2
+            if target == q.u:
+                jump[q.normal_velocity] = put(value)
+            elif structure.oblique and target == q.omega:
+                jump[q.orbital_momentum] = put(value) * DISTANCE**2
             elif structure.oblique:
-                jump[spin] = put(value)
+                jump[q.spin] = put(value)
                 if structure.partner == "pair":
-                    jump[partner_spin] = put(value.xreplace({xi: partner_spin_rate}))
+                    jump[q.partner_spin] = put(value.xreplace({q.xi: q.partner_spin_rate}))
         return put(self.guard), jump, put(self.releases)
 
 
 def _settled(label: str, value: sp.Expr, structure: Structure) -> sp.Expr:
     if not structure.oblique:
-        value = value.xreplace({omega: sp.Integer(0), xi: sp.Integer(0)})
+        value = value.xreplace({q.omega: sp.Integer(0), q.xi: sp.Integer(0)})
     rules = to_groups(CENTRES if structure.partner == "pair" else EQUAL)
     for _ in range(3):
         value = value.xreplace(rules)
@@ -235,7 +217,7 @@ def _settled(label: str, value: sp.Expr, structure: Structure) -> sp.Expr:
 
 
 def _dimensional(expression: sp.Expr) -> list[str]:
-    return sorted(s.name for s in expression.free_symbols if s in DIMENSIONS and any(DIMENSIONS[s].exponents))
+    return sorted(s.name for s in expression.free_symbols if s in q.DIMENSIONS and any(q.DIMENSIONS[s].exponents))
 
 
 def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
@@ -283,9 +265,9 @@ def groups_of(events: tuple[OwnEvent, ...], structure: Structure) -> set[sp.Basi
 def scale_of(dimension: Dimension) -> sp.Expr:
     """m^i x0^j v0^k of a dimension."""
     mass, length, time = (sp.Rational(power) for power in dimension.exponents)
-    return m**mass * x0 ** (length + time) * v0**-time
+    return q.m**mass * q.x0 ** (length + time) * q.v0**-time
 
 
 def may_use(symbol: sp.Basic) -> bool:
     """Whether a symbol of the vocabulary may occur in an event: the motion, groups, and quantities with a group."""
-    return symbol in {*to_groups(), *GROUPS, a, mu, v0} - {partner_spin_rate}
+    return symbol in {*to_groups(), *GROUPS, q.a, q.mu, q.v0} - {q.partner_spin_rate}

@@ -6,7 +6,6 @@ Hrenya, Phys. Rev. E 86, 021303 (2012).
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import sympy as sp
@@ -236,13 +235,3 @@ DIMENSIONS: dict[sp.Basic, Dimension] = {quantity.symbol: quantity.dimension for
 
 R = 2 * a  # radius of one of two equal spheres
 r = 4 * a + x  # distance between the centres
-
-
-def quantity(symbol: sp.Symbol | str) -> Quantity:
-    """The vocabulary's entry for a symbol or name; KeyError if there is none."""
-    return VOCABULARY[symbol if isinstance(symbol, str) else symbol.name]
-
-
-def names(symbols: Iterable[sp.Symbol]) -> tuple[str, ...]:
-    """Names of symbols, in the order given."""
-    return tuple(symbol.name for symbol in symbols)

@@ -6,29 +6,18 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields
 
 from ...equations import automaton
-from .modules import _PROVENANCE, digest
+from .modules import PROVENANCE, digest
 
 _DOC = "A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."
 _CRITERION_FIELDS = {
-    "limit": "str",
-    "name": "str",
-    "contact": "bool",
-    "symbol": "str",
-    "removed_by": "tuple[str, float] | None",
+    "limit": "str", "name": "str", "contact": "bool", "symbol": "str", "removed_by": "tuple[str, float] | None",
     "sentence": "str",
-}
+}  # fmt: skip
 _EVENT_FIELDS = {
-    "name": "str",
-    "functions": "tuple[str, ...]",
-    "where": "tuple[tuple[str, int], ...]",
-    "words": "tuple[str, ...]",
-    "actions": "tuple[str, ...]",
-    "follows": "str",
-    "dips": "bool",
-    "within_reach": "bool",
-    "scale": "str",
+    "name": "str", "functions": "tuple[str, ...]", "where": "tuple[tuple[str, int], ...]", "words": "tuple[str, ...]",
+    "actions": "tuple[str, ...]", "follows": "str", "dips": "bool", "within_reach": "bool", "scale": "str",
     "chosen_by": "str",
-}
+}  # fmt: skip
 
 
 def automaton_digest() -> str:
@@ -50,7 +39,7 @@ def automaton_digest() -> str:
 
 def provenance() -> str:
     """The header lines of every file of the automaton."""
-    return f"{_PROVENANCE}\nAutomaton sha256 {automaton_digest()}"
+    return f"{PROVENANCE}\nAutomaton sha256 {automaton_digest()}"
 
 
 def automaton_module() -> str:

@@ -22,7 +22,7 @@ from ..taylor.tangent import tangent_header
 from ..text import INDENT, WIDTH, assignment, docstring, module, needed, operations
 from .printer import Printer
 
-_PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`."
+PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`."
 
 
 def digest(*parts: object) -> str:
@@ -32,7 +32,7 @@ def digest(*parts: object) -> str:
 
 
 def _header(source: str) -> str:
-    return f"{_PROVENANCE}\nEquations sha256 {source}"
+    return f"{PROVENANCE}\nEquations sha256 {source}"
 
 
 def law_digest(law: Law) -> str:
@@ -63,14 +63,9 @@ def law_module(law: Law) -> str:
             else [*lines, f"{INDENT}return result", ""]
         )
     doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
-    body = [*_validity(law), *_falls(law), *body]
+    falls = any(each.falls and each.name in ("force", "log_factor") for each in law.functions)  # with the gap
+    body = [*_validity(law), *(["", "FALLS = True", ""] if falls else []), *body]
     return module(_header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
-
-
-def _falls(law: Law) -> list[str]:
-    """The constant FALLS of a law whose force, or shear, decreases with the gap; no lines for other laws."""
-    falls = any(each.falls and each.name in ("force", "log_factor") for each in law.functions)
-    return ["", "FALLS = True", ""] if falls else []
 
 
 def _validity(law: Law) -> list[str]:
@@ -208,22 +203,22 @@ def function_lines(model: Model, name: str, printer: Printer) -> list[str]:
 
 def law_kernel(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
     """Text of a law's C header for the Taylor kernel; `groups` are a user's."""
-    return law_header(law, law_digest(law), _PROVENANCE, groups)
+    return law_header(law, law_digest(law), PROVENANCE, groups)
 
 
 def structure_kernel(model: Model, own: Own | None = None, beside: Beside | None = None) -> str:
     """Text of a structure's C header for the Taylor kernel; `own` and `beside` are a user's."""
-    return structure_header(model, model_digest(model), _PROVENANCE, _describe(model, own or {}), beside)
+    return structure_header(model, model_digest(model), PROVENANCE, _describe(model, own or {}), beside)
 
 
 def law_slopes(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
     """Text of the C header with the derivatives of a law; `groups` are a user's."""
-    return slopes_header(law, law_digest(law), _PROVENANCE, groups)
+    return slopes_header(law, law_digest(law), PROVENANCE, groups)
 
 
 def structure_tangent(model: Model, beside: Beside | None = None) -> str:
     """Text of the C header of a structure's tangent; `beside` is a user's."""
-    return tangent_header(model, model_digest(model), _PROVENANCE, beside)
+    return tangent_header(model, model_digest(model), PROVENANCE, beside)
 
 
 def scaling_digest() -> str:

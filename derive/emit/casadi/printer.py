@@ -14,25 +14,12 @@ from ...physics.laws.base import is_slot_call
 _ADD, _MUL, _UNARY, _POW, _ATOM = range(5)  # binding strength
 
 _FUNCTIONS: dict[type, str] = {
-    sp.exp: "exp",
-    sp.log: "log",
-    sp.sin: "sin",
-    sp.cos: "cos",
-    sp.tan: "tan",
-    sp.asin: "asin",
-    sp.acos: "acos",
-    sp.atan: "atan",
-    sp.sinh: "sinh",
-    sp.cosh: "cosh",
-    sp.tanh: "tanh",
-    sp.Abs: "fabs",
-}
+    sp.exp: "exp", sp.log: "log", sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.asin: "asin", sp.acos: "acos",
+    sp.atan: "atan", sp.sinh: "sinh", sp.cosh: "cosh", sp.tanh: "tanh", sp.Abs: "fabs",
+}  # fmt: skip
 _RELATIONS: dict[type, str] = {
-    sp.StrictLessThan: "<",
-    sp.LessThan: "<=",
-    sp.StrictGreaterThan: ">",
-    sp.GreaterThan: ">=",
-}
+    sp.StrictLessThan: "<", sp.LessThan: "<=", sp.StrictGreaterThan: ">", sp.GreaterThan: ">=",
+}  # fmt: skip
 
 
 class EmissionError(ValueError):
@@ -124,7 +111,7 @@ class Printer:
         under: list[str] = []
         for factor in node.as_ordered_factors():
             if isinstance(factor, sp.Rational) and not isinstance(factor, sp.Integer):
-                decimal = _decimal(factor) if not _is_binary(factor.q) else None
+                decimal = _decimal(factor) if factor.q & (factor.q - 1) else None
                 if decimal is not None:
                     over.append(decimal)
                 else:
@@ -217,10 +204,6 @@ def _inside(variable: sp.Symbol, facts: list[tuple[sp.Basic, bool]]) -> sp.Expr:
         assert high is not None
         return high / 2 if variable.is_positive else high - 1
     return low + 1 if high is None else (low + high) / 2
-
-
-def _is_binary(number: int) -> bool:
-    return number & (number - 1) == 0
 
 
 def _decimal(value: sp.Rational) -> str | None:

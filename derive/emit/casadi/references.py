@@ -7,7 +7,7 @@ from ...physics.laws.elastic_length import ELASTIC
 from ...physics.laws.references import PAPER, WALTON, Reference
 from ...physics.laws.rupture import COMMON
 from ...physics.partners import PUBLISHED
-from .modules import _PROVENANCE
+from .modules import PROVENANCE
 
 _DOC = "Where the equations and the laws are published."
 _FIELDS = {
@@ -33,7 +33,7 @@ def cited() -> dict[str, tuple[Reference, ...]]:
 def references_module() -> str:
     """Text of `generated/references.py`."""
     uses = cited()
-    lines = [f"# {_PROVENANCE}", f'"""{_DOC}"""', "", "from __future__ import annotations", ""]
+    lines = [f"# {PROVENANCE}", f'"""{_DOC}"""', "", "from __future__ import annotations", ""]
     lines += ["from typing import NamedTuple", "", "", "class Reference(NamedTuple):"]
     lines += [
         '    """An article in a journal."""',

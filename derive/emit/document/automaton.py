@@ -79,8 +79,8 @@ def _guard(event: Event) -> str:
     functions = [f"`{name}`" for name in event.functions]
     sign = {"": "", "motion": ", negative while closing", "sliding": ", negative while sliding back"}
     sign |= dict.fromkeys(("film", "shear"), ", negative beyond")
-    said = (functions[0] if len(functions) == 1 else f"the smallest of {', '.join(functions)}") + sign[event.follows]
-    return f"{said}, if its gap lies within reach" if event.within_reach else said
+    guard = (functions[0] if len(functions) == 1 else f"the smallest of {', '.join(functions)}") + sign[event.follows]
+    return f"{guard}, if its gap lies within reach" if event.within_reach else guard
 
 
 def watched(event: Event) -> str:

@@ -21,15 +21,10 @@ def _mode(film: int, motion: int, resting: int = 0) -> Mode:
 _SEPARATED, _CUT_OFF, _ANY = "separated", "stick, cut off", "any mode"
 # centre of each box
 _PLACES: dict[Mode | str, tuple[int, int]] = {
-    _mode(0, CLOSING): (190, 130),
-    _mode(0, OPENING): (560, 130),
-    _mode(1, CLOSING): (190, 330),
-    _mode(1, OPENING): (560, 330),
-    _mode(1, OPENING, 1): (560, 520),
-    _SEPARATED: (870, 130),
-    _ANY: (870, 330),
+    _mode(0, CLOSING): (190, 130), _mode(0, OPENING): (560, 130), _mode(1, CLOSING): (190, 330),
+    _mode(1, OPENING): (560, 330), _mode(1, OPENING, 1): (560, 520), _SEPARATED: (870, 130), _ANY: (870, 330),
     _CUT_OFF: (870, 520),
-}
+}  # fmt: skip
 
 
 def diagram(provenance: str) -> str:

@@ -40,8 +40,8 @@ class Document:
         for group, members in groupby(self.lines, key=lambda line: line[0]):
             rows = []
             for _, left, relation, right, note in members:
-                said = rf" && \text{{{_tex(note)}}}" if note else ""
-                rows.append(rf"  {left} &{relation} {right}{said}")
+                remark = rf" && \text{{{_tex(note)}}}" if note else ""
+                rows.append(rf"  {left} &{relation} {right}{remark}")
             body += [rf"\section*{{{_tex(group)}}}", r"\begin{align*}", " \\\\\n".join(rows), r"\end{align*}"]
         body += [r"\section*{Laws}", *_tabular("lll", ("slot", "law", "source"), self.laws)]
         if self.quantities:

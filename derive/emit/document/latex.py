@@ -54,18 +54,9 @@ _FIRST = [  # order of the factors; the rest as in the vocabulary
 ]
 _ORDER = {name: place for place, name in enumerate(dict.fromkeys([*_FIRST, *NAMES]))}
 _FUNCTIONS: dict[type, str] = {
-    sp.log: r"\ln",
-    sp.sin: r"\sin",
-    sp.cos: r"\cos",
-    sp.tan: r"\tan",
-    sp.exp: r"\exp",
-    sp.asin: r"\arcsin",
-    sp.acos: r"\arccos",
-    sp.atan: r"\arctan",
-    sp.sinh: r"\sinh",
-    sp.cosh: r"\cosh",
-    sp.tanh: r"\tanh",
-}
+    sp.log: r"\ln", sp.sin: r"\sin", sp.cos: r"\cos", sp.tan: r"\tan", sp.exp: r"\exp", sp.asin: r"\arcsin",
+    sp.acos: r"\arccos", sp.atan: r"\arctan", sp.sinh: r"\sinh", sp.cosh: r"\cosh", sp.tanh: r"\tanh",
+}  # fmt: skip
 _OPERATORS = tuple(_FUNCTIONS.values())
 
 

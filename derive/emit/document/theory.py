@@ -6,65 +6,26 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ...equations.automaton import CRITERIA
 from ...equations.events import rebound
+from ...physics import mechanics
 from ...physics.contact_friction import equal_spheres
 from ...physics.forces import FILM, SHEAR, force_laws
 from ...physics.laws import LAWS, Law, fill
-from ...physics.laws.base import is_slot_call
+from ...physics.laws.base import slot_calls
 from ...physics.laws.elastic_length import elastic_compliance, elastic_length
 from ...physics.laws.rupture import rupture_distance
 from ...physics.laws.start import initial_rate, start_values
 from ...physics.laws.strings import r as string_distance
 from ...physics.laws.strings import swing_squared
-from ...physics.mechanics import (
-    F_c,
-    F_n,
-    F_t,
-    F_w,
-    S_n,
-    S_t,
-    arm,
-    doublet_inertia,
-    equations_of_motion,
-    sphere_inertia,
-)
 from ...physics.scaling import LUBRICATION_PRESSURE, group_definitions
-from ...vocabulary.quantities import (
-    VOCABULARY,
-    a,
-    beta,
-    beta_0,
-    capillary,
-    centrifugal,
-    e_dry,
-    gap,
-    m,
-    mu_f,
-    normal_velocity,
-    omega,
-    omega0,
-    p_gt,
-    r,
-    stokes,
-    u,
-    v0,
-    x,
-    x0,
-    xi,
-)
+from ...vocabulary import quantities as q
 from .latex import latex
 
 DEFAULTS: Mapping[str, str] = {
-    "film": "finite",
-    "shear": "immersed",
-    "arm": "midgap",
-    "glass": "literal",
-    "bridge": "mikami",
-    "strings": "exact",
-}
+    "film": "finite", "shear": "immersed", "arm": "midgap", "glass": "literal", "bridge": "mikami", "strings": "exact",
+}  # fmt: skip
 """The law of each slot where no other is asked for."""
 
 _SWING, _COMPLIANCE = sp.symbols("swing compliance", positive=True)  # distance d of the strings, theta_e of the spheres
@@ -107,28 +68,30 @@ def _rate(symbol: sp.Symbol) -> str:
 
 
 def _motion(laws: Mapping[str, Law]) -> Iterator[Equation]:
-    group, motion = "Motion", equations_of_motion()
-    opened = motion.separation_acceleration if "attraction" in laws else motion.separation_acceleration.subs(F_w, 0)
-    radial = sp.collect(sp.expand(m * opened), omega**2, evaluate=False)
-    balance = sum((sp.factor(part) * power if power != 1 else part for power, part in radial.items()), sp.Integer(0))
-    lever = sp.expand(fill(force_laws()[arm], laws))
-    turning = sp.simplify(sphere_inertia() * motion.spin_acceleration).subs(arm, lever)
-    yield Equation(group, _rate(x), u, "gap; the paper's $v_n$ is $-u$")
-    yield Equation(group, _rate(beta), omega, "angle of the line of centres")
-    yield Equation(group, f"{latex(m)} {_rate(u)}", balance, "along the line of centres")
+    group, motion = "Motion", mechanics.equations_of_motion()
+    opened = (
+        motion.separation_acceleration
+        if "attraction" in laws
+        else motion.separation_acceleration.subs(mechanics.F_w, 0)
+    )
+    radial = sp.collect(sp.expand(q.m * opened), q.omega**2, evaluate=False)
+    balance = sp.Add(*(sp.factor(part) * power if power != 1 else part for power, part in radial.items()))
+    lever = sp.expand(fill(force_laws()[mechanics.arm], laws))
+    turning = sp.simplify(mechanics.sphere_inertia() * motion.spin_acceleration).subs(mechanics.arm, lever)
+    yield Equation(group, _rate(q.x), q.u, "gap; the paper's $v_n$ is $-u$")
+    yield Equation(group, _rate(q.beta), q.omega, "angle of the line of centres")
+    yield Equation(group, f"{latex(q.m)} {_rate(q.u)}", balance, "along the line of centres")
     momentum = rf"\frac{{d}}{{dt}} \left[ {latex(motion.orbital_momentum)} \right]"
     yield Equation(group, momentum, motion.orbital_momentum_rate, "across the line of centres")
     yield Equation(
-        group, f"{latex(sphere_inertia())} {_rate(xi)}", turning, f"spin of each sphere ({laws['arm'].name} arm)"
+        group,
+        f"{latex(mechanics.sphere_inertia())} {_rate(q.xi)}",
+        turning,
+        f"spin of each sphere ({laws['arm'].name} arm)",
     )
-    yield Equation(group, f"I({latex(x)})", _square_completed(doublet_inertia()), "inertia in rigid rotation")
-
-
-def _square_completed(inertia: sp.Expr) -> sp.Expr:
-    """I(x) as the paper prints it, m a^2 [(4 + x/a)^2 + ...]."""
-    scaled = sp.expand(inertia / (m * a**2))
-    square = (4 + x / a) ** 2
-    return sp.Mul(m * a**2, square + sp.expand(scaled - square), evaluate=False)
+    scaled, square = sp.expand(mechanics.doublet_inertia() / (q.m * q.a**2)), (4 + q.x / q.a) ** 2  # as in the paper
+    inertia = sp.Mul(q.m * q.a**2, square + sp.expand(scaled - square), evaluate=False)
+    yield Equation(group, f"I({latex(q.x)})", inertia, "inertia in rigid rotation")
 
 
 def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
@@ -136,22 +99,22 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     # written with the factor 1 - x/x0 instead of x0 - x
     law = laws["film"]
     resistance, rim = law["resistance"], _rim(law)
-    whole = force_laws(spread=rim is not None)[F_n].subs(inside)
-    call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
+    whole = force_laws(spread=rim is not None)[mechanics.F_n].subs(inside)
+    (call,) = slot_calls(whole)
     arguments = dict(zip(resistance.arguments, call.args, strict=True))
-    named = resistance.result.subs({**arguments, _RIM: _RIM / x0}, simultaneous=True)
-    end = x0 if rim is None else _RIM
+    named = resistance.result.subs({**arguments, _RIM: _RIM / q.x0}, simultaneous=True)
+    end = q.x0 if rim is None else _RIM
     normal = sp.factor(sp.simplify(whole.xreplace({call: named})))
-    normal = normal.subs((x - end) ** 2, (end - x) ** 2).subs(end - x, end * (1 - x / end))
-    shear = fill(force_laws()[F_t].subs(inside), laws)
+    normal = normal.subs((q.x - end) ** 2, (end - q.x) ** 2).subs(end - q.x, end * (1 - q.x / end))
+    shear = fill(force_laws()[mechanics.F_t].subs(inside), laws)
     for call in shear.atoms(sp.log):
         shear = shear.subs(-call, sp.log(1 / call.args[0]))  # ln(x0/x) instead of -ln(x/x0)
-    edge = sp.simplify(x0 * laws["shear"]["edge"](x0 / a))
-    yield Equation("Lubrication", latex(F_n), normal, _where(law))
+    edge = sp.simplify(q.x0 * laws["shear"]["edge"](q.x0 / q.a))
+    yield Equation("Lubrication", latex(mechanics.F_n), normal, _where(law))
     if rim is not None:
-        squared = sp.expand((rim**2).subs(arguments, simultaneous=True) * x0**2)
+        squared = sp.expand((rim**2).subs(arguments, simultaneous=True) * q.x0**2)
         yield Equation("Lubrication", latex(_RIM), sp.sqrt(squared), "rim of the disc that holds the bridge's volume")
-    yield Equation("Lubrication", latex(F_t), shear, _inside(edge))
+    yield Equation("Lubrication", latex(mechanics.F_t), shear, _inside(edge))
 
 
 def _where(law: Law) -> str:
@@ -159,7 +122,7 @@ def _where(law: Law) -> str:
     functions = {function.name for function in law.functions}
     if _rim(law) is not None:
         return "at any gap, the same on the way in and out"
-    return _inside(x0) + ("; 0 on the way out" if "suction" in functions else "; the same on the way in and out")
+    return _inside(q.x0) + ("; 0 on the way out" if "suction" in functions else "; the same on the way in and out")
 
 
 def _rim(law: Law) -> sp.Expr | None:
@@ -172,17 +135,17 @@ def _attraction(laws: Mapping[str, Law]) -> Iterator[Equation]:
     if "attraction" not in laws:
         return
     law = laws["attraction"]
-    yield Equation("Attraction", latex(F_w), sp.simplify(fill(force_laws()[F_w], laws)), law.source)
+    yield Equation("Attraction", latex(mechanics.F_w), sp.simplify(fill(force_laws()[mechanics.F_w], laws)), law.source)
 
 
 def _inside(edge: sp.Expr) -> str:
-    return f"${latex(x)} < {latex(edge)}$, else 0"
+    return f"${latex(q.x)} < {latex(edge)}$, else 0"
 
 
 def _bridge(law: Law) -> Iterator[Equation]:
     group, force = "Capillary bridge", law["force"]
-    whole = force_laws()[F_c]
-    call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
+    whole = force_laws()[mechanics.F_c]
+    (call,) = slot_calls(whole)
     arguments = dict(zip(force.arguments, call.args, strict=True))
 
     def put(expression: sp.Expr) -> sp.Expr:
@@ -190,69 +153,69 @@ def _bridge(law: Law) -> Iterator[Equation]:
         fitted = {n: sp.Float(str(float(n))) for n in expression.atoms(sp.Rational) if n.q not in (1, 2)}
         return expression.xreplace(fitted).subs(arguments, simultaneous=True)
 
-    yield Equation(group, latex(F_c), whole.xreplace({call: put(force.result)}), law.source)
+    yield Equation(group, latex(mechanics.F_c), whole.xreplace({call: put(force.result)}), law.source)
     for symbol, value in force.definitions:
         yield Equation(group, latex(symbol), put(value))
 
 
 def _strings(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, named = "Pendulum strings", False
-    for force in (S_n, S_t):
+    for force in (mechanics.S_n, mechanics.S_t):
         whole = force_laws()[force]
-        call = next(node for node in whole.atoms(AppliedUndef) if is_slot_call(node))
-        swung = call.func(call.args[0], (_SWING / a) ** 2)
+        (call,) = slot_calls(whole)
+        swung = call.func(call.args[0], (_SWING / q.a) ** 2)
         closed = sp.simplify(fill(whole.xreplace({call: swung}), laws))
         named |= _SWING in closed.free_symbols
         yield Equation(group, latex(force), closed, f"{laws['strings'].name} strings")
     if named:
-        swing = swing_squared().subs(string_distance - 4 * a, x).subs(string_distance, r)
+        swing = swing_squared().subs(string_distance - 4 * q.a, q.x).subs(string_distance, q.r)
         yield Equation(group, f"{latex(_SWING)}^2", swing, "swing of either sphere")
 
 
 def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, start = "Start, rebound, rupture", start_values()
     # the criterion is scaled with v0: substitute gap and velocity in SI
-    pressure = sp.factor(sp.simplify(LUBRICATION_PRESSURE * laws["glass"]["pressure"](gap, -normal_velocity)))
-    pressure = sp.factor(pressure.subs({gap: x / x0, normal_velocity: u / v0}, simultaneous=True))
+    pressure = sp.factor(sp.simplify(LUBRICATION_PRESSURE * laws["glass"]["pressure"](q.gap, -q.normal_velocity)))
+    pressure = sp.factor(pressure.subs({q.gap: q.x / q.x0, q.normal_velocity: q.u / q.v0}, simultaneous=True))
     length = sp.simplify(elastic_length() * (_COMPLIANCE / elastic_compliance()) ** _TWO_FIFTHS)
     cubed = sp.powsimp(sp.expand_power_base(length**5, force=True), force=True)
-    yield Equation(group, f"{latex(x)}(0)", start[x], "initial contact")
-    yield Equation(group, f"{latex(u)}(0)", start[u], "no angle turned yet")
-    yield Equation(group, rf"{latex(xi)}(0)", start[xi], "spin before the collision, 0 if none is given")
-    yield Equation(group, latex(omega0), initial_rate())
+    yield Equation(group, f"{latex(q.x)}(0)", start[q.x], "initial contact")
+    yield Equation(group, f"{latex(q.u)}(0)", start[q.u], "no angle turned yet")
+    yield Equation(group, rf"{latex(q.xi)}(0)", start[q.xi], "spin before the collision, 0 if none is given")
+    yield Equation(group, latex(q.omega0), initial_rate())
     printed = {"glass": pressure, "elastic": sp.Pow(sp.sqrt(cubed), _TWO_FIFTHS, evaluate=False)}  # as in the paper
     for number, each in zip(_ROMAN, CRITERIA, strict=False):
-        limit = printed.get(each.word, x0 * group_definitions()[VOCABULARY[each.limit].symbol])
-        yield Equation(group, latex(x if each.contact else p_gt), limit, f"({number}) {each.name}", r"\leq")
+        limit = printed.get(each.word, q.x0 * group_definitions()[q.VOCABULARY[each.limit].symbol])
+        yield Equation(group, latex(q.x if each.contact else q.p_gt), limit, f"({number}) {each.name}", r"\leq")
         if limit.has(_COMPLIANCE):
             yield Equation(group, latex(_COMPLIANCE), elastic_compliance())
     yield Equation(
         group,
-        latex(u),
-        rebound((normal_velocity,))[normal_velocity].subs(normal_velocity, u),
+        latex(q.u),
+        rebound((q.normal_velocity,))[q.normal_velocity].subs(q.normal_velocity, q.u),
         "if any of these is met",
         r"\to",
     )
-    yield Equation(group, "x_f", rupture_distance(bridge=True), f"rupture (${latex(x0)}$ without a bridge)")
+    yield Equation(group, "x_f", rupture_distance(bridge=True), f"rupture (${latex(q.x0)}$ without a bridge)")
 
 
 def _friction(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, answer = "Friction of the dry contact", equal_spheres()
-    lever = sp.expand(fill(force_laws()[arm], laws))
-    sticking = _TANGENTIAL_MASS * (1 + beta_0) * sp.Abs(_SLIP)
-    limit = mu_f * m * (1 + e_dry) * sp.Abs(u)
-    mass = sp.simplify(1 / answer.compliance.subs(arm, lever))
-    yield Equation(group, latex(_SLIP), answer.slip.subs(arm, lever), "slip of the surfaces")
+    lever = sp.expand(fill(force_laws()[mechanics.arm], laws))
+    sticking = _TANGENTIAL_MASS * (1 + q.beta_0) * sp.Abs(_SLIP)
+    limit = q.mu_f * q.m * (1 + q.e_dry) * sp.Abs(q.u)
+    mass = sp.simplify(1 / answer.compliance.subs(mechanics.arm, lever))
+    yield Equation(group, latex(_SLIP), answer.slip.subs(mechanics.arm, lever), "slip of the surfaces")
     yield Equation(group, latex(_TANGENTIAL_MASS), mass, f"effective tangential mass ({laws['arm'].name} arm)")
     yield Equation(group, "|Q|", sticking, "tangential impulse of a rebound that sticks")
     yield Equation(group, "|Q|", limit, "of one that slides: the smaller of the two acts")
     for rate, change in answer.rates.items():
-        yield Equation(group, rf"\Delta {latex(rate)}", change.subs(arm, lever) * _IMPULSE)
+        yield Equation(group, rf"\Delta {latex(rate)}", change.subs(mechanics.arm, lever) * _IMPULSE)
 
 
 def _groups() -> Iterator[Equation]:
     definitions = group_definitions()
-    yield Equation("Groups", latex(stokes), definitions[stokes])
-    yield Equation("Groups", latex(capillary), definitions[capillary])
-    rotating = sp.simplify(definitions[centrifugal] / initial_rate() ** 2) * omega0**2
-    yield Equation("Groups", latex(centrifugal), rotating)
+    yield Equation("Groups", latex(q.stokes), definitions[q.stokes])
+    yield Equation("Groups", latex(q.capillary), definitions[q.capillary])
+    rotating = sp.simplify(definitions[q.centrifugal] / initial_rate() ** 2) * q.omega0**2
+    yield Equation("Groups", latex(q.centrifugal), rotating)

@@ -10,21 +10,19 @@ become derivatives by the groups at its end.
 from __future__ import annotations
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ...physics.forces import FILM, SHEAR
-from ...physics.laws.base import is_slot_call
+from ...physics.laws.base import slot_calls
 from ...vocabulary.quantities import normal_velocity
 from ..casadi.printer import EmissionError
-from .c_text import Text
+from .c_text import Text, split_flags
 from .law_slopes import UNUSED
-from .layout import comment, function
+from .layout import comment, documented, struct
 from .linear_flow import LinearFlow
 from .program import Operation
 
 # Cost of a transposed recurrence in products of series; a call costs one for each series that it is given.
 TRANSPOSED = {"product": 2.0, "square": 1.0, "quotient": 2.0, "sine": 1.0, "cosine": 1.0}
-_FLAGS = (FILM, SHEAR)
 
 
 class Adjoint:
@@ -62,34 +60,31 @@ class Adjoint:
                 wanted.update(operation.series)
         return kept[::-1]
 
-    # ---- laws
-
-    def _laws(self) -> list[Operation]:
-        return [operation for operation in self._operations if operation.kind == "call"]
-
     def _law_slopes(self) -> list[str]:
-        calls = [(each.name, *each.call) for each in self._laws() if each.call is not None]
-        fields = [f"    {slot}_{call}_slopes {name};" for name, slot, call, _ in calls]
-        constants = [f"    {slot}_{call}_slope_constants {name};" for name, slot, call, _ in calls]
-        none = ["    char none[0];"]
-        prepare = ["(void)c; (void)v;"]
-        prepare += [f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});" for name, slot, call, _ in calls]
-        expand = []
+        calls = [(each.name, *each.call) for each in self._operations if each.kind == "call"]
+        prepare, expand = ["(void)c; (void)v;"], ["(void)s; (void)c; (void)of; (void)v;"]
         for name, slot, call, given in calls:
             passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
+            prepare.append(f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});")
             expand.append(f"{slot}_{call}_slopes_of(&s->{name}, &c->{name}, &of->{name}, &v->{name}{passed});")
+        constants = [f"{slot}_{call}_slope_constants {name};" for name, slot, call, _ in calls]
+        slopes = [f"{slot}_{call}_slopes {name};" for name, slot, call, _ in calls]
+        none = ["char none[0];"]
         return [
-            "typedef struct {", *(constants or none), "} slope_constants;", "",
-            "typedef struct {", *(fields or none), "} slopes;", "",
-            *comment("Constants of the laws' derivatives, computed once per collision."),
-            *function("static inline void prepare_slopes(slope_constants *c, const constants *v)", prepare), "",
-            *comment("Derivatives of the laws by their arguments."),
-            *function(
-                "OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, "
-                "const series *of, const constants *v)",
-                ["(void)s; (void)c; (void)of; (void)v;", *expand],
-            ), "",
-        ]  # fmt: skip
+            *struct("slope_constants", constants or none),
+            *struct("slopes", slopes or none),
+            *documented(
+                "Constants of the laws' derivatives, computed once per collision.",
+                "static inline void prepare_slopes(slope_constants *c, const constants *v)",
+                prepare,
+            ),
+            *documented(
+                "Derivatives of the laws by their arguments.",
+                "OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const series *of, "
+                "const constants *v)",
+                expand,
+            ),
+        ]
 
     # ---- recurrences
 
@@ -102,20 +97,20 @@ class Adjoint:
             expression = expression.xreplace(named)
         return expression
 
-    def _place(self, expression: sp.Expr) -> str | None:
-        """The accumulator of the derivative by a constant; None if it depends on no group."""
-        whole = self._in_groups(expression)
-        if not whole.free_symbols:
-            return None
-        return f"bar->constant[{self._constants.setdefault(whole, len(self._constants))}]"
+    def _accumulate(self, factor: sp.Expr, change: str, first: bool = False) -> list[str]:
+        """C statement that adds a change to the derivative by a constant; none if that depends on no group.
 
-    def _level(self, factor: sp.Expr) -> tuple[str, sp.Expr]:
-        """Flags of the region in a factor, as C text that ends with `*` or is empty, and the rest."""
-        flags = [flag for flag in _FLAGS if flag in factor.free_symbols]
-        rest = factor
-        for flag in flags:
-            rest = sp.cancel(rest / flag)
-        return "".join(f"{flag.name}*" for flag in flags), rest
+        Arguments:
+            factor: the constant, with the flags of the region as factors.
+            first: only for coefficient 0.
+        """
+        flags, rest = split_flags(factor, (FILM, SHEAR))
+        whole = self._in_groups(rest)
+        if not whole.free_symbols:
+            return []
+        place = f"bar->constant[{self._constants.setdefault(whole, len(self._constants))}]"
+        product = "*".join([*(flag.name for flag in flags), change])
+        return [f"{'if (k == 0) ' if first else ''}{place} += {product};"]
 
     def _recurrences(self) -> list[str]:
         self._pulls: dict[str, list[str]] = {}
@@ -126,9 +121,7 @@ class Adjoint:
             if isinstance(rate, str):
                 self._pull(rate, after)
             elif rate != 0:
-                flags, rest = self._level(rate)
-                if (place := self._place(rest)) is not None:
-                    body.append(f"if (k == 0) {place} += {flags}{after};")
+                body += self._accumulate(rate, after, first=True)
         for operation in reversed(self._operations):
             body += self._transposed(operation)
         for state in self._tangent.states:
@@ -143,36 +136,32 @@ class Adjoint:
     def _transposed(self, operation: Operation) -> list[str]:
         name, kind = operation.name, operation.kind
         total = " + ".join(self._pulls.pop(name, [])) or "splat(0.0)"
-        series = [self._array(part) for part in operation.series]
-        whole, own = self._array(name), f"bar->{name}"
         if kind == "linear":
             return self._linear(operation, total)
         self._arrays.append(name)
+        own = f"bar->{name}"
+        if kind == "quotient":
+            over, under = operation.series
+            self._pull(over, f"{own}[k]")
+            self._pull(under, f"(-by_{name})")
+            lines = [f"{own}[k] = ({total} - beyond({self._array(under)}, {own}, k))*of->over_{name};"]
+            return [*lines, f"vec by_{name} = correlated({self._array(name)}, {own}, k);"]
         lines = [f"{own}[k] = {total};"]
         if kind == "product":
             return lines + self._product(operation)
-        if kind == "square":
-            lines.append(f"vec by_{name} = correlated({series[0]}, {own}, k);")
-            self._pull(operation.series[0], f"2.0*by_{name}")
-        elif kind == "quotient":
-            over = f"of->over_{name}"
-            lines = [f"{own}[k] = ({total} - beyond({series[1]}, {own}, k))*{over};"]
-            lines.append(f"vec by_{name} = correlated({whole}, {own}, k);")
-            self._pull(operation.series[0], f"{own}[k]")
-            self._pull(operation.series[1], f"(-by_{name})")
-        elif kind == "sine":
-            cosine = self._array(f"cosine_of_{operation.series[0]}")
-            lines.append(f"vec by_{name} = correlated({cosine}, {own}, k);")
-            self._pull(operation.series[0], f"by_{name}")
-        elif kind == "cosine":
-            sine = self._array(f"sine_of_{operation.series[0]}")
-            lines.append(f"vec by_{name} = correlated({sine}, {own}, k);")
-            self._pull(operation.series[0], f"(-by_{name})")
-        elif kind == "call":
-            lines += self._call(operation)
-        else:  # in laws only, whose derivatives have headers of their own
+        if kind == "call":
+            return lines + self._call(operation)
+        (part,) = operation.series
+        factors = {  # the series that a change is correlated with, and what of it goes to the operand
+            "square": (part, f"2.0*by_{name}"),
+            "sine": (f"cosine_of_{part}", f"by_{name}"),
+            "cosine": (f"sine_of_{part}", f"(-by_{name})"),
+        }
+        if kind not in factors:  # in laws only, whose derivatives have headers of their own
             raise EmissionError(f"no transposed recurrence of {name}, a {kind}")
-        return lines
+        beside, term = factors[kind]
+        self._pull(part, term)
+        return [*lines, f"vec by_{name} = correlated({self._array(beside)}, {own}, k);"]
 
     def _linear(self, operation: Operation, total: str) -> list[str]:
         own = f"by_{operation.name}"
@@ -180,30 +169,21 @@ class Adjoint:
         texts = self._made.factors[operation.name]
         for part, factor, text in zip(operation.series, operation.factors, texts, strict=False):
             self._pull(part, own if text == "1.0" else f"(-{own})" if text == "(-1.0)" else f"{text}*{own}")
-            flags, rest = self._level(factor)
-            if (place := self._place(rest)) is not None:
-                lines.append(f"{place} += {flags}{self._array(part)}[k]*{own};")
-        flags, rest = self._level(operation.factors[-1])
-        if (place := self._place(rest)) is not None:
-            lines.append(f"if (k == 0) {place} += {flags}{own};")
-        return lines
+            lines += self._accumulate(factor, f"{self._array(part)}[k]*{own}")
+        return lines + self._accumulate(operation.factors[-1], own, first=True)
 
     def _product(self, operation: Operation) -> list[str]:
         name, own = operation.name, f"bar->{operation.name}"
         text = self._made.factors[name][0]
-        factor = "" if text == "1.0" else "-" if text == "(-1.0)" else f"{text}*"
         first, second = operation.series
         lines = []
         for part, other in ((first, second), (second, first)):
             lines.append(f"vec {part}_by_{name} = correlated({self._array(other)}, {own}, k);")
-            self._pull(part, f"({factor}{part}_by_{name})" if factor == "-" else f"{factor}{part}_by_{name}")
-        flags, rest = self._level(operation.factors[0])
-        if (place := self._place(rest)) is not None:
-            lines.append(f"{place} += {flags}{self._array(first)}[k]*{first}_by_{name};")
-        return lines
+            term = f"{part}_by_{name}"
+            self._pull(part, term if text == "1.0" else f"(-{term})" if text == "(-1.0)" else f"{text}*{term}")
+        return lines + self._accumulate(operation.factors[0], f"{self._array(first)}[k]*{first}_by_{name}")
 
     def _call(self, operation: Operation) -> list[str]:
-        assert operation.call is not None
         slot, call, given = operation.call
         own, lines = f"bar->{operation.name}", []
         names = self._tangent.law_arguments(slot, call, len(given))
@@ -212,33 +192,30 @@ class Adjoint:
             if isinstance(value, str):
                 lines.append(f"vec {operation.name}_{argument} = correlated({slope}, {own}, k);")
                 self._pull(value, f"{operation.name}_{argument}")
-            elif (place := self._place(value)) is not None:
-                lines.append(f"{place} += {slope}[k]*{own}[k];")
+            else:
+                lines += self._accumulate(value, f"{slope}[k]*{own}[k]")
         return lines
 
     # ---- text
 
     def _struct(self) -> list[str]:
-        fields = [f"    vec {name}[TERMS];" for name in self._arrays]
-        count = max(len(self._constants), 1)
+        fields = ["vec constant[CONSTANTS];", *(f"vec {name}[TERMS];" for name in self._arrays)]
         doc = "Derivatives of a result by the coefficients of the series of a step, and by the constants so far."
-        return [
-            f"enum {{ CONSTANTS = {count} }};",
-            *comment(doc),
-            "typedef struct {", "    vec constant[CONSTANTS];", *fields, "} adjoint;", "",
-        ]  # fmt: skip
+        count = max(len(self._constants), 1)
+        return [f"enum {{ CONSTANTS = {count} }};", *comment(doc), *struct("adjoint", fields)]
 
     def _function(self) -> list[str]:
-        head = (
-            "INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec power, const series *of, "
-            "const slopes *d, const constants *c, vec film, vec shear, mask moving, int k)"
-        )
-        doc = (
+        return documented(
             "Transposed recurrences of coefficient k. `w` holds the derivatives of a result by coefficient k + 1 of "
-            f"the states, then by coefficient k; `of_sum` those by their sums. Products of series: {self.cost:g}."
+            f"the states, then by coefficient k; `of_sum` those by their sums. Products of series: {self.cost:g}.",
+            "INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec power, const series *of, "
+            "const slopes *d, const constants *c, vec film, vec shear, mask moving, int k)",
+            [
+                "double next = 1.0/(k + 1);",
+                "(void)bar; (void)d; (void)c; (void)film; (void)shear; (void)moving;",
+                *self._steps,
+            ],
         )
-        unused = ["double next = 1.0/(k + 1);", "(void)bar; (void)d; (void)c; (void)film; (void)shear; (void)moving;"]
-        return [*comment(doc), *function(head, [*unused, *self._steps]), ""]
 
     def _along_constants(self) -> list[str]:
         text = Text(lambda symbol: f"v->{symbol.name}")
@@ -247,18 +224,18 @@ class Adjoint:
             terms = []
             for expression, place in self._constants.items():
                 slope = sp.factor_terms(sp.diff(expression, group))
-                if any(is_slot_call(node) for node in slope.atoms(AppliedUndef)):
+                if slot_calls(slope):
                     raise EmissionError(f"no derivative of the constant {expression}")
                 if slope == 1:
                     terms.append(f"constant[{place}]")
                 elif slope != 0:
-                    said = f"({text(slope)})" if slope.is_Add else text(slope)
-                    terms.append(f"{said}*constant[{place}]")
+                    factor = f"({text(slope)})" if slope.is_Add else text(slope)
+                    terms.append(f"{factor}*constant[{place}]")
             if terms:
                 body.append(f"by_group[BY_{group.name.upper()}] += {' + '.join(terms)};")
         head = "static inline void along_constants(const constants *v, const vec *constant, vec *by_group)"
         doc = "From derivatives by the constants of the recurrences to those by the groups."
-        return [*comment(doc), *function(head, body), ""]
+        return documented(doc, head, body)
 
 
 def contraction(tangent: LinearFlow) -> list[str]:
@@ -266,8 +243,8 @@ def contraction(tangent: LinearFlow) -> list[str]:
     slopes = [_diagonal(tangent, state) for state in tangent.model.states]
     # the slope of a law that depends on a rate is only available in the tangent
     known = [slope for slope in slopes if not any(symbol.name in tangent.slopes for symbol in slope.free_symbols)]
-    trace = sum(known, sp.Integer(0))
-    calls = {node: tangent.header.flow.series(node) for node in trace.atoms(AppliedUndef) if is_slot_call(node)}
+    trace = sp.Add(*known)
+    calls = {node: tangent.header.flow.series(node) for node in slot_calls(trace)}
     shown = {node: sp.Symbol(f"{name}.result", real=True) for node, name in calls.items()}
     moving = {f"{name}.result" for name in calls.values()} | tangent.flow
 
@@ -280,7 +257,7 @@ def contraction(tangent: LinearFlow) -> list[str]:
     ]
     head = "static inline vec contraction(const series *of, const constants *v, vec film, vec shear)"
     doc = "Contraction rate of a volume of states at the start of a step, dominated by the fast modes."
-    return [*comment(doc), *function(head, body), ""]
+    return documented(doc, head, body)
 
 
 def _diagonal(tangent: LinearFlow, state: sp.Symbol) -> sp.Expr:

@@ -125,31 +125,30 @@ def _roots_together(node: sp.Mul) -> list[sp.Expr]:
 # C text of the recurrence of an operation and of its value at order zero: `{0}`, `{1}` are its operands, `whole` is
 # its own series; `over`, `slope` and `inner` are auxiliary series (functions of `engines/taylor/runtime/series.h`).
 _RECURRENCES = {
-    "square": "square({0}, k)",
-    "reciprocal": "reciprocal({0}, {whole}, k)",
-    "quotient": "quotient({0}, {1}, {whole}, {over}, k)",
-    "sqrt": "root({0}, {whole}, {over}, k)",
-    "power": "power({0}, {whole}, {factor}, {over}, k)",
-    "exp": "exponential({0}, {inner}, {whole}, k)",
+    "square": "square({0}, k)", "reciprocal": "reciprocal({0}, {whole}, k)",
+    "quotient": "quotient({0}, {1}, {whole}, {over}, k)", "sqrt": "root({0}, {whole}, {over}, k)",
+    "power": "power({0}, {whole}, {factor}, {over}, k)", "exp": "exponential({0}, {inner}, {whole}, k)",
     "log": "logarithm({0}, {whole}, {slope}, {over}, k)",
-}
+}  # fmt: skip
 _VALUES = {
-    "square": "{0}*{0}",
-    "reciprocal": "1.0/{0}",
-    "quotient": "{0}/{1}",
-    "power": "vec_exp({factor}*vec_log({0}))",
-    "sqrt": "vec_sqrt({0})",
-    "exp": "vec_exp({0})",
-    "log": "vec_log({0})",
-    "sine": "vec_sin({0})",
+    "square": "{0}*{0}", "reciprocal": "1.0/{0}", "quotient": "{0}/{1}", "power": "vec_exp({factor}*vec_log({0}))",
+    "sqrt": "vec_sqrt({0})", "exp": "vec_exp({0})", "log": "vec_log({0})", "sine": "vec_sin({0})",
     "cosine": "vec_cos({0})",
-}
+}  # fmt: skip
 
 
 def number(value: sp.Expr) -> str:
     """The nearest double of a number, as a C literal."""
     text = repr(float(value.evalf(30)))
     return f"({text})" if text.startswith("-") else text
+
+
+def split_flags(expression: sp.Expr, flags: Iterable[sp.Symbol]) -> tuple[list[sp.Symbol], sp.Expr]:
+    """The flags of the region that are factors of an expression, and the rest."""
+    found, rest = [flag for flag in flags if flag in expression.free_symbols], expression
+    for flag in found:
+        rest = sp.cancel(rest / flag)
+    return found, rest
 
 
 class Constants:
@@ -179,6 +178,19 @@ class Constants:
             raise EmissionError(f"{symbol} is neither given nor defined")
         return found
 
+    def assignments(self) -> list[str]:
+        """C statements that compute what is prepared, in order."""
+        return [f"{self._place}{name} = {self.text.vector(value)};" for name, value in self.prepared.items()]
+
+    def level(self, expression: sp.Expr, hint: str) -> str:
+        """Text of coefficient k of a constant."""
+        return f"k == 0 ? {self.vector(expression, hint)} : splat(0.0)"
+
+    def vector(self, expression: sp.Expr, hint: str) -> str:
+        """`factor` as a vector, also if it is a number."""
+        text = self.factor(expression, hint)
+        return text if expression.free_symbols else f"splat({text})"
+
     def define(self, symbol: sp.Symbol, expression: sp.Expr) -> None:
         """Add a named constant."""
         if symbol not in self._defined:
@@ -187,10 +199,7 @@ class Constants:
 
     def factor(self, expression: sp.Expr, hint: str) -> str:
         """Text of a constant: a literal, a name, or a value hoisted under `hint`; the region's flags as factors."""
-        flags = [flag for flag in self._flags if flag in expression.free_symbols]
-        rest = expression
-        for flag in flags:
-            rest = sp.cancel(rest / flag)
+        flags, rest = split_flags(expression, self._flags)
         text = self._plain(rest, hint)
         return "*".join([*(flag.name for flag in flags), *([text] if text != "1.0" else [])]) or text
 
@@ -250,6 +259,12 @@ class Recurrences:
         """C text of coefficient k of a series."""
         return f"{self.array(name)}[{'PASSING(k)' if name in self._passing else 'k'}]"
 
+    def rate(self, rate: str | sp.Expr) -> str:
+        """C text of coefficient k of a series, or of a constant."""
+        if isinstance(rate, str):
+            return self.coefficient(rate)
+        return f"(k == 0 ? {self.constants.text.vector(rate)} : splat(0.0))"
+
     def _place(self, name: str) -> str:
         return "" if self._local(name) else "s->"
 
@@ -260,7 +275,6 @@ class Recurrences:
             if self._local(operation.name) != local:
                 continue
             if operation.kind == "call":
-                assert operation.call is not None
                 lines.append(f"{operation.call[0]}_{operation.call[1]}_series {operation.name};")
                 continue
             arrays = [operation.name]
@@ -307,7 +321,6 @@ class Recurrences:
             return f"circular({series[0]}, {place}slope_of_{inner}, {whole}, {cosine}, k);"
         if kind == "cosine":
             return f"/* {name} comes with its sine */"
-        assert operation.call is not None
         slot, function, arguments = operation.call
         passed = "".join(f", {self.array(a)}" for a in arguments if isinstance(a, str))
         return f"{slot}_{function}_next(&s->{name}, &c->{name}{passed}, k);"
@@ -335,7 +348,6 @@ class Recurrences:
         if kind == "product":
             return f"{_times(factors[0])}{series[0]}*{series[1]}"
         if kind == "call":
-            assert operation.call is not None
             slot, function, _ = operation.call
             return f"{slot}_{function}_value(&c->{operation.name}, {', '.join(series)})"
         return _VALUES[kind].format(*series, factor=factors[0] if factors else "")

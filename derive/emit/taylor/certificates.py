@@ -1,12 +1,14 @@
-"""Margins of the pendulum and attraction certificates in C, where the laws permit them."""
+"""Margins of the stick certificates in C, compiled for laws that have what a certificate uses."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ...equations.model import Model
-from ...physics.laws.base import is_slot_call
+from ...physics.laws.base import Definition, is_slot_call
 from ...physics.slots import places
 from ..text import needed
 from .c_text import Constants, Text
@@ -31,103 +33,101 @@ PARTS = {
 }
 
 
-def pendulum_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
-    """The functions of PARTS, compiled only for laws with the functions that the certificate uses.
+class Margins:
+    """The margin functions of one structure.
 
     Arguments:
         constants: of the structure; factors that do not vary are added to them.
         prepared: by slot and function, the name of the law's constants in those of the structure.
     """
-    outputs = dict(model["pendulum_margins"].outputs)
-    asked = {
-        node.func.__name__.replace(".", "_").upper()
-        for _, expression in (*needed(list(outputs.values()), model.definitions)[0], *outputs.items())
-        for node in sp.sympify(expression).atoms(AppliedUndef)
-        if is_slot_call(node) and tuple(node.func.__name__.split(".")) not in prepared
-    }
-    lines = [f"#if {' && '.join(f'defined({name})' for name in sorted(asked))}", "#define PENDULUM MIDGAP_ARM"]
-    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
-    for name, (keys, doc) in PARTS.items():
-        kept, _ = needed([outputs[key] for key in keys], model.definitions)
-        lines += margin_function(name, doc, kept, {key: outputs[key] for key in keys}, moving, constants, prepared)
-    return [*lines, "#else", "#define PENDULUM 0", "#endif", ""]
+
+    def __init__(self, model: Model, constants: Constants, prepared: Mapping[tuple[str, str], str]) -> None:
+        self.model, self.constants, self.prepared = model, constants, prepared
+
+    def lines(self) -> list[str]:
+        """The functions of every certificate that the structure has, but for the bounds of the approach."""
+        parts = {
+            "pendulum_margins": self._pendulum,
+            "attraction_margins": self._attraction,
+            "orbital_margins": self._transfer,
+            "spin_down_margins": self._spin_down,
+        }
+        return [line for name, part in parts.items() if name in self.model for line in part()]
+
+    def _pendulum(self) -> list[str]:
+        outputs = self.model["pendulum_margins"].by_name
+        kept, _ = needed(list(outputs.values()), self.model.definitions)
+        called = {
+            node.func.__name__
+            for _, expression in (*kept, *outputs.items())
+            for node in sp.sympify(expression).atoms(AppliedUndef)
+            if is_slot_call(node) and tuple(node.func.__name__.split(".")) not in self.prepared
+        }
+        lines = []
+        for name, (keys, doc) in PARTS.items():
+            lines += self._function(name, doc, {key: outputs[key] for key in keys})
+        required = sorted(name.replace(".", "_").upper() for name in called)
+        return _compiled_with(required, "PENDULUM", "MIDGAP_ARM", lines)
+
+    def _attraction(self) -> list[str]:
+        """Margins for laws whose force decreases with the gap."""
+        doc = "The attractions exclude separation if hold > 0, escape < 0 and rebound < 0."
+        lines = self._function("attraction_margins", doc, self.model["attraction_margins"].by_name)
+        return _compiled_with(self._falling(), "ATTRACTION_MARGINS", "(REDUCED || MIDGAP_ARM)", lines)
+
+    def _spin_down(self) -> list[str]:
+        """The angular momentum at initial contact is one of the constants."""
+        margins = self.model["spin_down_margins"]
+        self.constants.define(sp.Symbol("first_momentum"), margins["momentum"])
+        by_state = {key: value for key, value in margins.outputs if key != "momentum"}
+        lines = self._function("spin_down_margins", margins.doc, by_state)
+        return _compiled_with(["FILM_STOPPING", "SHEAR_LOG_FACTOR_FALLS"], "SPIN_DOWN", self._arm(), lines)
+
+    def _transfer(self) -> list[str]:
+        """What the orbital-momentum certificate takes from a state with the lever arm at mid-gap."""
+        doc = (
+            "Slip omega - xi at this gap, and the slip energy over m v0^2 that shear can still transfer before it "
+            "(lever arm at mid-gap; derive/equations/certificates/orbital_momentum.py)."
+        )
+        margins = self.model["orbital_margins"]
+        lines = self._function("transferable", doc, {key: margins[key] for key in ("slip", "midgap")})
+        return ["#define ORBITAL_MARGINS LIBRARY_LAWS", *lines, ""]
+
+    def approach(self) -> list[str]:
+        """The functions of the approach certificate; nothing for structures without it."""
+        lines = []
+        for name in ("approach_step", "approach_force"):
+            if name in self.model:
+                lines += self._function(name, self.model[name].doc, self.model[name].by_name)
+        required = ["FILM_BRAKING", "GLASS_REACH", *self._falling()]
+        return _compiled_with(required, "APPROACH_BOUNDS", self._arm(), lines) if lines else []
+
+    def _falling(self) -> list[str]:
+        return [f"{slot.upper()}_FORCE_FALLS" for slot in ("bridge", "attraction") if slot in self.model.slots]
+
+    def _arm(self) -> str:
+        return "MIDGAP_ARM" if "arm" in self.model.slots else "1"
+
+    def _function(self, name: str, doc: str, outputs: Mapping[str, sp.Expr]) -> list[str]:
+        moving = {state: f"y[{state.name.upper()}]" for state in self.model.states}
+        kept, _ = needed(list(outputs.values()), self.model.definitions)
+        return margin_function(name, doc, kept, outputs, moving, self.constants, self.prepared)
 
 
-def attraction_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
-    """The margins of the attraction certificate, for laws whose force decreases with the gap; arguments as above."""
-    outputs = dict(model["attraction_margins"].outputs)
-    falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]
-    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
-    kept, _ = needed(list(outputs.values()), model.definitions)
-    doc = "The attractions exclude separation if hold > 0, escape < 0 and rebound < 0."
-    return [
-        f"#if {' && '.join(falling)}",
-        "#define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)",
-        *margin_function("attraction_margins", doc, kept, outputs, moving, constants, prepared),
-        "#else",
-        "#define ATTRACTION_MARGINS 0",
-        "#endif",
-        "",
-    ]
-
-
-def spin_down_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
-    """The margins of the spin-down certificate, for laws with what it uses; arguments as above.
-
-    The angular momentum at initial contact is one of the constants.
-    """
-    outputs = dict(model["spin_down_margins"].outputs)
-    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
-    by_state = {key: value for key, value in outputs.items() if key != "momentum"}
-    kept, _ = needed(list(by_state.values()), model.definitions)
-    constants.define(sp.Symbol("first_momentum"), outputs["momentum"])
-    return [
-        "#if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)",
-        f"#define SPIN_DOWN {'MIDGAP_ARM' if 'arm' in model.slots else '1'}",
-        *margin_function(
-            "spin_down_margins", model["spin_down_margins"].doc, kept, by_state, moving, constants, prepared
-        ),
-        "#else",
-        "#define SPIN_DOWN 0",
-        "#endif",
-        "",
-    ]
-
-
-def transfer_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
-    """What the orbital-momentum certificate takes from a state with the lever arm at mid-gap; arguments as above."""
-    outputs = {key: value for key, value in model["orbital_margins"].outputs if key in ("slip", "midgap")}
-    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
-    kept, _ = needed(list(outputs.values()), model.definitions)
-    doc = (
-        "Slip omega - xi at this gap, and the slip energy over m v0^2 that shear can still transfer before it (lever "
-        "arm at mid-gap; derive/equations/certificates/orbital_momentum.py)."
-    )
-    made = margin_function("transferable", doc, kept, outputs, moving, constants, prepared)
-    return ["#define ORBITAL_MARGINS LIBRARY_LAWS", *made, ""]
-
-
-def approach_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
-    """The functions of the approach certificate, for laws with what it uses; arguments as above."""
-    falling = [f"defined({slot.upper()}_FORCE_FALLS)" for slot in ("bridge", "attraction") if slot in model.slots]
-    moving = {state: f"y[{state.name.upper()}]" for state in model.states}
-    lines = [f"#if {' && '.join(['defined(FILM_BRAKING)', 'defined(GLASS_REACH)', *falling])}"]
-    lines.append(f"#define APPROACH_BOUNDS {'MIDGAP_ARM' if 'arm' in model.slots else '1'}")
-    for each in (each for each in model.functions if each.name in ("approach_step", "approach_force")):
-        outputs = dict(each.outputs)
-        kept, _ = needed(list(outputs.values()), model.definitions)
-        lines += margin_function(each.name, each.doc, kept, outputs, moving, constants, prepared)
-    return [*lines, "#else", "#define APPROACH_BOUNDS 0", "#endif", ""]
+def _compiled_with(required: Iterable[str], macro: str, value: str, lines: Sequence[str]) -> list[str]:
+    """Lines compiled if macros are defined; `macro` then has the value, else 0."""
+    condition = " && ".join(f"defined({name})" for name in required)
+    return [f"#if {condition}", f"#define {macro} {value}", *lines, "#else", f"#define {macro} 0", "#endif", ""]
 
 
 def margin_function(
     name: str,
     doc: str,
-    kept: list[tuple[sp.Symbol, sp.Expr]],
-    outputs: dict[str, sp.Expr],
-    moving: dict[sp.Symbol, str],
+    kept: Sequence[Definition],
+    outputs: Mapping[str, sp.Expr],
+    moving: Mapping[sp.Symbol, str],
     constants: Constants,
-    prepared: dict[tuple[str, str], str],
+    prepared: Mapping[tuple[str, str], str],
 ) -> list[str]:
     """A C function of the states with several results.
 
@@ -136,7 +136,12 @@ def margin_function(
         moving: C text of what varies.
     """
     local = dict(moving)
-    text = Text(lambda symbol: local.get(symbol) or constants.name(symbol), _calls(prepared))
+    # C calls of laws with prepared constants, and the position of the varying argument
+    calls = {
+        f"{slot}.{law}": (f"{slot}_{law}_value(&c->{at}, ", moves(places()[f"{slot}.{law}"].arguments).index(True))
+        for (slot, law), at in prepared.items()
+    }
+    text = Text(lambda symbol: local.get(symbol) or constants.name(symbol), calls)
     body = []
     for symbol, expression in kept:
         if expression.free_symbols & set(local) or expression.atoms(AppliedUndef):
@@ -144,20 +149,9 @@ def margin_function(
             local[symbol] = symbol.name
         else:
             constants.define(symbol, expression)
-    taken = {symbol.name for symbol, _ in kept}
-    into = {key: f"{key}_margin" if key in taken else key for key in outputs}
-    body += [f"*{into[key]} = {text.vector(expression)};" for key, expression in outputs.items()]
-    results = ", ".join(f"vec *{name}" for name in into.values())
-    head = f"static inline void {name}(const constants *c, const vec *y, {results})"
+    names = {symbol.name for symbol, _ in kept}
+    results = {key: f"{key}_margin" if key in names else key for key in outputs}
+    body += [f"*{results[key]} = {text.vector(expression)};" for key, expression in outputs.items()]
+    pointers = ", ".join(f"vec *{result}" for result in results.values())
+    head = f"static inline void {name}(const constants *c, const vec *y, {pointers})"
     return [*comment(doc), *function(head, body)]
-
-
-def _calls(prepared: dict[tuple[str, str], str]) -> dict[str, tuple[str, int]]:
-    """C calls of laws with prepared constants, and the position of the varying argument."""
-    return {
-        f"{slot}.{name}": (
-            f"{slot}_{name}_value(&c->{where}, ",
-            moves(places()[f"{slot}.{name}"].arguments).index(True),
-        )
-        for (slot, name), where in prepared.items()
-    }

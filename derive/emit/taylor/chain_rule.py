@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Sequence
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ...physics.laws.base import Definition, is_slot_call
+from ...physics.laws.base import Definition, slot_calls
 
 Slope = Callable[[AppliedUndef, int], sp.Expr]
 
@@ -36,7 +36,7 @@ class Chain:
 
     def by(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
         """Derivative of `expression` by `variable`, with all other states and groups held."""
-        calls = {node: sp.Dummy(positive=True) for node in expression.atoms(AppliedUndef) if is_slot_call(node)}
+        calls = {node: sp.Dummy(positive=True) for node in slot_calls(expression)}
         hidden = expression.xreplace(calls)
         shown = {dummy: node for node, dummy in calls.items()}
         total = sp.diff(hidden, variable)

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ...equations.model import Model
 from ...physics.forces import FILM
-from ...physics.laws.base import is_slot_call
+from ...physics.laws.base import slot_calls
 from ...vocabulary.quantities import normal_velocity
 from .c_text import Constants
-from .layout import comment, function
+from .layout import comment, compiled_if, documented, function
+from .program import Call
 
 WORKS = {"capillary": "bridge", "attraction": "attraction"}  # name in the ledger, and slot of the force
-Calls = dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]]
+Calls = dict[str, Call]
 
 
 def attracting(model: Model) -> list[str]:
@@ -23,13 +23,11 @@ def attracting(model: Model) -> list[str]:
 
 def edge_function(event: sp.Expr, constants: Constants) -> list[str]:
     """C function with the gap beyond which the tangential force vanishes."""
-    call = next(node for node in event.atoms(AppliedUndef) if is_slot_call(node))
-    text = constants.factor(call, "edge")
-    return [
-        *comment("Gap beyond which there is no tangential force."),
-        *function("static inline vec tangential_edge(const constants *c)", [f"return {text};"]),
-        "",
-    ]
+    (call,) = slot_calls(event)
+    head = "static inline vec tangential_edge(const constants *c)"
+    return documented(
+        "Gap beyond which there is no tangential force.", head, [f"return {constants.factor(call, 'edge')};"]
+    )
 
 
 def work_function(model: Model, constants: Constants, calls: Calls) -> list[str]:
@@ -37,7 +35,7 @@ def work_function(model: Model, constants: Constants, calls: Calls) -> list[str]
     gap, terms = model.states[0], []
     for slot in attracting(model):
         force = next(value for symbol, value in model.definitions if symbol.name == f"{slot}_force")
-        call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
+        (call,) = slot_calls(force)
         name = next(name for name, (own, _, _) in calls.items() if own == slot)
         per = sp.cancel(force / call / call.args[0].diff(gap))
         scale = constants.factor(call.args[0].diff(gap), f"{slot}_gap_factor")
@@ -45,36 +43,33 @@ def work_function(model: Model, constants: Constants, calls: Calls) -> list[str]
         at = "gap" if scale == "1.0" else f"{scale}*gap"
         terms.append(f"{factor}*{slot}_force_work(&c->{name}, {at})")
     what = "Capillary work" if attracting(model) == ["bridge"] else "Work against the attractions"
-    return [
-        "#if !CAPILLARY_STATE",
-        *comment(f"{what} up to a gap over m v0^2, from a fixed but arbitrary gap."),
-        *function("static inline vec capillary_work(const constants *c, vec gap)", [f"return {' + '.join(terms)};"]),
-        "#endif",
-        "",
-    ]
+    doc = f"{what} up to a gap over m v0^2, from a fixed but arbitrary gap."
+    head = "static inline vec capillary_work(const constants *c, vec gap)"
+    lines = [*comment(doc), *function(head, [f"return {' + '.join(terms)};"])]
+    return [*compiled_if("!CAPILLARY_STATE", lines), ""]
 
 
 def momentum_functions(model: Model, constants: Constants, calls: Calls) -> list[str]:
     """C functions of the loss of normal velocity in the film: du/dx is minus the force over the velocity."""
     force = next(value for symbol, value in model.definitions if symbol.name == "film_force").subs(FILM, 1)
-    call = next(node for node in force.atoms(AppliedUndef) if is_slot_call(node))
+    (call,) = slot_calls(force)
     name = next(name for name, (slot, _, _) in calls.items() if slot == "film")
     if call.has(normal_velocity):
         return ["#define FILM_MOMENTUM 0 /* its force is not proportional to the velocity */", ""]
     factor = constants.factor(sp.cancel(force / call / normal_velocity), "film_momentum_factor")
+    slowing = function(
+        "static inline vec film_slowing(const constants *c, vec gap)",
+        [f"return {factor}*film_resistance_value(&c->{name}, gap);"],
+    )
+    momentum = function(
+        "static inline vec film_momentum(const constants *c, vec gap)",
+        [f"return {factor}*film_resistance_work(&c->{name}, gap);"],
+    )
+    doc = "Loss of normal velocity in the film up to a gap, over v0, from a fixed but arbitrary gap."
     return [
         "#define FILM_MOMENTUM 1",
         *comment("Loss of normal velocity in the film per gap, over v0/x0."),
-        *function(
-            "static inline vec film_slowing(const constants *c, vec gap)",
-            [f"return {factor}*film_resistance_value(&c->{name}, gap);"],
-        ),
-        "#if defined(FILM_RESISTANCE_WORK)",
-        *comment("Loss of normal velocity in the film up to a gap, over v0, from a fixed but arbitrary gap."),
-        *function(
-            "static inline vec film_momentum(const constants *c, vec gap)",
-            [f"return {factor}*film_resistance_work(&c->{name}, gap);"],
-        ),
-        "#endif",
+        *slowing,
+        *compiled_if("defined(FILM_RESISTANCE_WORK)", [*comment(doc), *momentum]),
         "",
     ]

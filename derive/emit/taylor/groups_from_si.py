@@ -9,24 +9,13 @@ import sympy as sp
 from ...equations.model import Model
 from ...physics.laws.base import slot_call
 from ...physics.scaling import group_definitions, impact_groups, scale_definitions
-from ...vocabulary.quantities import (
-    VOCABULARY,
-    R,
-    contact_angle,
-    obliquity,
-    rate_scale,
-    rate_scale_pair,
-    rate_scale_wall,
-    rupture_gap,
-    volume,
-    x0,
-)
+from ...vocabulary import quantities as q
 from .c_text import Text
-from .layout import comment, function
+from .layout import comment, documented
 
-_PER_DISTANCE = R / x0
+_PER_DISTANCE = q.R / q.x0
 # the distance of the bridge law itself
-_OWN_RUPTURE = _PER_DISTANCE * slot_call("bridge", "rupture_distance", volume, contact_angle)
+_OWN_RUPTURE = _PER_DISTANCE * slot_call("bridge", "rupture_distance", q.volume, q.contact_angle)
 
 
 def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
@@ -41,23 +30,19 @@ def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     lines = [f"enum {{ {', '.join(f'SI_{name.upper()}' for name in names)}, QUANTITIES }};"]
     lines += ["const char quantity_names[] =", *(f'    "{name} "' for name in names[:-1]), f'    "{names[-1]}";', ""]
     body = [f"c->{group.name} = {text.vector(value)};" for group, value in expressions.items()]
-    if rupture_gap in expressions:
+    if q.rupture_gap in expressions:
         body += ["#if OWN_RUPTURE", f"c->rupture_gap = {text.vector(_OWN_RUPTURE)};", "#endif"]
     doc = "The groups of a collision from its quantities in SI."
-    lines += [*comment(doc), *function("static inline void scale(constants *c, const vec *q)", body), ""]
-    return lines + (_rate_scale(model, text) if obliquity in expressions else [])
+    lines += documented(doc, "static inline void scale(constants *c, const vec *q)", body)
+    return lines + (_rate_scale(model, text) if q.obliquity in expressions else [])
 
 
 def _rate_scale(model: Model, text: Text) -> list[str]:
     """What a unit of the angular velocities is in SI."""
-    scales = {"": rate_scale, "wall": rate_scale_wall, "pair": rate_scale_pair, "space": rate_scale_pair}
+    scales = {"": q.rate_scale, "wall": q.rate_scale_wall, "pair": q.rate_scale_pair, "space": q.rate_scale_pair}
     value = scale_definitions()[scales[model.structure.partner]]
     head = "static inline vec rate_scale(const constants *c, const vec *q)"
-    return [
-        *comment("Omega, the unit of angular velocities, in rad/s."),
-        *function(head, [f"return {text(value)};"]),
-        "",
-    ]
+    return documented("Omega, the unit of angular velocities, in rad/s.", head, [f"return {text(value)};"])
 
 
 def _expressions(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
@@ -74,8 +59,8 @@ def _place(constants: str, expressions: Mapping[sp.Symbol, sp.Expr]) -> Callable
 
 def _quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
     """The quantities in groups: those of the vocabulary in its order, then those declared by a user."""
-    used = set().union(*(expression.free_symbols for expression in expressions.values())) - {obliquity}
-    found = [one.symbol for one in VOCABULARY.values() if one.symbol in used]
+    used = set().union(*(expression.free_symbols for expression in expressions.values())) - {q.obliquity}
+    found = [one.symbol for one in q.VOCABULARY.values() if one.symbol in used]
     return found + sorted(used - set(found), key=lambda symbol: str(symbol.name))
 
 
@@ -89,10 +74,10 @@ def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
         body.append(f"case SI_{symbol.name.upper()}:")
         for place, (group, expression) in enumerate(wanted.items()):
             slope = _power_slope(expression, symbol, group)
-            if slope != 0 and group != obliquity:  # a scale: no result depends on it
+            if slope != 0 and group != q.obliquity:  # a scale: no result depends on it
                 bits[symbol] |= 1 << place
                 line = f"    slope[BY_{group.name.upper()}] = {text.vector(slope)};"
-                if group == rupture_gap:
+                if group == q.rupture_gap:
                     own_line = f"    slope[BY_RUPTURE_GAP] = {text.vector(_own_rupture_slope(symbol))};"
                     body += ["#if OWN_RUPTURE", own_line, "#else", line, "#endif"]
                 else:
@@ -102,14 +87,14 @@ def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     head = "static inline void scale_along(const constants *v, const vec *q, int quantity, vec *slope)"
     moved = f"const unsigned moved_groups[QUANTITIES] = {{ {', '.join(map(str, bits.values()))} }};"
     lines = [*comment("The groups that each quantity in SI moves, as bits."), moved, ""]
-    return [*lines, *comment("How the groups change with a quantity in SI."), *function(head, body), ""]
+    return lines + documented("How the groups change with a quantity in SI.", head, body)
 
 
 def _own_rupture_slope(symbol: sp.Symbol) -> sp.Expr:
     """Derivative of the rupture gap for the law's own distance."""
-    if symbol in (volume, contact_angle):
-        return _PER_DISTANCE * slot_call("bridge", f"rupture_distance_by_{symbol.name}", volume, contact_angle)
-    return _power_slope(_PER_DISTANCE, symbol, rupture_gap)
+    if symbol in (q.volume, q.contact_angle):
+        return _PER_DISTANCE * slot_call("bridge", f"rupture_distance_by_{symbol.name}", q.volume, q.contact_angle)
+    return _power_slope(_PER_DISTANCE, symbol, q.rupture_gap)
 
 
 def _power_slope(expression: sp.Expr, symbol: sp.Symbol, group: sp.Symbol) -> sp.Expr:

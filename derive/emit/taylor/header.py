@@ -2,35 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ...equations import friction
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
-from ...physics.laws.base import is_slot_call
+from ...physics.laws.base import slot_calls
 from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
-from ..text import needed
 from .c_text import Constants, Recurrences
-from .certificates import (
-    approach_functions,
-    attraction_functions,
-    pendulum_functions,
-    spin_down_functions,
-    transfer_functions,
-)
+from .certificates import Margins
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
 from .groups_from_si import scale_function
-from .layout import comment, function
+from .layout import comment, compiled_if, documented, function, struct
 from .ledger import Ledger
 from .own_events import own_event_functions
 from .program import Program
 from .resting import FLAGS as RUBBING
-from .resting import Resting
+from .resting import QUADRATURES, Resting
 from .slow_manifold import slow_manifold_functions
 
 if TYPE_CHECKING:
@@ -64,17 +56,18 @@ class Header:
         flags = (*_FLAGS, *RUBBING) if model.structure.friction else _FLAGS
         self.constants = Constants({group: f"c->{group.name}" for group in model.groups}, flags)
         self.calls: dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]] = {}
-        self.flow = self._program("right_hand_side")
-        self.rates = dict(self._outputs)
+        rates = model["right_hand_side"].by_name
+        self.flow = Program.for_outputs(model.states, rates.values(), model.definitions)
+        self.rates = self._results(self.flow, "right_hand_side")
         self.turning: str | sp.Expr | None = None
-        if any(each.name == "turning_rate" for each in model.functions) and not model.structure.strings:
-            self.turning = self._more(self.flow, self.model["turning_rate"].outputs)["rotation"]
+        if "turning_rate" in model and not model.structure.strings:
+            self.turning = self._results(self.flow, "turning_rate")["rotation"]
         self.work_rate: str | sp.Expr | None = None
         self._work_operations: set[str] = set()
         wanted = [value for key, value in model["energy_rates"].outputs if key in WORKS]
         if wanted:
             before = len(self.flow.operations)
-            self.work_rate = self._more(self.flow, (("capillary", sp.Add(*wanted)),))["capillary"]
+            self.work_rate = self.flow.result(sp.Add(*wanted), "rate_of_capillary")
             self._work_operations = {operation.name for operation in self.flow.operations[before:]}
         self.made = Recurrences(
             self.flow, self.constants, lambda name: f"s->{name}", passing=self.flow.passing(self._work_operations)
@@ -85,40 +78,23 @@ class Header:
 
     # ---- programs
 
-    def _program(self, name: str) -> Program:
-        program = Program(self.model.states)
-        outputs = self.model[name].outputs
-        kept, _ = needed([expression for _, expression in outputs], self.model.definitions)
-        for symbol, expression in kept:
-            program.define(symbol, expression)
-        self._outputs = {key: self._of(program, expression, f"rate_of_{key}") for key, expression in outputs}
-        return program
-
-    def _more(self, program: Program, outputs: tuple[tuple[str, sp.Expr], ...]) -> dict[str, str | sp.Expr]:
-        return {key: self._of(program, expression, f"rate_of_{key}") for key, expression in outputs}
-
-    @staticmethod
-    def _of(program: Program, expression: sp.Expr, name: str) -> str | sp.Expr:
-        expression = sp.sympify(expression)
-        return program.series(expression, name) if program.moves(expression) else expression
+    def _results(self, program: Program, name: str) -> dict[str, str | sp.Expr]:
+        """The outputs of a function, as series of a program or constants."""
+        return {key: program.result(expression, f"rate_of_{key}") for key, expression in self.model[name].outputs}
 
     def _resting(self) -> Resting:
         """The motion in resting contact with friction."""
-        program, forces = Program(self.model.states), dict(self.model["dry_forces"].outputs)
-        rates = self.model["resting_rates"].outputs
-        more = (
+        outputs = [
+            *self.model["resting_rates"].outputs,
             ("slip", friction.DRY_SLIP),
-            *((name, forces[name]) for name in ("limit", "holding")),
-            ("reaction", self.model["inward_force"].outputs[0][1]),
-        )
-        turns = self.turning is not None
-        turned = self.model["turning_rate"].outputs if turns else ()
-        wanted = [expression for _, expression in (*rates, *more, *turned)]
-        kept, _ = needed(wanted, self.model.definitions)
-        for symbol, expression in kept:
-            program.define(symbol, expression)
-        found = {key: self._of(program, expression, f"rate_of_{key}") for key, expression in (*rates, *more, *turned)}
-        return Resting(self.model, program, self.constants, found, found, found[turned[0][0]] if turns else None)
+            *self.model["dry_forces"].outputs,
+            ("reaction", self.model["inward_force"]["inward_force"]),
+            *(self.model["turning_rate"].outputs if self.turning is not None else ()),
+        ]
+        program = Program.for_outputs(self.model.states, (value for _, value in outputs), self.model.definitions)
+        found = {key: program.result(expression, f"rate_of_{key}") for key, expression in outputs}
+        turning = None if self.turning is None else found[self.model["turning_rate"].outputs[0][0]]
+        return Resting(self.model, program, self.constants, found, turning)
 
     # ---- the complete header
 
@@ -178,24 +154,29 @@ class Header:
             for position, argument in enumerate(arguments):
                 if not isinstance(argument, str) and argument.free_symbols:
                     constants.factor(argument, f"{name}_argument_{position + 1}")
-        lines = [*self.ledger.constants_struct(), "typedef struct {"]
-        lines += [f"    vec {group.name}; /* {self._meaning(group)} */" for group in self.model.groups]
-        lines += [f"    vec {name};" for name in constants.prepared]
-        for name, (slot, call, _) in self.calls.items():
-            lines.append(f"    {slot}_{call}_constants {name};")
-        lines += ["    glass_pressure_clearance_constants glass;", *self.ledger.member(), "} constants;", ""]
-        body = [f"c->{name} = {constants.text.vector(value)};" for name, value in constants.prepared.items()]
+        fields = [f"vec {group.name}; /* {self._meaning(group)} */" for group in self.model.groups]
+        fields += [f"vec {name};" for name in constants.prepared]
+        fields += [f"{slot}_{call}_constants {name};" for name, (slot, call, _) in self.calls.items()]
+        fields += ["glass_pressure_clearance_constants glass;", *self.ledger.member()]
+        body = constants.assignments()
         for name, (slot, call, arguments) in self.calls.items():
-            passed = "".join(f", {self._passed(argument)}" for argument in arguments if not isinstance(argument, str))
+            passed = "".join(
+                f", {self.constants.vector(argument, 'argument')}"
+                for argument in arguments
+                if not isinstance(argument, str)
+            )
             body.append(f"{slot}_{call}_prepare(&c->{name}{passed});")
         body.append(f"glass_pressure_clearance_prepare(&c->glass{self._glass_groups()}, c->glass_number);")
         body += self.ledger.prepare()
         return [
-            *lines,
+            *self.ledger.constants_struct(),
+            *struct("constants", fields),
             *scale_function(self.model, self.beside.definitions),
-            *comment("Constants computed once per collision from its groups."),
-            *function("static inline void prepare(constants *c)", body),
-            "",
+            *documented(
+                "Constants computed once per collision from its groups.",
+                "static inline void prepare(constants *c)",
+                body,
+            ),
         ]
 
     def _meaning(self, group: sp.Symbol) -> str:
@@ -203,169 +184,133 @@ class Header:
 
     def _glass_groups(self) -> str:
         """Additional arguments of a user's glass law, as C text."""
-        (call,) = (
-            node for node in dict(self.model["events"].outputs)["glass"].atoms(AppliedUndef) if is_slot_call(node)
-        )
-        return "".join(f", {self._passed(argument)}" for argument in call.args[2:])
-
-    def _passed(self, argument: sp.Expr) -> str:
-        text = self.constants.factor(argument, "argument")
-        return text if argument.free_symbols else f"splat({text})"
+        (call,) = slot_calls(self.model["events"]["glass"])
+        return "".join(f", {self.constants.vector(argument, 'argument')}" for argument in call.args[2:])
 
     def _series(self) -> list[str]:
-        lines = ["typedef struct {"]
-        lines += [f"    vec {state.name}[TERMS]; /* {self._meaning(state)} */" for state in self.model.states]
-        lines += ["#if CAPILLARY_STATE", "    vec capillary_work[TERMS];", "#endif"]
-        lines += ["#if TURNING_STATE", "    vec turned[TERMS];", "#endif", *self.ledger.states()]
-        lines += [f"    {field}" for field in self.made.fields()]
-        lines += self.ledger.series()
-        lines += ["    vec acceleration[TERMS]; /* of the gap, also while it is held */"]
-        lines += ["    vec approach[TERMS];", "    glass_pressure_clearance_series glass;"]
-        return [*lines, "} series;", "", *(self.resting.struct() if self.resting else ())]
+        fields = [f"vec {state.name}[TERMS]; /* {self._meaning(state)} */" for state in self.model.states]
+        fields += [*QUADRATURES, *self.ledger.states(), *self.made.fields(), *self.ledger.series()]
+        fields += ["vec acceleration[TERMS]; /* of the gap, also while it is held */", "vec approach[TERMS];"]
+        fields.append("glass_pressure_clearance_series glass;")
+        return [*struct("series", fields), *(self.resting.struct() if self.resting else ())]
 
     def _coefficients(self) -> list[str]:
-        made, states = self.made, [state.name for state in self.model.states]
-        for operation in self.flow.operations:
-            if operation.kind == "call":
-                assert operation.call is not None
-                self.calls[operation.name] = operation.call
+        self.flow.collect_calls(self.calls)
         if self.resting:
-            for operation in self.resting.made.program.operations:
-                if operation.kind == "call":
-                    assert operation.call is not None
-                    self.calls.setdefault(operation.name, operation.call)
-        work = self._work_operations
-        body = []
-        for operation, line in zip(self.flow.operations, made.lines(), strict=True):
-            body += ["#if CAPILLARY_STATE", line, "#endif"] if operation.name in work else [line]
+            self.resting.made.program.collect_calls(self.calls)
+        body = ["(void)film; (void)shear;"]
+        for operation, line in zip(self.flow.operations, self.made.lines(), strict=True):
+            body += compiled_if("CAPILLARY_STATE", [line]) if operation.name in self._work_operations else [line]
         body.append("double next = 1.0/(k + 1);")
-        for name in states:
-            rate = self.rates[name]
+        for name, rate in self.rates.items():
             if name == normal_velocity.name:
-                body.append(f"s->acceleration[k] = {self._rate(rate)};")
+                body.append(f"s->acceleration[k] = {self.made.rate(rate)};")
                 body.append("s->normal_velocity[k + 1] = only(moving, s->acceleration[k]*next);")
             else:
-                body.append(f"s->{name}[k + 1] = {self._rate(rate)}*next;")
+                body.append(f"s->{name}[k + 1] = {self.made.rate(rate)}*next;")
         if self.work_rate is not None:
-            body += ["#if CAPILLARY_STATE", f"s->capillary_work[k + 1] = {self._rate(self.work_rate)}*next;", "#endif"]
+            line = f"s->capillary_work[k + 1] = {self.made.rate(self.work_rate)}*next;"
+            body += compiled_if("CAPILLARY_STATE", [line])
         if self.turning is not None:
-            body += ["#if TURNING_STATE", f"s->turned[k + 1] = {self._rate(self.turning)}*next;", "#endif"]
+            body += compiled_if("TURNING_STATE", [f"s->turned[k + 1] = {self.made.rate(self.turning)}*next;"])
         body += self.ledger.coefficients()
-        head = "INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)"
-        doc = (
-            "Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 inside "
-            "the tangential edge, else 0; the gap is held in lanes that are not moving."
-        )
-        unused = "(void)film; (void)shear;"
-        glass = function(
-            "INLINE void glass_coefficients(series *s, const constants *c, int k)",
-            [
-                "s->approach[k] = -s->normal_velocity[k];",
-                "glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);",
-            ],
-        )
         return [
-            *comment(doc), *function(head, [unused, *body]), "",
-            *comment("Coefficient k of the clearance of the glass criterion."), *glass, "",
+            *documented(
+                "Coefficient k of every series and k + 1 of the states. Region: film is 1 inside the film, shear 1 "
+                "inside the tangential edge, else 0; the gap is held in lanes that are not moving.",
+                "INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mask moving, int k)",
+                body,
+            ),
+            *documented(
+                "Coefficient k of the clearance of the glass criterion.",
+                "INLINE void glass_coefficients(series *s, const constants *c, int k)",
+                [
+                    "s->approach[k] = -s->normal_velocity[k];",
+                    "glass_pressure_clearance_next(&s->glass, &c->glass, s->gap, s->approach, k);",
+                ],
+            ),
             *(self.resting.coefficients() if self.resting else ()),
             *function(
                 "static inline vec glass_clearance(const constants *c, const vec *y)",
                 ["return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);"],
-            ), "",
-        ]  # fmt: skip
-
-    def _rate(self, rate: str | sp.Expr) -> str:
-        if isinstance(rate, str):
-            return self.made.coefficient(rate)
-        return f"(k == 0 ? {self.constants.text.vector(rate)} : splat(0.0))"
+            ),
+            "",
+        ]
 
     # ---- values
 
-    def _value(self, name: str, head: str, results: dict[str, str], doc: str | None = None) -> list[str]:
-        """A function of the states `y`; `results` maps outputs to C targets ('return' for the value itself)."""
-        outputs = [pair for pair in self.model[name].outputs if pair[0] in results]
-        return self._valued(outputs, head, results, doc or self.model[name].doc)
+    def _scalar(self, name: str, output: str = "", source: str = "") -> list[str]:
+        """A function of the states `y`: an output of a function of the model, by default the one of its name."""
+        head = f"static inline vec {name}(const constants *c, const vec *y)"
+        return self._value(source or name, head, {output or name: "return"})
+
+    def _vector(self, name: str, into: str, targets: Mapping[str, str], doc: str = "") -> list[str]:
+        """A function of the states `y` with several results: output -> C target in the array `into`."""
+        head = f"static inline void {name}(const constants *c, const vec *y, vec *{into})"
+        return self._value(name, head, targets, doc)
+
+    def _value(self, name: str, head: str, targets: Mapping[str, str], doc: str = "") -> list[str]:
+        outputs = [pair for pair in self.model[name].outputs if pair[0] in targets]
+        return self._valued(outputs, head, targets, doc or self.model[name].doc)
 
     def _valued(
         self,
-        outputs: list[tuple[str, sp.Expr]],
+        outputs: Sequence[tuple[str, sp.Expr]],
         head: str,
-        results: dict[str, str],
+        targets: Mapping[str, str],
         doc: str,
         constants: Constants | None = None,
         given: tuple[sp.Symbol, ...] = (),
     ) -> list[str]:
+        """A C function of outputs; its targets are C text, or "return" for the value itself."""
         constants = constants or self.constants
-        program = Program((*self.model.states, *given))
-        own_names = {symbol.name for symbol in given}
-        kept, _ = needed([expression for _, expression in outputs], self.model.definitions)
-        for symbol, expression in kept:
-            program.define(symbol, expression)
-        found = {key: self._of(program, sp.sympify(expression), key) for key, expression in outputs}
+        values = (expression for _, expression in outputs)
+        program = Program.for_outputs((*self.model.states, *given), values, self.model.definitions)
+        arguments = {symbol.name for symbol in given}
+        found = {key: program.result(expression, key) for key, expression in outputs}
 
         def where(series: str) -> str:
-            return series if series in own_names else f"y[{series.upper()}]"
+            return series if series in arguments else f"y[{series.upper()}]"
 
         made = Recurrences(program, constants, where)
-        for operation in program.operations:
-            if operation.kind == "call":
-                assert operation.call is not None
-                self.calls.setdefault(operation.name, operation.call)
+        program.collect_calls(self.calls)
         body = ["(void)c; (void)y;", *made.values(found.values())]
-        own = {operation.name for operation in program.operations}
+        computed = {operation.name for operation in program.operations}
         for key, result in found.items():
             if isinstance(result, str):
-                text = result if result in own else where(result)
+                text = result if result in computed else where(result)
             else:
                 text = constants.text.vector(result)
-            body.append(f"{results[key]} {text};" if results[key] == "return" else f"{results[key]} = {text};")
-        return [*comment(doc), *function(head, body), ""]
+            body.append(f"{targets[key]} {text};" if targets[key] == "return" else f"{targets[key]} = {text};")
+        return documented(doc, head, body)
 
     def _values(self) -> list[str]:
         model, shape = self.model, self.model.structure
-        states = {state.name: f"y[{state.name.upper()}]" for state in model.states}
-        lines = self._value("start", "static inline void start(const constants *c, vec *y)", states)
-        after = {name: f"after[{name.upper()}]" for name in states}
-        lines += self._value(
-            "rebound", "static inline void rebound(const constants *c, const vec *y, vec *after)", after
-        )
+
+        def by_state(array: str, states: Sequence[sp.Symbol] = model.states) -> dict[str, str]:
+            return {state.name: f"{array}[{state.name.upper()}]" for state in states}
+
+        lines = self._value("start", "static inline void start(const constants *c, vec *y)", by_state("y"))
+        lines += self._vector("rebound", "after", by_state("after"))
         lines += self._friction() if shape.friction else []
-        lines += self._value(
-            "inward_force",
-            "static inline vec inward_force(const constants *c, const vec *y)",
-            {"inward_force": "return"},
-        )
+        lines += self._scalar("inward_force")
         escape = model["escape_energy" if shape.partner == "wall" else "energies"]
-        total = [("energy", sp.Add(*(expression for _, expression in escape.outputs)))]
-        lines += self._valued(
-            total,
-            "static inline vec stored_energy(const constants *c, const vec *y)",
-            {"energy": "return"},
-            escape.doc + " Their sum.",
-        )
-        shown = {key: f"shown[{position}]" for position, (key, _) in enumerate(model["outputs"].outputs)}
+        total = [("energy", sp.Add(*escape.by_name.values()))]
+        head = "static inline vec stored_energy(const constants *c, const vec *y)"
+        lines += self._valued(total, head, {"energy": "return"}, escape.doc + " Their sum.")
+        shown = {key: f"shown[{position}]" for position, key in enumerate(model["outputs"].by_name)}
         lines.append(f"enum {{ OUTPUTS = {len(shown)} }};")
-        lines += self._value(
-            "outputs", "static inline void outputs(const constants *c, const vec *y, vec *shown)", shown
-        )
-        if any(each.name == "effective_potential" for each in model.functions):
+        lines += self._vector("outputs", "shown", shown)
+        if "effective_potential" in model:
             lines += ["#define POTENTIAL 1"]
             for key in ("energy", "slope"):
-                lines += self._value(
-                    "effective_potential",
-                    f"static inline vec potential_{key}(const constants *c, const vec *y)",
-                    {key: "return"},
-                )
-        if any(
-            key == "surface" for each in model.functions if each.name == "orbital_margins" for key, _ in each.outputs
-        ):
-            lines += [
-                "#define BY_ORBITAL_MOMENTUM LIBRARY_LAWS",
-                "enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };",
-            ]
-            lines += self._value(
+                lines += self._scalar(f"potential_{key}", key, "effective_potential")
+        if "orbital_margins" in model and "surface" in model["orbital_margins"].by_name:
+            lines.append("#define BY_ORBITAL_MOMENTUM LIBRARY_LAWS")
+            lines.append("enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };")
+            lines += self._vector(
                 "orbital_margins",
-                "static inline void orbital_margins(const constants *c, const vec *y, vec *found)",
+                "found",
                 {
                     "slip": "found[SLIP_RATE]",
                     "orbital_energy": "found[ORBITAL_ENERGY]",
@@ -374,89 +319,51 @@ class Header:
                 "Slip omega - xi at this gap, J^2/(2 r^2), and the slip energy (lever arm at the surface), over m v0^2 "
                 "(derive/equations/certificates/orbital_momentum.py).",
             )
-        turning = shape.oblique and not shape.strings and shape.partner != "wall"
         if shape.partner == "space":
-            lines += self._value(
-                "resting_bound",
-                "static inline void resting_bound(const constants *c, const vec *y, vec *found)",
-                {"outward": "found[0]", "inward": "found[1]"},
-            )
-            lines += self._value(
-                "wobble", "static inline vec wobble(const constants *c, const vec *y)", {"wobble": "return"}
-            )
-            lines += self._value(
-                "precession",
-                "static inline void precession(const constants *c, const vec *y, vec *found)",
-                {**{f"momentum_{axis}": f"found[{k}]" for k, axis in enumerate("xyz")}, "per_momentum": "found[3]"},
-            )
-        elif turning:
-            lines += self._value(
-                "rigid_rotation",
-                "static inline vec rigid_momentum(const constants *c, const vec *y)",
-                {"orbital_momentum": "return"},
-            )
-        if turning and shape.partner != "space" and not shape.reduced:
-            lines += self._value(
-                "rigid_rotation",
-                "static inline void rigid_rotation(const constants *c, const vec *y, vec *rigid)",
-                {state.name: f"rigid[{state.name.upper()}]" for state in model.states[2:]},
-            )
+            lines += self._vector("resting_bound", "found", {"outward": "found[0]", "inward": "found[1]"})
+            lines += self._scalar("wobble")
+            momenta = {f"momentum_{axis}": f"found[{k}]" for k, axis in enumerate("xyz")}
+            lines += self._vector("precession", "found", {**momenta, "per_momentum": "found[3]"})
+        elif shape.oblique and not shape.strings and shape.partner != "wall":
+            lines += self._scalar("rigid_momentum", "orbital_momentum", "rigid_rotation")
+            if not shape.reduced:
+                lines += self._vector("rigid_rotation", "rigid", by_state("rigid", model.states[2:]))
         if shape.oblique:
-            head = "static inline vec surface_slip(const constants *c, const vec *y)"
-            lines += self._value("surface_slip", head, {"surface_slip": "return"})
+            lines += self._scalar("surface_slip")
         if "arm" in model.slots and not shape.strings:
-            lines += self._value(
-                "angular_momentum",
-                "static inline vec angular_momentum(const constants *c, const vec *y)",
-                {"angular_momentum": "return"},
-            )
+            lines += self._scalar("angular_momentum")
         prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
-        if any(each.name == "pendulum_margins" for each in model.functions):
-            lines += pendulum_functions(model, self.constants, prepared)
-        if any(each.name == "attraction_margins" for each in model.functions):
-            lines += attraction_functions(model, self.constants, prepared)
-        if any(each.name == "orbital_margins" for each in model.functions):
-            lines += transfer_functions(model, self.constants, prepared)
-        if any(each.name == "spin_down_margins" for each in model.functions):
-            lines += spin_down_functions(model, self.constants, prepared)
+        margins = Margins(model, self.constants, prepared)
+        lines += margins.lines()
         if self.beside.events:
             lines += ["#define SLOW_MANIFOLD 0", ""]  # whose tubes know of no declared event
         else:
             lines += slow_manifold_functions(model, self.constants, prepared)
-        if any(each.name == "approach_step" for each in model.functions):
-            lines += approach_functions(model, self.constants, prepared)
-        if attracting(self.model):
+        lines += margins.approach()
+        if attracting(model):
             lines += work_function(model, self.constants, self.calls)
         if (shape.partner == "wall" or not shape.oblique) and not (shape.bridge or shape.strings):
             lines += momentum_functions(model, self.constants, self.calls)
         lines += self.ledger.functions(self._valued)
-        if shape.oblique:
-            edge = dict(model["events"].outputs)["tangential_edge"]
-            lines += edge_function(edge, self.constants)
-        return lines
+        return lines + (edge_function(model["events"]["tangential_edge"], self.constants) if shape.oblique else [])
 
     def _friction(self) -> list[str]:
         """The friction of a rebound: impulses, what an impulse does to the states, and what it costs."""
         model = self.model
-        names = [key for key, _ in model["dry_slip"].outputs]
-        found = {name: f"found[{name.upper()}]" for name in names}
-        lines = [f"enum {{ {', '.join(name.upper() for name in names)}, IMPULSES }};"]
-        lines += self._value(
-            "dry_slip", "static inline void dry_slip(const constants *c, const vec *y, vec *found)", found
-        )
-        head = "static inline void dry_forces(const constants *c, const vec *y, vec film, vec shear, vec *found)"
+        impulses = {name: f"found[{name.upper()}]" for name in model["dry_slip"].by_name}
+        lines = [f"enum {{ {', '.join(name.upper() for name in impulses)}, IMPULSES }};"]
+        lines += self._vector("dry_slip", "found", impulses)
         lines += ["enum { GRIP_LIMIT, HOLDING, DRY_FORCES };"]
         if self.resting:
+            head = "static inline void dry_forces(const constants *c, const vec *y, vec film, vec shear, vec *found)"
             forces = self._value("dry_forces", head, {"limit": "found[GRIP_LIMIT]", "holding": "found[HOLDING]"})
             forces.insert(forces.index("{") + 1, "    (void)film; (void)shear; /* some models have no edge */")
             lines += forces
         for name, kind, result in (("rubbed", "void", ", vec *after"), ("friction_loss", "vec", "")):
-            told, head = (
-                model[name],
-                f"static inline {kind} {name}(const constants *c, const vec *y, vec impulse{result})",
-            )
-            places = {key: f"after[{key.upper()}]" if result else "return" for key, _ in told.outputs}
-            lines += self._valued(list(told.outputs), head, places, told.doc, given=told.given)
+            source = model[name]
+            head = f"static inline {kind} {name}(const constants *c, const vec *y, vec impulse{result})"
+            targets = {key: f"after[{key.upper()}]" if result else "return" for key in source.by_name}
+            lines += self._valued(source.outputs, head, targets, source.doc, given=source.given)
         return lines
 
 

@@ -14,7 +14,7 @@ from ...physics.laws.base import Law, LawFunction
 from ..text import needed
 from .antiderivative import antiderivative
 from .c_text import Constants, Recurrences, Text
-from .layout import comment, function
+from .layout import comment, documented, function, struct
 from .program import Program, cheapest
 
 LIMIT = sp.Symbol("limit", positive=True)  # functions that an event compares with a limit, and that limit
@@ -46,25 +46,22 @@ def law_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp.Sy
         if each.name == "suction":
             lines += ["#define FILM_CAVITATES 1 /* no force while opening */", ""]
         elif each.for_proof:
-            lines += _asked(law.slot, each)
+            name = f"{law.slot}_{each.name}"
+            lines += [f"#define {name.upper()} 1", *_plain(name, each)]
         elif each.name != "potential":  # for the work of the force
             lines += _function(law, each, moves(each.arguments, groups))
     return "\n".join(lines).rstrip() + "\n"
 
 
-def _asked(slot: str, each: LawFunction) -> list[str]:
-    """A plain function that only a stick certificate calls."""
-    name = f"{slot}_{each.name}"
+def _plain(name: str, each: LawFunction) -> list[str]:
+    """A C function of a law that is constant along a trajectory, or that only a stick certificate calls."""
     text = Text(lambda symbol: symbol.name)
-    kept, _ = needed([each.result], each.definitions)
-    body = [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
-    arguments = ", ".join(f"vec {argument.name}" for argument in each.arguments)
-    return [
-        f"#define {name.upper()} 1",
-        *comment(each.doc),
-        *function(f"static inline vec {name}({arguments})", [*body, f"return {text.vector(each.result)};"]),
-        "",
-    ]
+    kept, used = needed([each.result], each.definitions)
+    body = [f"(void){argument.name};" for argument in each.arguments if argument not in used]
+    body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
+    arguments = ", ".join(f"vec {argument.name}" for argument in each.arguments) or "void"
+    head = f"static inline vec {name}({arguments})"
+    return documented(each.doc, head, [*body, f"return {text.vector(each.result)};"])
 
 
 def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str]:
@@ -74,16 +71,7 @@ def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str
     name = f"{slot}_{each.name}"
     kept, _ = needed([each.result], each.definitions)
     if not moving:
-        text = Text(lambda symbol: symbol.name)
-        arguments = ", ".join(f"vec {argument.name}" for argument in still) or "void"
-        used = each.result.free_symbols.union(*(value.free_symbols for _, value in kept))
-        body = [f"(void){argument.name};" for argument in still if argument not in used]
-        body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
-        return [
-            *comment(each.doc),
-            *function(f"static inline vec {name}({arguments})", [*body, f"return {text.vector(each.result)};"]),
-            "",
-        ]
+        return _plain(name, each)
     if (slot, each.name) in compared():
         return _clearance(name, each, kept, moving, still)
     program, result = cheapest(each.result, kept, moving)
@@ -103,15 +91,10 @@ def _constants(name: str, constants: Constants, still: tuple[sp.Symbol, ...]) ->
     fields = f"vec {', '.join(names or ['none'])};"  # C has no empty structures
     arguments = "".join(f", vec {argument.name}" for argument in still)
     body = [f"c->{argument.name} = {argument.name};" for argument in still]
-    body += [f"c->{key} = {constants.text.vector(value)};" for key, value in constants.prepared.items()]
-    return [
-        f"typedef struct {{ {fields} }} {name}_constants;",
-        "",
-        *function(
-            f"static inline void {name}_prepare({name}_constants *c{arguments})", body or ["c->none = splat(0.0);"]
-        ),
-        "",
-    ]
+    body += constants.assignments()
+    head = f"static inline void {name}_prepare({name}_constants *c{arguments})"
+    struct_line = f"typedef struct {{ {fields} }} {name}_constants;"
+    return [struct_line, "", *function(head, body or ["c->none = splat(0.0);"]), ""]
 
 
 def _recurrences(
@@ -123,39 +106,29 @@ def _recurrences(
     moving: tuple[sp.Symbol, ...],
 ) -> list[str]:
     made = Recurrences(program, constants, lambda series: series)
-    own = [operation.name for operation in program.operations]
-    ending, value = [], ""
-    if isinstance(result, str) and result == "result" and own and own[-1] == "result":
-        value = "result"
-    elif isinstance(result, str):
-        ending, value = [f"s->result[k] = {made.array(result)}[k];"], result
+    value: str
+    if not isinstance(result, str):
+        ending, value = [f"s->result[k] = {constants.level(result, 'level')};"], constants.vector(result, "level")
+    elif result == "result" and program.operations and program.operations[-1].name == "result":
+        ending, value = [], result
     else:
-        constant = constants.factor(result, "level")
-        ending = [f"s->result[k] = k == 0 ? splat({constant}) : splat(0.0);"]
-        value = f"splat({constant})"
-        if constant.startswith("c->"):
-            ending, value = [f"s->result[k] = k == 0 ? {constant} : splat(0.0);"], constant
+        ending, value = [f"s->result[k] = {made.array(result)}[k];"], result
     fields = made.fields() + (["vec result[TERMS];"] if ending else [])
-    series_arguments = "".join(f", const vec *{argument.name}" for argument in moving)
-    value_arguments = "".join(f", vec {argument.name}" for argument in moving)
+    series = "".join(f", const vec *{argument.name}" for argument in moving)
+    values = "".join(f", vec {argument.name}" for argument in moving)
     unused = "".join(f"(void){argument.name}; " for argument in moving) + "(void)c;"
     return [
-        "typedef struct {",
-        *(f"    {field}" for field in fields),
-        f"}} {name}_series;",
-        "",
-        *comment(f"{doc} Coefficient k of its series; products of series: {program.cost:g}."),
-        *function(
-            f"INLINE void {name}_next({name}_series *s, const {name}_constants *c{series_arguments}, int k)",
+        *struct(f"{name}_series", fields),
+        *documented(
+            f"{doc} Coefficient k of its series; products of series: {program.cost:g}.",
+            f"INLINE void {name}_next({name}_series *s, const {name}_constants *c{series}, int k)",
             [unused, *made.lines(), *ending],
         ),
-        "",
-        *comment(doc),
-        *function(
-            f"static inline vec {name}_value(const {name}_constants *c{value_arguments})",
+        *documented(
+            doc,
+            f"static inline vec {name}_value(const {name}_constants *c{values})",
             [unused, *made.values([value]), f"return {value};"],
         ),
-        "",
     ]
 
 
@@ -188,15 +161,9 @@ def work_lines(name: str, work: sp.Expr, constants: Constants, moving: sp.Symbol
     program = Program((moving,))
     result = program.series(work, "work")
     made = Recurrences(program, constants, lambda series: series)
-    return [
-        f"#define {name.upper()}_WORK 1",
-        *comment("Antiderivative: the work in closed form."),
-        *function(
-            f"static inline vec {name}_work(const {name}_constants *c, vec {moving.name})",
-            ["(void)c;", *made.values([result]), f"return {result};"],
-        ),
-        "",
-    ]
+    head = f"static inline vec {name}_work(const {name}_constants *c, vec {moving.name})"
+    body = ["(void)c;", *made.values([result]), f"return {result};"]
+    return [f"#define {name.upper()}_WORK 1", *documented("Antiderivative: the work in closed form.", head, body)]
 
 
 def _clearance(

@@ -14,7 +14,7 @@ from ..text import needed
 from .c_text import Constants, Recurrences, Text
 from .chain_rule import Chain
 from .law_header import LIMIT, compared, moves
-from .layout import comment, each_term, function
+from .layout import comment, documented, each_term, function, struct
 from .program import Program, cheapest
 
 UNUSED = "unused_"  # prefix of an argument that a law ignores
@@ -127,34 +127,28 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
             if result != target:
                 ending.append(each_term(f"s->{target}[k] = {made.array(result)}[k];"))
         else:
-            level = constants.factor(result, f"level_{_by(argument)}")
-            level = level if level.startswith(("c->", "v->")) else f"splat({level})"
-            ending.append(each_term(f"s->{target}[k] = k == 0 ? {level} : splat(0.0);"))
+            ending.append(each_term(f"s->{target}[k] = {constants.level(result, f'level_{target}')};"))
         if not isinstance(result, str) or result != target:
             fields.append(f"vec {target}[TERMS];")
     names = [*constants.prepared]
     inputs = "".join(f", const vec *{argument.name}" for argument in moving)
     unused = "".join(f"(void){argument.name}; " for argument in moving) + "(void)of; (void)c; (void)v;"
-    body = [f"c->{key} = {constants.text.vector(expression)};" for key, expression in constants.prepared.items()]
+    members = f"vec {', '.join(names)}" if names else "char none[0]"
     return [
-        f"typedef struct {{ {'vec ' + ', '.join(names) if names else 'char none[0]'}; }} {name}_slope_constants;",
+        f"typedef struct {{ {members}; }} {name}_slope_constants;",
         "",
         *function(
             f"static inline void {name}_slope_prepare({name}_slope_constants *c, const {name}_constants *v)",
-            ["(void)c; (void)v;", *body],
+            ["(void)c; (void)v;", *constants.assignments()],
         ),
         "",
-        "typedef struct {",
-        *(f"    {field}" for field in fields),
-        f"}} {name}_slopes;",
-        "",
-        *comment(f"Derivatives of {name} by its arguments; products of series: {program.cost:g}."),
-        *function(
+        *struct(f"{name}_slopes", fields),
+        *documented(
+            f"Derivatives of {name} by its arguments; products of series: {program.cost:g}.",
             f"INLINE void {name}_slopes_of({name}_slopes *restrict s, const {name}_slope_constants *c, "
             f"const {name}_series *of, const {name}_constants *v{inputs})",
             [unused, *map(each_term, made.lines()), *ending],
         ),
-        "",
     ]
 
 
@@ -169,8 +163,5 @@ def _clearance(name: str, each: LawFunction) -> list[str]:
     body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
     body += [f"*by_{argument.name} = {text.vector(slope)};" for argument, slope in slopes.items()]
     outputs = ", ".join(f"vec *by_{argument.name}" for argument in slopes)
-    return [
-        *comment("Slopes of the limit less the value."),
-        *function(f"static inline void {name}_margin_slopes({head}, {outputs})", body),
-        "",
-    ]
+    head = f"static inline void {name}_margin_slopes({head}, {outputs})"
+    return documented("Slopes of the limit less the value.", head, body)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Iterable
 
 _WIDTH = 110
 
@@ -20,6 +21,21 @@ def comment(text: str) -> list[str]:
     if len(lines) == 1:
         return [f"/* {lines[0]} */"]
     return [f"/* {lines[0]}", *(f" * {line}".rstrip() for line in lines[1:-1]), f" * {lines[-1]} */"]
+
+
+def documented(doc: str, head: str, body: list[str]) -> list[str]:
+    """A C function under its comment, and an empty line."""
+    return [*comment(doc), *function(head, body), ""]
+
+
+def struct(name: str, fields: Iterable[str]) -> list[str]:
+    """A C struct type; lines of the preprocessor among the fields stay at the margin."""
+    return ["typedef struct {", *(f if f.startswith("#") else f"    {f}" for f in fields), f"}} {name};", ""]
+
+
+def compiled_if(condition: str, lines: Iterable[str]) -> list[str]:
+    """Lines under a condition of the preprocessor; nothing if there are none."""
+    return [f"#if {condition}", *found, "#endif"] if (found := list(lines)) else []
 
 
 def function(head: str, body: list[str]) -> list[str]:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import sympy as sp
 
 from ...equations.automaton import EVENTS, WORDS
 from ..casadi.printer import EmissionError
-from ..text import needed
 from .c_text import Constants, Recurrences
-from .layout import comment, function
+from .layout import comment, function, struct
+from .ledger import Valued
 from .program import Program
 
 if TYPE_CHECKING:
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
 _FIELDS = "event, kind, motion, film, mark, by_gap, opening, closing, known, harmless"
 _SHOWN = 5  # states beside the gap that an answer of the kernel has room for
-
-Valued = Callable[[list[tuple[str, sp.Expr]], str, dict[str, str], str], list[str]]
 
 
 def own_event_functions(
@@ -37,50 +35,39 @@ def own_event_functions(
         return [], []
     if len(model.states) - 1 > _SHOWN:
         raise EmissionError(f"{len(own)} declared events are more than the kernel has room for")
-    guards = dict(model["events"].outputs)
-    program = Program(model.states)
-    kept, _ = needed([sp.sympify(guards[each.name]) for each in own], model.definitions)
-    for symbol, expression in kept:
-        program.define(symbol, expression)
+    guards = model["events"].by_name
+    program = Program.for_outputs(model.states, (guards[each.name] for each in own), model.definitions)
     found = {each.name: program.series(sp.sympify(guards[each.name]), f"guard_of_{each.name}") for each in own}
     made = Recurrences(program, constants, lambda name: f"m->{name}")
     body = ["(void)c; (void)m;", *made.lines()]
     body += [f"s->guard[{k}][k] = {made.array(found[each.name])}[k];" for k, each in enumerate(own)]
     lines = comment("Series of the guards of declared events.")
-    lines += ["typedef struct {", *(f"    {field}" for field in made.fields())]
-    lines += ["    vec guard[OWN_EVENTS][TERMS];", "} own_series;", ""]
-    lines += function("static inline void own_coefficients(own_series *s, const series *m, const constants *c, int k)",
-                      body)  # fmt: skip
-    places = {each.name: f"guard[{k}]" for k, each in enumerate(own)}
-    lines += [
-        "",
-        *valued(
-            [(each.name, guards[each.name]) for each in own],
-            "static inline void own_guards(const constants *c, const vec *y, vec *guard)",
-            places,
-            "Guards of declared events, positive before them.",
-        ),
-    ]
-    for each in own:
+    lines += struct("own_series", [*made.fields(), "vec guard[OWN_EVENTS][TERMS];"])
+    head = "static inline void own_coefficients(own_series *s, const series *m, const constants *c, int k)"
+    lines += [*function(head, body), ""]
+    lines += valued(
+        [(each.name, guards[each.name]) for each in own],
+        "static inline void own_guards(const constants *c, const vec *y, vec *guard)",
+        {each.name: f"guard[{k}]" for k, each in enumerate(own)},
+        "Guards of declared events, positive before them.",
+    )
+    cases = []
+    for k, each in enumerate(own):
         jump, release = model[f"jump_{each.name}"], model[f"release_{each.name}"]
         after = {state.name: f"after[{state.name.upper()}]" for state in model.states}
         head = f"static inline void {jump.name}(const constants *c, const vec *y, vec *after)"
-        lines += valued(list(jump.outputs), head, after, jump.doc)
+        lines += valued(jump.outputs, head, after, jump.doc)
         head = f"static inline vec {release.name}(const constants *c, const vec *y)"
-        lines += valued(list(release.outputs), head, {"released": "return"}, release.doc)
-    cases = [
-        line
-        for k, each in enumerate(own)
-        for line in (
+        lines += valued(release.outputs, head, {"released": "return"}, release.doc)
+        cases += [
             f"case {k}:",
-            f"    jump_{each.name}(c, y, after);",
-            f"    *released = release_{each.name}(c, y);",
+            f"    {jump.name}(c, y, after);",
+            f"    *released = {release.name}(c, y);",
             "    break;",
-        )
-    ]
+        ]
     head = "static inline void own_jump(const constants *c, const vec *y, int which, vec *after, vec *released)"
-    lines += [*comment("State after a declared event, and the energy that it may give."), *function(
-        head, ["switch (which) {", *cases, "}"])]  # fmt: skip
+    lines += comment("State after a declared event, and the energy that it may give.")
+    lines += function(head, ["switch (which) {", *cases, "}"])
     table = [f"#define OWN_EVENTS {len(own)}"]
     table += comment("Where each is watched (motion -1 closing, 1 opening; film -1 anywhere), and the signs of its "
                      "guard's slopes.")  # fmt: skip

@@ -6,31 +6,24 @@ walks a whitelist of sympy nodes, as the CasADi printer does.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ...physics.laws.base import is_slot_call
+from ...physics.laws.base import Definition, is_slot_call
 from ..casadi.printer import EmissionError
+from ..text import needed
 
-# : Cost of an operation in products of whole series; a square counts one half.
+# Cost of an operation in products of whole series; a square counts one half.
 COST = {
-    "linear": 0.0,
-    "product": 1.0,
-    "square": 0.5,
-    "quotient": 1.0,
-    "reciprocal": 1.0,
-    "sqrt": 0.5,
-    "exp": 1.0,
-    "log": 1.0,
-    "power": 2.0,
-    "sine": 2.0,
-    "cosine": 0.0,
-    "call": 0.0,
-}
+    "linear": 0.0, "product": 1.0, "square": 0.5, "quotient": 1.0, "reciprocal": 1.0, "sqrt": 0.5, "exp": 1.0,
+    "log": 1.0, "power": 2.0, "sine": 2.0, "cosine": 0.0, "call": 0.0,
+}  # fmt: skip
+Call = tuple[str, str, tuple[str | sp.Expr, ...]]
+"""Slot, function and arguments of a law's call: a series by name, a constant as an expression."""
 
 
 @dataclass(frozen=True)
@@ -41,14 +34,14 @@ class Operation:
         kind: a key of COST.
         series: names of its operands.
         factors: constants: the factor of a product; for a linear combination one per operand, then the term of order 0.
-        call: slot, function and arguments of a call; a series by name, a constant as an expression.
+        call: of a law, for the kind "call".
     """
 
     name: str
     kind: str
     series: tuple[str, ...]
     factors: tuple[sp.Expr, ...] = ()
-    call: tuple[str, str, tuple[str | sp.Expr, ...]] | None = None
+    call: Call = ("", "", ())
 
 
 class Program:
@@ -65,6 +58,16 @@ class Program:
         self.named: dict[sp.Symbol, sp.Expr] = {}  # constants with a name of their own, in order
         self._names: set[str] = set(self.inputs)
         self._before: tuple[Operation, ...] = ()
+
+    @classmethod
+    def for_outputs(
+        cls, moving: Iterable[sp.Symbol], outputs: Iterable[sp.Expr], definitions: Sequence[Definition]
+    ) -> Program:
+        """A program with the definitions that the outputs need."""
+        program = cls(tuple(moving))
+        for symbol, expression in needed(list(outputs), definitions)[0]:
+            program.define(symbol, expression)
+        return program
 
     @property
     def cost(self) -> float:
@@ -114,6 +117,17 @@ class Program:
         self._moving[expression] = made
         return made
 
+    def collect_calls(self, calls: dict[str, Call]) -> None:
+        """Add the calls of laws, by the names of their series."""
+        for operation in self.operations:
+            if operation.kind == "call":
+                calls.setdefault(operation.name, operation.call)
+
+    def result(self, expression: sp.Expr, name: str) -> str | sp.Expr:
+        """The name of the series of an expression, or the expression itself if it is constant."""
+        expression = sp.sympify(expression)
+        return self.series(expression, name) if self.moves(expression) else expression
+
     def _add(
         self,
         kind: str,
@@ -121,7 +135,7 @@ class Program:
         name: str | None,
         hint: str,
         factors: tuple[sp.Expr, ...] = (),
-        call: tuple[str, str, tuple[str | sp.Expr, ...]] | None = None,
+        call: Call = ("", "", ()),
     ) -> str:
         for known in (*self._before, *self.operations):
             if (known.kind, known.series, known.factors, known.call) == (kind, series, factors, call):
@@ -197,13 +211,8 @@ class Program:
         for position, other in enumerate(names[1:]):
             last = position == len(names) - 2 and not under
             hint = f"{result}_by_{other}"
-            result = self._add(
-                "product",
-                (result, other),
-                name if last else None,
-                hint,
-                (factor if last else sp.Integer(1),),
-            )
+            factors = (factor if last else sp.Integer(1),)
+            result = self._add("product", (result, other), name if last else None, hint, factors)
             plain = plain or last
         for position, part in enumerate(under):
             below = self.series(part)
@@ -270,6 +279,6 @@ def cheapest(
         program = Program(moving)
         for symbol, value in definitions:
             program.define(symbol, value)
-        result = program.series(form, "result") if program.moves(form) else form
+        result = program.result(form, "result")
         found.append((program.cost, len(found), program, result))
     return min(found, key=lambda entry: entry[:2])[2:]

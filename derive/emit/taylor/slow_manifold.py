@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ...equations.certificates.approach import braking
 from ...equations.certificates.slow_manifold import admits, coefficients
 from ...equations.model import Model
-from ...physics.laws.base import is_slot_call
+from ...physics.laws.base import slot_calls
 from ...physics.scaling import DISTANCE
 from ...vocabulary.quantities import gap, stokes
 from .c_text import Constants, Recurrences
 from .certificates import margin_function
-from .layout import comment, function
+from .layout import comment, function, struct
 from .program import Program
 
 MEANINGS = {
@@ -41,22 +40,19 @@ def slow_manifold_functions(model: Model, constants: Constants, prepared: dict[t
     found: dict[str, str | sp.Expr] = {"distance": DISTANCE.name}
     falling = set()
     for name, expression in given.items():
+        found[name] = expression
         if program.moves(expression):
             program.define(sp.Symbol(name), expression)
             found[name] = program.series(sp.Symbol(name))
-        else:
-            found[name] = expression
-        for node in expression.atoms(AppliedUndef):
-            if is_slot_call(node):
-                falling.add(node.func.__name__.replace(".", "_").upper() + "_FALLS")
+        falling |= {f"{call.func.__name__.replace('.', '_').upper()}_FALLS" for call in slot_calls(expression)}
     made = Recurrences(program, constants, lambda series: f"s->{series}")
     lines: list[str] = []
-    fields = ["    vec gap[TERMS];", *(f"    {field}" for field in made.fields())]
+    fields = ["vec gap[TERMS];", *made.fields()]
     own = {operation.name for operation in program.operations}
     for name, value in found.items():
         if value == name and name in own:
             continue
-        fields.append(f"    vec {name}[TERMS];")
+        fields.append(f"vec {name}[TERMS];")
         if isinstance(value, str):
             lines.append(f"s->{name}[k] = {made.coefficient(value)};")
         else:
@@ -68,10 +64,7 @@ def slow_manifold_functions(model: Model, constants: Constants, prepared: dict[t
         *comment(
             f"Inside the film, as series in the gap (derive/equations/certificates/slow_manifold.py): {meanings}."
         ),
-        "typedef struct {",
-        *fields,
-        "} slow_series;",
-        "",
+        *struct("slow_series", fields),
         *function(
             "INLINE void slow_coefficients(slow_series *s, const constants *c, int k)",
             ["(void)c;", *made.lines(), *lines],

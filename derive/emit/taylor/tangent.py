@@ -11,17 +11,16 @@ from itertools import groupby
 from types import MappingProxyType
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ...equations.friction import IMPULSE
 from ...equations.model import Model
 from ...physics.laws import LAWS
-from ...physics.laws.base import Law, filled, is_slot_call
+from ...physics.laws.base import Law, filled, slot_calls
 from .adjoint import Adjoint, contraction
 from .c_text import Text
 from .groups_from_si import scale_slopes
 from .header import Beside
-from .layout import comment, each_term, function
+from .layout import comment, compiled_if, documented, each_term, struct
 from .linear_flow import LinearFlow
 
 _IN = "    "
@@ -75,33 +74,23 @@ class Tangent(LinearFlow):
 
     def _constants(self) -> list[str]:
         laws = self._laws()
-        lines = ["typedef struct {"]
-        lines += [f"    vec {name};" for name in self.constants.prepared]
-        lines += [f"    {slot}_{call}_slope_constants {name};" for name, (slot, call, _) in laws.items()]
-        lines += ["} slope_constants;", ""]
-        body = [f"c->{name} = {self.constants.text.vector(value)};" for name, value in self.constants.prepared.items()]
+        fields = [f"vec {name};" for name in self.constants.prepared]
+        fields += [f"{slot}_{call}_slope_constants {name};" for name, (slot, call, _) in laws.items()]
+        body = self.constants.assignments()
         body += [f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});" for name, (slot, call, _) in laws.items()]
         head = "static inline void prepare_slopes(slope_constants *c, const constants *v)"
-        return [
-            *lines,
-            *comment("Constants of the derivatives, computed once per collision."),
-            *function(head, body),
-            "",
-        ]
+        doc = "Constants of the derivatives, computed once per collision."
+        return [*struct("slope_constants", fields), *documented(doc, head, body)]
 
     def _structs(self) -> list[str]:
-        lines = comment("Derivatives of the rates: entries of the matrix, and source terms of a direction.")
-        lines += ["typedef struct {", *(f"    {field}" for field in self._law_fields("s->"))]
-        lines += [f"    {field}" for field in self.made.fields()]
-        lines += [f"    vec {field}[TERMS];" for field in self._level_fields()]
-        return [*lines, "} slopes;", ""]
+        levels = [f"vec {row}_by_{by}[TERMS];" for (row, by), e in self.sources.items() if not isinstance(e, str)]
+        fields = [*self._law_fields("s->"), *self.made.fields(), *levels]
+        doc = "Derivatives of the rates: entries of the matrix, and source terms of a direction."
+        return [*comment(doc), *struct("slopes", fields)]
 
     def _law_fields(self, place: str) -> list[str]:
         laws = self._laws().items()
         return [f"{slot}_{call}_slopes {name};" for name, (slot, call, _) in laws if self._law_place(name) == place]
-
-    def _level_fields(self) -> list[str]:
-        return [f"{row}_by_{by}" for (row, by), entry in self.sources.items() if not isinstance(entry, str)]
 
     def _coefficients(self) -> list[str]:
         body = [*self._law_fields(""), *self.made.fields(local=True), "(void)film; (void)shear; (void)c; (void)asked;"]
@@ -112,21 +101,21 @@ class Tangent(LinearFlow):
         body += self._guarded()
         for (row, by), entry in self.sources.items():
             if not isinstance(entry, str):
-                body.append(each_term(f"s->{row}_by_{by}[k] = k == 0 ? {self._constant(entry)} : splat(0.0);"))
+                body.append(each_term(f"s->{row}_by_{by}[k] = {self.constants.level(entry, 'slope')};"))
         head = (
             "OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, "
             "const series *of, const constants *v, vec film, vec shear, unsigned asked)"
         )
         doc = "Derivatives of the rates by the states, and by the requested groups."
-        return [*comment(doc), *function(head, body), ""]
+        return documented(doc, head, body)
 
     def _guarded(self) -> list[str]:
         """C lines of the operations; those needed for some groups only are conditional on these."""
         always = {entry for entry in self.matrix.values() if isinstance(entry, str)}
-        needs = {entry: {by} for (_, by), entry in self.sources.items() if isinstance(entry, str)}
+        needs: dict[str, set[str]] = {}
         for (_, by), entry in self.sources.items():
             if isinstance(entry, str):
-                needs[entry].add(by)
+                needs.setdefault(entry, set()).add(by)
         sines = {each.series: each.name for each in self.program.operations if each.kind == "sine"}
         for operation in reversed(self.program.operations):
             made_with = (sines[operation.series],) if operation.kind == "cosine" and operation.series in sines else ()
@@ -134,14 +123,14 @@ class Tangent(LinearFlow):
                 if operation.name in always:
                     always.add(part)
                 needs.setdefault(part, set()).update(needs.get(operation.name, ()))
-        turning = {entry for (of, _), entry in (*self.matrix.items(), *self.sources.items()) if of == "turned"}
-        turning -= {entry for (of, _), entry in (*self.matrix.items(), *self.sources.items()) if of != "turned"}
+        entries = [*self.matrix.items(), *self.sources.items()]
+        turning = {entry for (row, _), entry in entries if row == "turned"}
+        turning -= {entry for (row, _), entry in entries if row != "turned"}
         rows = []
         for operation, line in zip(self.program.operations, self.made.lines(), strict=True):
             own = () if operation.name in always else tuple(g for g in self._groups if g in needs[operation.name])
-            rows.append((own, [each_term(line)]))
-            if operation.name in turning:
-                rows[-1] = own, ["#if TURNING_STATE", each_term(line), "#endif"]
+            loop = [each_term(line)]
+            rows.append((own, compiled_if("TURNING_STATE", loop) if operation.name in turning else loop))
         # operations needed by more groups come first; they never depend on those needed by fewer
         rows.sort(key=lambda row: (bool(row[0]), -len(row[0]), row[0]))
         lines: list[str] = []
@@ -156,10 +145,6 @@ class Tangent(LinearFlow):
     @property
     def _groups(self) -> list[str]:
         return [group.name for group in self.model.groups]
-
-    def _constant(self, entry: sp.Expr, hint: str = "slope") -> str:
-        text = self.constants.factor(entry, hint)
-        return text if entry.free_symbols else f"splat({text})"
 
     def _row(self) -> list[str]:
         body = ["double next = 1.0/(k + 1);", "(void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;"]
@@ -177,13 +162,13 @@ class Tangent(LinearFlow):
             if any(of == row for of, _ in self.sources):
                 terms.append(f"source[{row.upper()}][k]")
             line = f"t[{row.upper()}][k + 1] = ({' + '.join(terms) or 'splat(0.0)'})*next;"
-            body += ["#if TURNING_STATE", line, "#endif"] if row == "turned" else [line]
+            body += compiled_if("TURNING_STATE", [line]) if row == "turned" else [line]
         head = (
             "INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, "
             "const series *of, const constants *v, vec film, vec shear, const vec *const *source, int k)"
         )
         doc = "Coefficient k + 1 of a derivative of the states, with its source terms."
-        return [*comment(doc), *function(head, body), ""]
+        return documented(doc, head, body)
 
     def _sources(self) -> list[str]:
         body = ["(void)s; (void)of;", "switch (group) {"]
@@ -193,13 +178,13 @@ class Tangent(LinearFlow):
             for (row, by), entry in self.sources.items():
                 if by == group:
                     array = self.array(entry) if isinstance(entry, str) else f"s->{row}_by_{by}"
-                    line = f"source[{row.upper()}] = {array};"
-                    lines += ["#if TURNING_STATE", _IN + line, "#endif"] if row == "turned" else [_IN + line]
+                    line = f"{_IN}source[{row.upper()}] = {array};"
+                    lines += compiled_if("TURNING_STATE", [line]) if row == "turned" else [line]
             body += [*lines, _IN + "break;"]
         body.append("}")
         head = "static inline void sources(const slopes *s, const series *of, int group, const vec **source)"
         doc = "Source terms of the derivatives by a group; zero ones are left unset."
-        return [*comment(doc), *function(head, body), ""]
+        return documented(doc, head, body)
 
     def _values(self) -> list[str]:
         """Start, jump and outputs in a direction: derivatives of the states `t`, and explicit ones by each group."""
@@ -275,14 +260,13 @@ class Tangent(LinearFlow):
             (group.name, [(target, outputs[key].diff(group)) for key, target in targets.items()], text)
             for group in self.model.groups
         )
-        return [*comment(doc), *function(head, body), ""]
+        return documented(doc, head, body)
 
     def _plain_name(self, symbol: sp.Symbol) -> str:
         return f"y[{symbol.name.upper()}]" if symbol in self.model.states else f"v->{symbol.name}"
 
     def _edge(self) -> list[str]:
-        edge = dict(self.model["events"].outputs)["tangential_edge"]
-        call = next(node for node in edge.atoms(AppliedUndef) if is_slot_call(node))
+        (call,) = slot_calls(self.model["events"]["tangential_edge"])
         slot, name = call.func.__name__.split(".")
         passed = ", ".join(f"v->{argument}" for argument in call.args)
         body = ["(void)v;", "switch (group) {"]
@@ -290,15 +274,15 @@ class Tangent(LinearFlow):
             body += [f"case BY_{own.name.upper()}:", f"{_IN}return {slot}_{name}_by_{argument}({passed});"]
         body += ["default:", f"{_IN}return splat(0.0);", "}"]
         head = "static inline vec tangential_edge_along(const constants *v, int group)"
-        return [*comment("Derivative of the gap beyond which there is no tangential force."), *function(head, body), ""]
+        return documented("Derivative of the gap beyond which there is no tangential force.", head, body)
 
 
 def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Expr], str]]]) -> list[str]:
     body = []
     for group, slopes, text in rows:
-        told = [f"{_IN}{target} += {text(sp.factor(slope))};" for target, slope in slopes if slope != 0]
-        if told:
-            body += [f"case BY_{group.upper()}:", *told, _IN + "break;"]
+        lines = [f"{_IN}{target} += {text(sp.factor(slope))};" for target, slope in slopes if slope != 0]
+        if lines:
+            body += [f"case BY_{group.upper()}:", *lines, _IN + "break;"]
     return ["switch (group) {", *body, "}"] if body else ["(void)group;"]
 
 

@@ -27,13 +27,13 @@ import sympy as sp
 
 from ...physics.forces import FILM
 from ...physics.laws import slot_call
-from ...physics.laws.base import is_slot_call
+from ...physics.laws.base import slot_calls
 from ...physics.scaling import DISTANCE
 from ...physics.structure import Structure
 from ...vocabulary.quantities import aspect, gap, normal_velocity, stokes
 from ..automaton import APPROACH_PARTS, DEEPEST_PART
 from ..events import contact_gap
-from ..intermediates import ATTRACTION_FORCE, BRIDGE_FORCE, FILM_FORCE, intermediates
+from ..intermediates import FILM_FORCE, attractions, forces
 from ..observables import energies
 from .pendulum import LARGEST_PULL
 
@@ -49,23 +49,9 @@ def admits(structure: Structure) -> bool:
     return held and (structure.oblique or attracts)
 
 
-def attractions(structure: Structure, at: sp.Expr) -> sp.Expr:
-    """The attractions at a gap, over m v0^2/x0."""
-    full = Structure(
-        structure.oblique, structure.bridge, structure.strings, attraction=structure.attraction, spread=structure.spread
-    )
-    forces = dict(intermediates(full))
-    named = [force for force in (BRIDGE_FORCE, ATTRACTION_FORCE) if force in forces]
-    return sum((forces[force].subs(gap, at) for force in named), sp.Integer(0))
-
-
 def braking(structure: Structure, at: sp.Expr) -> sp.Expr:
     """Velocity, over v0/St, that the film takes from x0 to a gap: the film's call, but of its antiderivative."""
-    full = Structure(
-        True, structure.bridge, structure.strings, attraction=structure.attraction, spread=structure.spread
-    )
-    force = dict(intermediates(full))[FILM_FORCE].subs(FILM, 1)
-    (call,) = (node for node in force.atoms(sp.Function) if is_slot_call(node))
+    (call,) = slot_calls(forces(structure)[FILM_FORCE].subs(FILM, 1))
     return slot_call("film", "braking", at, *call.args[1:])
 
 

@@ -24,28 +24,10 @@ from __future__ import annotations
 import sympy as sp
 
 from ...physics.structure import Structure
-from ...vocabulary.quantities import (
-    aspect,
-    beta,
-    e_dry,
-    gap,
-    normal_velocity,
-    orbital_momentum,
-    rupture_gap,
-)
+from ...vocabulary import quantities as q
 from ..events import contact_gap
-from ..intermediates import ATTRACTION_FORCE, BRIDGE_FORCE, MOMENTUM, intermediates
-from .pendulum import (
-    CONTACT,
-    FARTHEST,
-    LARGEST_MOMENTUM,
-    LARGEST_PULL,
-    NEAREST,
-    SPUN_UP,
-    outward_at,
-    pull_at,
-    rigid_momentum,
-)
+from ..intermediates import MOMENTUM, attractions
+from . import pendulum
 
 LEAST, HOLD = sp.symbols("least_attraction hold", real=True)
 
@@ -56,46 +38,38 @@ def admits(structure: Structure) -> bool:
     return structure.oblique and attracts and not (structure.partner or structure.friction)
 
 
-def _least(structure: Structure) -> sp.Expr:
-    """The attractions at the rupture distance (without a bridge at x0, the edge of the film)."""
-    forces = dict(intermediates_of(structure))
-    end = rupture_gap if structure.bridge else sp.Integer(1)
-    named = [force for force in (BRIDGE_FORCE, ATTRACTION_FORCE) if force in forces]
-    return sum((forces[force].subs(gap, end) for force in named), sp.Integer(0))
-
-
-def intermediates_of(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
-    """The named forces of a structure, without those that only a reduced structure has."""
-    full = Structure(
-        structure.oblique, structure.bridge, structure.strings, attraction=structure.attraction, spread=structure.spread
-    )
-    return intermediates(full)
+def _end(structure: Structure) -> sp.Expr:
+    """The rupture gap; without a bridge x0, the edge of the film."""
+    return q.rupture_gap if structure.bridge else sp.S.One
 
 
 def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
-    end = rupture_gap if structure.bridge else sp.Integer(1)
-    pull = pull_at(CONTACT, beta) if structure.strings else sp.Integer(0)
-    largest = pull_at(end, sp.pi) if structure.strings else sp.Integer(0)
+    end = _end(structure)
+    pull = pendulum.pull_at(pendulum.CONTACT, q.beta) if structure.strings else sp.Integer(0)
+    largest = pendulum.pull_at(end, sp.pi) if structure.strings else sp.Integer(0)
     found = [
-        (CONTACT, contact_gap),
-        (NEAREST, 4 + aspect * CONTACT),
-        (FARTHEST, 4 + aspect * end),
-        (SPUN_UP, rigid_momentum(MOMENTUM, FARTHEST)),
-        (LARGEST_MOMENTUM, sp.Max(orbital_momentum, -orbital_momentum, SPUN_UP, -SPUN_UP)),
-        (LEAST, _least(structure)),
-        (HOLD, LEAST + pull - outward_at(LARGEST_MOMENTUM, NEAREST)),
+        (pendulum.CONTACT, contact_gap),
+        (pendulum.NEAREST, 4 + q.aspect * pendulum.CONTACT),
+        (pendulum.FARTHEST, 4 + q.aspect * end),
+        (pendulum.SPUN_UP, pendulum.rigid_momentum(MOMENTUM, pendulum.FARTHEST)),
+        (
+            pendulum.LARGEST_MOMENTUM,
+            sp.Max(q.orbital_momentum, -q.orbital_momentum, pendulum.SPUN_UP, -pendulum.SPUN_UP),
+        ),
+        (LEAST, attractions(structure, end)),
+        (HOLD, LEAST + pull - pendulum.outward_at(pendulum.LARGEST_MOMENTUM, pendulum.NEAREST)),
     ]
-    return (*found, (LARGEST_PULL, largest)) if structure.strings else tuple(found)
+    return (*found, (pendulum.LARGEST_PULL, largest)) if structure.strings else tuple(found)
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
     """The margins: a stick is certain if `hold` > 0, `escape` < 0 and `rebound` < 0; over m v0^2/x0 and m v0^2."""
-    end = rupture_gap if structure.bridge else sp.Integer(1)
-    outward = sp.Max(normal_velocity, -e_dry * normal_velocity)
-    pulled = LEAST + (LARGEST_PULL if structure.strings else 0)
+    end = _end(structure)
+    outward = sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity)
+    pulled = LEAST + (pendulum.LARGEST_PULL if structure.strings else 0)
     return {
         "hold": HOLD,
-        "escape": outward**2 / 2 - HOLD * (end - gap),
-        "rebound": e_dry**2 * pulled - HOLD,
+        "escape": outward**2 / 2 - HOLD * (end - q.gap),
+        "rebound": q.e_dry**2 * pulled - HOLD,
     }

@@ -33,6 +33,9 @@ from ...physics.scaling import DISTANCE, nondimensional
 from ...physics.structure import Structure
 from ...vocabulary.quantities import a, m, orbital_momentum, rate_scale, spin, v0, x
 from ..intermediates import SLIP
+from .attraction import admits
+
+__all__ = ["admits", "definitions", "margins"]  # it covers what the attraction certificate covers
 
 RIGID = sp.Symbol("rigid_share", nonnegative=True)  # 1/(rho/a + lag), with omega = xi at the distance rho
 UNIT = sp.Symbol("rotation_energy_unit", positive=True)  # m a^2 Omega^2 over m v0^2
@@ -105,12 +108,6 @@ def surface(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr, share: sp.Ex
     return momentum**2 / (2 * distance**2) - conserved * (
         distance**2 * there**4 / 2 + 2 * lag() * (_potential(share) - _potential(there))
     )
-
-
-def admits(structure: Structure) -> bool:
-    """True for the structures covered: oblique, equal spheres, with an attraction."""
-    attracts = structure.bridge or structure.attraction
-    return structure.oblique and attracts and not (structure.partner or structure.friction)
 
 
 def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:

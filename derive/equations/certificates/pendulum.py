@@ -33,27 +33,12 @@ import sympy as sp
 
 from ...physics.forces import scaled_strings
 from ...physics.laws import slot_call
-from ...physics.laws.base import is_slot_call
+from ...physics.laws.base import slot_calls
 from ...physics.laws.strings import offset_squared
 from ...physics.mechanics import doublet_inertia
 from ...physics.scaling import DISTANCE, INERTIA, nondimensional
 from ...physics.structure import Structure
-from ...vocabulary.quantities import (
-    a,
-    aspect,
-    beta,
-    e_dry,
-    gap,
-    glass_number,
-    m,
-    normal_velocity,
-    obliquity,
-    omega,
-    orbital_momentum,
-    r,
-    stokes,
-    weight,
-)
+from ...vocabulary import quantities as q
 from ..events import contact_gap
 from ..intermediates import MOMENTUM, ORBITAL_RATE, STRING_SIDEWAYS
 from ..rates import rates, turning_rate
@@ -70,32 +55,38 @@ ANGLES = sp.symbols(f"angle_:{PANELS}", nonnegative=True)
 TURNINGS = sp.symbols(f"turning_:{PANELS}", nonnegative=True)
 
 
+def admits(structure: Structure) -> bool:
+    """True for the structures covered: oblique, on strings, with a film only."""
+    alone = not (structure.bridge or structure.attraction or structure.friction)
+    return structure.oblique and structure.strings and alone
+
+
 def rigid_momentum(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
     """r^2 omega over a^2 Omega in rigid rotation with this angular momentum."""
-    inertia = nondimensional(doublet_inertia() / (m * a**2)).subs(DISTANCE, distance)
+    inertia = nondimensional(doublet_inertia() / (q.m * q.a**2)).subs(DISTANCE, distance)
     return momentum * distance**2 / inertia
 
 
 def pull_at(at: sp.Expr, angle: sp.Expr) -> sp.Expr:
     """Normal string force over m v0^2/x0 at this gap and angle."""
     pull, _, swing = scaled_strings(oblique=True)
-    whole = pull.subs(offset_squared, swing).subs(DISTANCE, 4 + aspect * gap)
-    return whole.subs({gap: at, beta: angle}, simultaneous=True)
+    whole = pull.subs(offset_squared, swing).subs(DISTANCE, 4 + q.aspect * q.gap)
+    return whole.subs({q.gap: at, q.beta: angle}, simultaneous=True)
 
 
 def outward_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
     """Centrifugal force over m v0^2/x0 for this orbital momentum and centre distance."""
-    force = nondimensional(m * r * omega**2 / INERTIA)
-    return force.subs({orbital_momentum: momentum, DISTANCE: distance}, simultaneous=True)
+    force = nondimensional(q.m * q.r * q.omega**2 / INERTIA)
+    return force.subs({q.orbital_momentum: momentum, DISTANCE: distance}, simultaneous=True)
 
 
 def torque_at(at: sp.Expr, angle: sp.Expr) -> sp.Expr:
     """What the strings take from J, over a^2 Omega v0/x0, at this gap and angle."""
     _, sideways, swing = scaled_strings(oblique=True)
-    rate = rates(Structure(oblique=True, bridge=False, strings=True))[orbital_momentum]
+    rate = rates(Structure(oblique=True, bridge=False, strings=True))[q.orbital_momentum]
     torque = -sp.expand(rate).coeff(STRING_SIDEWAYS) * sideways
-    whole = torque.subs(offset_squared, swing).subs(DISTANCE, 4 + aspect * gap)
-    return whole.subs({gap: at, beta: angle}, simultaneous=True)
+    whole = torque.subs(offset_squared, swing).subs(DISTANCE, 4 + q.aspect * q.gap)
+    return whole.subs({q.gap: at, q.beta: angle}, simultaneous=True)
 
 
 def share(distance: sp.Expr) -> sp.Expr:
@@ -112,27 +103,27 @@ def turning_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
 
 def impulse_by_angle(turning: sp.Expr, pull: sp.Expr, distance: sp.Expr) -> sp.Expr:
     """(centrifugal force - pull) over d beta/dt, for `turning`, which is J times the tangent of the impact angle."""
-    momentum = turning / obliquity
+    momentum = turning / q.obliquity
     found = (outward_at(momentum, distance) - PULL) / turning_at(momentum, distance)
     return sp.factor(found).subs(PULL, pull)  # a single quotient: -infinity, and no NaN, at the end of the rotation
 
 
 def taken_by_cosine() -> sp.Expr:
     """Decrease of the squared `turning` over that of cos(beta), with the stiffness of the present angle."""
-    torque = torque_at(CONTACT, beta).subs(sp.sin(beta), 1) / _stiffness() / weight * WEIGHING
-    per_angle = torque * obliquity**2 / turning_at(sp.Integer(1), NEAREST)
-    return sp.simplify(2 * share(FARTHEST) * per_angle.subs(4 + aspect * CONTACT, NEAREST))
+    torque = torque_at(CONTACT, q.beta).subs(sp.sin(q.beta), 1) / _stiffness() / q.weight * WEIGHING
+    per_angle = torque * q.obliquity**2 / turning_at(sp.Integer(1), NEAREST)
+    return sp.simplify(2 * share(FARTHEST) * per_angle.subs(4 + q.aspect * CONTACT, NEAREST))
 
 
 def _pull_by_stiffness(angle: sp.Expr) -> sp.Expr:
     """Least pull in contact at a later angle, with the stiffness of the present one (`weighing`)."""
-    across = pull_at(CONTACT, beta) / _stiffness()
-    risen = sp.expand(across / weight).subs(sp.sin(beta / 2) ** 2, (1 - sp.cos(angle)) / 2)
+    across = pull_at(CONTACT, q.beta) / _stiffness()
+    risen = sp.expand(across / q.weight).subs(sp.sin(q.beta / 2) ** 2, (1 - sp.cos(angle)) / 2)
     return sp.expand(risen) * WEIGHING
 
 
 def _stiffness() -> sp.Expr:
-    (call,) = (node for node in pull_at(CONTACT, beta).atoms(sp.Function) if is_slot_call(node))
+    (call,) = slot_calls(pull_at(CONTACT, q.beta))
     return call
 
 
@@ -142,15 +133,15 @@ def impulse_definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     sine = sp.sqrt(sp.Max(0, sp.Min(1, level)))
     return (
         (OUTWARD, outward_at(LARGEST_MOMENTUM, NEAREST)),
-        (PULL, pull_at(CONTACT, beta)),
-        (WEIGHING, weight * _stiffness()),
-        (TURNING, LARGEST_MOMENTUM * obliquity),
+        (PULL, pull_at(CONTACT, q.beta)),
+        (WEIGHING, q.weight * _stiffness()),
+        (TURNING, LARGEST_MOMENTUM * q.obliquity),
         (TAKEN, taken_by_cosine()),
         (FINAL, sine),
-        (WIDTH, sp.Max(0, 2 * FINAL + (sp.pi - 2) * FINAL**3 - beta) / PANELS),  # arcsin z <= z + (pi/2 - 1) z^3
-        *((angle, beta + k * WIDTH) for k, angle in enumerate(ANGLES)),
+        (WIDTH, sp.Max(0, 2 * FINAL + (sp.pi - 2) * FINAL**3 - q.beta) / PANELS),  # arcsin z <= z + (pi/2 - 1) z^3
+        *((angle, q.beta + k * WIDTH) for k, angle in enumerate(ANGLES)),
         *(
-            (later, sp.sqrt(sp.Max(0, TURNING**2 - TAKEN * (sp.cos(beta) - sp.cos(angle)))))
+            (later, sp.sqrt(sp.Max(0, TURNING**2 - TAKEN * (sp.cos(q.beta) - sp.cos(angle)))))
             for later, angle in zip(TURNINGS, ANGLES, strict=True)
         ),
     )
@@ -167,16 +158,16 @@ def impulse() -> sp.Expr:
 
 def definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
-    closing = sp.Min(normal_velocity, 0)
+    closing = sp.Min(q.normal_velocity, 0)
     return (
         (CONTACT, contact_gap),
-        (NEAREST, 4 + aspect * CONTACT),
-        (FARTHEST, 4 + aspect),
+        (NEAREST, 4 + q.aspect * CONTACT),
+        (FARTHEST, 4 + q.aspect),
         (SPUN_UP, rigid_momentum(MOMENTUM, FARTHEST)),
-        (LARGEST_MOMENTUM, sp.Max(orbital_momentum, SPUN_UP)),
+        (LARGEST_MOMENTUM, sp.Max(q.orbital_momentum, SPUN_UP)),
         (LARGEST_PULL, pull_at(sp.Integer(1), sp.pi)),
         (FASTEST, sp.sqrt(closing**2 + 2 * LARGEST_PULL)),
-        (REACH, sp.Max(CONTACT, slot_call("glass", "reach", FASTEST, glass_number))),
+        (REACH, sp.Max(CONTACT, slot_call("glass", "reach", FASTEST, q.glass_number))),
         *impulse_definitions(),
     )
 
@@ -186,13 +177,13 @@ def margins() -> dict[str, sp.Expr]:
 
     `impulse` counts as zero where `outward` < `pull`. `rebound` and `beneath` are of a gap and a closing speed there.
     """
-    faster = -normal_velocity + sp.sqrt(2 * LARGEST_PULL * gap)
+    faster = -q.normal_velocity + sp.sqrt(2 * LARGEST_PULL * q.gap)
     return {
         "outward": OUTWARD,
         "pull": PULL,
         "impulse": impulse(),
-        "film": stokes * normal_velocity - slot_call("film", "stopping", gap),
-        "recoil": stokes * e_dry * FASTEST - slot_call("film", "stopping", REACH),
-        "rebound": -stokes * e_dry * normal_velocity - slot_call("film", "stopping", gap),
-        "beneath": stokes * e_dry * faster - slot_call("film", "stopping", gap),
+        "film": q.stokes * q.normal_velocity - slot_call("film", "stopping", q.gap),
+        "recoil": q.stokes * q.e_dry * FASTEST - slot_call("film", "stopping", REACH),
+        "rebound": -q.stokes * q.e_dry * q.normal_velocity - slot_call("film", "stopping", q.gap),
+        "beneath": q.stokes * q.e_dry * faster - slot_call("film", "stopping", q.gap),
     }

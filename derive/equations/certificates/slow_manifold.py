@@ -53,10 +53,11 @@ def coefficients(model: Model) -> dict[str, sp.Expr] | None:
 
     Another form has, for instance, the film of a user's model whose resistance depends on the velocity.
     """
-    rate = {key: value.subs({FILM: 1, SHEAR: 1}) for key, value in _rates(model).items()}
     u, momentum = normal_velocity, orbital_momentum
-    push, turn = rate[u.name], rate[momentum.name]
-    rigid = _in_gap_and_distance(model, dict(model["rigid_rotation"].outputs)[momentum.name])
+    keep = (DISTANCE.name, MOMENTUM.name)
+    rates = model.by_state("right_hand_side", keep)
+    push, turn = (rates[state].subs({FILM: 1, SHEAR: 1}) for state in (u, momentum))
+    rigid = model.by_state("rigid_rotation", keep)[momentum]
     film = -push.diff(u)
     centrifugal = push.diff(momentum, 2) / 2
     attractions = -push.subs({u: 0, momentum: 0})
@@ -73,17 +74,4 @@ def coefficients(model: Model) -> dict[str, sp.Expr] | None:
     }
     if any(value.free_symbols & {u, momentum} for value in found.values()):
         return None
-    return found
-
-
-def _rates(model: Model) -> dict[str, sp.Expr]:
-    return {key: _in_gap_and_distance(model, value) for key, value in model["right_hand_side"].outputs}
-
-
-def _in_gap_and_distance(model: Model, expression: sp.Expr) -> sp.Expr:
-    """An expression with every intermediate but the centre distance and the conserved momentum substituted."""
-    found = sp.sympify(expression)
-    for symbol, value in reversed(model.definitions):
-        if symbol not in (DISTANCE, MOMENTUM):
-            found = found.subs(symbol, value)
     return found

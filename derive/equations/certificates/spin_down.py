@@ -35,19 +35,10 @@ import sympy as sp
 
 from ...physics.forces import SHEAR
 from ...physics.laws import LAWS, slot_call
-from ...physics.laws.base import filled, is_slot_call
+from ...physics.laws.base import filled, slot_calls
 from ...physics.scaling import DISTANCE
 from ...physics.structure import Structure
-from ...vocabulary.quantities import (
-    aspect,
-    e_dry,
-    gap,
-    normal_velocity,
-    orbital_momentum,
-    partner_spin,
-    spin,
-    stokes,
-)
+from ...vocabulary import quantities as q
 from ..events import contact_gap, start
 from ..intermediates import SLIP, intermediates
 from ..observables import energies
@@ -80,7 +71,7 @@ def decay(structure: Structure, near: sp.Expr, far: sp.Expr, logarithm: sp.Expr)
     It is that of the equations where both are the distance, and `logarithm` is the shear's at the gap.
     """
     full = _full(structure)
-    states = [spin, partner_spin] if structure.partner else [spin]
+    states = [q.spin, q.partner_spin] if structure.partner else [q.spin]
     named, known = rates(full), dict(intermediates(full))
     kept = {*slips(structure), DISTANCE, *(s for s in known if s.name in _SIZES)}
 
@@ -89,10 +80,9 @@ def decay(structure: Structure, near: sp.Expr, far: sp.Expr, logarithm: sp.Expr)
             if symbol not in kept:
                 expression = expression.subs(symbol, value)
         expression = filled(expression, {"arm": LAWS["arm"]["midgap"]}).subs(SHEAR, 1)
-        calls = {node: logarithm for node in expression.atoms(sp.Function) if is_slot_call(node)}
-        return sp.expand(expression.xreplace(calls))
+        return sp.expand(expression.xreplace(dict.fromkeys(slot_calls(expression), logarithm)))
 
-    line = opened(named[orbital_momentum] / DISTANCE**2).subs(DISTANCE, far)
+    line = opened(named[q.orbital_momentum] / DISTANCE**2).subs(DISTANCE, far)
     own = [opened(named[state]).subs(DISTANCE, near) for state in states]
     return sp.Matrix([[sp.factor(-(line - turn).coeff(s)) for s in slips(structure)] for turn in own])
 
@@ -107,14 +97,14 @@ def slowest(matrix: sp.Matrix) -> sp.Expr:
 
 def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
-    first = DISTANCE - aspect * gap
-    logarithm = slot_call("shear", "log_factor", BEYOND, aspect)
+    first = DISTANCE - q.aspect * q.gap
+    logarithm = slot_call("shear", "log_factor", BEYOND, q.aspect)
     return (
-        (EDGE, slot_call("shear", "edge", aspect)),
-        (BEYOND, (gap + sp.Min(1, EDGE)) / 2),
+        (EDGE, slot_call("shear", "edge", q.aspect)),
+        (BEYOND, (q.gap + sp.Min(1, EDGE)) / 2),
         (CONTACT, contact_gap),
-        (NEAR, first + aspect * CONTACT),
-        (FAR, first + aspect * BEYOND),
+        (NEAR, first + q.aspect * CONTACT),
+        (FAR, first + q.aspect * BEYOND),
         (LEAK, logarithm),
         (RATE, 2 * slowest(decay(structure, NEAR, FAR, LEAK))),
     )
@@ -122,8 +112,8 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
 
 def impulse(structure: Structure) -> sp.Expr:
     """Bound of the impulse of the centrifugal force below d, over m v0."""
-    rotating = energies(structure)["kinetic"] - normal_velocity**2 / 2
-    return 2 * aspect * rotating * DISTANCE**2 / (NEAR**3 * RATE)
+    rotating = energies(structure)["kinetic"] - q.normal_velocity**2 / 2
+    return 2 * q.aspect * rotating * DISTANCE**2 / (NEAR**3 * RATE)
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
@@ -131,13 +121,13 @@ def margins(structure: Structure) -> dict[str, sp.Expr]:
 
     It is as well if `apart` and `inside` are negative and J is zero.
     """
-    film = slot_call("film", "stopping", gap)
-    outward = stokes * sp.Max(normal_velocity, -e_dry * normal_velocity)
+    film = slot_call("film", "stopping", q.gap)
+    outward = q.stokes * sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity)
     return {
-        "stays": outward + stokes * impulse(structure) - film + slot_call("film", "stopping", BEYOND),
+        "stays": outward + q.stokes * impulse(structure) - film + slot_call("film", "stopping", BEYOND),
         "rate": RATE,
-        "apart": sp.Max(outward - film, film - slot_call("film", "stopping", EDGE) - stokes * normal_velocity),
-        "inside": gap if structure.friction else EDGE - gap,
+        "apart": sp.Max(outward - film, film - slot_call("film", "stopping", EDGE) - q.stokes * q.normal_velocity),
+        "inside": q.gap if structure.friction else EDGE - q.gap,
         "momentum": first_momentum(structure),
     }
 
@@ -146,6 +136,8 @@ def first_momentum(structure: Structure) -> sp.Expr:
     """|L| at initial contact in excess of its rounding error, over m a^2 times the scale of rates."""
     first, known = start(_full(structure)), dict(intermediates(_full(structure)))
     (whole,) = (sp.expand(value) for symbol, value in known.items() if symbol.name == "momentum")
-    parts = [whole.coeff(state) * first[state] for state in (orbital_momentum, spin, partner_spin) if whole.has(state)]
+    parts = [
+        whole.coeff(state) * first[state] for state in (q.orbital_momentum, q.spin, q.partner_spin) if whole.has(state)
+    ]
     size = sp.Max(sp.Add(*parts), -sp.Add(*parts))
     return sp.Max(size - ROUNDING * sp.Add(*(sp.Max(part, -part) for part in parts)), 0)

@@ -102,17 +102,18 @@ def is_slot_call(node: sp.Basic) -> bool:
     return isinstance(node, AppliedUndef) and "." in node.func.__name__
 
 
+def slot_calls(expression: sp.Expr) -> list[AppliedUndef]:
+    """The calls to laws in an expression."""
+    return [node for node in expression.atoms(AppliedUndef) if is_slot_call(node)]
+
+
 def fill(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
     """The expression with every slot call replaced by the chosen law's expression, inner calls first."""
     while True:
-        calls = [node for node in expression.atoms(AppliedUndef) if is_slot_call(node)]
+        calls = slot_calls(expression)
         if not calls:
             return expression
-        innermost = [
-            node
-            for node in calls
-            if not any(is_slot_call(inner) for part in node.args for inner in part.atoms(AppliedUndef))
-        ]
+        innermost = [node for node in calls if not any(slot_calls(part) for part in node.args)]
         replaced = {}
         for node in innermost:
             slot, function = node.func.__name__.split(".")

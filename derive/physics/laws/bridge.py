@@ -92,7 +92,7 @@ def _willett() -> Law:
     for name, rows in table.items():
         f[name] = sp.Symbol(name, real=True)
         in_phi = [_n(p) + _n(q) * phi + _n(r) * phi**2 for p, q, r in rows]
-        definitions.append((f[name], sum((c * log_volume**k for k, c in enumerate(in_phi)), sp.Integer(0))))
+        definitions.append((f[name], sp.Add(*(c * log_volume**k for k, c in enumerate(in_phi)))))
     result = 2 * sp.exp(f["f1"] - f["f2"] * sp.exp(f["f3"] * log_scaled + f["f4"] * log_scaled**2))
     return _law(
         "willett",

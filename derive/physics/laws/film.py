@@ -114,82 +114,61 @@ def _braking_of_constant_volume() -> LawFunction:
 
 _BRAKING = "Velocity, over v0/St, that the film takes from an approach from x0 to this gap."
 
+_DOC = "Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1)."
+
+
+def _function(force: sp.Expr, doc: str = _DOC, name: str = "resistance", falls: bool = True) -> LawFunction:
+    return LawFunction(name, (gap,), _resistance(force), doc, falls=falls)
+
+
 FILMS = (
     Law(
-        slot="film",
-        name="finite",
-        meaning="Reynolds film of finite thickness, the same on approach and rebound (no cavitation)",
+        "film",
+        "finite",
+        "Reynolds film of finite thickness, the same on approach and rebound (no cavitation)",
+        f"{KANTAK.short}; derived: pressure integrated over the disc h < x0",
+        (_function(normal_force()), _stopping(normal_force()), _braking(normal_force())),
         references=(KANTAK,),
-        source=f"{KANTAK.short}; derived: pressure integrated over the disc h < x0",
-        functions=(
-            LawFunction(
-                name="resistance",
-                arguments=(gap,),
-                result=_resistance(normal_force()),
-                doc="Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1).",
-                falls=True,
-            ),
-            _stopping(normal_force()),
-            _braking(normal_force()),
-        ),
     ),
     Law(
-        slot="film",
-        name="infinite",
-        meaning="no film correction: the pressure of an unbounded film, which ends where the surfaces leave it, x = x0",
+        "film",
+        "infinite",
+        "no film correction: the pressure of an unbounded film, which ends where the surfaces leave it, x = x0",
+        f"{RAGER.short}; derived: the limit x0 -> infinity of `finite`",
+        (_function(unbounded_force()), _stopping(unbounded_force()), _braking(unbounded_force())),
         references=(RAGER,),
-        source=f"{RAGER.short}; derived: the limit x0 -> infinity of `finite`",
-        functions=(
-            LawFunction(
-                name="resistance",
-                arguments=(gap,),
-                result=_resistance(unbounded_force()),
-                doc="Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1).",
-                falls=True,
-            ),
-            _stopping(unbounded_force()),
-            _braking(unbounded_force()),
-        ),
     ),
     Law(
-        slot="film",
-        name="cavitating",
-        meaning="`finite` on approach; on rebound the liquid sustains no suction and cavitates, which leaves no force",
-        references=(BARNOCKY,),
-        source=f"{BARNOCKY.short}; derived: the pressure cut off at ambient",
-        functions=(
-            LawFunction(
-                name="resistance",
-                arguments=(gap,),
-                result=_resistance(normal_force()),
-                doc="Normal film force over 6 pi mu a^2 u/x0 while closing, for a gap inside the film (gap < 1).",
-                falls=True,
+        "film",
+        "cavitating",
+        "`finite` on approach; on rebound the liquid sustains no suction and cavitates, which leaves no force",
+        f"{BARNOCKY.short}; derived: the pressure cut off at ambient",
+        (
+            _function(
+                normal_force(),
+                "Normal film force over 6 pi mu a^2 u/x0 while closing, for a gap inside the film (gap < 1).",
             ),
-            LawFunction(
-                name="suction",
-                arguments=(gap,),
-                result=_resistance(sustained_force()),
-                doc="What of the resistance is left while opening.",
-            ),
+            _function(sustained_force(), "What of the resistance is left while opening.", "suction", falls=False),
             _braking(normal_force()),
         ),
+        references=(BARNOCKY,),
     ),
     Law(
-        slot="film",
-        name="constant-volume",
-        meaning="the rim follows the bridge's liquid, H = sqrt(x^2 + V_b/(pi a)) in place of x0, at any gap",
-        references=(PITOIS,),
-        source=f"{PITOIS.short}; derived: a disc of that volume",
-        functions=(
+        "film",
+        "constant-volume",
+        "the rim follows the bridge's liquid, H = sqrt(x^2 + V_b/(pi a)) in place of x0, at any gap",
+        f"{PITOIS.short}; derived: a disc of that volume",
+        (
             LawFunction(
-                name="resistance",
-                arguments=(gap, aspect, volume),
-                result=_resistance(constant_volume_force()),
-                doc="Normal film force over 6 pi mu a^2 u/x0.",
-                definitions=((_rim, _scaled_rim()),),
+                "resistance",
+                (gap, aspect, volume),
+                _resistance(constant_volume_force()),
+                "Normal film force over 6 pi mu a^2 u/x0.",
+                ((_rim, _scaled_rim()),),
                 falls=True,
             ),
             _braking_of_constant_volume(),
         ),
+        references=(PITOIS,),
     ),
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..laws.references import GOLDMAN, JEFFREY, Reference
+from ..structure import Structure
 from . import pair, space, wall
 from .base import Rotation
 
@@ -10,16 +11,11 @@ PUBLISHED: dict[str, tuple[Reference, ...]] = {"pair": (JEFFREY,), "wall": (GOLD
 """Publications of the friction of a partner, to its leading logarithm."""
 
 
-def rotation(partner: str, friction: str = "", reduced: bool = False) -> Rotation:
-    """The rotation of a structure with partner "pair", "wall" or "space", for its equations.
-
-    Arguments:
-        friction: of the dry contact, whose impulses start the modes beside a wall anew.
-        reduced: in space, without the partner's spin.
-    """
-    if partner == "space":
-        return space.rotation(reduced)
-    return pair.rotation() if partner == "pair" else wall.rotation(bool(friction))
+def rotation(structure: Structure) -> Rotation:
+    """The rotation of a structure with an unequal partner, for its equations."""
+    if structure.partner == "space":
+        return space.rotation(structure.reduced)
+    return pair.rotation() if structure.partner == "pair" else wall.rotation(bool(structure.friction))
 
 
 __all__ = ["PUBLISHED", "Rotation", "rotation"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import sympy as sp
 
@@ -26,7 +26,7 @@ class Rotation:
         outputs: results for a separated pair.
         surface_slip: relative velocity of the surfaces at the contact, over a times the scale of rates.
         least: (least rotational energy over m v0^2 for the state's angular momentum, its slope along the gap).
-        rigid: the state with that energy; None in space, where it also depends on the direction of n.
+        rigid: the state with that energy; empty in space, where it also depends on the direction of n.
         start: the state at initial contact.
         wobble: in space, energy over m v0^2 of neither rigid rotation across the line of centres nor twist.
         outward_at_most: in space, a bound of the centrifugal force on a resting doublet from now on, over m v0^2/x0.
@@ -45,14 +45,14 @@ class Rotation:
     outputs: Mapping[str, sp.Expr]
     surface_slip: sp.Expr
     least: tuple[sp.Expr, sp.Expr]
-    rigid: Mapping[sp.Symbol, sp.Expr] | None
+    rigid: Mapping[sp.Symbol, sp.Expr]
     start: Mapping[sp.Symbol, sp.Expr]
-    outward_at_most: sp.Expr | None = None
-    wobble: sp.Expr | None = None
-    rigid_rotation: Mapping[str, sp.Expr] | None = None
+    outward_at_most: sp.Expr = sp.S.Zero
+    wobble: sp.Expr = sp.S.Zero
+    rigid_rotation: Mapping[str, sp.Expr] = field(default_factory=dict)
 
 
 def relative_change(momentum: sp.Expr, first: Sequence[sp.Expr]) -> sp.Expr:
     """1 + the change of an angular momentum over the sum of the magnitudes of its first parts."""
-    size = sum((sp.Abs(part) for part in first), sp.Integer(0))
-    return 1 + (momentum - sum(first, sp.Integer(0))) / size
+    size = sp.Add(*(sp.Abs(part) for part in first))
+    return 1 + (momentum - sp.Add(*first)) / size

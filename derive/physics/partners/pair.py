@@ -6,26 +6,7 @@ from functools import cache
 
 import sympy as sp
 
-from ...vocabulary.quantities import (
-    a,
-    aspect,
-    gap,
-    initial_partner_spin,
-    initial_spin,
-    initial_turning,
-    m,
-    mu,
-    omega,
-    orbital_momentum,
-    partner_spin,
-    partner_spin_rate,
-    rate_scale,
-    spin,
-    v0,
-    x,
-    x0,
-    xi,
-)
+from ...vocabulary import quantities as q
 from ..forces import SHEAR, TANGENTIAL
 from ..laws import slot_call
 from ..laws.base import Definition
@@ -49,7 +30,7 @@ def scaled(expression: sp.Expr) -> sp.Expr:
 
 
 def _turned(expression: sp.Expr) -> sp.Expr:
-    return scaled(expression).subs(orbital_momentum, ORBITAL_RATE * DISTANCE**2)
+    return scaled(expression).subs(q.orbital_momentum, ORBITAL_RATE * DISTANCE**2)
 
 
 def friction() -> tuple[tuple[sp.Expr, sp.Expr], sp.Expr]:
@@ -58,20 +39,20 @@ def friction() -> tuple[tuple[sp.Expr, sp.Expr], sp.Expr]:
     The torques are the leading logarithms, multiplied by a factor from the law for the lever arm. For `midgap` the
     factor is r/(R_1 + R_2), so that they add up to r F_t and dL/dt = 0 exactly; for `surface` it is 1.
     """
-    log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
-    slips = sp.Matrix([omega - xi, omega - partner_spin_rate])
+    log = SHEAR * slot_call("shear", "log_factor", q.x / q.x0, q.x0 / q.a)
+    slips = sp.Matrix([q.omega - q.xi, q.omega - q.partner_spin_rate])
     torques = torque_matrix() * slips * log
-    stretch = slot_call("arm", "lever", 4 * r / (CENTRES * a)) / 2  # lever arm for equal spheres over their radius 2a
+    stretch = slot_call("arm", "lever", 4 * r / (CENTRES * q.a)) / 2  # lever arm for equal spheres over their radius 2a
     return (stretch * torques[0], stretch * torques[1]), (torques[0] + torques[1]) / (R_1 + R_2)
 
 
 def _friction() -> list[Definition]:
-    log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
-    unit = 2 * sp.pi * mu * a**3  # coefficients of the slip rates in the torques
-    shape = (torque_matrix() / unit).subs({R_1: a * RADIUS, R_2: a * PARTNER_RADIUS})
+    log = SHEAR * slot_call("shear", "log_factor", q.x / q.x0, q.x0 / q.a)
+    unit = 2 * sp.pi * q.mu * q.a**3  # coefficients of the slip rates in the torques
+    shape = (torque_matrix() / unit).subs({R_1: q.a * RADIUS, R_2: q.a * PARTNER_RADIUS})
     torque, partner_torque = LEVER * DRAG * sp.simplify(shape) * sp.Matrix([SLIP, PARTNER_SLIP])
     return [
-        (DRAG, scaled(log * unit * rate_scale / (TANGENTIAL * a))),
+        (DRAG, scaled(log * unit * q.rate_scale / (TANGENTIAL * q.a))),
         (LEVER, slot_call("arm", "lever", 4 * DISTANCE / CENTRES) / 2),
         (TORQUE, sp.factor(torque)),
         (PARTNER_TORQUE, sp.factor(partner_torque)),
@@ -83,75 +64,75 @@ def _definitions() -> tuple[Definition, ...]:
     (radius, partner_radius), (inertia, partner_inertia) = radii(), inertias()
     return (
         (CENTRES, centres()),
-        (DISTANCE, CENTRES + aspect * gap),
-        (ORBITAL_RATE, scaled(omega / rate_scale)),
-        (RADIUS, sp.factor(radius / a)),
-        (PARTNER_RADIUS, sp.factor(partner_radius / a)),
-        (SPIN_INERTIA, sp.factor(inertia / (m * a**2))),
-        (PARTNER_INERTIA, sp.factor(partner_inertia / (m * a**2))),
-        (MOMENTUM, orbital_momentum + SPIN_INERTIA * spin + PARTNER_INERTIA * partner_spin),
+        (DISTANCE, CENTRES + q.aspect * q.gap),
+        (ORBITAL_RATE, scaled(q.omega / q.rate_scale)),
+        (RADIUS, sp.factor(radius / q.a)),
+        (PARTNER_RADIUS, sp.factor(partner_radius / q.a)),
+        (SPIN_INERTIA, sp.factor(inertia / (q.m * q.a**2))),
+        (PARTNER_INERTIA, sp.factor(partner_inertia / (q.m * q.a**2))),
+        (MOMENTUM, q.orbital_momentum + SPIN_INERTIA * q.spin + PARTNER_INERTIA * q.partner_spin),
         (INERTIA_RATIO, DISTANCE**2 + SPIN_INERTIA + PARTNER_INERTIA),
-        (SLIP, ORBITAL_RATE - spin),
-        (PARTNER_SLIP, ORBITAL_RATE - partner_spin),
+        (SLIP, ORBITAL_RATE - q.spin),
+        (PARTNER_SLIP, ORBITAL_RATE - q.partner_spin),
         *_friction(),
     )
 
 
 def _kinetic() -> sp.Expr:
     """Kinetic energy of the orbital motion and of both spins, over m v0^2; the centre of mass is at rest."""
-    orbital = _turned(m * r**2 * omega**2 / 2 / (m * v0**2))
-    turning = scaled(m * a**2 * rate_scale**2 / 2 / (m * v0**2))
-    return orbital + turning * SPIN_INERTIA * spin**2 + turning * PARTNER_INERTIA * partner_spin**2
+    orbital = _turned(q.m * r**2 * q.omega**2 / 2 / (q.m * q.v0**2))
+    turning = scaled(q.m * q.a**2 * q.rate_scale**2 / 2 / (q.m * q.v0**2))
+    return orbital + turning * SPIN_INERTIA * q.spin**2 + turning * PARTNER_INERTIA * q.partner_spin**2
 
 
 @cache
 def rotation() -> Rotation:
     """The rotation of an unequal pair, for its equations."""
     motion = equations_of_motion()
-    named = {F_t: TANGENTIAL * SHEAR_FORCE, T_1: TANGENTIAL * a * TORQUE, T_2: TANGENTIAL * a * PARTNER_TORQUE}
-    per_time = x0 / (v0 * m * a**2 * rate_scale)
+    named = {F_t: TANGENTIAL * SHEAR_FORCE, T_1: TANGENTIAL * q.a * TORQUE, T_2: TANGENTIAL * q.a * PARTNER_TORQUE}
+    per_time = q.x0 / (q.v0 * q.m * q.a**2 * q.rate_scale)
 
     def rate(coordinate: str) -> sp.Expr:
         return scaled(motion.rates[coordinate].subs(named) * per_time)
 
-    power = F_t * r * omega - T_1 * xi - T_2 * partner_spin_rate
+    power = F_t * r * q.omega - T_1 * q.xi - T_2 * q.partner_spin_rate
     rigid = MOMENTUM / INERTIA_RATIO
-    least = scaled((m * a**2 * rate_scale * MOMENTUM) ** 2 / (2 * m * a**2 * INERTIA_RATIO) / (m * v0**2))
+    least = scaled((q.m * q.a**2 * q.rate_scale * MOMENTUM) ** 2 / (2 * q.m * q.a**2 * INERTIA_RATIO) / (q.m * q.v0**2))
     opened = motion.accelerations["x"]
-    centrifugal = sp.expand(opened - opened.subs(omega, 0))
-    assert sp.expand(centrifugal - r * omega**2) == 0
+    centrifugal = sp.expand(opened - opened.subs(q.omega, 0))
+    assert sp.expand(centrifugal - r * q.omega**2) == 0
     return Rotation(
-        states=(orbital_momentum, spin, partner_spin),
+        states=(q.orbital_momentum, q.spin, q.partner_spin),
         definitions=_definitions(),
-        centrifugal=_turned(m * r * omega**2 / INERTIA),
+        centrifugal=_turned(q.m * r * q.omega**2 / INERTIA),
         rates={
-            orbital_momentum: rate("beta"),
-            spin: rate("alpha_1") / SPIN_INERTIA,
-            partner_spin: rate("alpha_2") / PARTNER_INERTIA,
+            q.orbital_momentum: rate("beta"),
+            q.spin: rate("alpha_1") / SPIN_INERTIA,
+            q.partner_spin: rate("alpha_2") / PARTNER_INERTIA,
         },
-        turning=_turned(omega * x0 / v0),
+        turning=_turned(q.omega * q.x0 / q.v0),
         kinetic=_kinetic(),
-        power=_turned(power.subs(named) * x0 / v0 / (m * v0**2)),
+        power=_turned(power.subs(named) * q.x0 / q.v0 / (q.m * q.v0**2)),
         momentum=relative_change(
             MOMENTUM,
             (
-                (CENTRES + aspect) ** 2 * initial_turning,
-                SPIN_INERTIA * initial_spin,
-                PARTNER_INERTIA * initial_partner_spin,
+                (CENTRES + q.aspect) ** 2 * q.initial_turning,
+                SPIN_INERTIA * q.initial_spin,
+                PARTNER_INERTIA * q.initial_partner_spin,
             ),
         ),
         outputs={
-            "tangential_restitution": DISTANCE * ORBITAL_RATE / ((CENTRES + aspect) * initial_turning),
+            "tangential_restitution": DISTANCE * ORBITAL_RATE / ((CENTRES + q.aspect) * q.initial_turning),
             "final_rotation_rate": ORBITAL_RATE,
-            "final_spin": spin,
-            "final_spin_partner": partner_spin,
+            "final_spin": q.spin,
+            "final_spin_partner": q.partner_spin,
         },
-        surface_slip=DISTANCE * ORBITAL_RATE - LEVER * (RADIUS * spin + PARTNER_RADIUS * partner_spin),
-        least=(least, least.diff(INERTIA_RATIO) * 2 * DISTANCE * aspect),
-        rigid={orbital_momentum: DISTANCE**2 * rigid, spin: rigid, partner_spin: rigid},
+        surface_slip=DISTANCE * ORBITAL_RATE - LEVER * (RADIUS * q.spin + PARTNER_RADIUS * q.partner_spin),
+        least=(least, least.diff(INERTIA_RATIO) * 2 * DISTANCE * q.aspect),
+        rigid={q.orbital_momentum: DISTANCE**2 * rigid, q.spin: rigid, q.partner_spin: rigid},
         start={
-            orbital_momentum: (CENTRES + aspect) ** 2 * initial_turning,
-            spin: initial_spin,
-            partner_spin: initial_partner_spin,
+            q.orbital_momentum: (CENTRES + q.aspect) ** 2 * q.initial_turning,
+            q.spin: q.initial_spin,
+            q.partner_spin: q.initial_partner_spin,
         },
     )

@@ -15,29 +15,7 @@ from functools import cache
 
 import sympy as sp
 
-from ...vocabulary.quantities import (
-    AXES,
-    Vector,
-    a,
-    aspect,
-    gap,
-    initial_normals,
-    initial_partner_spins,
-    initial_spins,
-    initial_turnings,
-    m,
-    mu,
-    normal,
-    omega,
-    orbital_momenta,
-    orbital_momentum,
-    partner_spins,
-    rate_scale,
-    spins,
-    v0,
-    x,
-    x0,
-)
+from ...vocabulary import quantities as q
 from ..forces import SHEAR, TANGENTIAL
 from ..laws import slot_call
 from ..laws.base import Definition
@@ -49,9 +27,9 @@ from .rolling import R_1, R_2, torque_matrix
 from .vectors import APART, FORCE, LINE_RATE, cross, dot, motion, on_the_sphere
 
 
-def named(name: str) -> Vector:
+def named(name: str) -> q.Vector:
     """Symbols of a vector's components."""
-    first, second, third = (sp.Symbol(f"{name}_{axis}", real=True) for axis in AXES)
+    first, second, third = (sp.Symbol(f"{name}_{axis}", real=True) for axis in q.AXES)
     return first, second, third
 
 
@@ -67,7 +45,7 @@ Eliminated = tuple[Definition, ...]  # the components of L, then those of the pa
 
 def torques(slips: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
     """Torques on the two spheres over `STRENGTH`, of the slips of both in one direction across the line of centres."""
-    shape = (torque_matrix() / (2 * sp.pi * mu * a**3)).subs({R_1: a * RADIUS, R_2: a * PARTNER_RADIUS})
+    shape = (torque_matrix() / (2 * sp.pi * q.mu * q.a**3)).subs({R_1: q.a * RADIUS, R_2: q.a * PARTNER_RADIUS})
     first, second = sp.simplify(shape) * sp.Matrix(slips)
     return first, second
 
@@ -75,12 +53,13 @@ def torques(slips: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
 def start() -> dict[sp.Symbol, sp.Expr]:
     """State of the rotation at initial contact."""
     return {
-        **dict(zip(normal, initial_normals, strict=True)),
+        **dict(zip(q.normal, q.initial_normals, strict=True)),
         **{
-            state: (CENTRES + aspect) ** 2 * rate for state, rate in zip(orbital_momenta, initial_turnings, strict=True)
+            state: (CENTRES + q.aspect) ** 2 * rate
+            for state, rate in zip(q.orbital_momenta, q.initial_turnings, strict=True)
         },
-        **dict(zip(spins, initial_spins, strict=True)),
-        **dict(zip(partner_spins, initial_partner_spins, strict=True)),
+        **dict(zip(q.spins, q.initial_spins, strict=True)),
+        **dict(zip(q.partner_spins, q.initial_partner_spins, strict=True)),
     }
 
 
@@ -89,50 +68,50 @@ def sizes() -> list[Definition]:
     (radius, partner_radius), (inertia, partner_inertia) = radii(), inertias()
     return [
         (CENTRES, centres()),
-        (DISTANCE, CENTRES + aspect * gap),
-        (RADIUS, sp.factor(radius / a)),
-        (PARTNER_RADIUS, sp.factor(partner_radius / a)),
-        (SPIN_INERTIA, sp.factor(inertia / (m * a**2))),
-        (PARTNER_INERTIA, sp.factor(partner_inertia / (m * a**2))),
+        (DISTANCE, CENTRES + q.aspect * q.gap),
+        (RADIUS, sp.factor(radius / q.a)),
+        (PARTNER_RADIUS, sp.factor(partner_radius / q.a)),
+        (SPIN_INERTIA, sp.factor(inertia / (q.m * q.a**2))),
+        (PARTNER_INERTIA, sp.factor(partner_inertia / (q.m * q.a**2))),
     ]
 
 
 def _momenta() -> list[Definition]:
-    each = zip(MOMENTA, orbital_momenta, spins, partner_spins, strict=True)
+    each = zip(MOMENTA, q.orbital_momenta, q.spins, q.partner_spins, strict=True)
     return [(of, own + SPIN_INERTIA * first + PARTNER_INERTIA * second) for of, own, first, second in each]
 
 
 def _twists(eliminated: Eliminated) -> list[Definition]:
     """Components along n of the two slips; omega has none."""
     if not eliminated:
-        return [(TWIST, dot(SLIPS, normal)), (PARTNER_TWIST, dot(PARTNER_SLIPS, normal))]
-    follows = sp.expand(dict(eliminated)[partner_spins[0]])
-    by_momentum, by_spin = (follows.coeff(symbol) for symbol in (MOMENTA[0], spins[0]))
+        return [(TWIST, dot(SLIPS, q.normal)), (PARTNER_TWIST, dot(PARTNER_SLIPS, q.normal))]
+    follows = sp.expand(dict(eliminated)[q.partner_spins[0]])
+    by_momentum, by_spin = (follows.coeff(symbol) for symbol in (MOMENTA[0], q.spins[0]))
     return [
-        (TWIST, -dot(spins, normal)),
-        (PARTNER_TWIST, by_spin * TWIST - by_momentum * dot(MOMENTA, normal)),
+        (TWIST, -dot(q.spins, q.normal)),
+        (PARTNER_TWIST, by_spin * TWIST - by_momentum * dot(MOMENTA, q.normal)),
     ]
 
 
 def definitions(eliminated: Eliminated = ()) -> tuple[Definition, ...]:
     """Named intermediates, in order."""
-    log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
-    unit = 2 * sp.pi * mu * a**3
+    log = SHEAR * slot_call("shear", "log_factor", q.x / q.x0, q.x0 / q.a)
+    unit = 2 * sp.pi * q.mu * q.a**3
     found = [*sizes(), *(eliminated or _momenta())]
-    found += [(rate, own / DISTANCE**2) for rate, own in zip(RATES, orbital_momenta, strict=True)]
+    found += [(rate, own / DISTANCE**2) for rate, own in zip(RATES, q.orbital_momenta, strict=True)]
     found += [(MOMENTUM_SQUARE, dot(MOMENTA, MOMENTA)), (RATE_SQUARE, dot(RATES, RATES))]
     found.append((INERTIA_RATIO, DISTANCE**2 + SPIN_INERTIA + PARTNER_INERTIA))
-    found += [(slip, rate - own) for slip, rate, own in zip(SLIPS, RATES, spins, strict=True)]
-    found += [(slip, rate - own) for slip, rate, own in zip(PARTNER_SLIPS, RATES, partner_spins, strict=True)]
+    found += [(slip, rate - own) for slip, rate, own in zip(SLIPS, RATES, q.spins, strict=True)]
+    found += [(slip, rate - own) for slip, rate, own in zip(PARTNER_SLIPS, RATES, q.partner_spins, strict=True)]
     found += _twists(eliminated)
-    found.append((DRAG, scaled(log * unit * rate_scale / (TANGENTIAL * a))))
+    found.append((DRAG, scaled(log * unit * q.rate_scale / (TANGENTIAL * q.a))))
     found.append((STRENGTH, DRAG * DISTANCE / CENTRES))
     found += list(zip((ALONG, PARTNER_ALONG), torques((TWIST, PARTNER_TWIST)), strict=True))
     across = [torques(both) for both in zip(SLIPS, PARTNER_SLIPS, strict=True)]
     for place, (symbols, along) in enumerate(((TORQUES, ALONG), (PARTNER_TORQUES, PARTNER_ALONG))):
         found += [
             (symbol, STRENGTH * (both[place] - along * line))
-            for symbol, both, line in zip(symbols, across, normal, strict=True)
+            for symbol, both, line in zip(symbols, across, q.normal, strict=True)
         ]
     return tuple(found)
 
@@ -141,38 +120,41 @@ def rates() -> dict[sp.Symbol, sp.Expr]:
     """Rates of n, J and both spins, per v0/x0."""
     moved = motion()
     pull, shear = sp.Symbol("F", real=True), named("S")  # on sphere 2: -F n - S x n, with r S = T_1 + T_2
-    force = -pull * sp.Matrix(normal) - cross(shear, normal)
+    force = -pull * sp.Matrix(q.normal) - cross(shear, q.normal)
     by_force = dict(zip(FORCE, force, strict=True))
-    torque = [on_the_sphere(each.subs(by_force), normal, shear) for each in moved.orbital_momentum]
+    torque = [on_the_sphere(each.subs(by_force), q.normal, shear) for each in moved.orbital_momentum]
     assert list(torque) == [-APART * each for each in shear]
     assert (
-        on_the_sphere(moved.opening.subs(by_force) - APART * dot(LINE_RATE, LINE_RATE) + pull / m, normal, shear) == 0
+        on_the_sphere(moved.opening.subs(by_force) - APART * dot(LINE_RATE, LINE_RATE) + pull / q.m, q.normal, shear)
+        == 0
     )
-    turned = scaled(rate_scale * x0 / v0)
+    turned = scaled(q.rate_scale * q.x0 / q.v0)
     found = dict(
         zip(
-            normal, (turned * each for each in moved.normal.subs(dict(zip(LINE_RATE, RATES, strict=True)))), strict=True
+            q.normal,
+            (turned * each for each in moved.normal.subs(dict(zip(LINE_RATE, RATES, strict=True)))),
+            strict=True,
         )
     )
-    assert scaled(TANGENTIAL * a * x0 / (v0 * m * a**2 * rate_scale)) == 1
+    assert scaled(TANGENTIAL * q.a * q.x0 / (q.v0 * q.m * q.a**2 * q.rate_scale)) == 1
     for place in range(3):
-        found[orbital_momenta[place]] = -(TORQUES[place] + PARTNER_TORQUES[place])
-        found[spins[place]] = TORQUES[place] / SPIN_INERTIA
-        found[partner_spins[place]] = PARTNER_TORQUES[place] / PARTNER_INERTIA
+        found[q.orbital_momenta[place]] = -(TORQUES[place] + PARTNER_TORQUES[place])
+        found[q.spins[place]] = TORQUES[place] / SPIN_INERTIA
+        found[q.partner_spins[place]] = PARTNER_TORQUES[place] / PARTNER_INERTIA
     return found
 
 
 def centrifugal(square: sp.Expr) -> sp.Expr:
     """Centrifugal force over m v0^2/x0 for a square of the orbital momentum."""
-    return sp.expand(scaled(m * r * omega**2 / INERTIA).subs(orbital_momentum**2, square))
+    return sp.expand(scaled(q.m * r * q.omega**2 / INERTIA).subs(q.orbital_momentum**2, square))
 
 
 def energy_unit() -> sp.Expr:
     """M a^2 Omega^2 over m v0^2."""
-    return scaled(m * a**2 * rate_scale**2 / (m * v0**2))
+    return scaled(q.m * q.a**2 * q.rate_scale**2 / (q.m * q.v0**2))
 
 
-def energy(orbital: Vector | sp.Matrix, first: Vector | sp.Matrix, second: Vector | sp.Matrix) -> sp.Expr:
+def energy(orbital: q.Vector | sp.Matrix, first: q.Vector | sp.Matrix, second: q.Vector | sp.Matrix) -> sp.Expr:
     """Kinetic energy over m a^2 Omega^2 of an orbital momentum and two spins."""
     spinning = SPIN_INERTIA * dot(first, first) + PARTNER_INERTIA * dot(second, second)
     return (dot(orbital, orbital) / DISTANCE**2 + spinning) / 2
@@ -185,17 +167,17 @@ def slip_energy() -> sp.Expr:
     spins (`derive.checks.space.least_energy_in_space`).
     """
     rigid = sp.Matrix(MOMENTA) / INERTIA_RATIO
-    apart = sp.Matrix(orbital_momenta) - DISTANCE**2 * rigid
-    return energy(apart, sp.Matrix(spins) - rigid, sp.Matrix(partner_spins) - rigid)
+    apart = sp.Matrix(q.orbital_momenta) - DISTANCE**2 * rigid
+    return energy(apart, sp.Matrix(q.spins) - rigid, sp.Matrix(q.partner_spins) - rigid)
 
 
 def wobble() -> sp.Expr:
     """Energy over m a^2 Omega^2 of what is neither the rotation of a rigid doublet across n nor twist."""
-    line = sp.Matrix(normal)
-    rigid = (sp.Matrix(MOMENTA) - dot(MOMENTA, normal) * line) / INERTIA_RATIO
-    first = sp.Matrix(spins) - dot(spins, normal) * line - rigid
-    second = sp.Matrix(partner_spins) - dot(partner_spins, normal) * line - rigid
-    return energy(sp.Matrix(orbital_momenta) - DISTANCE**2 * rigid, first, second)
+    line = sp.Matrix(q.normal)
+    rigid = (sp.Matrix(MOMENTA) - dot(MOMENTA, q.normal) * line) / INERTIA_RATIO
+    first = sp.Matrix(q.spins) - dot(q.spins, q.normal) * line - rigid
+    second = sp.Matrix(q.partner_spins) - dot(q.partner_spins, q.normal) * line - rigid
+    return energy(sp.Matrix(q.orbital_momenta) - DISTANCE**2 * rigid, first, second)
 
 
 def rigid_rotation() -> dict[str, sp.Expr]:
@@ -203,8 +185,8 @@ def rigid_rotation() -> dict[str, sp.Expr]:
 
     With twist such a doublet precesses: n, J and both spins turn about L at |L|/I.
     """
-    momentum = {f"momentum_{axis}": component for axis, component in zip(AXES, MOMENTA, strict=True)}
-    return {**momentum, "per_momentum": scaled(rate_scale * x0 / v0) / INERTIA_RATIO}
+    momentum = {f"momentum_{axis}": component for axis, component in zip(q.AXES, MOMENTA, strict=True)}
+    return {**momentum, "per_momentum": scaled(q.rate_scale * q.x0 / q.v0) / INERTIA_RATIO}
 
 
 def outward_at_most() -> sp.Expr:
@@ -217,7 +199,7 @@ def surface_slips() -> list[sp.Expr]:
     """Components of n x the relative velocity of the surfaces at the contact, over a Omega."""
     return [
         DISTANCE / CENTRES * (RADIUS * (one - TWIST * line) + PARTNER_RADIUS * (other - PARTNER_TWIST * line))
-        for one, other, line in zip(SLIPS, PARTNER_SLIPS, normal, strict=True)
+        for one, other, line in zip(SLIPS, PARTNER_SLIPS, q.normal, strict=True)
     ]
 
 
@@ -232,7 +214,7 @@ def drift() -> sp.Expr:
     first = start()
     parts = [
         (sp.Matrix(vector).subs(first, simultaneous=True), inertia)
-        for vector, inertia in ((orbital_momenta, 1), (spins, SPIN_INERTIA), (partner_spins, PARTNER_INERTIA))
+        for vector, inertia in ((q.orbital_momenta, 1), (q.spins, SPIN_INERTIA), (q.partner_spins, PARTNER_INERTIA))
     ]
     begun = [momentum.subs(first, simultaneous=True) for _, momentum in _momenta()]
     apart = sp.Matrix(MOMENTA) - sp.Matrix(begun)
@@ -242,12 +224,12 @@ def drift() -> sp.Expr:
 def _outputs() -> dict[str, sp.Expr]:
     found: dict[str, sp.Expr] = {}
     for name, vector in (
-        ("final_normal", normal),
+        ("final_normal", q.normal),
         ("final_rotation_rate", RATES),
-        ("final_spin", spins),
-        ("final_spin_partner", partner_spins),
+        ("final_spin", q.spins),
+        ("final_spin_partner", q.partner_spins),
     ):
-        found |= {f"{name}_{axis}": component for axis, component in zip(AXES, vector, strict=True)}
+        found |= {f"{name}_{axis}": component for axis, component in zip(q.AXES, vector, strict=True)}
     return found
 
 
@@ -259,7 +241,7 @@ def rotation(reduced: bool) -> Rotation:
         reduced: without the partner's spin, which `definitions` then take from what is conserved.
     """
     own: Mapping[sp.Symbol, sp.Expr] = rates()
-    states = (*normal, *orbital_momenta, *spins, *(() if reduced else partner_spins))
+    states = (*q.normal, *q.orbital_momenta, *q.spins, *(() if reduced else q.partner_spins))
     lost = dot(TORQUES, SLIPS) + dot(PARTNER_TORQUES, PARTNER_SLIPS)
     least = energy_unit() * MOMENTUM_SQUARE / (2 * INERTIA_RATIO)
     return Rotation(
@@ -268,13 +250,13 @@ def rotation(reduced: bool) -> Rotation:
         centrifugal=centrifugal(RATE_SQUARE * DISTANCE**4),
         rates={state: own[state] for state in states},
         turning=None,
-        kinetic=energy_unit() * energy(orbital_momenta, spins, partner_spins),
-        power=scaled(TANGENTIAL * a * rate_scale * x0 / v0 / (m * v0**2)) * lost,
+        kinetic=energy_unit() * energy(q.orbital_momenta, q.spins, q.partner_spins),
+        power=scaled(TANGENTIAL * q.a * q.rate_scale * q.x0 / q.v0 / (q.m * q.v0**2)) * lost,
         momentum=drift(),
         outputs=_outputs(),
         surface_slip=surface_slip(),
-        least=(least, least.diff(INERTIA_RATIO) * 2 * DISTANCE * aspect),
-        rigid=None,
+        least=(least, least.diff(INERTIA_RATIO) * 2 * DISTANCE * q.aspect),
+        rigid={},
         start=start(),
         outward_at_most=outward_at_most(),
         wobble=energy_unit() * wobble(),

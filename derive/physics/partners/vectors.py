@@ -29,7 +29,7 @@ APART = sp.Symbol("r", positive=True)
 
 def dot(left: Vector | sp.Matrix, right: Vector | sp.Matrix) -> sp.Expr:
     """Scalar product."""
-    return sum((one * other for one, other in zip(left, right, strict=True)), sp.Integer(0))
+    return sp.Add(*(one * other for one, other in zip(left, right, strict=True)))
 
 
 def cross(left: Vector | sp.Matrix, right: Vector | sp.Matrix) -> sp.Matrix:

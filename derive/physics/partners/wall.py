@@ -18,28 +18,7 @@ from functools import cache
 
 import sympy as sp
 
-from ...vocabulary.quantities import (
-    a,
-    decay,
-    initial_spin,
-    initial_turning,
-    last_roll,
-    last_slide,
-    m,
-    mass_ratio,
-    obliquity,
-    omega,
-    partner_spin_rate,
-    radius_ratio,
-    roll,
-    slide,
-    slide_rate,
-    u,
-    v0,
-    x,
-    x0,
-    xi,
-)
+from ...vocabulary import quantities as q
 from ..forces import SHEAR
 from ..laws import slot_call
 from ..laws.base import Definition
@@ -54,10 +33,10 @@ SLOW_MODE, FAST_MODE = sp.symbols("slow_mode fast_mode", positive=True)
 
 def limit(expression: sp.Expr) -> sp.Expr:
     """An SI expression of the pair in the wall limit: omega = v/r, no spin of the partner, R_2 and M_2 to infinity."""
-    at_rest = expression.subs(partner_spin_rate, 0).subs(omega, slide_rate / r)
+    at_rest = expression.subs(q.partner_spin_rate, 0).subs(q.omega, q.slide_rate / r)
     one, other = radii()
     in_ratios = at_rest.subs({R_1: one, R_2: other}).subs(CENTRES, centres())
-    for ratio in (mass_ratio, radius_ratio):
+    for ratio in (q.mass_ratio, q.radius_ratio):
         in_ratios = sp.limit(sp.factor(in_ratios), ratio, sp.oo)
     return sp.factor(in_ratios)
 
@@ -65,7 +44,7 @@ def limit(expression: sp.Expr) -> sp.Expr:
 @cache
 def friction() -> tuple[sp.Expr, sp.Expr]:
     """Torque on the sphere and force against its sliding, in SI, over ln(h_outer/x)."""
-    torques = torque_matrix() * sp.Matrix([omega - xi, omega - partner_spin_rate])
+    torques = torque_matrix() * sp.Matrix([q.omega - q.xi, q.omega - q.partner_spin_rate])
     return limit(torques[0]), limit((torques[0] + torques[1]) / (R_1 + R_2))
 
 
@@ -74,14 +53,16 @@ def accelerations() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """Accelerations in SI: of the gap (without forces along it), along the wall (v = r omega), and of the spin."""
     motion = equations_of_motion().accelerations
     opened = motion["x"]
-    along = u * omega + r * motion["beta"]  # d(r omega)/dt
-    return limit(opened - opened.subs(omega, 0)), limit(along), limit(motion["alpha_1"])
+    along = q.u * q.omega + r * motion["beta"]  # d(r omega)/dt
+    return limit(opened - opened.subs(q.omega, 0)), limit(along), limit(motion["alpha_1"])
 
 
 def scaled(expression: sp.Expr) -> sp.Expr:
     """A dimensionless SI expression in states and groups; v over v0 T, spin over v0 T/a."""
-    sideways = v0 * obliquity
-    return nondimensional(expression.subs({slide_rate: sideways * slide, xi: sideways / a * roll}, simultaneous=True))
+    sideways = q.v0 * q.obliquity
+    return nondimensional(
+        expression.subs({q.slide_rate: sideways * q.slide, q.xi: sideways / q.a * q.roll}, simultaneous=True)
+    )
 
 
 @dataclass(frozen=True)
@@ -106,7 +87,7 @@ def modes(rates: Mapping[sp.Symbol, sp.Expr], start: Mapping[sp.Symbol, sp.Expr]
     Raises:
         ValueError: the rates do not have this form, or a mode does not decay.
     """
-    moving = sp.Matrix([slide, roll])
+    moving = sp.Matrix([q.slide, q.roll])
     found = sp.Matrix([sp.expand(rates[state]) for state in moving])
     matrix = -found.jacobian(moving)
     factor = matrix[0, 0]
@@ -125,21 +106,21 @@ def modes(rates: Mapping[sp.Symbol, sp.Expr], start: Mapping[sp.Symbol, sp.Expr]
 @cache
 def friction_rates() -> tuple[tuple[Definition, ...], dict[sp.Symbol, sp.Expr]]:
     """Friction force and torque by name, and the rates of slide and roll in terms of them, per v0/x0."""
-    log = SHEAR * slot_call("shear", "log_factor", x / x0, x0 / a)
+    log = SHEAR * slot_call("shear", "log_factor", q.x / q.x0, q.x0 / q.a)
     torque, force = friction()
     unit = _force_unit()
     opened, along, spun = accelerations()
     assert opened == 0  # no centrifugal force
-    named = {F_t: unit * SHEAR_FORCE, T_1: unit * a * TORQUE}
-    definitions = ((SHEAR_FORCE, scaled(log * force / unit)), (TORQUE, scaled(log * torque / (unit * a))))
+    named = {F_t: unit * SHEAR_FORCE, T_1: unit * q.a * TORQUE}
+    definitions = ((SHEAR_FORCE, scaled(log * force / unit)), (TORQUE, scaled(log * torque / (unit * q.a))))
     return definitions, {
-        slide: scaled(along.subs(named) * x0 / (v0 * v0 * obliquity)),
-        roll: scaled(spun.subs(named) * x0 / v0 * a / (v0 * obliquity)),
+        q.slide: scaled(along.subs(named) * q.x0 / (q.v0 * q.v0 * q.obliquity)),
+        q.roll: scaled(spun.subs(named) * q.x0 / q.v0 * q.a / (q.v0 * q.obliquity)),
     }
 
 
 def _force_unit() -> sp.Expr:
-    return m * v0 * obliquity * v0 / x0
+    return q.m * q.v0 * q.obliquity * q.v0 / q.x0
 
 
 @cache
@@ -150,36 +131,36 @@ def rotation(impulses: bool = False) -> Rotation:
         impulses: with tangential impulses, so that the modes may start from any slide and roll.
     """
     definitions, rates = friction_rates()
-    first = {slide: initial_turning, roll: initial_spin}
-    begin = {slide: last_slide, roll: last_roll} if impulses else first
+    first = {q.slide: q.initial_turning, q.roll: q.initial_spin}
+    begin = {q.slide: q.last_slide, q.roll: q.last_roll} if impulses else first
     last = {begin[state]: value for state, value in first.items()} if impulses else {}
     found = modes({state: rate.subs(dict(definitions)) for state, rate in rates.items()}, begin)
     both = (SLOW_MODE, FAST_MODE)
     unit = _force_unit()
-    kinetic = (m * slide_rate**2 + limit(inertias()[0]) * xi**2) / 2
-    power = (F_t * slide_rate - T_1 * xi).subs({F_t: unit * SHEAR_FORCE, T_1: unit * a * TORQUE})
+    kinetic = (q.m * q.slide_rate**2 + limit(inertias()[0]) * q.xi**2) / 2
+    power = (F_t * q.slide_rate - T_1 * q.xi).subs({F_t: unit * SHEAR_FORCE, T_1: unit * q.a * TORQUE})
     return Rotation(
-        states=(decay, *last),
+        states=(q.decay, *last),
         definitions=(
-            (SLOW_MODE, sp.exp(-decay)),
-            (FAST_MODE, sp.exp(-found.ratio * decay)),
-            (slide, sum(weight * mode for weight, mode in zip(found.slide, both, strict=True))),
-            (roll, sum(weight * mode for weight, mode in zip(found.roll, both, strict=True))),
+            (SLOW_MODE, sp.exp(-q.decay)),
+            (FAST_MODE, sp.exp(-found.ratio * q.decay)),
+            (q.slide, sum(weight * mode for weight, mode in zip(found.slide, both, strict=True))),
+            (q.roll, sum(weight * mode for weight, mode in zip(found.roll, both, strict=True))),
             *definitions,
         ),
         centrifugal=sp.Integer(0),
-        rates={decay: found.rate, **dict.fromkeys(last, sp.Integer(0))},
+        rates={q.decay: found.rate, **dict.fromkeys(last, sp.Integer(0))},
         turning=None,
-        kinetic=scaled(kinetic / (m * v0**2)),
-        power=scaled(power * x0 / v0 / (m * v0**2)),
+        kinetic=scaled(kinetic / (q.m * q.v0**2)),
+        power=scaled(power * q.x0 / q.v0 / (q.m * q.v0**2)),
         momentum=None,
         outputs={
-            "tangential_restitution": slide / initial_turning,
+            "tangential_restitution": q.slide / q.initial_turning,
             "final_rotation_rate": sp.Integer(0),
-            "final_spin": roll,
+            "final_spin": q.roll,
         },
-        surface_slip=slide - roll,
+        surface_slip=q.slide - q.roll,
         least=(sp.Integer(0), sp.Integer(0)),
-        rigid={decay: decay, **{state: state for state in last}},
-        start={decay: sp.Integer(0), **last},
+        rigid={q.decay: q.decay, **{state: state for state in last}},
+        start={q.decay: sp.Integer(0), **last},
     )

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 import sympy as sp
+from wetdoublet.derive.checks.base import run
 from wetdoublet.derive.checks.emitted import (
     events_are_the_definitions,
     inward_is_minus_the_acceleration,
@@ -15,7 +16,8 @@ from wetdoublet.derive.checks.emitted import (
     resting_is_held,
     tangential_force_is_the_published,
 )
-from wetdoublet.derive.checks.margins import margins, margins_are_the_lemmas
+from wetdoublet.derive.checks.margins import CHECKS as MARGINS
+from wetdoublet.derive.checks.margins import margins_are_the_lemmas
 from wetdoublet.derive.checks.restitution import decomposition
 from wetdoublet.derive.equations import events, observables, rates
 from wetdoublet.derive.equations.certificates import pendulum
@@ -42,7 +44,7 @@ def test_a_recoil_of_a_tenth(mutate: Mutate, healthy: Healthy):
     """A rebound taken at a tenth of its speed: the film stops it where it would not."""
     wrong = _recoil_of(sp.Rational(1, 10))
     mutate(pendulum.margins, lambda: wrong)
-    caught(margins(), healthy, "margin of the stick proof: recoil")
+    caught(run(MARGINS), healthy, "margin of the stick proof: recoil")
 
 
 def test_a_recoil_without_its_reach(mutate: Mutate, healthy: Healthy):
@@ -50,7 +52,7 @@ def test_a_recoil_without_its_reach(mutate: Mutate, healthy: Healthy):
     right = pendulum.margins()
     wrong = {**right, "recoil": right["recoil"].subs(pendulum.REACH, pendulum.CONTACT)}
     mutate(pendulum.margins, lambda: wrong)
-    caught(margins(), healthy, "margin of the stick proof: recoil")
+    caught(run(MARGINS), healthy, "margin of the stick proof: recoil")
 
 
 @pytest.mark.parametrize(
@@ -78,7 +80,7 @@ def test_a_pull_at_first_touch(mutate: Mutate, healthy: Healthy):
     """The pull at x0 is larger than at contact: the inward force is taken for too large."""
     wrong = {**pendulum.margins(), "pull": pendulum.pull_at(sp.Integer(1), q.beta)}
     mutate(pendulum.margins, lambda: wrong)
-    caught(margins(), healthy, "margin of the stick proof: pull")
+    caught(run(MARGINS), healthy, "margin of the stick proof: pull")
 
 
 def _with(right: Callable[..., Any], name: Any, change: Callable[[sp.Expr], sp.Expr]) -> Callable[..., Any]:
