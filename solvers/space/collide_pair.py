@@ -210,7 +210,7 @@ def _validity(pairs: Pairs, ends: Ends, motions: Motions) -> list[str]:
     some = pairs.part(which)
     before, after = (each[:, 1] - each[:, 0] for each in (some.velocities, motions.velocities[which]))
     bent = np.arctan2(length(np.cross(before, after)), dot(before, after)[:, 0])
-    known = si_values(some.scene, None, None)
+    known: dict[str, Any] = si_values(some.scene, None, None)
     touching = np.inf if some.scene.wall else sum(Bodies.of(some.scene).radius)
     sliding = length(some.sliding) / (1 + known["film_thickness"] / touching)  # the planar angle's, of touching spheres
     angle = np.arctan2(sliding, -some.opening)
