@@ -1,7 +1,7 @@
-"""Symbolic derivation: from the Lagrangian of the doublet to nondimensional equations, and their emission as CasADi.
+"""Symbolic derivation: from the Lagrangian of the doublet to nondimensional equations, and their emission as source.
 
-Pure sympy. Rooms: `quantities` (the vocabulary), `dimensions` (homogeneity walker), `mechanics` (Lagrangian),
-`laws` (one law a file), `structure` (what a scene needs), `scaling` (groups), `forces`, `intermediates`, `rates`,
-`events` and `observables` (the parts of its equations), `model` (all of them together), `checks` (what must hold),
-`emit` (source text).
+Pure sympy. `vocabulary`: quantities, their dimensions and allowed values. `physics`: mechanics, laws (one a file),
+partners, structures and scaling. `equations`: those of a structure, from intermediates and rates to certificates.
+`user_model`: a user's laws and events. `checks`: what must hold of all of them. `emit`: Python with CasADi, C, and
+documents.
 """

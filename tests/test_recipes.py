@@ -41,8 +41,7 @@ GROUP = [  # its name and formula
         "rupture_gap = ",
         'wavy_gap = _quantity("wavy_gap", "w/x_0", ONE, "x0", "waviness over x0", nonnegative=True)\n{}',
     ),
-    (SCALING, "    rough_gap,\n", "{}    w,\n    wavy_gap,\n"),
-    (SCALING, "        rough_gap: x_b / x0,\n", "{}        wavy_gap: w / x0,\n"),
+    (SCALING, "        q.rough_gap: q.x_b / q.x0,\n", "{}        q.wavy_gap: q.w / q.x0,\n"),
 ]
 CRITERION = [  # a row of the automaton
     (

@@ -103,10 +103,10 @@ def as_emitted() -> Evidence:
         work = LARGEST_FORCE * (gap - DEEPER)
         gain = work / sp.Max(rest, sp.sqrt(work / 2))
         wanted = {"deeper_gap": DEEPER, "slowed": sp.Max(rest, 0) + gain, "fastest": gain - normal_velocity}
-        found = model["approach_step"].by_name
+        result = model["approach_step"].by_name
         for symbol in (GAIN, LEFT, PATH):
-            found = {name: value.subs(symbol, named[symbol]) for name, value in found.items()}
-        yield from [found[name] - value for name, value in wanted.items()]
+            result = {name: value.subs(symbol, named[symbol]) for name, value in result.items()}
+        yield from [result[name] - value for name, value in wanted.items()]
         if structure.strings:
             continue
         outward = model.expanded(model["approach_force"]["outward"], SIZES)

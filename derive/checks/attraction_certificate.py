@@ -62,11 +62,12 @@ def margins_are_the_forces() -> Evidence:
             simultaneous=True,
         )
         hold = least + strings.subs(q.gap, contact) - away
-        found = model.results("attraction_margins")
+        result = model.results("attraction_margins")
         yield from (
-            found["hold"] - hold,
-            found["escape"] - (sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity) ** 2 / 2 - hold * (end - q.gap)),
-            found["rebound"] - (q.e_dry**2 * (least + most) - hold),
+            result["hold"] - hold,
+            result["escape"]
+            - (sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity) ** 2 / 2 - hold * (end - q.gap)),
+            result["rebound"] - (q.e_dry**2 * (least + most) - hold),
         )
 
 

@@ -40,8 +40,8 @@ def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callab
                     false += [] if part[0] else [part[1]]
                 else:
                     left.append(part)
-            found = vanishing(name, statement, left, figure)
-            return replace(found, ok=False, figure=false[0]) if false and found.ok else found
+            result = vanishing(name, statement, left, figure)
+            return replace(result, ok=False, figure=false[0]) if false and result.ok else result
 
         return run
 

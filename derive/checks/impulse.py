@@ -34,14 +34,14 @@ def strings_take() -> Check:
 
     There J >= s L, with s the largest share: F_t reduces J, and the strings take the whole of what they take from L.
     """
-    found = _model().by_state("right_hand_side")
+    rates = _model().by_state("right_hand_side")
     log_factor = sp.Function("shear.log_factor", real=True)(gap, aspect)
-    alone = sp.expand(found[orbital_momentum].subs(log_factor, 0))
-    spun = found[spin].subs(log_factor, 0)
+    alone = sp.expand(rates[orbital_momentum].subs(log_factor, 0))
+    spun = rates[spin].subs(log_factor, 0)
     torque = _model().expanded(pendulum.torque_at(gap, beta))
-    shear = sp.simplify((found[orbital_momentum] - found[orbital_momentum].subs(log_factor, 0)) / (SHEAR * log_factor))
+    shear = sp.simplify((rates[orbital_momentum] - rates[orbital_momentum].subs(log_factor, 0)) / (SHEAR * log_factor))
     slip = orbital_momentum / _HERE**2 - spin
-    rest = vanishing("", "", [alone + torque, spun, found[beta] - pendulum.turning_at(orbital_momentum, _HERE)])
+    rest = vanishing("", "", [alone + torque, spun, rates[beta] - pendulum.turning_at(orbital_momentum, _HERE)])
     reduces = sp.simplify(-shear / slip)
     grows, below = _share(DISTANCE).diff(DISTANCE), 1 - _share(DISTANCE)
     ok = rest.ok and all(map(positive, (reduces, sp.together(grows), sp.together(below))))
@@ -73,11 +73,11 @@ def torque_is_least_in_contact() -> Check:
 
 def integrand_is_largest_in_contact() -> Check:
     """(J^2/r^3 - S_n)/(J/r^2) grows with J and falls with r and S_n, which grows with r and beta (`pull_grows`)."""
-    found = (pendulum.outward_at(_MOMENTUM, DISTANCE) - _PULL) / pendulum.turning_at(_MOMENTUM, DISTANCE)
-    slopes = (found.diff(_MOMENTUM), -found.diff(DISTANCE), -found.diff(_PULL))
+    result = (pendulum.outward_at(_MOMENTUM, DISTANCE) - _PULL) / pendulum.turning_at(_MOMENTUM, DISTANCE)
+    slopes = (result.diff(_MOMENTUM), -result.diff(DISTANCE), -result.diff(_PULL))
     ok = all(positive(sp.together(slope)) for slope in slopes)
     return Check(
-        "impulse by angle", "grows with J, falls with r and S_n: largest in contact", ok, str(sp.factor(found))
+        "impulse by angle", "grows with J, falls with r and S_n: largest in contact", ok, str(sp.factor(result))
     )
 
 
@@ -113,10 +113,10 @@ def impulse_as_emitted() -> Evidence:
         yield named[later] ** 2 - sp.Max(0, pendulum.TURNING**2 - pendulum.TAKEN * (sp.cos(beta) - sp.cos(angle)))
         pull = pendulum.WEIGHING * (aspect * contact_gap + 4 * (1 - sp.cos(angle)))
         momentum = later / obliquity
-        found = (pendulum.outward_at(momentum, pendulum.NEAREST) - _PULL) / pendulum.turning_at(
+        result = (pendulum.outward_at(momentum, pendulum.NEAREST) - _PULL) / pendulum.turning_at(
             momentum, pendulum.NEAREST
         )
-        total += sp.Max(0, sp.factor(found).subs(_PULL, pull))
+        total += sp.Max(0, sp.factor(result).subs(_PULL, pull))
     emitted = model["pendulum_margins"]["impulse"]
     first = {symbol: value for symbol, value in model.definitions if symbol.name == "contact"}
     parts = [sp.expand(part.subs(first)) for part in sp.Mul.make_args(emitted) if part != pendulum.WIDTH]

@@ -24,9 +24,9 @@ def mirror() -> Evidence:
         names = {each.name for each in model.functions}
         for name in ("right_hand_side", *(each for each in _EVEN if each in names)):
             for key, value in model[name].outputs:
-                found = model.expanded(value, SIZES)
+                result = model.expanded(value, SIZES)
                 sign = -1 if name == "right_hand_side" and key in {state.name for state in reversed_} else 1
-                yield found - sign * found.subs(reversed_, simultaneous=True)
+                yield result - sign * result.subs(reversed_, simultaneous=True)
 
 
 CHECKS = (mirror,)

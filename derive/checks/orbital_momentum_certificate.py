@@ -156,16 +156,16 @@ def as_emitted() -> Evidence:
     """The emitted margins are this energy, in units of m v0^2, and the slip."""
     for structure in (_FULL, replace(_FULL, reduced=True)):
         model = derive(structure)
-        found = model.results("orbital_margins")
+        emitted = model.results("orbital_margins")
         here, turning = model.expanded(DISTANCE), model.expanded(spin) if structure.reduced else spin
         unit = obliquity**2 / 16  # omega0 = v0 tan(theta0)/(4a)
-        yield found["slip"] - (orbital_momentum / here**2 - turning)
-        yield found["orbital_energy"] - unit * orbital_momentum**2 / (2 * here**2)
+        yield emitted["slip"] - (orbital_momentum / here**2 - turning)
+        yield emitted["orbital_energy"] - unit * orbital_momentum**2 / (2 * here**2)
         rigid = sp.cancel(orbital.rigid_momentum(here, orbital_momentum, turning))
-        yield _clamped(found["midgap"] / unit) - _clamped(orbital.midgap_of(here, orbital_momentum, rigid))
-        if "surface" in found:
+        yield _clamped(emitted["midgap"] / unit) - _clamped(orbital.midgap_of(here, orbital_momentum, rigid))
+        if "surface" in emitted:
             own = orbital.surface(here, orbital_momentum, turning, orbital.rigid_share(orbital_momentum, turning))
-            yield found["surface"] - unit * own
+            yield emitted["surface"] - unit * own
 
 
 CHECKS = (exchange, stationary, midgap_takes, midgap_ends, transferable_bounds, surface_takes, as_emitted)

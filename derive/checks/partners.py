@@ -38,14 +38,14 @@ def conserved_momenta() -> list[dict[str, sp.Expr]]:
 
 def momenta_are_found() -> Check:
     """Linear momentum and total angular momentum are the only invariants linear in the momenta."""
-    found = conserved_momenta()
+    result = conserved_momenta()
     expected = [{"X": 1}, {"Y": 1}, {"beta": 1, "alpha_1": 1, "alpha_2": 1}]
-    missing = [each for each in expected if each not in found] + [each for each in found if each not in expected]
+    missing = [each for each in expected if each not in result] + [each for each in result if each not in expected]
     return Check(
         "pair: conserved momenta",
         "two unequal spheres that act on each other only keep P_X, P_Y and L = m r^2 omega + I_1 xi_1 + I_2 xi_2",
         not missing,
-        "; ".join(" + ".join(f"p_{name}" for name in each) for each in found),
+        "; ".join(" + ".join(f"p_{name}" for name in each) for each in result),
     )
 
 

@@ -40,8 +40,8 @@ def _midgap(expression: sp.Expr) -> sp.Expr:
 
 def momentum_falls() -> Check:
     """dL/dt = -r S_t, and S_t has the sign of sin(beta); only the strings exert a torque on the doublet."""
-    found = _model().by_state("right_hand_side")
-    total = _midgap(found[q.orbital_momentum] + sp.Rational(32, 5) * found[q.spin])
+    result = _model().by_state("right_hand_side")
+    total = _midgap(result[q.orbital_momentum] + sp.Rational(32, 5) * result[q.spin])
     lever = sp.sin(q.beta) * sp.Function("strings.stiffness", real=True)(q.string_ratio, _swing())
     share = sp.simplify(total / lever)
     ok = bool(positive(-share))

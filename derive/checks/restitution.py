@@ -41,12 +41,12 @@ def ceiling() -> sp.Expr:
 
 def ceiling_is_the_published() -> Check:
     """The derived bound and the emitted one are 1 + (r0 tan/(4a))^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2)."""
-    found = ceiling()
+    result = ceiling()
     start_distance, inertia = q.r.subs(q.x, q.x0), doublet_inertia().subs(q.x, _final)
     oblique = (start_distance * sp.tan(q.theta0) / (4 * q.a)) ** 2
     published = 1 + oblique * (1 - q.m * start_distance**2 / inertia) - 2 * _work / (q.m * q.v0**2)
-    left, grows = [found.subs(q.impact_spin, 0) - published], True
-    turned = found.subs(
+    left, grows = [result.subs(q.impact_spin, 0) - published], True
+    turned = result.subs(
         {_final: q.x, sp.tan(q.theta0): q.obliquity * q.initial_turning, q.impact_spin: q.rate_scale * q.initial_spin}
     )
     scaled = nondimensional(turned + 2 * _work / (q.m * q.v0**2))

@@ -18,21 +18,21 @@ _OPEN = sp.Symbol("beyond_touching", nonnegative=True)  # centre distance over a
 
 
 def _models() -> list[tuple[Model, dict[str, sp.Expr]]]:
-    found = []
+    result = []
     for structure in structures():
         given = coefficients(derive(structure)) if admits(structure) else None
         if given is not None:
-            found.append((derive(structure), given))
-    return found
+            result.append((derive(structure), given))
+    return result
 
 
 def rates_have_the_form() -> Check:
     """du/dt = c J^2 - A - f u and dJ/dt = -s (J - J_r), with the coefficients that are emitted."""
     left = []
-    for model, found in _models():
+    for model, result in _models():
         rates = model.by_state("right_hand_side")
-        push = found["centrifugal"] * orbital_momentum**2 - found["attractions"] - found["slowing"] * normal_velocity
-        turn = -found["relaxation"] * (orbital_momentum - found["rigid"])
+        push = result["centrifugal"] * orbital_momentum**2 - result["attractions"] - result["slowing"] * normal_velocity
+        turn = -result["relaxation"] * (orbital_momentum - result["rigid"])
         for state, rate in ((normal_velocity, push), (orbital_momentum, turn)):
             inside = rates[state].subs({FILM: 1, SHEAR: 1})
             left.append(sp.simplify(inside - model.expanded(rate)))
@@ -60,12 +60,12 @@ def secants() -> Evidence:
 def coefficients_are_monotonic() -> Check:
     """C falls; s over the logarithm rises, but slower than the distance; |J_r|, a share of |L|, ever more slowly."""
     signs = []
-    for model, found in _models():
-        lever = sp.cancel(found["relaxation"] / slot_call("shear", "log_factor", gap, aspect))
-        share = sp.cancel(found["rigid"] / MOMENTUM)
+    for model, result in _models():
+        lever = sp.cancel(result["relaxation"] / slot_call("shear", "log_factor", gap, aspect))
+        share = sp.cancel(result["rigid"] / MOMENTUM)
         signs.append(not share.has(MOMENTUM))
         slopes = (
-            -found["centrifugal"].diff(DISTANCE),
+            -result["centrifugal"].diff(DISTANCE),
             lever.diff(DISTANCE),
             -(lever / DISTANCE).diff(DISTANCE),
             share.diff(DISTANCE),

@@ -47,12 +47,12 @@ def momenta_in_space_are_found() -> Check:
     """The three components of the angular momentum are found among the invariants linear in the momenta."""
     name, statement = "space: angular momentum", "J + I_1 xi_1 + I_2 xi_2 is conserved, component by component"
     try:
-        found = conserved_components(derive(_SPACE))
+        result = conserved_components(derive(_SPACE))
     except NoInvariantError as error:
         return Check(name, statement, False, str(error))
     model = derive(_SPACE)
     momenta = [dict(model.definitions)[momentum] for momentum in space.MOMENTA]
-    left = [model.expanded(one.expression - momentum) for one, momentum in zip(found, momenta, strict=True)]
+    left = [model.expanded(one.expression - momentum) for one, momentum in zip(result, momenta, strict=True)]
     return vanishing(name, statement, left)
 
 

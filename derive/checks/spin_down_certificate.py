@@ -27,9 +27,9 @@ _LOG = sp.Symbol("log_factor", positive=True)
 
 def _plain(expression: sp.Expr) -> sp.Expr:
     """With the lever arm at mid-gap, inside the edge of the shear, its logarithm a symbol."""
-    found = filled(expression, _MIDGAP).subs(SHEAR, 1)
-    calls = {n: _LOG for n in found.atoms(sp.Function) if is_slot_call(n) and n.func.__name__.startswith("shear")}
-    return found.xreplace(calls)
+    result = filled(expression, _MIDGAP).subs(SHEAR, 1)
+    calls = {n: _LOG for n in result.atoms(sp.Function) if is_slot_call(n) and n.func.__name__.startswith("shear")}
+    return result.xreplace(calls)
 
 
 def _spins(structure: Structure) -> list[sp.Symbol]:
@@ -172,12 +172,12 @@ def as_emitted() -> Evidence:
             named[spin_down.EDGE] - slot_call("shear", "edge", q.aspect),
             named[spin_down.BEYOND] - (q.gap + sp.Min(1, spin_down.EDGE)) / 2,
         )
-        found = model["spin_down_margins"].by_name
+        emitted = model["spin_down_margins"].by_name
         film = slot_call("film", "stopping", q.gap) - slot_call("film", "stopping", spin_down.BEYOND)
         outward = sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity)
         yield from (
-            found["stays"] - (q.stokes * outward + q.stokes * spin_down.impulse(structure) - film),
-            found["rate"] - spin_down.RATE,
+            emitted["stays"] - (q.stokes * outward + q.stokes * spin_down.impulse(structure) - film),
+            emitted["rate"] - spin_down.RATE,
         )
         opens = q.stokes * outward - slot_call("film", "stopping", q.gap)
         closes = (
@@ -185,7 +185,7 @@ def as_emitted() -> Evidence:
             - slot_call("film", "stopping", spin_down.EDGE)
             + slot_call("film", "stopping", q.gap)
         )
-        yield from (found["apart"] - sp.Max(opens, closes), found["inside"] - (spin_down.EDGE - q.gap))
+        yield from (emitted["apart"] - sp.Max(opens, closes), emitted["inside"] - (spin_down.EDGE - q.gap))
 
 
 CHECKS = (slips_decay, mobility_is_monotonic, rotation_falls, film_takes, apart_from_shear, as_emitted)

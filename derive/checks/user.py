@@ -59,12 +59,12 @@ def model_checks(path: Path, text: str | None = None, name: str = "") -> tuple[U
 def checks_of(model: UserModel) -> tuple[Check, ...]:
     """Every check of a model that can be derived."""
     functions = sum(len(law.functions) for law in model.laws)
-    found = [Check("dimensions", "every term has the dimension that it must have", True, f"{functions} functions")]
+    result = [Check("dimensions", "every term has the dimension that it must have", True, f"{functions} functions")]
     named = ", ".join(str(group.symbol) for group in model.groups) or "none but the library's"
-    found.append(Check("groups", "laws depend on their arguments and dimensionless groups", True, named))
+    result.append(Check("groups", "laws depend on their arguments and dimensionless groups", True, named))
     for law in model.laws:
-        found += _law_checks(model, law)
-    return tuple(_accepted(model, check) for check in found)
+        result += _law_checks(model, law)
+    return tuple(_accepted(model, check) for check in result)
 
 
 def _accepted(model: UserModel, check: Check) -> Check:

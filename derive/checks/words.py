@@ -50,8 +50,8 @@ def _of_event(event: OwnEvent) -> str:
 def conserved(model: UserModel) -> tuple[str, ...]:
     """The conserved quantities without strings and rebounds, for any other laws."""
     arm = model.default("arm") if "arm" in model.slots else LAWS["arm"]["midgap"]
-    found = invariants(replace(model, events=()).extended(derive(_FULL)), {"arm": arm})
-    return tuple(_ANGULAR_MOMENTUM if each.is_angular_momentum else each.describe() for each in found)
+    result = invariants(replace(model, events=()).extended(derive(_FULL)), {"arm": arm})
+    return tuple(_ANGULAR_MOMENTUM if each.is_angular_momentum else each.describe() for each in result)
 
 
 def in_words(model: UserModel) -> tuple[str, ...]:

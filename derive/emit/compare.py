@@ -41,11 +41,11 @@ def equations(modules: Mapping[str, str]) -> Equations:
     Raises:
         ReadError: a text is not that of an emitted module.
     """
-    found: Equations = {}
+    result: Equations = {}
     for room, text in modules.items():
         for function in functions(text):
-            found |= _named(room, function)
-    return found
+            result |= _named(room, function)
+    return result
 
 
 def _untold(function: str, name: str, value: sp.Expr) -> bool:
@@ -69,15 +69,15 @@ def _named(room: str, function: Read) -> Equations:
 
 def compare(before: Equations, after: Equations) -> tuple[Change, ...]:
     """The terms that differ between two models, equation by equation."""
-    found: list[Change] = []
+    result: list[Change] = []
     for name in dict.fromkeys([*before, *after]):
         if name not in after:
-            found.append(Change(name, before[name], None))
+            result.append(Change(name, before[name], None))
         elif name not in before:
-            found.append(Change(name, None, after[name]))
+            result.append(Change(name, None, after[name]))
         elif not same(before[name], after[name]):
-            found += _terms(name, before[name], after[name])
-    return tuple(found)
+            result += _terms(name, before[name], after[name])
+    return tuple(result)
 
 
 def same(one: sp.Expr, other: sp.Expr) -> bool:

@@ -35,8 +35,8 @@ def structure_text(name: str) -> str:
 
 def user_structure_text(source: str, model: str, name: str) -> str:
     """Text of a structure's module with the calls of a user's model, given as the text of the model file."""
-    found = read(Path(f"{model}.py"), source, model)
-    return modules.structure_module(found.extended(derive(named(name))), own_names(found))
+    result = read(Path(f"{model}.py"), source, model)
+    return modules.structure_module(result.extended(derive(named(name))), own_names(result))
 
 
 def structure_header_text(name: str) -> str:
@@ -57,14 +57,14 @@ def structure_tangent_text(name: str) -> str:
 
 def user_structure_header_text(source: str, model: str, name: str, tangent: bool = False) -> str:
     """Text of the C header of a structure, or of its tangent, with the calls and groups of a user's model."""
-    found = read(Path(f"{model}.py"), source, model)
-    own = own_names(found)
+    result = read(Path(f"{model}.py"), source, model)
+    own = own_names(result)
     meanings = {name: meaning for name, (_, meaning) in own.items()}
-    beside = Beside({group.symbol: group.definition for group in found.groups}, meanings, found.extra, found.events)
-    if tangent and found.events:
+    beside = Beside({group.symbol: group.definition for group in result.groups}, meanings, result.extra, result.events)
+    if tangent and result.events:
         return _none(EmissionError("declared events have no derivatives in C"))
     try:
-        extended = found.extended(derive(named(name)))
+        extended = result.extended(derive(named(name)))
         return (
             modules.structure_tangent(extended, beside) if tangent else modules.structure_kernel(extended, own, beside)
         )
@@ -77,15 +77,15 @@ def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: 
 
     The law may be one of the model or of the library.
     """
-    found = read(Path(f"{model}.py"), source, model)
-    groups = {group.symbol for group in found.groups}
-    made = modules.law_slopes if slopes else modules.law_kernel
+    result = read(Path(f"{model}.py"), source, model)
+    groups = {group.symbol for group in result.groups}
+    header = modules.law_slopes if slopes else modules.law_kernel
     try:
-        for law in found.laws:
+        for law in result.laws:
             if (law.slot, law.name) == (slot, name):
-                return made(law, groups)
-        law, beside = _wide(LAWS[slot][name], found)
-        return made(law, groups | beside)
+                return header(law, groups)
+        law, beside = _wide(LAWS[slot][name], result)
+        return header(law, groups | beside)
     except EmissionError as error:
         return _none(error, f"law {slot} {name}: ")
 

@@ -95,8 +95,8 @@ def check(folder: Path = GENERATED) -> list[str]:
         path = folder / name
         if not path.is_file():
             lines.append(f"missing: {name}")
-        elif (found := path.read_bytes()) != text.encode():
-            shown = found.decode(errors="replace")
+        elif (result := path.read_bytes()) != text.encode():
+            shown = result.decode(errors="replace")
             lines.append(f"differs: {name}")
             lines += difflib.unified_diff(
                 shown.splitlines(), text.splitlines(), f"generated/{name}", f"derived/{name}", lineterm=""

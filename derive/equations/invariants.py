@@ -158,11 +158,11 @@ def conserved_momentum(
     Raises:
         NoInvariantError: it is not; the message gives the invariants found and dL/dt.
     """
-    found = invariants(system, laws)
-    for each in found:
+    result = invariants(system, laws)
+    for each in result:
         if each.is_angular_momentum:
             return each
-    conserved = "; ".join(each.describe() for each in found) or "nothing linear in the momenta"
+    conserved = "; ".join(each.describe() for each in result) or "nothing linear in the momenta"
     chosen = ", ".join(f"{slot} {law.name}" for slot, law in (laws or {}).items()) or "any law"
     raise NoInvariantError(
         f"no spin can be eliminated: angular momentum is not conserved ({chosen}), conserved is {conserved}"

@@ -129,10 +129,10 @@ def _conserved(structure: Structure) -> tuple[tuple[Invariant, sp.Expr], ...]:
     """
     full = derive(replace(structure, reduced=False))
     if structure.partner == "space":
-        found = conserved_components(full)
+        result = conserved_components(full)
     else:
-        found = (conserved_momentum(full, {"arm": LAWS["arm"]["midgap"]}),)
-    return tuple((invariant, invariant.at(start(structure))) for invariant in found)
+        result = (conserved_momentum(full, {"arm": LAWS["arm"]["midgap"]}),)
+    return tuple((invariant, invariant.at(start(structure))) for invariant in result)
 
 
 def _states(structure: Structure) -> tuple[sp.Symbol, ...]:

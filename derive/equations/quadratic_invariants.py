@@ -36,8 +36,8 @@ def quadratic_invariants(
     varying = sorted(change.free_symbols - constant, key=str)
     equations = sp.Poly(sp.expand(change), *varying).coeffs()
     matrix = sp.linear_eq_to_matrix(list(dict.fromkeys(equations)), list(unknown))[0]
-    found = []
+    result = []
     for vector in matrix.nullspace():
         first = next(value for value in vector if value != 0)
-        found.append(sp.Add(*(value / first * form for value, form in zip(vector, forms, strict=True))))
-    return tuple(found)
+        result.append(sp.Add(*(value / first * form for value, form in zip(vector, forms, strict=True))))
+    return tuple(result)

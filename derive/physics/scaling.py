@@ -109,10 +109,10 @@ def _vector_groups() -> dict[sp.Symbol, sp.Expr]:
     speeds = sp.Add(*(lever**2 * each**2 for lever, vector in zip(levers, rates, strict=True) for each in vector))
     unit = scale_definitions()[q.rate_scale_pair]
     groups = (q.initial_turnings, q.initial_spins, q.initial_partner_spins)
-    found = {q.obliquity: sp.sqrt(speeds) / q.v0}
+    result = {q.obliquity: sp.sqrt(speeds) / q.v0}
     for vector, group in zip(rates, groups, strict=True):
-        found |= {own: each / unit for own, each in zip(group, vector, strict=True)}
-    return found
+        result |= {own: each / unit for own, each in zip(group, vector, strict=True)}
+    return result
 
 
 def first_rates(scale: sp.Expr) -> dict[sp.Symbol, sp.Expr]:

@@ -43,19 +43,19 @@ class Place:
 def places() -> dict[str, Place]:
     """Every function of every slot, by `slot.function`; scales and SI arguments are taken from the force laws."""
     scaled = _scaled()
-    found = {}
+    result = {}
     for slot, laws in LAWS.items():
         functions = {function.name: function for law in reversed(laws.values()) for function in law.functions}
         for function in functions.values():  # of the first law that has the function
             at, scale = scaled.get(f"{slot}.{function.name}", ((), sp.Integer(1)))
             place = Place(slot, function.name, function.arguments, at, scale, function.doc)
-            found[place.key] = place
-    return found
+            result[place.key] = place
+    return result
 
 
 def _scaled() -> dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]]:
     """The factor of the call in a force that is a single call times a factor."""
-    found: dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]] = {
+    result: dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]] = {
         "glass.pressure": ((x / x0, -u / v0), LUBRICATION_PRESSURE),
         "shear.edge": ((next(iter(LAWS["shear"].values()))["edge"].arguments), x0),
     }
@@ -64,8 +64,8 @@ def _scaled() -> dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]]:
         if len(calls) != 1 or calls[0].func.__name__.startswith("strings."):
             continue  # rise and stiffness of the strings share one pair of arguments
         factor = force.subs({FILM: 1, SHEAR: 1}).xreplace({calls[0]: sp.Integer(1)})
-        found[calls[0].func.__name__] = (calls[0].args, factor)
-    return found
+        result[calls[0].func.__name__] = (calls[0].args, factor)
+    return result
 
 
 MOTION: dict[str, tuple[sp.Symbol, ...]] = {"film": (normal_velocity,), "shear": (normal_velocity,)}

@@ -277,9 +277,9 @@ def law(
             raise ModelFileError(f"{label}.{what}", text, "text")
     if bibtex and not _BIBTEX.fullmatch(bibtex):
         raise ModelFileError(f"{label}.bibtex", bibtex, "an entry such as @article{key, author = {...}, ...}")
-    made = tuple((f, _expression(f"{label}.{f}", functions[f])) for f in known if f in functions)
+    expressions = tuple((f, _expression(f"{label}.{f}", functions[f])) for f in known if f in functions)
     there.laws[slot, name] = Proposed(
-        slot, name, made, meaning or f"{name}, a user's law", source or "no source given", tuple(accept), bibtex
+        slot, name, expressions, meaning or f"{name}, a user's law", source or "no source given", tuple(accept), bibtex
     )
 
 
@@ -368,8 +368,8 @@ def event(
 
 def _of_event(label: str, value: object, there: Declarations, wanted: Dimension | None = None) -> sp.Expr:
     """An expression of an event, its symbols and its dimension judged."""
-    found = _expression(label, value)
-    whole = unfolded(found, there)
+    result = _expression(label, value)
+    whole = unfolded(result, there)
     own = {one.symbol: one.dimension for one in there.quantities.values()}
     own |= {known.mark: ONE for known in there.events.values()}
     for symbol in sorted(whole.free_symbols, key=str):
@@ -381,7 +381,7 @@ def _of_event(label: str, value: object, there: Declarations, wanted: Dimension 
         raise ModelFileError(label, str(whole), "terms of one dimension", str(error)) from None
     if wanted is not None and dimension not in (None, wanted):
         raise ModelFileError(label, str(whole), f"dimension {wanted}", f"has dimension {dimension}")
-    return found
+    return result
 
 
 def unfolded(expression: sp.Expr, there: Declarations) -> sp.Expr:
@@ -410,12 +410,12 @@ def _check_name(what: str, name: object, there: Declarations) -> None:
 def _expression(label: str, value: object) -> sp.Expr:
     """A sympy expression with every decimal as an exact rational."""
     try:
-        found = sp.sympify(value)
+        result = sp.sympify(value)
     except (sp.SympifyError, TypeError, AttributeError):
         raise ModelFileError(label, value, "a sympy expression") from None
-    if not isinstance(found, sp.Expr) or isinstance(value, str):
+    if not isinstance(result, sp.Expr) or isinstance(value, str):
         raise ModelFileError(label, value, "a sympy expression")
-    return found.xreplace({number: Rational(str(float(number))) for number in found.atoms(sp.Float)})
+    return result.xreplace({number: Rational(str(float(number))) for number in result.atoms(sp.Float)})
 
 
 def latex_names(there: Declarations, groups: Mapping[str, str]) -> dict[str, str]:

@@ -19,7 +19,7 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
     """
     source = _text(path) if text is None else text
     namespace = {"__name__": "wetdoublet_model", "__file__": str(path)}
-    with collecting() as found:
+    with collecting() as result:
         try:
             exec(compile(source, str(path), "exec", dont_inherit=True), namespace)  # the warnings are the user's own
         except ModelFileError as error:
@@ -34,11 +34,11 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
             where = f"{path}, line {_line(error, path)}"
             reason = " ".join(f"{type(error).__name__}: {error}".split())
             raise ModelFileError(where, None, "a model file (see `wetdoublet generate --template`)", reason) from None
-    if not found.laws and not found.events:
+    if not result.laws and not result.events:
         accepted = "law(SLOT, NAME, ...) or event(NAME, ...), at least once"
         raise ModelFileError(str(path), None, accepted, "declares no law and no event")
     doc = namespace.get("__doc__") or ""
-    return doc.strip().partition("\n")[0].rstrip("."), found
+    return doc.strip().partition("\n")[0].rstrip("."), result
 
 
 def read(path: Path, text: str | None = None, name: str = "") -> UserModel:
@@ -47,8 +47,8 @@ def read(path: Path, text: str | None = None, name: str = "") -> UserModel:
     Raises:
         ModelFileError: as `declared`. DimensionError, ScalingError: as `express`.
     """
-    meaning, found = declared(path, text)
-    return express(name or path.stem.replace("_", "-"), meaning or "a user's model", found)
+    meaning, result = declared(path, text)
+    return express(name or path.stem.replace("_", "-"), meaning or "a user's model", result)
 
 
 def _text(path: Path) -> str:

@@ -95,8 +95,8 @@ class UserModel:
         known = {*model.groups, *reached}
         groups = [group for group in GROUPS if group in known]
         groups += [group.symbol for group in self.groups if group.symbol in reached]
-        made = replace(model, groups=tuple(groups), functions=functions, definitions=definitions)
-        return own_events.extended(made, self.events)
+        wider = replace(model, groups=tuple(groups), functions=functions, definitions=definitions)
+        return own_events.extended(wider, self.events)
 
 
 def _stopped(function: str, key: str, expression: sp.Expr) -> sp.Expr:
@@ -175,17 +175,17 @@ class _Extra:
 
 def _groups(declared: Declarations, all_places: Mapping[str, Place]) -> dict[str, Group]:
     """The group of each quantity, by the quantity's name."""
-    found = {}
+    result = {}
     for one in declared.quantities.values():
         if one.dimension == ONE:
-            found[one.name] = Group(one.symbol, one, sp.Integer(1))
+            result[one.name] = Group(one.symbol, one, sp.Integer(1))
             continue
         over = one.over if one.over is not None else _scale(one, declared, all_places)
         dimension = dimension_of(over, DIMENSIONS)
         if dimension != one.dimension:
             raise DimensionError(f"{one.name}.over: {over} has dimension {dimension}, {one.name} has {one.dimension}")
-        found[one.name] = Group(sp.Symbol(one.group, **_sign(one)), one, over)
-    return found
+        result[one.name] = Group(sp.Symbol(one.group, **_sign(one)), one, over)
+    return result
 
 
 def _sign(one: Declared) -> dict[str, bool]:

@@ -32,21 +32,21 @@ class Bounds:
             raise BoundsError(text)
         words = " ".join(text.split())
         if span := _SPAN.fullmatch(words):
-            found = cls(f"from {span[1]} to {span[2]}", float(span[1]), float(span[2]))
+            result = cls(f"from {span[1]} to {span[2]}", float(span[1]), float(span[2]))
         else:
-            found = cls(words)
+            result = cls(words)
             for part in words.split(" and "):
                 side = _SIDE.fullmatch(part.strip())
                 if side is None:
                     raise BoundsError(text)
                 value, is_open = float(side[2]), len(side[1]) == 1
                 if side[1][0] == ">":
-                    found = cls(words, value, found.high, is_open, found.high_open)
+                    result = cls(words, value, result.high, is_open, result.high_open)
                 else:
-                    found = cls(words, found.low, value, found.low_open, is_open)
-        if not found.low < found.high:
+                    result = cls(words, result.low, value, result.low_open, is_open)
+        if not result.low < result.high:
             raise BoundsError(text)
-        return found
+        return result
 
     @property
     def positive(self) -> bool:

@@ -18,16 +18,16 @@ _FIELDS = {
 
 def cited() -> dict[str, tuple[Reference, ...]]:
     """Publications by what they describe: the paper, laws by slot and name, and parts that fill no slot."""
-    found: dict[str, tuple[Reference, ...]] = {"paper": (PAPER,)}
+    result: dict[str, tuple[Reference, ...]] = {"paper": (PAPER,)}
     for slot, laws in LAWS.items():
         for law in laws.values():
-            found[f"{slot} {law.name}"] = law.references
+            result[f"{slot} {law.name}"] = law.references
             for function in law.functions:
                 if function.name == "rupture_distance":
-                    found[f"rupture {law.name}"] = function.references
-    found["rupture common"] = COMMON
-    found |= {f"friction {partner}": references for partner, references in PUBLISHED.items()}
-    return found | {"elastic length": ELASTIC, "friction contact": (WALTON,)}
+                    result[f"rupture {law.name}"] = function.references
+    result["rupture common"] = COMMON
+    result |= {f"friction {partner}": references for partner, references in PUBLISHED.items()}
+    return result | {"elastic length": ELASTIC, "friction contact": (WALTON,)}
 
 
 def references_module() -> str:

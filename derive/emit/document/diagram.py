@@ -53,30 +53,30 @@ def diagram(provenance: str) -> str:
 
 def _arrows() -> dict[tuple[Mode | str, Mode | str], list[str]]:
     """Pairs of boxes, with the words of the events that lead from one to the other."""
-    found: dict[tuple[Mode | str, Mode | str], list[str]] = {}
+    result: dict[tuple[Mode | str, Mode | str], list[str]] = {}
     for event in automaton.EVENTS:
         for source in _sources(event):
             target = _target(event, source)
             if target != source:
-                found.setdefault((source, target), []).extend(_words(event, source))
+                result.setdefault((source, target), []).extend(_words(event, source))
     (rest,) = (rule for rule in automaton.RULES if rule.name == "rest")
-    found[_mode(1, CLOSING), _mode(1, OPENING, 1)] = [f"a criterion, {rest.words[0]} (beyond the film too)"]
-    return found
+    result[_mode(1, CLOSING), _mode(1, OPENING, 1)] = [f"a criterion, {rest.words[0]} (beyond the film too)"]
+    return result
 
 
 def _sources(event: Event) -> list[Mode | str]:
     """Boxes in which an event can happen; a single box for all modes if it is watched in each."""
     if not event.where:
         return [_ANY]
-    found: list[Mode | str] = []
+    result: list[Mode | str] = []
     for box in _PLACES:
         state = {} if isinstance(box, str) else dict(box)
         watched = bool(state) and all(state.get(component, value) == value for component, value in event.where)
         # while closing the film can only be entered, while opening only left
         passes = event.follows != "film" or (bool(state) and (state["film"] == 1) == (state["motion"] == OPENING))
         if watched and passes:
-            found.append(box)
-    return found
+            result.append(box)
+    return result
 
 
 def _target(event: Event, source: Mode | str) -> Mode | str:

@@ -92,9 +92,9 @@ def document(
         absent: slots that the scene lacks (`bridge`, `strings`, `glass`): their terms are left out.
         friction: of the dry contact.
     """
-    found: dict[str, Law] = {slot: law_of(slot, name, own) for slot, name in laws.items()}
+    result: dict[str, Law] = {slot: law_of(slot, name, own) for slot, name in laws.items()}
     with naming(_names(own)):
-        lines = [line for line in _without(theory(found, friction), tuple(absent)) if line.expression != 0]
+        lines = [line for line in _without(theory(result, friction), tuple(absent)) if line.expression != 0]
         lines += [
             Equation("Groups", latex(group.symbol), group.definition, group.quantity.meaning)
             for group in (own.groups if own else ())
@@ -102,7 +102,7 @@ def document(
         ]
         lines += [line for event in (own.events if own else ()) for line in _of_event(event, own)]
         rendered = tuple((e.group, e.left, e.relation, latex(e.expression), e.note) for e in lines)
-    rows = tuple((slot, f"{law.name}: {law.meaning}", law.source) for slot, law in found.items() if slot not in absent)
+    rows = tuple((slot, f"{law.name}: {law.meaning}", law.source) for slot, law in result.items() if slot not in absent)
     return Document(title, rendered, rows, _quantities(own), _events(own))
 
 

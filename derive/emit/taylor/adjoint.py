@@ -31,7 +31,7 @@ class Adjoint:
     def __init__(self, tangent: LinearFlow) -> None:
         self._tangent = tangent
         self._header = tangent.header
-        self._made = self._header.made
+        self._flow = self._header.recurrences
         self._rates = {state.name: self._header.rates[state.name] for state in tangent.model.states}
         self._operations = self._contributing()
         self._constants: dict[sp.Expr, int] = {}  # their expressions in the groups, and their places
@@ -89,7 +89,7 @@ class Adjoint:
     # ---- recurrences
 
     def _array(self, name: str) -> str:
-        return self._made.array(name).replace("s->", "of->", 1)
+        return self._flow.array(name).replace("s->", "of->", 1)
 
     def _in_groups(self, expression: sp.Expr) -> sp.Expr:
         named = self._header.flow.named
@@ -166,7 +166,7 @@ class Adjoint:
     def _linear(self, operation: Operation, total: str) -> list[str]:
         own = f"by_{operation.name}"
         lines = [f"vec {own} = {total};"]
-        texts = self._made.factors[operation.name]
+        texts = self._flow.factors[operation.name]
         for part, factor, text in zip(operation.series, operation.factors, texts, strict=False):
             self._pull(part, own if text == "1.0" else f"(-{own})" if text == "(-1.0)" else f"{text}*{own}")
             lines += self._accumulate(factor, f"{self._array(part)}[k]*{own}")
@@ -174,7 +174,7 @@ class Adjoint:
 
     def _product(self, operation: Operation) -> list[str]:
         name, own = operation.name, f"bar->{operation.name}"
-        text = self._made.factors[name][0]
+        text = self._flow.factors[name][0]
         first, second = operation.series
         lines = []
         for part, other in ((first, second), (second, first)):

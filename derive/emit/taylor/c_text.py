@@ -145,10 +145,10 @@ def number(value: sp.Expr) -> str:
 
 def split_flags(expression: sp.Expr, flags: Iterable[sp.Symbol]) -> tuple[list[sp.Symbol], sp.Expr]:
     """The flags of the region that are factors of an expression, and the rest."""
-    found, rest = [flag for flag in flags if flag in expression.free_symbols], expression
-    for flag in found:
+    result, rest = [flag for flag in flags if flag in expression.free_symbols], expression
+    for flag in result:
         rest = sp.cancel(rest / flag)
-    return found, rest
+    return result, rest
 
 
 class Constants:
@@ -173,10 +173,10 @@ class Constants:
         """C name of a constant symbol."""
         if symbol in self._flags:
             return symbol.name
-        found = self._given.get(symbol) or self._defined.get(symbol)
-        if found is None:
+        result = self._given.get(symbol) or self._defined.get(symbol)
+        if result is None:
             raise EmissionError(f"{symbol} is neither given nor defined")
-        return found
+        return result
 
     def assignments(self) -> list[str]:
         """C statements that compute what is prepared, in order."""

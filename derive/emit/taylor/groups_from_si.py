@@ -60,8 +60,8 @@ def _place(constants: str, expressions: Mapping[sp.Symbol, sp.Expr]) -> Callable
 def _quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
     """The quantities in groups: those of the vocabulary in its order, then those declared by a user."""
     used = set().union(*(expression.free_symbols for expression in expressions.values())) - {q.obliquity}
-    found = [one.symbol for one in q.VOCABULARY.values() if one.symbol in used]
-    return found + sorted(used - set(found), key=lambda symbol: str(symbol.name))
+    result = [one.symbol for one in q.VOCABULARY.values() if one.symbol in used]
+    return result + sorted(used - set(result), key=lambda symbol: str(symbol.name))
 
 
 def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:

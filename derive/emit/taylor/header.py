@@ -69,10 +69,10 @@ class Header:
             before = len(self.flow.operations)
             self.work_rate = self.flow.result(sp.Add(*wanted), "rate_of_capillary")
             self._work_operations = {operation.name for operation in self.flow.operations[before:]}
-        self.made = Recurrences(
+        self.recurrences = Recurrences(
             self.flow, self.constants, lambda name: f"s->{name}", passing=self.flow.passing(self._work_operations)
         )
-        self.ledger = Ledger(model, self.flow, self.made, self.constants)
+        self.ledger = Ledger(model, self.flow, self.recurrences, self.constants)
         rubs = model.structure.friction and model.structure.partner != "space"
         self.resting = self._resting() if rubs else None
 
@@ -92,9 +92,9 @@ class Header:
             *(self.model["turning_rate"].outputs if self.turning is not None else ()),
         ]
         program = Program.for_outputs(self.model.states, (value for _, value in outputs), self.model.definitions)
-        found = {key: program.result(expression, f"rate_of_{key}") for key, expression in outputs}
-        turning = None if self.turning is None else found[self.model["turning_rate"].outputs[0][0]]
-        return Resting(self.model, program, self.constants, found, turning)
+        result = {key: program.result(expression, f"rate_of_{key}") for key, expression in outputs}
+        turning = None if self.turning is None else result[self.model["turning_rate"].outputs[0][0]]
+        return Resting(self.model, program, self.constants, result, turning)
 
     # ---- the complete header
 
@@ -189,7 +189,7 @@ class Header:
 
     def _series(self) -> list[str]:
         fields = [f"vec {state.name}[TERMS]; /* {self._meaning(state)} */" for state in self.model.states]
-        fields += [*QUADRATURES, *self.ledger.states(), *self.made.fields(), *self.ledger.series()]
+        fields += [*QUADRATURES, *self.ledger.states(), *self.recurrences.fields(), *self.ledger.series()]
         fields += ["vec acceleration[TERMS]; /* of the gap, also while it is held */", "vec approach[TERMS];"]
         fields.append("glass_pressure_clearance_series glass;")
         return [*struct("series", fields), *(self.resting.struct() if self.resting else ())]
@@ -197,22 +197,22 @@ class Header:
     def _coefficients(self) -> list[str]:
         self.flow.collect_calls(self.calls)
         if self.resting:
-            self.resting.made.program.collect_calls(self.calls)
+            self.resting.recurrences.program.collect_calls(self.calls)
         body = ["(void)film; (void)shear;"]
-        for operation, line in zip(self.flow.operations, self.made.lines(), strict=True):
+        for operation, line in zip(self.flow.operations, self.recurrences.lines(), strict=True):
             body += compiled_if("CAPILLARY_STATE", [line]) if operation.name in self._work_operations else [line]
         body.append("double next = 1.0/(k + 1);")
         for name, rate in self.rates.items():
             if name == normal_velocity.name:
-                body.append(f"s->acceleration[k] = {self.made.rate(rate)};")
+                body.append(f"s->acceleration[k] = {self.recurrences.rate(rate)};")
                 body.append("s->normal_velocity[k + 1] = only(moving, s->acceleration[k]*next);")
             else:
-                body.append(f"s->{name}[k + 1] = {self.made.rate(rate)}*next;")
+                body.append(f"s->{name}[k + 1] = {self.recurrences.rate(rate)}*next;")
         if self.work_rate is not None:
-            line = f"s->capillary_work[k + 1] = {self.made.rate(self.work_rate)}*next;"
+            line = f"s->capillary_work[k + 1] = {self.recurrences.rate(self.work_rate)}*next;"
             body += compiled_if("CAPILLARY_STATE", [line])
         if self.turning is not None:
-            body += compiled_if("TURNING_STATE", [f"s->turned[k + 1] = {self.made.rate(self.turning)}*next;"])
+            body += compiled_if("TURNING_STATE", [f"s->turned[k + 1] = {self.recurrences.rate(self.turning)}*next;"])
         body += self.ledger.coefficients()
         return [
             *documented(
@@ -272,9 +272,9 @@ class Header:
         def where(series: str) -> str:
             return series if series in arguments else f"y[{series.upper()}]"
 
-        made = Recurrences(program, constants, where)
+        recurrences = Recurrences(program, constants, where)
         program.collect_calls(self.calls)
-        body = ["(void)c; (void)y;", *made.values(found.values())]
+        body = ["(void)c; (void)y;", *recurrences.values(found.values())]
         computed = {operation.name for operation in program.operations}
         for key, result in found.items():
             if isinstance(result, str):

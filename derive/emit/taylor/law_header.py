@@ -160,9 +160,9 @@ def work_lines(name: str, work: sp.Expr, constants: Constants, moving: sp.Symbol
     """A C function of the antiderivative of a force."""
     program = Program((moving,))
     result = program.series(work, "work")
-    made = Recurrences(program, constants, lambda series: series)
+    recurrences = Recurrences(program, constants, lambda series: series)
     head = f"static inline vec {name}_work(const {name}_constants *c, vec {moving.name})"
-    body = ["(void)c;", *made.values([result]), f"return {result};"]
+    body = ["(void)c;", *recurrences.values([result]), f"return {result};"]
     return [f"#define {name.upper()}_WORK 1", *documented("Antiderivative: the work in closed form.", head, body)]
 
 

@@ -35,7 +35,7 @@ def struct(name: str, fields: Iterable[str]) -> list[str]:
 
 def compiled_if(condition: str, lines: Iterable[str]) -> list[str]:
     """Lines under a condition of the preprocessor; nothing if there are none."""
-    return [f"#if {condition}", *found, "#endif"] if (found := list(lines)) else []
+    return [f"#if {condition}", *result, "#endif"] if (result := list(lines)) else []
 
 
 def function(head: str, body: list[str]) -> list[str]:

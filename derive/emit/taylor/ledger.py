@@ -67,7 +67,7 @@ class Ledger:
         self._rates = {name: self.program.series(sp.sympify(rate), f"rate_of_{name}") for name, rate in rates.items()}
         if any(operation.kind == "call" for operation in self.program.operations):
             raise EmissionError(f"{model.structure.name}: the ledger calls a law that the equations of motion do not")
-        self.made = Recurrences(self.program, self.constants, made.array)
+        self.recurrences = Recurrences(self.program, self.constants, made.array)
 
     def enumerations(self) -> list[str]:
         """The number of states that the ledger adds."""
@@ -96,12 +96,12 @@ class Ledger:
 
     def series(self) -> list[str]:
         """All other series of the ledger."""
-        return compiled_if(_FLAG, self.made.fields())
+        return compiled_if(_FLAG, self.recurrences.fields())
 
     def coefficients(self) -> list[str]:
         """Coefficient k of the ledger's series and k + 1 of its states."""
-        lines = self.made.lines()
-        lines += [f"s->{name}[k + 1] = {self.made.array(rate)}[k]*next;" for name, rate in self._rates.items()]
+        lines = self.recurrences.lines()
+        lines += [f"s->{name}[k + 1] = {self.recurrences.array(rate)}[k]*next;" for name, rate in self._rates.items()]
         return compiled_if(_FLAG, lines)
 
     def constants_struct(self) -> list[str]:

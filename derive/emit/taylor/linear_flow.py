@@ -42,7 +42,7 @@ class LinearFlow:
         given |= {symbol: f"v->{symbol.name}" for symbol in flow.named}
         self.constants = Constants(given, (FILM, SHEAR))
         self._kept = {entry for entry in (*self.matrix.values(), *self.sources.values()) if isinstance(entry, str)}
-        self.made = Recurrences(self.program, self.constants, self._where, lambda name: name not in self._kept)
+        self.recurrences = Recurrences(self.program, self.constants, self._where, lambda name: name not in self._kept)
 
     # ---- derivatives
 
@@ -80,16 +80,16 @@ class LinearFlow:
         return rows
 
     def _differentiate(self) -> None:
-        found: list[tuple[dict[tuple[str, str], Entry], tuple[str, str], sp.Expr]] = []
+        result: list[tuple[dict[tuple[str, str], Entry], tuple[str, str], sp.Expr]] = []
         for row, rate in self.rates():
             for into, variables in ((self.matrix, self.model.states), (self.sources, self.model.groups)):
                 for variable in variables:
                     slope = self.chain.by(rate, variable)
                     if slope != 0:
-                        found.append((into, (row, variable.name), slope))
+                        result.append((into, (row, variable.name), slope))
         for symbol, expression in self.chain.named:
             define_shortest(self.program, symbol, expression)
-        for into, (row, by), slope in found:
+        for into, (row, by), slope in result:
             into[row, by] = shortest(self.program, (slope, *factored(slope)), f"{row}_by_{by}")
 
     @property
@@ -104,4 +104,4 @@ class LinearFlow:
 
     def array(self, name: str) -> str:
         """C text of the array of a series."""
-        return self.made.array(name)
+        return self.recurrences.array(name)

@@ -113,9 +113,8 @@ class Program:
         """The name of the series of a varying expression."""
         if expression in self._moving:
             return self._moving[expression]
-        made = self._build(expression, name)
-        self._moving[expression] = made
-        return made
+        self._moving[expression] = self._build(expression, name)
+        return self._moving[expression]
 
     def collect_calls(self, calls: dict[str, Call]) -> None:
         """Add the calls of laws, by the names of their series."""

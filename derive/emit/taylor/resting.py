@@ -43,17 +43,17 @@ class Resting:
         turning: str | sp.Expr | None,
     ) -> None:
         self.model, self.results, self.turning = model, results, turning
-        self.made = Recurrences(program, constants, lambda name: f"s->{name}")
+        self.recurrences = Recurrences(program, constants, lambda name: f"s->{name}")
 
     def struct(self) -> list[str]:
         """The series, those of the states first, in their order."""
         fields = [f"vec {state.name}[TERMS];" for state in self.model.states]
-        fields += [*QUADRATURES, *self.made.fields(), *(f"vec rest_{name}[TERMS];" for name in SERIES)]
+        fields += [*QUADRATURES, *self.recurrences.fields(), *(f"vec rest_{name}[TERMS];" for name in SERIES)]
         return [*comment("Series of resting contact with friction."), *struct("rubbing", fields)]
 
     def coefficients(self) -> list[str]:
         """Coefficient k of every series but those of the states, and k + 1 of the states."""
-        rate, names = self.made.rate, [state.name for state in self.model.states]
+        rate, names = self.recurrences.rate, [state.name for state in self.model.states]
         rates = [f"s->{name}[k + 1] = {rate(self.results[name])}*next;" for name in names]
         rates += compiled_if("CAPILLARY_STATE", ["s->capillary_work[k + 1] = splat(0.0);"])
         if self.turning is not None:
@@ -67,7 +67,7 @@ class Resting:
                 "vec rolling, int k)",
                 [
                     "(void)film; (void)shear; (void)sliding; (void)rolling;",
-                    *self.made.lines(),
+                    *self.recurrences.lines(),
                     *(f"s->rest_{name}[k] = {rate(self.results[name])};" for name in SERIES),
                 ],
             ),

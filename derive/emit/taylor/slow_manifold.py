@@ -37,19 +37,19 @@ def slow_manifold_functions(model: Model, constants: Constants, prepared: dict[t
         return ["#define SLOW_MANIFOLD 0", ""]
     program = Program((gap,))
     program.define(DISTANCE, dict(model.definitions)[DISTANCE])
-    found: dict[str, str | sp.Expr] = {"distance": DISTANCE.name}
+    result: dict[str, str | sp.Expr] = {"distance": DISTANCE.name}
     falling = set()
     for name, expression in given.items():
-        found[name] = expression
+        result[name] = expression
         if program.moves(expression):
             program.define(sp.Symbol(name), expression)
-            found[name] = program.series(sp.Symbol(name))
+            result[name] = program.series(sp.Symbol(name))
         falling |= {f"{call.func.__name__.replace('.', '_').upper()}_FALLS" for call in slot_calls(expression)}
     made = Recurrences(program, constants, lambda series: f"s->{series}")
     lines: list[str] = []
     fields = ["vec gap[TERMS];", *made.fields()]
     own = {operation.name for operation in program.operations}
-    for name, value in found.items():
+    for name, value in result.items():
         if value == name and name in own:
             continue
         fields.append(f"vec {name}[TERMS];")

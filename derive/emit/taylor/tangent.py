@@ -84,7 +84,7 @@ class Tangent(LinearFlow):
 
     def _structs(self) -> list[str]:
         levels = [f"vec {row}_by_{by}[TERMS];" for (row, by), e in self.sources.items() if not isinstance(e, str)]
-        fields = [*self._law_fields("s->"), *self.made.fields(), *levels]
+        fields = [*self._law_fields("s->"), *self.recurrences.fields(), *levels]
         doc = "Derivatives of the rates: entries of the matrix, and source terms of a direction."
         return [*comment(doc), *struct("slopes", fields)]
 
@@ -93,7 +93,11 @@ class Tangent(LinearFlow):
         return [f"{slot}_{call}_slopes {name};" for name, (slot, call, _) in laws if self._law_place(name) == place]
 
     def _coefficients(self) -> list[str]:
-        body = [*self._law_fields(""), *self.made.fields(local=True), "(void)film; (void)shear; (void)c; (void)asked;"]
+        body = [
+            *self._law_fields(""),
+            *self.recurrences.fields(local=True),
+            "(void)film; (void)shear; (void)c; (void)asked;",
+        ]
         for name, (slot, call, given) in self._laws().items():
             passed = "".join(f", {self.array(a)}" for a in given if isinstance(a, str))
             into = f"{self._law_place(name)}{name}"
@@ -127,7 +131,7 @@ class Tangent(LinearFlow):
         turning = {entry for (row, _), entry in entries if row == "turned"}
         turning -= {entry for (row, _), entry in entries if row != "turned"}
         rows = []
-        for operation, line in zip(self.program.operations, self.made.lines(), strict=True):
+        for operation, line in zip(self.program.operations, self.recurrences.lines(), strict=True):
             own = () if operation.name in always else tuple(g for g in self._groups if g in needs[operation.name])
             loop = [each_term(line)]
             rows.append((own, compiled_if("TURNING_STATE", loop) if operation.name in turning else loop))
@@ -225,8 +229,8 @@ class Tangent(LinearFlow):
                 lines += self._directed(name, head, targets, True, doc, moved)
                 continue
             for arm in LAWS["arm"].values():
-                made = self._directed(name, head, targets, True, doc, moved, {"arm": arm})
-                lines += [f"#if {arm.name.upper()}_ARM", *made, "#endif"]
+                along = self._directed(name, head, targets, True, doc, moved, {"arm": arm})
+                lines += compiled_if(f"{arm.name.upper()}_ARM", along)
         return [*lines, ""]
 
     def _directed(

@@ -48,7 +48,7 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     end = _end(structure)
     pull = pendulum.pull_at(pendulum.CONTACT, q.beta) if structure.strings else sp.Integer(0)
     largest = pendulum.pull_at(end, sp.pi) if structure.strings else sp.Integer(0)
-    found = [
+    result = [
         (pendulum.CONTACT, contact_gap),
         (pendulum.NEAREST, 4 + q.aspect * pendulum.CONTACT),
         (pendulum.FARTHEST, 4 + q.aspect * end),
@@ -60,7 +60,7 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
         (LEAST, attractions(structure, end)),
         (HOLD, LEAST + pull - pendulum.outward_at(pendulum.LARGEST_MOMENTUM, pendulum.NEAREST)),
     ]
-    return (*found, (pendulum.LARGEST_PULL, largest)) if structure.strings else tuple(found)
+    return (*result, (pendulum.LARGEST_PULL, largest)) if structure.strings else tuple(result)
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:

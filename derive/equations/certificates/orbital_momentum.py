@@ -112,8 +112,8 @@ def surface(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr, share: sp.Ex
 
 def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     """Named intermediates of `margins`, in order."""
-    found: list[tuple[sp.Symbol, sp.Expr]] = [(UNIT, nondimensional(a**2 * rate_scale**2 / v0**2))]
-    return tuple(found if structure.reduced else [*found, (RIGID, rigid_share(orbital_momentum, spin))])
+    result: list[tuple[sp.Symbol, sp.Expr]] = [(UNIT, nondimensional(a**2 * rate_scale**2 / v0**2))]
+    return tuple(result if structure.reduced else [*result, (RIGID, rigid_share(orbital_momentum, spin))])
 
 
 def margins(structure: Structure) -> dict[str, sp.Expr]:
@@ -121,9 +121,11 @@ def margins(structure: Structure) -> dict[str, sp.Expr]:
 
     For `midgap` it is what can be transferred; for `surface` it is where xi > omega >= 0, which a reflection permits.
     """
-    found = {
+    result = {
         "slip": SLIP,
         "orbital_energy": UNIT * orbital_momentum**2 / (2 * DISTANCE**2),
         "midgap": UNIT * transferable(DISTANCE, orbital_momentum, spin),
     }
-    return found if structure.reduced else {**found, "surface": UNIT * surface(DISTANCE, orbital_momentum, spin, RIGID)}
+    return (
+        result if structure.reduced else {**result, "surface": UNIT * surface(DISTANCE, orbital_momentum, spin, RIGID)}
+    )

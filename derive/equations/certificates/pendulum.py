@@ -104,8 +104,8 @@ def turning_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
 def impulse_by_angle(turning: sp.Expr, pull: sp.Expr, distance: sp.Expr) -> sp.Expr:
     """(centrifugal force - pull) over d beta/dt, for `turning`, which is J times the tangent of the impact angle."""
     momentum = turning / q.obliquity
-    found = (outward_at(momentum, distance) - PULL) / turning_at(momentum, distance)
-    return sp.factor(found).subs(PULL, pull)  # a single quotient: -infinity, and no NaN, at the end of the rotation
+    result = (outward_at(momentum, distance) - PULL) / turning_at(momentum, distance)
+    return sp.factor(result).subs(PULL, pull)  # a single quotient: -infinity, and no NaN, at the end of the rotation
 
 
 def taken_by_cosine() -> sp.Expr:

@@ -65,13 +65,13 @@ def coefficients(model: Model) -> dict[str, sp.Expr] | None:
     left = (push - (centrifugal * momentum**2 - attractions - film * u), turn + relaxation * (momentum - rigid))
     if any(sp.simplify(sp.expand(rest)) != 0 for rest in left):
         return None
-    found = {
+    result = {
         "slowing": film,
         "relaxation": sp.factor(relaxation),
         "rigid": rigid,
         "centrifugal": sp.factor(centrifugal),
         "attractions": attractions,
     }
-    if any(value.free_symbols & {u, momentum} for value in found.values()):
+    if any(value.free_symbols & {u, momentum} for value in result.values()):
         return None
-    return found
+    return result

@@ -97,23 +97,23 @@ def definitions(eliminated: Eliminated = ()) -> tuple[Definition, ...]:
     """Named intermediates, in order."""
     log = SHEAR * slot_call("shear", "log_factor", q.x / q.x0, q.x0 / q.a)
     unit = 2 * sp.pi * q.mu * q.a**3
-    found = [*sizes(), *(eliminated or _momenta())]
-    found += [(rate, own / DISTANCE**2) for rate, own in zip(RATES, q.orbital_momenta, strict=True)]
-    found += [(MOMENTUM_SQUARE, dot(MOMENTA, MOMENTA)), (RATE_SQUARE, dot(RATES, RATES))]
-    found.append((INERTIA_RATIO, DISTANCE**2 + SPIN_INERTIA + PARTNER_INERTIA))
-    found += [(slip, rate - own) for slip, rate, own in zip(SLIPS, RATES, q.spins, strict=True)]
-    found += [(slip, rate - own) for slip, rate, own in zip(PARTNER_SLIPS, RATES, q.partner_spins, strict=True)]
-    found += _twists(eliminated)
-    found.append((DRAG, scaled(log * unit * q.rate_scale / (TANGENTIAL * q.a))))
-    found.append((STRENGTH, DRAG * DISTANCE / CENTRES))
-    found += list(zip((ALONG, PARTNER_ALONG), torques((TWIST, PARTNER_TWIST)), strict=True))
+    result = [*sizes(), *(eliminated or _momenta())]
+    result += [(rate, own / DISTANCE**2) for rate, own in zip(RATES, q.orbital_momenta, strict=True)]
+    result += [(MOMENTUM_SQUARE, dot(MOMENTA, MOMENTA)), (RATE_SQUARE, dot(RATES, RATES))]
+    result.append((INERTIA_RATIO, DISTANCE**2 + SPIN_INERTIA + PARTNER_INERTIA))
+    result += [(slip, rate - own) for slip, rate, own in zip(SLIPS, RATES, q.spins, strict=True)]
+    result += [(slip, rate - own) for slip, rate, own in zip(PARTNER_SLIPS, RATES, q.partner_spins, strict=True)]
+    result += _twists(eliminated)
+    result.append((DRAG, scaled(log * unit * q.rate_scale / (TANGENTIAL * q.a))))
+    result.append((STRENGTH, DRAG * DISTANCE / CENTRES))
+    result += list(zip((ALONG, PARTNER_ALONG), torques((TWIST, PARTNER_TWIST)), strict=True))
     across = [torques(both) for both in zip(SLIPS, PARTNER_SLIPS, strict=True)]
     for place, (symbols, along) in enumerate(((TORQUES, ALONG), (PARTNER_TORQUES, PARTNER_ALONG))):
-        found += [
+        result += [
             (symbol, STRENGTH * (both[place] - along * line))
             for symbol, both, line in zip(symbols, across, q.normal, strict=True)
         ]
-    return tuple(found)
+    return tuple(result)
 
 
 def rates() -> dict[sp.Symbol, sp.Expr]:
@@ -129,7 +129,7 @@ def rates() -> dict[sp.Symbol, sp.Expr]:
         == 0
     )
     turned = scaled(q.rate_scale * q.x0 / q.v0)
-    found = dict(
+    result = dict(
         zip(
             q.normal,
             (turned * each for each in moved.normal.subs(dict(zip(LINE_RATE, RATES, strict=True)))),
@@ -138,10 +138,10 @@ def rates() -> dict[sp.Symbol, sp.Expr]:
     )
     assert scaled(TANGENTIAL * q.a * q.x0 / (q.v0 * q.m * q.a**2 * q.rate_scale)) == 1
     for place in range(3):
-        found[q.orbital_momenta[place]] = -(TORQUES[place] + PARTNER_TORQUES[place])
-        found[q.spins[place]] = TORQUES[place] / SPIN_INERTIA
-        found[q.partner_spins[place]] = PARTNER_TORQUES[place] / PARTNER_INERTIA
-    return found
+        result[q.orbital_momenta[place]] = -(TORQUES[place] + PARTNER_TORQUES[place])
+        result[q.spins[place]] = TORQUES[place] / SPIN_INERTIA
+        result[q.partner_spins[place]] = PARTNER_TORQUES[place] / PARTNER_INERTIA
+    return result
 
 
 def centrifugal(square: sp.Expr) -> sp.Expr:
@@ -222,15 +222,15 @@ def drift() -> sp.Expr:
 
 
 def _outputs() -> dict[str, sp.Expr]:
-    found: dict[str, sp.Expr] = {}
+    result: dict[str, sp.Expr] = {}
     for name, vector in (
         ("final_normal", q.normal),
         ("final_rotation_rate", RATES),
         ("final_spin", q.spins),
         ("final_spin_partner", q.partner_spins),
     ):
-        found |= {f"{name}_{axis}": component for axis, component in zip(q.AXES, vector, strict=True)}
-    return found
+        result |= {f"{name}_{axis}": component for axis, component in zip(q.AXES, vector, strict=True)}
+    return result
 
 
 @cache

@@ -64,12 +64,12 @@ def relative_acceleration() -> sp.Matrix:
     second = centre + mass_1 / (mass_1 + mass_2) * apart
     speeds = [place.diff(time) for place in (first, second)]
     energy = (mass_1 * speeds[0].dot(speeds[0]) + mass_2 * speeds[1].dot(speeds[1])) / 2
-    found = []
+    result = []
     for coordinate in apart:
         work = dot(FORCE, (second - first).diff(coordinate))
         balance = sp.expand(energy.diff(coordinate.diff(time)).diff(time) - energy.diff(coordinate) - work)
-        found += sp.solve(balance, coordinate.diff(time, 2))
-    reduced = sp.Matrix(found).applyfunc(lambda each: sp.simplify(each.subs(mass_2, m * mass_1 / (mass_1 - m))))
+        result += sp.solve(balance, coordinate.diff(time, 2))
+    reduced = sp.Matrix(result).applyfunc(lambda each: sp.simplify(each.subs(mass_2, m * mass_1 / (mass_1 - m))))
     assert not reduced.has(mass_1)  # only the reduced mass remains
     return reduced
 

@@ -88,11 +88,11 @@ def modes(rates: Mapping[sp.Symbol, sp.Expr], start: Mapping[sp.Symbol, sp.Expr]
         ValueError: the rates do not have this form, or a mode does not decay.
     """
     moving = sp.Matrix([q.slide, q.roll])
-    found = sp.Matrix([sp.expand(rates[state]) for state in moving])
-    matrix = -found.jacobian(moving)
+    result = sp.Matrix([sp.expand(rates[state]) for state in moving])
+    matrix = -result.jacobian(moving)
     factor = matrix[0, 0]
     numbers = (matrix / factor).applyfunc(sp.simplify)
-    if (found + matrix * moving).applyfunc(sp.expand) != sp.zeros(2, 1) or numbers.free_symbols:
+    if (result + matrix * moving).applyfunc(sp.expand) != sp.zeros(2, 1) or numbers.free_symbols:
         raise ValueError(f"sliding and rolling are not damped by one constant matrix: {numbers}")
     (slow, _, (one,)), (fast, _, (other,)) = sorted(numbers.eigenvects(), key=lambda each: each[0])
     if not (slow.is_positive and fast.is_positive):
@@ -134,7 +134,7 @@ def rotation(impulses: bool = False) -> Rotation:
     first = {q.slide: q.initial_turning, q.roll: q.initial_spin}
     begin = {q.slide: q.last_slide, q.roll: q.last_roll} if impulses else first
     last = {begin[state]: value for state, value in first.items()} if impulses else {}
-    found = modes({state: rate.subs(dict(definitions)) for state, rate in rates.items()}, begin)
+    result = modes({state: rate.subs(dict(definitions)) for state, rate in rates.items()}, begin)
     both = (SLOW_MODE, FAST_MODE)
     unit = _force_unit()
     kinetic = (q.m * q.slide_rate**2 + limit(inertias()[0]) * q.xi**2) / 2
@@ -143,13 +143,13 @@ def rotation(impulses: bool = False) -> Rotation:
         states=(q.decay, *last),
         definitions=(
             (SLOW_MODE, sp.exp(-q.decay)),
-            (FAST_MODE, sp.exp(-found.ratio * q.decay)),
-            (q.slide, sum(weight * mode for weight, mode in zip(found.slide, both, strict=True))),
-            (q.roll, sum(weight * mode for weight, mode in zip(found.roll, both, strict=True))),
+            (FAST_MODE, sp.exp(-result.ratio * q.decay)),
+            (q.slide, sum(weight * mode for weight, mode in zip(result.slide, both, strict=True))),
+            (q.roll, sum(weight * mode for weight, mode in zip(result.roll, both, strict=True))),
             *definitions,
         ),
         centrifugal=sp.Integer(0),
-        rates={q.decay: found.rate, **dict.fromkeys(last, sp.Integer(0))},
+        rates={q.decay: result.rate, **dict.fromkeys(last, sp.Integer(0))},
         turning=None,
         kinetic=scaled(kinetic / (q.m * q.v0**2)),
         power=scaled(power * q.x0 / q.v0 / (q.m * q.v0**2)),
