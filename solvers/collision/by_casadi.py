@@ -72,8 +72,9 @@ def _compute(
     """Locate the events, then integrate the phases with the engine.
 
     Both tolerances are tightened while the engine misses a located event, that is while its error exceeds the distance
-    to a boundary. Where no tolerance helps, the trajectory of the event location is the result. Also returns the engine
-    and the tolerance that were used.
+    to a boundary; one that was tightened for a grazing start is loosened where the engine cannot meet it. Where no
+    tolerance helps, the trajectory of the event location is the result. Also returns the engine and the tolerance that
+    were used.
     """
     small = load(select_model(scene, n.oblique, fold=True))
     choice = select_model(scene, n.oblique, full=ledger or trajectory, fold=True)
@@ -92,7 +93,7 @@ def _compute(
             if not failure.missed and (looser := tolerance.loosened(asked)):
                 continue
             if failure.missed and asked > _TIGHTEST:
-                asked = asked * 1e-2 if asked > 200 * _TIGHTEST else _TIGHTEST
+                asked, looser = asked * 1e-2 if asked > 200 * _TIGHTEST else _TIGHTEST, None
                 continue
             try:
                 located = find(flow.model, n.groups, asked, flow.extras)
