@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import nan
 from typing import Any
@@ -78,7 +78,7 @@ class Flow:
     """Equations of a region: the model's states, then the quadratures `extras`.
 
     Extras: `rotation` (the angle turned), and the ledger's `normal_lubrication`, `tangential_lubrication`, `capillary`,
-    `attraction`.
+    `attraction`, in the units of `extra_units`.
     """
 
     choice: ModelKey
@@ -120,14 +120,26 @@ def expressions(flow: Flow) -> Expressions:
             extra_rates |= model("turning_rate", state)
     if model.space and "rotation" in flow.extras:
         rates, extra_rates["rotation"] = _precessing(model, state, rates)
-    extras = {name: SX.sym(name) for name in flow.extras}
+    extras, units = {name: SX.sym(name) for name in flow.extras}, extra_units(model, flow.extras, model.parameters)
     return Expressions(
         variables=vertcat(model.column, *extras.values()),
         extras=extras,
         rates=densify(
-            vertcat(*(SX(rate) for rate in rates.values()), *(SX(extra_rates[name]) for name in flow.extras))
+            vertcat(
+                *(SX(rate) for rate in rates.values()),
+                *(SX(extra_rates[name]) / unit for name, unit in zip(flow.extras, units, strict=True)),
+            )
         ),
     )
+
+
+def extra_units(model: Model, names: Sequence[str], p: Any) -> list[Any]:
+    """Units of a flow's extras in a ledger's m v0^2, for groups `p`: an energy that is lost in 1 + obliquity^2 of them.
+
+    Entries of an implicit integrator's matrix that are much larger than those of the motion spoil the motion's digits.
+    """
+    lost = 1 + p[list(model.groups).index("obliquity")] ** 2 if "obliquity" in model.groups else 1.0
+    return [1.0 if name == "rotation" or name in model.works else lost for name in names]
 
 
 def _precessing(model: Model, state: dict[str, SX], rates: dict[str, SX]) -> tuple[dict[str, SX], SX]:

@@ -17,7 +17,7 @@ from ..engines.casadi.integrators import Tolerance, landing, plain
 from ..engines.casadi.locate import EventSequence
 from ..host.thread_caches import own_cache
 from ..model.model import Model, ModelKey, load
-from ..model.phases import Flow, Phase, WatchedEvents
+from ..model.phases import Flow, Phase, WatchedEvents, extra_units
 from ..model.rebound import jump, rubs
 from ..scene.contact import GAPS, contact_word
 from .results import DIFFERENTIATED
@@ -145,9 +145,9 @@ def trajectory_expression(
     at = follow_course(course, p, durations, extras, plugin, tolerance)
     found: dict[str, Any] = {"contact_time": at.time, "smallest_gap": at.nearest, "energy.dry_contact": at.dry}
     found |= _at_the_end(model, at.start, at.y[:size], p)
-    for k, name in enumerate(extras):
+    for k, (name, unit) in enumerate(zip(extras, extra_units(model, extras, p), strict=True)):
         key = name if name == "rotation" else f"energy.{name}"
-        found[key] = at.y[size + k] - tolerance.offset
+        found[key] = unit * (at.y[size + k] - tolerance.offset)
     found["energy.dry_friction"] = found.get("energy.dry_friction", MX(0)) + at.friction
     column = vertcat(*(found.get(name, MX(0)) for name in of))
     missed = vertcat(*at.shifts) if at.shifts else MX(0, 1)

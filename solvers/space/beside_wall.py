@@ -22,6 +22,7 @@ from ..engines.taylor.record import run_with_books
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
+from ..model.phases import extra_units
 from .books import TERMS, TRANSVERSE, extras_of, is_open, of_casadi, of_kernel
 from .ends import FAILED, Ends
 from .pairs import Pairs, dot, length
@@ -89,7 +90,8 @@ def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool, steps: int) ->
         time[k], gap[k], opening[k] = path.time, float(path.y[0]), shown["restitution"]
         slide[k], roll[k] = shown["tangential_restitution"], shown["final_spin"]
         if ledger:
-            taken = dict(zip(path.extras, path.y[len(model.state) :].tolist(), strict=True))
+            units = extra_units(model, path.extras, path.p)
+            taken = dict(zip(path.extras, path.y[len(model.state) :] * units, strict=True))
             terms[k] = of_casadi(model, path.p, path.y, taken, path.dry_loss)
     return found
 

@@ -144,6 +144,7 @@ def integrated(bodies: Bodies, speed: float, angle: float, longest: float, rtol:
         separated = bool(found.t_events[0].size)
         if separated or found.status != 1:
             break
-        y = y + rates(time, y) * (1e-13 * longest)  # off the event's surface
+        # off the event's surface by more than the interpolated state's error, some rtol of the film
+        y, time = y + rates(time, y) * (rtol * longest), time + rtol * longest
     x, u, omega, _n = geometry(y)
     return End(separated, time, x, u, omega, (float(y[8]), float(y[9])), float(y[10]), momenta(y) - momenta(y0))

@@ -6,6 +6,7 @@ which the landing step corrects, so that events and their derivatives are those 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -13,7 +14,7 @@ from casadi import SX, Function, jtimes, vertcat
 
 from ...host.thread_caches import own_cache
 from ...model.model import ModelKey
-from ...model.phases import Flow, WatchedEvents, event_table, expressions
+from ...model.phases import Flow, WatchedEvents, event_table, expressions, extra_units
 from ...model.rebound import rebounded
 from ...settings import STEPS
 from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
@@ -54,6 +55,7 @@ class Replay:
 
     y: np.ndarray
     extras: tuple[str, ...] = ()
+    units: Sequence[float] = ()  # of the extras
     offset: float = 0.0
     time: float = 0.0
     steps: int = 0
@@ -65,8 +67,9 @@ class Replay:
     pieces: list[Piece] = field(default_factory=list)
 
     def extra(self, name: str) -> float:
-        """The final value of a quadrature."""
-        return float(self.y[len(self.y) - len(self.extras) + self.extras.index(name)]) - self.offset
+        """The final value of a quadrature, of an energy in m v0^2."""
+        position = self.extras.index(name)
+        return self.units[position] * (float(self.y[len(self.y) - len(self.extras) + position]) - self.offset)
 
 
 def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray) -> Replay:
@@ -83,7 +86,7 @@ def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, s
     known = dict(zip(path.model.groups, path.p, strict=True))
     p = model.group_values(known)
     start = np.concatenate([start, np.full(len(kind.extras), tolerance.offset)])
-    replayed = Replay(start, kind.extras, tolerance.offset)
+    replayed = Replay(start, kind.extras, extra_units(model, kind.extras, p), tolerance.offset)
     size = len(model.state)
     for step in path.steps:
         flow = Flow(kind.choice, step.phase.region, kind.extras)
@@ -114,7 +117,8 @@ def as_located(path: EventSequence, choice: ModelKey) -> Replay:
     """The located trajectory itself with its extras: its own solution, which meets its events by construction."""
     start = path.model.start(path.p)
     begun = np.concatenate([start, np.zeros(len(path.extras))])
-    replayed = Replay(path.y, path.extras, smallest_gap=path.smallest_gap, dry_loss=path.dry_loss)
+    units = extra_units(path.model, path.extras, path.p)
+    replayed = Replay(path.y, path.extras, units, smallest_gap=path.smallest_gap, dry_loss=path.dry_loss)
     replayed.friction_loss = path.friction_loss
     replayed.own_loss = path.own_loss
     for step, end in zip(path.steps, path.ends, strict=True):

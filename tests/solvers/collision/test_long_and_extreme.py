@@ -275,3 +275,24 @@ def test_a_sliding_that_has_died_away_does_not_stop_rosenbrock():
     assert ours.restitution == pytest.approx(kernel.restitution, rel=1e-8)
     assert ours.energy is not None
     assert abs(ours.energy.residual) < 1e-9 * ours.energy.initial
+
+
+def test_sliding_a_million_times_faster_than_the_approach_keeps_the_gaps_digits():
+    """What sliding dissipates, 7e5 times the energy of the approach, takes no digit of the gap with it: e_n to 1e-8."""
+    scene = Scene.from_dict(
+        {
+            "particles": {"reduced_radius": 1.78978e-4, "density": 17253.0, "roughness": 1.96899e-6,
+                          "dry_restitution": 0.174873, "youngs_modulus": 1.25661e8, "poisson_ratio": 0.436472,
+                          "friction": 0.3397, "contact_tangential_restitution": 0.0},
+            "liquid": {"viscosity": 7.43673e-5, "film_thickness": 1.40519e-5, "glass_transition_pressure": 3549.08},
+            "model": {"arm": "midgap", "film": "finite", "tangential": "immersed", "glass": "film-corrected",
+                      "contact_friction": "solid"},
+            "partner": {"radius": 2.87444e-4, "density": 25823.2},
+            "attraction": {"hamaker": 1.216e-26},
+            "impact": {"stokes": 5.51096e-6, "angle": 1.57061},
+        }
+    )  # fmt: skip
+    ours, kernel = (collide(scene, engine=engine, rtol=1e-9) for engine in ("rosenbrock", "taylor"))
+    assert ours.outcome == kernel.outcome == "stick-rotate-separate"
+    assert ours.restitution == pytest.approx(kernel.restitution, rel=1e-8)
+    assert ours.energy is not None and ours.energy.initial > 1e6 * kernel.energy.normal_lubrication
