@@ -14,7 +14,7 @@ from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..errors import ComputationError
 from .line import Line
 from .look import Look
-from .roots import Function, root, sample
+from ..changes.roots import Function, root, sample
 from .samples import known
 
 # Kinds of change: a criterion is just met; a doublet begins to escape without or with a rebound; other.

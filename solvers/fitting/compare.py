@@ -10,19 +10,17 @@ from typing import Any
 import numpy as np
 
 from ..errors import ComputationError, InputError, did_you_mean
+from ..formatting.markdown import aligned
 from ..host.arguments import check_names
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
 from ..scene.scene import Scene
 from ..settings import check_rtol
-from .data import read_data
 from .fit import RTOL
-from .free_entries import FreeEntries, free_entries
+from .free_entries import FreeEntries, free_entries, in_unit
 from .likelihood import Likelihood, Resolution
-from .measurements import Measurements
-from .objective import Objective
-from .optimise import Optimum, optimise, settled
-from .shown import in_unit
+from .measurements import Measurements, read_data
+from .optimise import Objective, Optimum, optimise, settled
 
 CHOICES = ("bridge.law", "model.film", "model.glass", "model.tangential", "model.arm", "pendulum.law")
 
@@ -81,10 +79,7 @@ class Comparison:
 
     def __str__(self) -> str:
         head, cells = self.rows()
-        widths = [max(len(row[k]) for row in (head, *cells)) for k in range(len(head))]
-        return "\n".join(
-            "  ".join(cell.ljust(size) for cell, size in zip(row, widths)).rstrip() for row in (head, *cells)
-        )
+        return "\n".join(aligned([head, *cells]))
 
 
 def compare_models(
@@ -120,21 +115,19 @@ def compare_models(
         []
     """
     first = Scene.load(scene)
-    table = data if isinstance(data, Measurements) else read_data(data, first)
+    table = read_data(data, first)
     names = check_choices(first, over)
     if not isinstance(folds, int) or isinstance(folds, bool) or folds < 0 or folds == 1:
         raise InputError("folds", folds, "a whole number from 2, or 0 for no cross-validation")
     tolerance = check_rtol(rtol)
-    (name, own), *others = _scenes(first, names)
-    assert isinstance(own, Scene)
-    asked = table, free, prior, min(folds, table.size), tolerance, seed
-    candidates = [_candidate(name, own, *asked)]
+    own, *others = _scenes(first, names)
+    request = table, free, prior, min(folds, table.size), tolerance, seed
+    candidates = [_candidate(*own, *request)]
     cores = min(usable_cores(), len(others))
     if cores > 1:
-        parts = ((name, (name, scene, *asked)) for name, scene in others)
-        candidates += [each for _, each in in_workers(cores, _tried, parts)]
+        candidates += [each for _, each in in_workers(cores, _tried, ((one[0], (*one, *request)) for one in others))]
     else:
-        candidates += [_tried(name, scene, *asked) for name, scene in others]
+        candidates += [_tried(*one, *request) for one in others]
     order = sorted(candidates, key=lambda each: (np.inf if each.aic is None else each.aic, each.name))
     return Comparison(first, tuple(order))
 
@@ -155,47 +148,42 @@ def check_choices(scene: Scene, over: Sequence[str] | str) -> tuple[str, ...]:
 
 
 def _scenes(first: Scene, names: Sequence[str]) -> list[tuple[str, Scene | InputError]]:
-    found: list[tuple[str, Scene | InputError]] = []
-    own = {}
+    """The scene and those with another choice, each with its name; an InputError where a choice is not possible."""
+    own = {name: str(getattr(getattr(first, table), key)) for name in names for table, _, key in (name.partition("."),)}
+    scenes: list[tuple[str, Scene | InputError]] = [(", ".join(f"{name} = {own[name]}" for name in names), first)]
     for name in names:
-        table, _, key = name.partition(".")
-        own[name] = str(getattr(getattr(first, table), key))
-    found.append((", ".join(f"{name} = {value}" for name, value in own.items()), first))
-    for name, value in own.items():
         for other in first.fields[name].choices:
-            if other != value:
+            if other != own[name]:
                 try:
-                    found.append((f"{name} = {other}", first.with_entries({name: other})))
+                    scenes.append((f"{name} = {other}", first.with_entries({name: other})))
                 except InputError as error:
-                    found.append((f"{name} = {other}", error))
-    return found
+                    scenes.append((f"{name} = {other}", error))
+    return scenes
 
 
-def _tried(
-    name: str, scene: Scene | InputError, data: Measurements, free: Sequence[str] | str,
-    prior: Mapping[str, str] | None, folds: int, rtol: float, seed: int,
-) -> Candidate:  # fmt: skip
-    """A candidate, or why there is none."""
+def _tried(name: str, *request: Any) -> Candidate:
+    """A candidate, or why there is none; arguments as of `_candidate`."""
     try:
-        if isinstance(scene, InputError):
-            raise scene
-        return _candidate(name, scene, data, free, prior, folds, rtol, seed)
+        return _candidate(name, *request)
     except (InputError, ComputationError) as error:
         return Candidate(name, reason=str(error))
 
 
 def _candidate(
-    name: str, scene: Scene, data: Measurements, free: Sequence[str] | str, prior: Mapping[str, str] | None,
-    folds: int, rtol: float, seed: int,
+    name: str, scene: Scene | InputError, data: Measurements, free: Sequence[str] | str,
+    prior: Mapping[str, str] | None, folds: int, rtol: float, seed: int,
 ) -> Candidate:  # fmt: skip
+    if isinstance(scene, InputError):
+        raise scene
     entries = free_entries(scene, free, data, prior, rtol)
     likelihood = Likelihood(scene, entries.names, data, rtol)
     best = optimise(likelihood, entries)
     evaluation = Objective(likelihood, entries, Resolution()).at(best.inner)
     assert evaluation is not None
-    values = dict(zip(entries.names, entries.values(best.inner).tolist(), strict=True))
     predicted = _predicted(scene, data, entries, best, folds, rtol, seed) if folds > 1 else None
-    return Candidate(name, evaluation.value, 2 * entries.size - 2 * evaluation.value, predicted, values)
+    return Candidate(
+        name, evaluation.value, 2 * entries.size - 2 * evaluation.value, predicted, entries.named(best.inner)
+    )
 
 
 def _predicted(
@@ -209,9 +197,8 @@ def _predicted(
         kept = np.setdiff1d(order, left)
         fitted = settled(Likelihood(scene, free.names, data.part(kept), rtol), free, best.inner)
         test = Likelihood(scene, free.names, data.part(left), rtol)
-        values = free.values(fitted.inner)
-        test.aim(values)
-        found = test(values)
-        assert found is not None  # the values are possible for all rows
-        total += found.value
+        test.aim(free.values(fitted.inner))
+        evaluation = test(free.values(fitted.inner))
+        assert evaluation is not None  # the values are possible for all rows
+        total += evaluation.value
     return total / data.size

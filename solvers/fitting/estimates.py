@@ -1,19 +1,19 @@
-"""Estimates and rows of a fit, and what is drawn and reported of one."""
+"""The numbers of a fit: estimates, rows and remarks, as pictures and reports show them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, Protocol
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from ..scene.scene import Scene
-from .free_entries import FreeEntries
+from .free_entries import FreeEntries, in_unit, interval
 from .likelihood import KNEE
 from .measurements import Measurements
-from .objective import Objective
+from .optimise import Objective
 
 CONTRADICTED = (
     "At least half of the impacts contradict the model: no entry is identified. The estimates are the least bad ones, "
@@ -65,36 +65,55 @@ class Rows:
         return 2 * self.contradicting.size >= self.log_likelihood.size
 
 
-class Fitted(Protocol):
-    """What pictures and reports show of a `Fit`."""
+@dataclass(frozen=True)
+class Fitted:
+    """What a fit has found.
+
+    Attributes:
+        scene: with the most likely values.
+        first: the scene that was fitted.
+        estimates: by dotted name.
+        log_likelihood: maximum, with all constants of the densities; priors are not part of it.
+        correlation: of the estimates in the variables of the search, (entries, entries).
+        combinations: sentences on products of powers that the data tell.
+        remarks: sentences on defaults, contradictions, and what the data lack.
+        quadrature: change of the log-likelihood with twice as fine integrals.
+        others: values of less likely separate maxima, with their log-likelihoods.
+        ends: of each entry's interval below and above, all entries in the variables of the search.
+    """
+
+    scene: Scene
+    first: Scene
+    data: Measurements
+    estimates: Mapping[str, Estimate]
+    log_likelihood: float
+    correlation: np.ndarray
+    combinations: tuple[str, ...]
+    remarks: tuple[str, ...]
+    rows: Rows
+    quadrature: float
+    others: tuple[tuple[Mapping[str, float], float], ...]
+    objective: Objective = field(repr=False, compare=False)
+    ends: tuple[tuple[np.ndarray, np.ndarray], ...] = field(repr=False, compare=False)
 
     @property
-    def first(self) -> Scene: ...
+    def points(self) -> int:
+        """Number of impacts."""
+        return self.data.size
+
     @property
-    def data(self) -> Measurements: ...
-    @property
-    def estimates(self) -> Mapping[str, Estimate]: ...
-    @property
-    def rows(self) -> Rows: ...
-    @property
-    def correlation(self) -> np.ndarray: ...
-    @property
-    def combinations(self) -> tuple[str, ...]: ...
-    @property
-    def remarks(self) -> tuple[str, ...]: ...
-    @property
-    def log_likelihood(self) -> float: ...
-    @property
-    def quadrature(self) -> float: ...
-    @property
-    def points(self) -> int: ...
-    @property
-    def objective(self) -> Objective: ...
-    @property
-    def free(self) -> FreeEntries: ...
-    @property
-    def best(self) -> np.ndarray: ...
-    @property
-    def ends(self) -> tuple[tuple[np.ndarray, np.ndarray], ...]: ...
-    def plot(self, path: str | Path | None = None) -> Any:
-        """Draw it."""
+    def free(self) -> FreeEntries:
+        return self.objective.free
+
+    @cached_property
+    def best(self) -> np.ndarray:
+        """The estimates in the variables of the search."""
+        return np.array([each.inner(self.estimates[each.name].value) for each in self.free.entries])
+
+    def table(self) -> tuple[list[str], list[list[str]]]:
+        """Head and rows of the table of estimates."""
+        rows = [
+            [name, in_unit(self.first, name, one.value), interval(self.first, name, one.low, one.high), one.verdict]
+            for name, one in self.estimates.items()
+        ]
+        return ["entry", "estimate", "95 % interval", "verdict"], rows

@@ -1,4 +1,4 @@
-"""Free entries of a fit: the scale on which each is varied, its bounds, and what was known of it before.
+"""Free entries of a fit: scale, bounds and prior of each, and how their values and combinations are worded.
 
 An entry that is positive by its meaning varies in its logarithm; fractions and angles vary as they are.
 """
@@ -12,14 +12,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..changes.experiment import Rows
 from ..errors import InputError
 from ..host.arguments import check_names
+from ..scene import units
 from ..scene.scene import Scene
 from ..scene.schema import ANY, FRACTION, NOT_NEGATIVE, PART, POISSON, POSITIVE, SPINS, WETTING_ANGLE
 from ..sensitivity.parameters import known_of_particles
-from .law import Law
-from .measurements import Measurements
+from .measurements import Measurements, rows_of
 
+IDENTIFIED = "identified"
+ONE_SIDE = "bounded on one side"
+COMBINED = "only in combination"
+NOT_AT_ALL = "not identifiable from these data"
+"""The four verdicts on an entry."""
+
+_TIED = 0.95  # correlation from which two identified entries are reported as a combination too
+_LEAST_POWER = 0.1  # least exponent that is worth naming, relative to the largest
+_BETTER = 10.0  # times better must a combination be known than its entries alone
 _RANGE = 1e3  # factor to either side of the scene's value within which a positive entry is looked for
 _SPAN = {FRACTION: (0.0, 1.0), PART: (1e-6, 1.0), POISSON: (-0.999, 0.5), WETTING_ANGLE: (0.0, math.pi / 2)}
 _BISECTIONS = 40
@@ -84,20 +94,38 @@ class FreeEntries:
         return len(self.entries)
 
     @property
+    def logarithmic(self) -> np.ndarray:
+        """Mask of the entries that vary in their logarithms."""
+        return np.array([each.log for each in self.entries])
+
+    @property
     def start(self) -> np.ndarray:
-        return np.array([each.inner(each.value) for each in self.entries])
+        return self.inner(np.array([each.value for each in self.entries]))
 
     @property
     def low(self) -> np.ndarray:
-        return np.array([each.inner(each.low) for each in self.entries])
+        return self.inner(np.array([each.low for each in self.entries]))
 
     @property
     def high(self) -> np.ndarray:
-        return np.array([each.inner(each.high) for each in self.entries])
+        return self.inner(np.array([each.high for each in self.entries]))
+
+    @property
+    def vague(self) -> np.ndarray:
+        """The information of the range of the search: that of a standard deviation of half the range."""
+        return np.diag((2.0 / (self.high - self.low)) ** 2)
+
+    def inner(self, values: np.ndarray) -> np.ndarray:
+        """The variables of the search at values of the entries, SI."""
+        return np.array([each.inner(float(one)) for each, one in zip(self.entries, values, strict=True)])
 
     def values(self, inner: np.ndarray) -> np.ndarray:
         """Values of the entries, SI."""
         return np.array([each.outer(float(one)) for each, one in zip(self.entries, inner, strict=True)])
+
+    def named(self, inner: np.ndarray) -> dict[str, float]:
+        """The same by dotted name."""
+        return dict(zip(self.names, self.values(inner).tolist(), strict=True))
 
     def rates(self, values: np.ndarray) -> np.ndarray:
         """Derivatives of the values by the variables of the search."""
@@ -110,7 +138,6 @@ def free_entries(
     data: Measurements,
     priors: Mapping[str, str] | None = None,
     rtol: float = 1e-9,
-    labels: tuple[str, str] = ("free", "prior"),
 ) -> FreeEntries:
     """The checked free entries of a scene.
 
@@ -119,70 +146,134 @@ def free_entries(
             guess; a prior of another entry.
     """
     known = tuple(name for name in known_of_particles(scene) if name not in SPINS)
-    asked = check_names(names, known, labels[0])
-    if not asked:
-        raise InputError(labels[0], "", ", ".join(known), "names no entry")
-    for name in asked:
+    chosen = check_names(names, known, "free")
+    if not chosen:
+        raise InputError("free", "", ", ".join(known), "names no entry")
+    for name in chosen:
         if name in data.columns:
-            raise InputError(labels[0], name, "entries that are not a column of the data", "is given row by row")
+            raise InputError("free", name, "entries that are not a column of the data", "is given row by row")
     priors = {} if priors is None else priors
     for name in priors:
-        if name not in asked:
-            raise InputError(labels[1], name, ", ".join(asked), "is not free")
-    law = Law(scene, asked, data, rtol)
-    start = np.array([float(scene.entries[name]) for name in asked])
-    for row in law.impossible(start)[:1].tolist():
+        if name not in chosen:
+            raise InputError("prior", name, ", ".join(chosen), "is not free")
+    rows = rows_of(scene, chosen, data, rtol)
+    start = np.array([float(scene.entries[name]) for name in chosen])
+    for row in np.flatnonzero(~rows.unchecked(start).possible)[:1].tolist():
         given = ", ".join(f"{name} = {values[row]:.6g}" for name, values in data.columns.items())
         field = f"data, {data.label(row)}, column {', '.join(data.columns)}"
         raise InputError(field, given, "values that make a scene together with its other entries", "is impossible")
-    found = []
-    for k, name in enumerate(asked):
+    entries = []
+    for k, name in enumerate(chosen):
         entry = scene.fields[name]
         if entry.range in (POSITIVE, NOT_NEGATIVE) and start[k] <= 0:
-            raise InputError(labels[0], name, "an entry with a first guess above 0", "is 0 in the scene")
+            raise InputError("free", name, "an entry with a first guess above 0", "is 0 in the scene")
         log = entry.range not in _SPAN and entry.range is not ANY and start[k] > 0
         low, high = _SPAN.get(entry.range, (start[k] / _RANGE, start[k] * _RANGE) if log else (-1e3, 1e3))
-        low, high = (_feasible(law, start, k, end) for end in (low, high))
-        prior = _prior(scene, name, priors[name], log, labels[1]) if name in priors else None
-        found.append(FreeEntry(name, float(start[k]), log, low, high, entry.unit or "", prior))
-    return FreeEntries(tuple(found))
+        low, high = (_feasible(rows, start, k, end) for end in (low, high))
+        prior = _prior(scene, name, priors[name], log) if name in priors else None
+        entries.append(FreeEntry(name, float(start[k]), log, low, high, entry.unit or "", prior))
+    return FreeEntries(tuple(entries))
 
 
-def _feasible(law: Law, start: np.ndarray, k: int, end: float) -> float:
+def _feasible(rows: Rows, start: np.ndarray, k: int, end: float) -> float:
     """The end of the range of entry k, or where towards it the scene becomes impossible."""
     values = start.copy()
 
-    def holds(value: float) -> bool:
+    def possible(value: float) -> bool:
         values[k] = value
-        return law.at(values) is not None
+        return rows.at(values) is not None
 
-    if holds(end):
+    if possible(end):
         return end
     good, bad = float(start[k]), end
     for _ in range(_BISECTIONS):
         middle = math.sqrt(good * bad) if good > 0 and bad > 0 else (good + bad) / 2
-        good, bad = (middle, bad) if holds(middle) else (good, middle)
+        good, bad = (middle, bad) if possible(middle) else (good, middle)
     return good
 
 
-def _prior(scene: Scene, name: str, text: object, log: bool, label: str) -> Prior:
+def _prior(scene: Scene, name: str, text: object, log: bool) -> Prior:
     """A prior from text such as "2 um +- 20 %" (relative) or "2 um +- 0.4 um"."""
     accepted = f'{name} as VALUE +- SD, such as "{scene.fields[name].example.strip(chr(34))} +- 20 %"'
     parts = _SEPARATOR.split(text.strip()) if isinstance(text, str) else []
     if len(parts) != 2 or not all(parts):
-        raise InputError(label, text, accepted, f"is no prior of {name}")
-    centre = scene.si_number(name, parts[0], f"{label} {name}")
+        raise InputError("prior", text, accepted, f"is no prior of {name}")
+    centre = scene.si_number(name, parts[0], f"prior {name}")
     if parts[1].endswith("%"):
         try:
             sd = float(parts[1][:-1]) / 100
         except ValueError:
-            raise InputError(label, text, accepted, f"is no prior of {name}") from None
-        if log and centre > 0:
-            prior = Prior(centre, sd, True)
-        else:
-            prior = Prior(centre, sd * abs(centre), False)
+            raise InputError("prior", text, accepted, f"is no prior of {name}") from None
+        relative = log and centre > 0
+        prior = Prior(centre, sd if relative else sd * abs(centre), relative)
     else:
-        prior = Prior(centre, scene.si_number(name, parts[1], f"{label} {name}"), False)
+        prior = Prior(centre, scene.si_number(name, parts[1], f"prior {name}"), False)
     if not (prior.sd > 0 and math.isfinite(prior.sd)):
-        raise InputError(label, text, accepted, "has no positive standard deviation")
+        raise InputError("prior", text, accepted, "has no positive standard deviation")
     return prior
+
+
+def combinations(
+    free: FreeEntries, information: np.ndarray, verdicts: Sequence[str], subject: str = "The data"
+) -> tuple[str, ...]:
+    """Sentences on products of powers of entries that are known better than the entries.
+
+    Arguments:
+        information: matrix in the variables of the search, which are logarithms for the entries named.
+        subject: of the sentences, in the plural.
+    """
+    covariance = np.linalg.pinv(information + free.vague)
+    correlation = covariance / np.sqrt(np.outer(np.diag(covariance), np.diag(covariance)))
+    np.fill_diagonal(correlation, 0.0)
+    tied = [
+        k
+        for k, verdict in enumerate(verdicts)
+        if free.entries[k].log
+        and information[k, k] > 1e-12
+        and (verdict == COMBINED or (np.abs(correlation[k]) > _TIED).any())
+    ]
+    if len(tied) < 2:
+        return ()
+    values, vectors = np.linalg.eigh(np.linalg.inv(covariance[np.ix_(tied, tied)]))  # whatever the others are
+    sentences = []
+    for value, vector in zip(values[::-1], vectors.T[::-1], strict=True):
+        if value <= 0 or value < _BETTER**2 * values[0]:
+            break
+        first = int(np.argmax(np.abs(vector)))
+        powers = vector / vector[first]
+        factors = [
+            free.names[tied[k]] if k == first else f"{free.names[tied[k]]}^{powers[k]:.2g}"
+            for k in range(len(tied))
+            if abs(powers[k]) >= _LEAST_POWER
+        ]
+        error = abs(1 / np.sqrt(value) / vector[first])
+        known = f"to {100 * np.expm1(error):.2g} %" if error < 1 else f"to a factor of {np.exp(error):.2g}"
+        sentences.append(f"{subject} tell {' * '.join(factors)} {known} (standard error).")
+    return tuple(sentences)
+
+
+def unit_shown(scene: Scene, name: str) -> tuple[str, float]:
+    """The unit in which the scene gives an entry, and its size in SI; empty and 1 for a plain number."""
+    si = "m^3" if scene.ways.volume == "absolute" and name == "bridge.volume" else scene.fields[name].unit
+    if si is None:
+        return "", 1.0
+    raw = dict(scene.given).get(name)
+    own = units.unit_of(raw) if isinstance(raw, str) else ""
+    return (own, units.factor(own, si, name, si, raw)) if own else (si, 1.0)
+
+
+def in_unit(scene: Scene, name: str, value: float | None) -> str:
+    """A value in SI as text with the scene's unit; a dash for none."""
+    if value is None:
+        return "-"
+    unit, size = unit_shown(scene, name)
+    return f"{value / size:.4g} {unit}".strip()
+
+
+def interval(scene: Scene, name: str, low: float | None, high: float | None) -> str:
+    """An interval in the scene's unit, open ends in words."""
+    if low is None:
+        return "open at both ends" if high is None else f"below {in_unit(scene, name, high)}"
+    if high is None:
+        return f"above {in_unit(scene, name, low)}"
+    return f"{low / unit_shown(scene, name)[1]:.4g} to {in_unit(scene, name, high)}"

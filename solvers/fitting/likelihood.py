@@ -1,32 +1,27 @@
 """The likelihood of measured impacts, and its gradient by the free entries.
 
-Of a row it is the integral over the scatter in speed and angle of [the outcome agrees] times the density of what was
-measured about the results of the collision. Every line through the scatter is split at its changes of outcome. Between
-two changes the results are smooth and are interpolated by Chebyshev polynomials in a variable in which a square root at
-a change is smooth too; the integral over the polynomials costs no collisions.
+The likelihood of a row is the integral over the scatter in speed and angle of [the outcome agrees] times the density of
+what was measured about the results of the collision. It is taken along lines through the scatter, which are split at
+the changes of outcome; between two changes the results are interpolated (`scatter`).
 
-Derivatives are taken at fixed interpolation variable: the points of a segment move with its ends, and the square roots
-cancel.
+Derivatives are taken at a fixed interpolation variable: the points of a segment move with its ends, and the square
+roots cancel.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
+from ..changes.experiment import Experiment
 from ..errors import InputError
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
 from ..settings import RTOL
-from . import changes as boundaries
-from .interpolation import SegmentMap, extension, segment_map
-from .law import BoundLaw, Law
-from .lines import Lines
-from .measurements import Measurements
-from .rare import RARE, RareRows
-from .segments import Segments, moving_ends
-from .sums import Moments, RowSums
+from .measurements import Measurements, rows_of
+from .rare import RARE, beyond_reach
+from .scatter import WITHIN, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
 FINER = (3, 7)
@@ -35,11 +30,8 @@ KNEE, TAIL = 12.0, 4.0
 """A row that lies more than this many units of log-likelihood below the most likely observation (4.9 standard
 deviations) contradicts the model; from there its log-likelihood falls with the logarithm of the distance."""
 
-
 _BEYOND = 6.0  # standard deviations of noise and angle beyond which a restitution is impossible
 _NAMED = 8  # rows in a message
-_QUICK = 1000  # steps of a trajectory with derivatives, beyond which others' on the same segment stand for them
-_DEGREE = 4  # of the polynomial by which they do
 
 
 @dataclass(frozen=True)
@@ -50,7 +42,7 @@ class Resolution:
         lines: lines through the scatter of a row.
         nodes: collisions on a segment; half as many more where it ends at a change.
         points: of the quadrature over the interpolated results.
-        grid: points of a line at which the outcome is looked at.
+        grid: points of a line at which the outcome is sampled first.
         quick: derivatives beside slow saddles are approximate: of changes to 1e-4, of results from their neighbours.
         within: error of a probability from the place of a change.
     """
@@ -60,7 +52,7 @@ class Resolution:
     points: int = 128
     grid: int = 15
     quick: bool = True
-    within: float = boundaries.WITHIN
+    within: float = WITHIN
 
     def doubled(self) -> Resolution:
         """The same, twice as fine and with exact derivatives."""
@@ -97,11 +89,204 @@ class Evaluation:
         return float(self.rows.sum())
 
 
+class Likelihood:
+    """The log-likelihood of measurements as a function of the free entries' values.
+
+    Arguments:
+        scene, names, data: scene, free entries and rows.
+        rtol: relative tolerance of the integrations.
+    """
+
+    def __init__(self, scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float = RTOL) -> None:
+        self.data, self.names = data, names
+        _check_energy(scene, names, data)
+        self.measured = tuple(name for name, (values, _) in data.observed.items() if np.isfinite(values).any())
+        self.experiments = rows_of(scene, names, data, rtol)
+        self.direction = np.zeros(data.size)  # of the lines of each row
+        self.more = np.ones(data.size, int)  # factor of the number of lines of each row, odd
+        self.constant = np.zeros(data.size)  # of the densities' normalisation
+        for name in self.measured:
+            values, sd = data.observed[name]
+            seen = data.separated & np.isfinite(values)
+            self.constant[seen] -= np.log(sd[seen] * np.sqrt(2 * np.pi))
+
+    def aim(self, values: np.ndarray) -> None:
+        """Turn the lines of every row to where its results change fastest, for these values.
+
+        Raises:
+            InputError: values that no scene may have.
+        """
+        experiment, data = self.bound(values), self.data
+        if not ((data.speed_sd > 0) & (data.angle_sd > 0)).any():
+            return
+        distance, normal = nearest_normals(experiment, data)
+        nearest = np.argmin(distance, axis=1)
+        across = normal[np.arange(data.size), nearest]
+        near = np.isfinite(distance.min(axis=1))
+        self.direction[near] = np.arctan2(across[near, 1], across[near, 0])
+        for k, name in enumerate(self.measured):
+            row = np.flatnonzero(data.separated & np.isfinite(data.observed[name][0]))
+            lines = ScatterLines.through(data, self.direction, 1)
+            at = lines.at(row, np.zeros(row.size))
+            there = experiment.results(self.measured, row, *at)
+            by = in_deviations(data, row, *at, there.speed[k], there.angle[k])
+            steep = np.hypot(there.speed[k] * data.speed_sd[row], there.angle[k] * data.angle_sd[row])
+            turned = (steep > data.observed[name][1][row]) & by.any(axis=1) & (there.outcome > 0)
+            self.direction[row[turned]] = np.arctan2(by[turned, 1], by[turned, 0])
+            if turned.any():
+                break
+
+    def refine(self, values: np.ndarray, within: float) -> None:
+        """Give more lines to rows whose log-likelihood at these values is not within an error of what it should be."""
+        experiment, size = self.bound(values), self.data.size
+        self.more = np.ones(size, int)
+        now, open_ = self.evaluate(experiment, Resolution()).rows, np.ones(size, bool)
+        for factor in FINER:
+            fine = self.evaluate(experiment, Resolution(), np.where(open_, factor, 0)).rows
+            open_ &= np.abs(fine - now) > within
+            self.more[open_], now = factor, fine
+            if not open_.any():
+                break
+
+    def bound(self, values: np.ndarray) -> Experiment:
+        """The rows with these values; InputError where no scene may have them."""
+        experiment = self.experiments.at(values)
+        if experiment is None:
+            named = ", ".join(f"{name} = {value:.6g}" for name, value in zip(self.names, values, strict=True))
+            raise InputError("free", named, "values that the scene may have together", "make a scene impossible")
+        return experiment
+
+    def __call__(self, values: np.ndarray, resolution: Resolution | None = None) -> Evaluation | None:
+        """The log-likelihoods at these values; None where they make the scene impossible."""
+        experiment = self.experiments.at(values)
+        return None if experiment is None else self.evaluate(experiment, resolution or Resolution())
+
+    def evaluate(self, experiment: Experiment, resolution: Resolution, factors: np.ndarray | None = None) -> Evaluation:
+        """The log-likelihoods of all rows in an experiment.
+
+        Arguments:
+            factors: (rows,), of the number of lines, in place of those of `refine`; 0 leaves a row out.
+        """
+        data, size = self.data, self.data.size
+        if factors is None:
+            factors = self.more if resolution.lines > 1 else np.ones(size, int)
+        lines = ScatterLines.through(data, self.direction, resolution.lines * factors)
+        changes = lines.changes(experiment, resolution.grid, resolution.within)
+        segments = Segments.between(lines, changes)
+        unknown = segments.part(segments.outcome < 0)
+        undecided = np.bincount(unknown.row, unknown.weight * unknown.mass(), size)
+        segments = segments.part((segments.outcome >= 0) & data.allowed[segments.row, segments.outcome])
+        mass = segments.mass()
+        probability = np.bincount(segments.row, segments.weight * mass, size)
+        dense = data.separated[segments.row]
+        counts = mass > np.where(dense, NEGLIGIBLE, 0.0)
+        ends = segments.moving_ends(experiment, lines, changes, counts, resolution.quick)
+        by_free = segments.mass_slopes(ends)
+        total, moments = _Sums(size, len(self.names)), {name: np.zeros((3, size)) for name in self.measured}
+        plain = ~dense & counts
+        total.add(segments.row[plain], np.log((segments.weight * mass)[plain]), by_free[plain])
+        which = np.flatnonzero(dense & counts)
+        dense_part = segments.part(which)
+        for part, mapping, value, slope in dense_part.results(
+            experiment, lines, ends[:, which], self.measured, resolution.nodes, resolution.points, resolution.quick
+        ):
+            self._integrate(dense_part.part(part), ends[:, which[part]], mapping, value, slope, total, moments)
+        rows, scores = total.result()
+        rare = np.flatnonzero((probability < RARE) & (factors > 0))
+        if rare.size:
+            moves = np.zeros(scores.shape)  # of the logarithm of the probability
+            np.add.at(moves, segments.row, (segments.weight * mass)[:, None] * by_free)
+            moves /= np.maximum(probability, 1e-300)[:, None]
+            log, slope = beyond_reach(
+                experiment, data, rare, self.direction, self.measured, resolution.within, resolution.quick,
+                probability[rare], moves[rare],
+            )  # fmt: skip
+            missing = log > rows[rare]
+            rows[rare[missing]], scores[rare[missing]] = log[missing], slope[missing]
+        limited, factor = limit(rows)
+        mean, spread = {}, {}
+        for name, (share, first, second) in moments.items():
+            with np.errstate(divide="ignore", invalid="ignore"):
+                mean[name] = first / share
+                spread[name] = np.sqrt(np.maximum(second / share - mean[name] ** 2, 0.0))
+        return Evaluation(
+            limited + self.constant, scores * factor[:, None], rows + self.constant, np.minimum(probability, 1.0),
+            undecided, mean, spread,
+        )  # fmt: skip
+
+    def _integrate(
+        self, segments: Segments, ends: np.ndarray, mapping: SegmentMap, value: np.ndarray, slope: np.ndarray,
+        total: _Sums, moments: dict[str, np.ndarray],
+    ) -> None:  # fmt: skip
+        """Add the integrals of densities over segments of one kind, and the moments of the results."""
+        row = segments.row
+        lost = ~np.isfinite(value).all(axis=(0, 2))  # a trajectory on the way was not completed
+        value, slope = np.nan_to_num(value), np.nan_to_num(slope)
+        length = (segments.high - segments.low)[:, None]
+        y = segments.low[:, None] + length * mapping.at_points
+        scatter = -(y**2) / 2 - np.log(2 * np.pi) / 2 + np.log(length * mapping.rate * mapping.weight)
+        exponent = scatter.copy()
+        pulls = []
+        for k, name in enumerate(self.measured):
+            measured, sd = (each[row, None] for each in self.data.observed[name])
+            at = value[k] @ mapping.interpolate.T
+            for power in range(3):
+                np.add.at(moments[name][power], row, segments.weight * (np.exp(scatter) * at**power).sum(axis=1))
+            misfit = np.where(np.isfinite(measured), (measured - at) / sd, 0.0)
+            exponent -= misfit**2 / 2
+            pulls.append(misfit / sd)
+        exponent[lost] = -np.inf
+        top = np.max(exponent, axis=1, keepdims=True, initial=-1e300)
+        density = np.exp(exponent - top)
+        integral = density.sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = np.where(integral[:, None] > 0, density / integral[:, None], 0.0)
+            logs = np.log(integral) + top[:, 0] + np.log(segments.weight)
+        gradient = (ends[1] - ends[0]) / length
+        # y moves with the ends, by (1 - g) of the lower one and g of the upper one
+        mean_y, mean_gy = -(share * y).sum(axis=1), -(share * y * mapping.at_points).sum(axis=1)
+        gradient += ends[0] * (mean_y - mean_gy)[:, None] + ends[1] * mean_gy[:, None]
+        for pull, of_result in zip(pulls, slope, strict=True):
+            gradient += np.einsum("sn,snp->sp", (share * pull) @ mapping.interpolate, of_result)
+        kept = integral > 0
+        total.add(row[kept], logs[kept], gradient[kept])
+
+
+class _Sums:
+    """Sums of positive terms by row, kept as logarithms, and the derivatives of the sums' logarithms."""
+
+    def __init__(self, rows: int, size: int) -> None:
+        self._rows, self._size = rows, size
+        self._parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
+
+    def add(self, row: np.ndarray, log: np.ndarray, slope: np.ndarray) -> None:
+        """Add terms by their logarithms, with the derivatives of these."""
+        self._parts.append((row, log, slope))
+
+    def result(self) -> tuple[np.ndarray, np.ndarray]:
+        """Logarithms of the sums, -1e300 for an empty one, and their derivatives."""
+        row, log, slope = (np.concatenate(each) for each in zip(*self._parts, strict=True))
+        top = np.full(self._rows, -1e300)
+        np.maximum.at(top, row, log)
+        term = np.exp(log - top[row])
+        total = np.bincount(row, term, self._rows)
+        logs = np.where(total > 0, top + np.log(np.maximum(total, 1e-300)), -1e300)
+        slopes = np.zeros((self._rows, self._size))
+        np.add.at(slopes, row, (term / total[row])[:, None] * slope)
+        return logs, slopes
+
+
+def limit(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Log-likelihoods with their heavy tail, and the derivative of that by the plain ones."""
+    beyond = np.maximum(-KNEE - rows, 0.0)
+    return np.maximum(rows, -KNEE) - TAIL * np.log1p(beyond / TAIL), 1 / (1 + beyond / TAIL)
+
+
 def _check_energy(scene: Scene, names: tuple[str, ...], data: Measurements) -> None:
     """InputError for restitutions that no values of the entries give: e_n^2 <= 1 + tan^2 of the impact angle.
 
-    That is the kinetic energy of the impact, of which no law of the library but the strings' gives back more. Not
-    looked at with spins, which bring energy of their own, and a user's laws.
+    The right side is the kinetic energy of the impact over that of its normal motion; no law of the library but the
+    strings' gives back more. Scenes with spins, which bring energy of their own, and a user's laws are not checked.
     """
     spinning = {*names, *data.columns, *(name for name, value in scene.si if value)} & set(SPINS)
     if "restitution" not in data.observed or spinning or scene.pendulum is not None or scene.package is not None:
@@ -115,260 +300,3 @@ def _check_energy(scene: Scene, names: tuple[str, ...], data: Measurements) -> N
         where = ", ".join(data.label(each) for each in rows[:_NAMED].tolist()) + more
         most = f"at most 1/cos(angle) = {1 / np.cos(data.angle[k]):.4g} there, and {_BEYOND:g} standard deviations"
         raise InputError("restitution", float(values[k]), most, f"is more than the impact's energy allows ({where})")
-
-
-class Likelihood:
-    """The log-likelihood of measurements as a function of the free entries' values.
-
-    Arguments:
-        scene, names, data: scene, free entries and rows.
-        rtol: relative tolerance of the integrations.
-    """
-
-    def __init__(self, scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float = RTOL) -> None:
-        self.data, self.names = data, names
-        _check_energy(scene, names, data)
-        self.of = tuple(name for name, (values, _) in data.observed.items() if np.isfinite(values).any())
-        self.law = Law(scene, names, data, rtol)
-        self.direction = np.zeros(data.size)
-        self.more = np.ones(data.size, int)  # factor of the lines of each row, odd
-        density = data.separated
-        self.constant = np.zeros(data.size)  # of the densities' normalisation
-        for name in self.of:
-            values, sd = data.observed[name]
-            seen = density & np.isfinite(values)
-            self.constant[seen] -= np.log(sd[seen] * np.sqrt(2 * np.pi))
-
-    # ---- the frame
-
-    def aim(self, values: np.ndarray) -> None:
-        """Turn the lines of every row to where its results change fastest, for these values.
-
-        Raises:
-            InputError: values that no scene may have.
-        """
-        law = self.bound(values)
-        data = self.data
-        if not ((data.speed_sd > 0) & (data.angle_sd > 0)).any():
-            return
-        nearest = np.full(data.size, np.inf)
-        for across in (0.0, np.pi / 2):
-            lines = Lines.of(data, np.full(data.size, across), np.ones(data.size, int))
-            found = boundaries.locate(law, lines, within=1e-3)
-            if not found.size:
-                continue
-            order = np.argsort(np.abs(found.y))
-            rows, first = np.unique(lines.row[found.line[order]], return_index=True)
-            which = order[first]
-            closer = np.abs(found.y[which]) < nearest[rows]
-            rows, which = rows[closer], which[closer]
-            if not rows.size:
-                continue
-            fine = replace(found, y=found.y.copy())
-            normal = boundaries.normals(law, lines, fine, which, True)
-            turned = self._direction(lines, found.line[which], found.y[which], normal.speed, normal.angle)
-            turned = np.where(np.isfinite(turned), turned, across)
-            nearest[rows], self.direction[rows] = np.abs(found.y[which]), turned
-        for k, name in enumerate(self.of):
-            smooth = np.flatnonzero(data.separated & np.isfinite(data.observed[name][0]))
-            lines = Lines.of(data, self.direction, np.ones(data.size, int))
-            there = law.results(self.of, smooth, *lines.at(smooth, np.zeros(smooth.size)))
-            by = there.speed[k] * data.speed_sd[smooth], there.angle[k] * data.angle_sd[smooth]
-            steep = np.hypot(*by) > data.observed[name][1][smooth]
-            turned = self._direction(lines, smooth, np.zeros(smooth.size), there.speed[k], there.angle[k])
-            steep &= np.isfinite(turned) & (there.outcome > 0)
-            self.direction[smooth] = np.where(steep, turned, self.direction[smooth])
-            if steep.any():
-                break
-
-    def _direction(
-        self, lines: Lines, line: np.ndarray, y: np.ndarray, speed: np.ndarray, angle: np.ndarray
-    ) -> np.ndarray:
-        row = lines.row[line]
-        if self.data.relative:
-            at_speed, at_angle = lines.at(line, y)
-            angle = angle - speed * at_speed * np.tan(at_angle)
-            speed = speed * np.cos(at_angle)
-        with np.errstate(invalid="ignore"):
-            turned: np.ndarray = np.arctan2(angle * self.data.angle_sd[row], speed * self.data.speed_sd[row])
-            turned[(angle == 0) & (speed == 0)] = np.nan
-        return turned
-
-    def refine(self, values: np.ndarray, within: float) -> None:
-        """Give more lines to rows whose log-likelihood at these values is not within an error of what it should be."""
-        law, size = self.bound(values), self.data.size
-        self.more = np.ones(size, int)
-        now, open_ = self.evaluate(law, Resolution()).rows, np.ones(size, bool)
-        for factor in FINER:
-            fine = self.evaluate(law, Resolution(), np.where(open_, factor, 0)).rows
-            open_ &= np.abs(fine - now) > within
-            self.more[open_], now = factor, fine
-            if not open_.any():
-                break
-
-    def bound(self, values: np.ndarray) -> BoundLaw:
-        """The law at these values; InputError where no scene may have them."""
-        law = self.law.at(np.asarray(values, dtype=float))
-        if law is None:
-            said = ", ".join(f"{name} = {value:.6g}" for name, value in zip(self.names, values, strict=True))
-            raise InputError("free", said, "values that the scene may have together", "make a scene impossible")
-        return law
-
-    # ---- the integral
-
-    def __call__(self, values: np.ndarray, resolution: Resolution | None = None) -> Evaluation | None:
-        """The log-likelihoods at these values; None where they make the scene impossible."""
-        law = self.law.at(np.asarray(values, dtype=float))
-        return None if law is None else self.evaluate(law, resolution or Resolution())
-
-    def evaluate(self, law: BoundLaw, resolution: Resolution, factors: np.ndarray | None = None) -> Evaluation:
-        """The log-likelihoods of all rows under a law.
-
-        Arguments:
-            factors: (rows,), of the number of lines, in place of those found by `refine`; 0 leaves a row out.
-        """
-        data, size = self.data, self.data.size
-        if factors is None:
-            factors = self.more if resolution.lines > 1 else np.ones(size, int)
-        lines = Lines.of(data, self.direction, resolution.lines * factors)
-        found = boundaries.locate(law, lines, resolution.grid, resolution.within)
-        segments, unknown = Segments.of(lines, found, data.allowed)
-        mass = segments.mass()
-        probability = np.bincount(segments.row, segments.weight * mass, size)
-        undecided = np.bincount(unknown.row, unknown.weight * unknown.mass(), size)
-        dense = data.separated[segments.row]
-        counts = mass > np.where(dense, NEGLIGIBLE, 0.0)
-        ends = moving_ends(law, lines, found, segments, counts, resolution.quick)
-        total = RowSums(size, len(self.names))
-        plain = np.flatnonzero(~dense & counts)
-        total.add(segments.row[plain], np.log(segments.weight[plain] * mass[plain]), segments.mass_slopes(ends)[plain])
-        moments = Moments(self.of, size)
-        self._densities(law, lines, segments, ends, np.flatnonzero(dense & counts), resolution, total, moments)
-        rows, scores = total.result()
-        rare = np.flatnonzero((probability < RARE) & (factors > 0))
-        if rare.size:
-            moves = np.zeros(scores.shape)  # of the logarithm of the probability
-            np.add.at(moves, segments.row, (segments.weight * mass)[:, None] * segments.mass_slopes(ends))
-            moves /= np.maximum(probability, 1e-300)[:, None]
-            how = resolution.within, resolution.quick
-            beyond = RareRows.of(law, data, rare, self.direction, self.of, *how)
-            beyond = beyond.setting_in(probability[rare], moves[rare])
-            missing = beyond.log > rows[rare]
-            rows[rare[missing]], scores[rare[missing]] = beyond.log[missing], beyond.slope[missing]
-        limited, factor = limit(rows)
-        return Evaluation(
-            limited + self.constant, scores * factor[:, None], rows + self.constant, np.minimum(probability, 1.0),
-            undecided, *moments.result(),
-        )  # fmt: skip
-
-    def _densities(
-        self,
-        law: BoundLaw,
-        lines: Lines,
-        segments: Segments,
-        ends: tuple[np.ndarray, np.ndarray],
-        which: np.ndarray,
-        resolution: Resolution,
-        total: RowSums,
-        moments: Moments,
-    ) -> None:
-        """Add the integrals of densities over segments `which`."""
-        free = (segments.from_change[which].astype(int) + 2 * segments.to_change[which]).astype(int)
-        groups = [(kind, which[free == kind]) for kind in range(4)]
-        groups = [(kind, part) for kind, part in groups if part.size]
-        if not groups:
-            return
-        counts = [resolution.nodes * 3 // 2 if kind else resolution.nodes for kind, _ in groups]
-        maps = [segment_map(kind, count, resolution.points) for (kind, _), count in zip(groups, counts)]
-        places, on = [], []
-        for (_, part), each in zip(groups, maps):
-            low, high = segments.low[part, None], segments.high[part, None]
-            places.append((low + (high - low) * each.at_nodes).ravel())
-            on.append(np.repeat(segments.line[part], each.at_nodes.size))
-        y, line = np.concatenate(places), np.concatenate(on)
-        row, at = lines.row[line], lines.at(line, y)
-        found = law.results(self.of, row, *at, budget=_QUICK if resolution.quick else None)
-        late = np.flatnonzero(found.outcome < 0)
-        if late.size:
-            found.value[:, late] = law.plain(self.of, row[late], at[0][late], at[1][late])
-        by_speed, by_angle = lines.slopes(line, y)
-        by_y = found.speed * by_speed + found.angle * by_angle
-        first = 0
-        for (_, part), each in zip(groups, maps):
-            own = slice(first, first + part.size * each.at_nodes.size)
-            first = own.stop
-            shape = part.size, each.at_nodes.size
-            value = found.value[:, own].reshape(-1, *shape)
-            low_p, high_p = ends[0][part], ends[1][part]
-            moves = low_p[:, None] * (1 - each.at_nodes)[:, None] + high_p[:, None] * each.at_nodes[:, None]
-            slope = (
-                found.free[:, own].reshape(-1, *shape, len(self.names))
-                + by_y[:, own].reshape(-1, *shape)[..., None] * moves
-            )
-            slope = _extended(slope, found.outcome[own].reshape(shape) >= 0)
-            self._integrate(segments, part, each, value, slope, low_p, high_p, total, moments)
-
-    def _integrate(
-        self,
-        segments: Segments,
-        part: np.ndarray,
-        mapping: SegmentMap,
-        value: np.ndarray,
-        slope: np.ndarray,
-        low_p: np.ndarray,
-        high_p: np.ndarray,
-        total: RowSums,
-        moments: Moments,
-    ) -> None:
-        row = segments.row[part]
-        lost = ~np.isfinite(value).all(axis=(0, 2))  # a trajectory on the way was not completed
-        value, slope = np.nan_to_num(value), np.nan_to_num(slope)
-        low, high = segments.low[part, None], segments.high[part, None]
-        length = high - low
-        y = low + length * mapping.at_points
-        scatter = -(y**2) / 2 - np.log(2 * np.pi) / 2 + np.log(length * mapping.rate * mapping.weight)
-        exponent = scatter.copy()
-        pulls = []
-        for k, name in enumerate(self.of):
-            measured, sd = (each[row, None] for each in self.data.observed[name])
-            at = value[k] @ mapping.interpolate.T
-            moments.add(name, row, segments.weight[part], scatter, at)
-            seen = np.isfinite(measured)
-            misfit = np.where(seen, (measured - at) / sd, 0.0)
-            exponent -= misfit**2 / 2
-            pulls.append((k, misfit / sd))
-        exponent[lost] = -np.inf
-        top = np.max(exponent, axis=1, keepdims=True, initial=-1e300)
-        density = np.exp(exponent - top)
-        whole = density.sum(axis=1)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            share = np.where(whole[:, None] > 0, density / whole[:, None], 0.0)
-            logs = np.log(whole) + top[:, 0] + np.log(segments.weight[part])
-        gradient = (high_p - low_p) / length
-        # y moves with the ends: dy = low_p (1 - g) + high_p g
-        mean_y, mean_gy = -(share * y).sum(axis=1), -(share * y * mapping.at_points).sum(axis=1)
-        gradient += low_p * (mean_y - mean_gy)[:, None] + high_p * mean_gy[:, None]
-        for k, pull in pulls:
-            at_nodes = (share * pull) @ mapping.interpolate
-            gradient += np.einsum("sn,snp->sp", at_nodes, slope[k])
-        kept = np.flatnonzero(whole > 0)
-        total.add(row[kept], logs[kept], gradient[kept])
-
-
-def _extended(slope: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Slopes at all nodes of segments from those that are known, as they are smooth where the segment moves with them.
-
-    Arguments:
-        slope: (results, segments, nodes, free entries).
-        known: (segments, nodes).
-    """
-    odd = np.flatnonzero(~known.all(axis=1) & known.any(axis=1))
-    for k in odd.tolist():
-        slope[:, k] = np.einsum("mn,rnp->rmp", extension(tuple(known[k].tolist()), _DEGREE), slope[:, k])
-    return slope
-
-
-def limit(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Log-likelihoods with their heavy tail, and the derivative of that by the plain ones."""
-    beyond = np.maximum(-KNEE - rows, 0.0)
-    return np.maximum(rows, -KNEE) - TAIL * np.log1p(beyond / TAIL), 1 / (1 + beyond / TAIL)

@@ -1,19 +1,46 @@
-"""Measured impacts as checked arrays in SI."""
+"""Measured impacts as arrays in SI, read from a table whose cells are checked."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+import re
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
+from ...generated import scaling
 from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
+from ..changes.experiment import Rows, check_derivatives
+from ..errors import InputError, did_you_mean
+from ..scene import units
+from ..scene.held import NAMES
+from ..scene.quantities import quantities
+from ..scene.scene import Scene
+from ..scene.schema import MEETING, SPEEDS
+from .columns import Column, columns_of
 
 UNKNOWN = -1
 """Code of an outcome that was not recorded."""
 OBSERVED = ("restitution", "tangential_restitution", "contact_time", "rotation")
 """Results of a collision that may be measured."""
-_CODES = {word: OUTCOMES.index(word) for word in (STICK, ROTATE, BOUNCE)}
+SPEED_SD, ANGLE_SD = 0.02, math.radians(1.0)
+"""Scatter of single impacts where the data do not give it: of the speed, relative; of the angle."""
+RESULT_SD = {"restitution": 0.02, "tangential_restitution": 0.02, "contact_time": 0.05, "rotation": math.radians(2.0)}
+"""Standard deviation of measured results where the data do not give it; of the contact time relative."""
+
+_STICK = OUTCOMES.index(STICK)
+_DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+")
+_MISSING = ("", "-", "na", "n/a", "nan", "null", "none")
+_ALIASES = {STICK: ("sticks", "s"), ROTATE: ("srs",), BOUNCE: ("bounces", "b")}
+_WORDS = {word: OUTCOMES.index(name) for name, others in _ALIASES.items() for word in (name, *others)}
+_UNITS = {"restitution": "", "tangential_restitution": "", "contact_time": "s", "rotation": "rad"}
+_IMPACT = {"speed": "m/s", "relative_speed": "m/s", "stokes": "", "angle": "rad"}
+_SPREAD = ("speed_sd", "relative_speed_sd", "angle_sd")
+_PLAIN = (*_IMPACT, *_SPREAD, "outcome", *OBSERVED, *(f"{name}_sd" for name in OBSERVED))
+_NOISE = 5.0  # standard deviations by which a measured restitution may lie below 0
+_WIDEST = 1 / 3  # relative scatter of a speed
 
 
 @dataclass(frozen=True)
@@ -51,31 +78,32 @@ class Measurements:
         return int(self.speed.size)
 
     @property
+    def normal_speed(self) -> np.ndarray:
+        """m/s."""
+        return self.speed * np.cos(self.angle) if self.relative else self.speed
+
+    @property
+    def measured(self) -> np.ndarray:
+        """Mask of the rows with a measured result."""
+        return np.isfinite([values for values, _ in self.observed.values()] or [np.full(self.size, np.nan)]).any(axis=0)
+
+    @property
     def separated(self) -> np.ndarray:
         """Mask of the rows of which the likelihood holds a density of a measured result."""
-        seen = np.zeros(self.size, bool)
-        for values, _ in self.observed.values():
-            seen |= np.isfinite(values)
-        found: np.ndarray = seen & (self.outcome != _CODES[STICK])
-        return found
+        return self.measured & (self.outcome != _STICK)
 
     @property
     def allowed(self) -> np.ndarray:
         """Mask (rows, outcomes) of the outcomes that agree with a row."""
-        found: np.ndarray = self.outcome[:, None] == np.arange(len(OUTCOMES))
-        unknown = self.outcome == UNKNOWN
-        found[unknown] = np.arange(len(OUTCOMES)) != _CODES[STICK]
-        return found
+        codes = np.arange(len(OUTCOMES))
+        return np.where(self.outcome[:, None] == UNKNOWN, codes != _STICK, self.outcome[:, None] == codes)
 
     def part(self, which: np.ndarray) -> Measurements:
         """The rows of these indices."""
+        alone = ("speed", "angle", "speed_sd", "angle_sd", "outcome")
         return replace(
             self,
-            speed=self.speed[which],
-            angle=self.angle[which],
-            speed_sd=self.speed_sd[which],
-            angle_sd=self.angle_sd[which],
-            outcome=self.outcome[which],
+            **{name: getattr(self, name)[which] for name in alone},
             observed={name: (values[which], sds[which]) for name, (values, sds) in self.observed.items()},
             columns={name: values[which] for name, values in self.columns.items()},
             labels=tuple(self.labels[k] for k in which.tolist()) if self.labels else (),
@@ -84,3 +112,243 @@ class Measurements:
     def label(self, row: int) -> str:
         """What names a row in messages."""
         return self.labels[row] if self.labels else f"row {row + 1}"
+
+
+def rows_of(scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float) -> Rows:
+    """The scenes of the rows, with free entries.
+
+    Raises:
+        ComputationError: the kernel does not differentiate their collisions.
+    """
+    check_derivatives(scene)
+    return Rows(scene, names, data.columns, data.size if data.columns else 1, rtol)
+
+
+def read_data(source: Any, scene: Scene, label: str = "data") -> Measurements:
+    """Measured impacts, checked.
+
+    Arguments:
+        source: a CSV file whose first line names the columns with their units, or a DataFrame, Dataset or mapping of
+            columns; in these plain numbers are SI and radians. Measurements are returned as they are.
+        scene: what the columns leave out.
+
+    Columns: speed, relative_speed or stokes, and angle; speed_sd, angle_sd; outcome; restitution,
+    tangential_restitution, contact_time, rotation, each with NAME_sd; entries of the scene by their dotted names.
+    Standard deviations may be in %. Empty cells are missing. Restitution 0 without an outcome is a stick.
+
+    Raises:
+        InputError: an unknown column or unit, or a bad cell, named by row and column.
+    """
+    if isinstance(source, Measurements):
+        return source
+    return _Table(*columns_of(source, label), scene, label).measurements()
+
+
+class _Table:
+    def __init__(self, columns: list[Column], lines: list[int], scene: Scene, label: str) -> None:
+        self.scene, self.label, self.header, self.lines = scene, label, f"{label}, header", lines
+        self.size = len(lines)
+        if not self.size:
+            raise InputError(label, None, "at least one row", "has no rows")
+        self.by_name: dict[str, Column] = {}
+        for column in columns:
+            self._check_name(column.name)
+            self.by_name[column.name] = column
+        self.remarks: list[str] = []
+
+    def _check_name(self, name: str) -> None:
+        entries = [each for each in self.scene.fields if each not in MEETING and not self.scene.fields[each].choices]
+        if name not in (*_PLAIN, *entries):
+            accepted = f"{', '.join(_PLAIN)}, and entries of the scene by dotted name; notes are written after #"
+            raise InputError(self.header, name, accepted, "is unknown" + did_you_mean(name, (*_PLAIN, *entries)))
+        if name in self.by_name:
+            raise InputError(self.header, name, "each column once", "is given twice")
+        if name in entries and name.partition(".")[0] not in {own.partition(".")[0] for own, _ in self.scene.si}:
+            raise InputError(self.header, name, "entries of the scene's tables", "has no table there")
+
+    def _where(self, row: int, name: str) -> str:
+        line = f" (line {self.lines[row]})" if self.lines[row] != row + 1 else ""
+        return f"{self.label}, row {row + 1}{line}, column {name}"
+
+    def _refuse(self, bad: np.ndarray, name: str, values: Any, accepted: str, problem: str = "") -> None:
+        """Raise InputError for the first row of a mask."""
+        for row in np.flatnonzero(bad).tolist():
+            value = None if values is None else values[row]
+            value = value.item() if isinstance(value, np.generic) else value
+            raise InputError(self._where(row, name), value, accepted, *([problem] if problem else []))
+
+    def _numbers(self, name: str, si: str, holds: Callable[[float], bool], words: str, gaps: bool = True) -> np.ndarray:
+        """A column in SI; parts of one for a column in %.
+
+        Arguments:
+            holds: whether a number is accepted, and `words` for which are.
+            gaps: cells may be missing; NaN there.
+        """
+        column, factor = self.by_name[name], 1.0
+        shown = {"rad": "deg", "": "1"}.get(si, si)
+        if si and column.unit is None and any(isinstance(cell, str) for cell in column.cells):
+            raise InputError(self.header, name, f"the unit in brackets, such as {name} [{shown}]", "has no unit")
+        if column.unit == "%":
+            factor = 0.01
+        elif column.unit is not None and (column.unit or si):
+            written = f"{name} [{column.unit}]"
+            factor = units.factor(column.unit, si or None, self.header, f"{name} in {shown}", written)
+        numbers = np.full(self.size, np.nan)
+        for row, cell in enumerate(column.cells):
+            value = self._cell(cell, row, name, words)
+            if value is not None:
+                numbers[row] = value * factor
+                if not (math.isfinite(value) and holds(numbers[row])):
+                    raise InputError(self._where(row, name), cell, words, "is out of range")
+        if not gaps:
+            self._refuse(np.isnan(numbers), name, None, "a number in every row", "is empty")
+        return numbers
+
+    def _cell(self, cell: Any, row: int, name: str, words: str) -> float | None:
+        if _is_missing(cell):
+            return None
+        if isinstance(cell, str):
+            if _DECIMAL_COMMA.fullmatch(cell.strip()):
+                where = self._where(row, name)
+                raise InputError(where, cell.strip(), "numbers with a decimal point", "has a decimal comma")
+            return units.number(cell.strip(), self._where(row, name), words)
+        try:
+            return float(cell)
+        except (TypeError, ValueError, OverflowError):
+            raise InputError(self._where(row, name), cell, words, "is not a number") from None
+
+    def measurements(self) -> Measurements:
+        angle = self._angle()
+        columns = {
+            name: self._numbers(name, entry.unit or "", entry.range.holds, entry.accepts, gaps=False)
+            for name in self.by_name
+            if "." in name
+            for entry in (self.scene.fields[name],)
+        }
+        speed, of_speed = self._speed(angle, columns)
+        speed_sd, angle_sd = self._scatter(speed, of_speed)
+        outcome, observed = self._outcome(), self._observed()
+        if "restitution" in observed:
+            values = observed["restitution"][0]
+            outcome = np.where((outcome == UNKNOWN) & (values == 0), _STICK, outcome)
+            accepted = "an outcome beside a restitution below 0, which may be a stick's"
+            self._refuse((outcome == UNKNOWN) & (values < 0), "restitution", values, accepted, "is noise about 0")
+            accepted = "a stick has restitution 0, or an empty cell"
+            self._refuse(
+                (outcome == _STICK) & (np.abs(values) > 0), "restitution", values, accepted, "contradicts the outcome"
+            )
+        observed = {name: (np.where(outcome == _STICK, np.nan, values), sd) for name, (values, sd) in observed.items()}
+        labels = tuple(f"row {row + 1}" for row in range(self.size))
+        data = Measurements(
+            speed, angle, speed_sd, angle_sd, outcome.astype(np.int8), observed, columns, of_speed == "relative_speed",
+            (), labels,
+        )  # fmt: skip
+        told = data.measured | (outcome != UNKNOWN)
+        if not told.any():
+            accepted = "outcome, restitution or another result in at least one row"
+            raise InputError(self.label, None, accepted, "says nothing of any impact")
+        if not told.all():
+            left = ", ".join(labels[k] for k in np.flatnonzero(~told)[:8])
+            self.remarks.append(f"Left out, for neither outcome nor result is given: {left}.")
+            data = data.part(np.flatnonzero(told))
+        return replace(data, remarks=tuple(self.remarks))
+
+    def _angle(self) -> np.ndarray:
+        if "angle" in self.by_name:
+            words = "an angle from 0 to below 90 deg"
+            return self._numbers("angle", "rad", lambda v: 0 <= v < math.pi / 2, words, gaps=False)
+        if self.scene.angle is None:
+            raise InputError(self.label, None, "a column angle [deg], or an impact angle in the scene", "has no angle")
+        self.remarks.append(f"Angles are the scene's, {math.degrees(self.scene.angle):.6g} deg.")
+        return np.full(self.size, self.scene.angle)
+
+    def _speed(self, angle: np.ndarray, columns: Mapping[str, np.ndarray]) -> tuple[np.ndarray, str]:
+        """The speeds, and which they are: "speed", "relative_speed" or "stokes"."""
+        names = [name.removeprefix("impact.") for name in SPEEDS if name.removeprefix("impact.") in self.by_name]
+        if len(names) > 1:
+            accepted = "only one of speed, relative_speed, stokes"
+            raise InputError(self.header, names[1], accepted, f"is given together with {names[0]}")
+        if not names:
+            if self.scene.speed is None:
+                raise InputError(self.label, None, "a column speed [m/s], or a speed in the scene", "has no speed")
+            self.remarks.append(f"Normal speeds are the scene's, {self.scene.speed:.6g} m/s.")
+            return np.full(self.size, self.scene.speed), "speed"
+        [name] = names
+        speed = self._numbers(name, _IMPACT[name], lambda v: v > 0, "a number > 0", gaps=False)
+        if name == "stokes":
+            own: dict[str, Any] = {entry: value for entry, value in self.scene.si if entry not in MEETING}
+            of = quantities(own | dict(columns), self.scene.ways)
+            speed = speed / scaling.stokes(of["reduced_radius"], of["reduced_mass"], of["viscosity"], 1.0)
+            self.remarks.append("Normal speeds are those of the Stokes numbers with the scene's own entries.")
+        return np.broadcast_to(speed, self.size).copy(), name
+
+    def _scatter(self, speed: np.ndarray, of_speed: str) -> tuple[np.ndarray, np.ndarray]:
+        speed_sd, angle_sd = np.full(self.size, np.nan), np.full(self.size, np.nan)
+        for name in [each for each in _SPREAD[:2] if each in self.by_name][:1]:
+            accepted = f"a standard deviation from 0 to below {_WIDEST:.2g} of the speed"
+            values = self._numbers(name, "m/s", lambda v: v >= 0, accepted)
+            speed_sd = values * speed if self.by_name[name].unit == "%" else values
+            cells = self.by_name[name].cells
+            self._refuse(speed_sd >= _WIDEST * speed, name, cells, accepted, "is out of range")
+        if np.isnan(speed_sd).any():
+            self.remarks.append(f"Scatter of the {NAMES[of_speed]}, where it is not given: {100 * SPEED_SD:g} %.")
+            speed_sd = np.where(np.isnan(speed_sd), SPEED_SD * speed, speed_sd)
+        if "angle_sd" in self.by_name:
+            words = "a standard deviation from 0 to 0.5 rad"
+            angle_sd = self._numbers("angle_sd", "rad", lambda v: 0 <= v < 0.5, words)
+        if np.isnan(angle_sd).any():
+            self.remarks.append(f"Scatter of the angle, where it is not given: {math.degrees(ANGLE_SD):.3g} deg.")
+            angle_sd = np.where(np.isnan(angle_sd), ANGLE_SD, angle_sd)
+        accepted = "speed_sd or angle_sd above 0: an outcome without scatter has no likelihood"
+        self._refuse((speed_sd == 0) & (angle_sd == 0), "angle_sd", [0] * self.size, accepted, "is 0, as speed_sd is")
+        return speed_sd, angle_sd
+
+    def _outcome(self) -> np.ndarray:
+        codes = np.full(self.size, UNKNOWN)
+        for row, cell in enumerate(self.by_name["outcome"].cells if "outcome" in self.by_name else ()):
+            if _is_missing(cell):
+                continue
+            if isinstance(cell, str):
+                code = _WORDS.get(cell.strip().lower().replace("_", "-").replace(" ", "-"))
+            else:
+                code = int(cell) if not isinstance(cell, bool) and cell in range(len(OUTCOMES)) else None
+            if code is None:
+                accepted = f"{STICK}, {ROTATE}, {BOUNCE}, or an empty cell"
+                problem = "is not known" + did_you_mean(cell, _WORDS)
+                raise InputError(self._where(row, "outcome"), cell, accepted, problem)
+            codes[row] = code
+        return codes
+
+    def _observed(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        observed = {}
+        for name in OBSERVED:
+            error, relative = f"{name}_sd", name == "contact_time"
+            if name not in self.by_name:
+                if error in self.by_name:
+                    raise InputError(self.header, error, f"a column {name} beside it", "stands alone")
+                continue
+            words = "a number >= 0" if relative else "a number"
+            values = self._numbers(name, _UNITS[name], (lambda v: v >= 0) if relative else math.isfinite, words)
+            sd = np.full(self.size, np.nan)
+            if error in self.by_name:
+                sd = self._numbers(error, _UNITS[name], lambda v: v > 0, "a standard deviation > 0")
+                if self.by_name[error].unit == "%":
+                    sd = sd * np.abs(values)
+            if (np.isnan(sd) & np.isfinite(values)).any():
+                shown = f"{100 * RESULT_SD[name]:g} %" if relative else f"{RESULT_SD[name]:.4g}"
+                shown = f"{math.degrees(RESULT_SD[name]):.3g} deg" if _UNITS[name] == "rad" else shown
+                self.remarks.append(f"Standard deviation of {name}, where it is not given: {shown}.")
+                sd = np.where(np.isnan(sd), RESULT_SD[name] * (np.abs(values) if relative else 1.0), sd)
+            bad = ~(sd > 0) & np.isfinite(values) & (values != 0)
+            self._refuse(bad, error, sd, "a standard deviation > 0")
+            sd = np.where(sd > 0, sd, RESULT_SD[name])
+            if name == "restitution":
+                accepted = f"a number >= 0, or below by up to {_NOISE:g} standard deviations of noise"
+                self._refuse(values < -_NOISE * sd, name, values, accepted, "is out of range")
+            observed[name] = values, sd
+        return observed
+
+
+def _is_missing(cell: Any) -> bool:
+    nothing = cell is None or (isinstance(cell, float) and math.isnan(cell))
+    return nothing or (isinstance(cell, str) and cell.strip().lower() in _MISSING)

@@ -1,17 +1,22 @@
-"""The most likely values of the free entries, from several starts."""
+"""The most likely values of the free entries, from several starts.
+
+A fit minimises a sum of squares, one term for each row and each prior. The square of a row's residual is twice the
+difference of its log-likelihood from that of a perfect observation, so that least squares are maximum likelihood, and
+the matrix of Gauss and Newton is close to the information matrix.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import least_squares, minimize
+from scipy.optimize import LinearConstraint, least_squares, minimize
 from scipy.stats import qmc
 
 from ..errors import ComputationError
 from .free_entries import FreeEntries
-from .likelihood import COARSE, Likelihood, Resolution
-from .objective import Objective, walls, whitening
+from .likelihood import COARSE, Evaluation, Likelihood, Resolution
 
 _STARTS = 16  # quasi-random points at which the likelihood is looked at
 _FOLLOWED = 3  # of these, the number from which an optimum is sought
@@ -24,6 +29,100 @@ _ROUNDS = 3  # of turning the lines and refining rows
 _FAR_OFF = 1.5  # standard errors that a maximum may be from where the lines were turned
 _ROUGH = Resolution(1, 6, 96, 11)
 _DIRECT = 0.02  # error of a row's log-likelihood that is worth more lines
+_LEAST = 1e-9  # residual below which a row has no derivatives
+
+
+class Objective:
+    """Residuals of a fit and their derivatives, with the last evaluations kept.
+
+    Arguments:
+        likelihood, free: of the same entries in the same order.
+        resolution: of the integrals.
+    """
+
+    def __init__(self, likelihood: Likelihood, free: FreeEntries, resolution: Resolution) -> None:
+        self.likelihood, self.free, self.resolution = likelihood, free, resolution
+        self.points: list[np.ndarray] = []  # all that were evaluated
+        self.heights: list[float] = []  # `value` there
+        self._last: dict[bytes, Evaluation | None] = {}
+
+    def at(self, inner: np.ndarray) -> Evaluation | None:
+        """The log-likelihoods; None where the scene is impossible."""
+        key = inner.tobytes()
+        if key not in self._last:
+            while len(self._last) > 8:
+                del self._last[next(iter(self._last))]
+            self._last[key] = self.likelihood(self.free.values(inner), self.resolution)
+            self.points.append(inner.copy())
+            self.heights.append(self.value(inner))
+        return self._last[key]
+
+    def _possible(self, inner: np.ndarray) -> Evaluation:
+        evaluation = self.at(inner)
+        assert evaluation is not None  # derivatives are taken where a value has been found
+        return evaluation
+
+    def residuals(self, inner: np.ndarray) -> np.ndarray:
+        """One residual for each row and each prior; infinite where the scene is impossible."""
+        evaluation = self.at(inner)
+        if evaluation is None:
+            return np.full(self.likelihood.data.size + self.free.size, np.inf)
+        return np.concatenate([self._roots(evaluation), self._priors(inner)[0]])
+
+    def _roots(self, evaluation: Evaluation) -> np.ndarray:
+        roots: np.ndarray = np.sqrt(np.maximum(2 * (self.likelihood.constant - evaluation.rows), 0.0))
+        return roots
+
+    def jacobian(self, inner: np.ndarray) -> np.ndarray:
+        """Derivatives of the residuals by the variables of the search."""
+        evaluation = self._possible(inner)
+        root, rates = self._roots(evaluation)[:, None], self.free.rates(self.free.values(inner))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            rows = np.where(root > _LEAST, -evaluation.scores * rates / root, 0.0)
+        return np.vstack([rows, np.diag(self._priors(inner)[1])])
+
+    def value(self, inner: np.ndarray) -> float:
+        """The logarithm of likelihood times prior density, up to a constant; -inf where the scene is impossible."""
+        evaluation = self.at(inner)
+        return -np.inf if evaluation is None else evaluation.value - float((self._priors(inner)[0] ** 2).sum()) / 2
+
+    def gradient(self, inner: np.ndarray) -> np.ndarray:
+        """Derivatives of `value`."""
+        misfits, slopes = self._priors(inner)
+        rates = self.free.rates(self.free.values(inner))
+        gradient: np.ndarray = self._possible(inner).scores.sum(axis=0) * rates - misfits * slopes
+        return gradient
+
+    def information(self, inner: np.ndarray) -> np.ndarray:
+        """The information matrix of rows and priors in the variables of the search (Gauss-Newton)."""
+        slopes = self.jacobian(inner)
+        information: np.ndarray = slopes.T @ slopes
+        return information
+
+    def log_density(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
+        """`value` and its derivatives at values of all free entries by name, SI."""
+        inner = self.free.inner(np.array([values[name] for name in self.free.names]))
+        height, slope = self.value(inner), np.zeros(self.free.size)
+        if np.isfinite(height):
+            slope = self.gradient(inner) / self.free.rates(self.free.values(inner))
+        return height, dict(zip(self.free.names, slope.tolist(), strict=True))
+
+    def _priors(self, inner: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Of each entry the distance from its prior's centre in standard deviations, and its derivative; 0 without."""
+        values = self.free.values(inner)
+        pairs = [
+            (0.0, 0.0) if each.prior is None else each.prior.misfit(float(value))
+            for each, value in zip(self.free.entries, values, strict=True)
+        ]
+        misfits, slopes = np.array(pairs).T
+        return misfits, slopes * self.free.rates(values)
+
+
+def whitening(objective: Objective, inner: np.ndarray) -> np.ndarray:
+    """C with C C' the covariance at a maximum; where the data say nothing, that of the range of the search."""
+    values, vectors = np.linalg.eigh(objective.information(inner) + objective.free.vague)
+    white: np.ndarray = vectors / np.sqrt(np.maximum(values, 1e-12))
+    return white
 
 
 @dataclass(frozen=True)
@@ -47,37 +146,31 @@ def optimise(likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, s
     Raises:
         ComputationError: no start has a likelihood.
     """
-    first = _screened(likelihood, free, starts, seed)
-    rough = Objective(likelihood, free, _ROUGH)
-    found: list[Optimum] = []
-    for start in first:
+    climbs: list[Optimum] = []
+    for start in _screened(likelihood, free, starts, seed):
         likelihood.aim(free.values(start))
         rough = Objective(likelihood, free, _ROUGH)
-        if not np.isfinite(rough.value(start)):
-            continue
-        inner = climbed(rough, start, 1e-3)
-        found.append(Optimum(inner, rough.value(inner)))
-    if not found:
+        if np.isfinite(rough.value(start)):
+            inner = climbed(rough, start)
+            climbs.append(Optimum(inner, rough.value(inner)))
+    if not climbs:
         raise ComputationError("no start of the fit has a likelihood", advice="give the scene another first guess")
-    found.sort(key=lambda each: -each.value)
+    climbs.sort(key=lambda each: -each.value)
     distinct: list[Optimum] = []
-    for each in found:
-        if each.value > found[0].value - _CLOSE and all(_apart(rough, each, other) for other in distinct):
+    for each in climbs:
+        if each.value > climbs[0].value - _CLOSE and all(_apart(rough, each, other) for other in distinct):
             distinct.append(each)
     finished = [settled(likelihood, free, each.inner) for each in distinct]
-    order = np.argsort([-each.value for each in finished])
-    best: Optimum = finished[order[0]]
-    if order[0] != len(finished) - 1:
+    best, *others = sorted(finished, key=lambda each: -each.value)
+    if best is not finished[-1]:
         likelihood.aim(free.values(best.inner))  # the lines are those of the last one
         likelihood.refine(free.values(best.inner), _DIRECT)
     objective = Objective(likelihood, free, Resolution())
-    others = [finished[k] for k in order[1:] if _apart(objective, finished[k], best)]
-    return replace(best, others=tuple(others))
+    return replace(best, others=tuple(each for each in others if _apart(objective, each, best)))
 
 
 def settled(likelihood: Likelihood, free: FreeEntries, inner: np.ndarray) -> Optimum:
     """The maximum next to a point, with lines turned and rows refined for it."""
-    objective = Objective(likelihood, free, Resolution())
     for _ in range(_ROUNDS):
         likelihood.aim(free.values(inner))
         likelihood.refine(free.values(inner), _DIRECT)
@@ -91,61 +184,65 @@ def settled(likelihood: Likelihood, free: FreeEntries, inner: np.ndarray) -> Opt
 
 def polished(objective: Objective, start: np.ndarray) -> np.ndarray:
     """The maximum next to a point, in variables in which the information matrix is the unit matrix."""
-    free = objective.free
-    low, high = free.low, free.high
+    low, high = objective.free.low, objective.free.high
     start = np.clip(start, low, high)
-    white = whitening(objective, start)
+    white, top, span = whitening(objective, start), objective.value(start), high - low
 
     def inner(z: np.ndarray) -> np.ndarray:
         at: np.ndarray = np.clip(start + white @ z, low, high)
         return at
 
-    def lack(z: np.ndarray) -> float:
-        value = objective.value(inner(z))
-        return top - value if np.isfinite(value) else 1e3
-
-    def slope(z: np.ndarray) -> np.ndarray:
+    def lack(z: np.ndarray) -> tuple[float, np.ndarray]:
         at = inner(z)
-        possible = np.isfinite(objective.value(at))
-        down: np.ndarray = -white.T @ objective.gradient(at) if possible else np.zeros(z.size)
-        return down
+        value = objective.value(at)
+        return (top - value, -white.T @ objective.gradient(at)) if np.isfinite(value) else (1e3, np.zeros(z.size))
 
-    top = objective.value(start)
-    found = minimize(
-        lack, np.zeros(start.size), jac=slope, constraints=walls(free, start, white), method="SLSQP",
+    bounds = LinearConstraint(white / span[:, None], (low - start) / span, (high - start) / span)
+    optimum = minimize(
+        lack, np.zeros(start.size), jac=True, constraints=bounds, method="SLSQP",
         options={"maxiter": _EVALUATIONS, "ftol": _TOLERANCE},
     )  # fmt: skip
-    best: np.ndarray = inner(found.x) if found.fun < 0 else start
+    best: np.ndarray = inner(optimum.x) if optimum.fun < 0 else start
     return best
 
 
-def climbed(objective: Objective, start: np.ndarray, within: float) -> np.ndarray:
-    """The maximum that is reached from a start.
+def climbed(
+    objective: Objective, start: np.ndarray, fixed: int | None = None, variables: float = 1e-3, most: int = _EVALUATIONS
+) -> np.ndarray:
+    """The maximum that is reached from a start, by least squares to a part 1e-3 of the sum.
 
     Arguments:
-        within: relative tolerance of the sum of squares and of the variables.
+        fixed: an entry that keeps its value.
+        variables: relative tolerance of the variables.
+        most: evaluations.
     """
     free = objective.free
-    low, high = free.low, free.high
-    inside = np.clip(start, low + 1e-9 * (high - low), high - 1e-9 * (high - low))
-    found = least_squares(
-        objective.residuals, inside, objective.jacobian, (low, high), method="trf", ftol=within, xtol=within,
-        gtol=1e-8, max_nfev=_EVALUATIONS, x_scale=np.where([each.log for each in free.entries], 1.0, high - low),
+    moving = np.flatnonzero(np.arange(free.size) != fixed)
+    low, high = free.low[moving], free.high[moving]
+
+    def with_moved(part: np.ndarray) -> np.ndarray:
+        inner = start.copy()
+        inner[moving] = part
+        return inner
+
+    optimum = least_squares(
+        lambda part: objective.residuals(with_moved(part)),
+        np.clip(start[moving], low + 1e-9 * (high - low), high - 1e-9 * (high - low)),
+        lambda part: objective.jacobian(with_moved(part))[:, moving],
+        (low, high), method="trf", ftol=1e-3, xtol=variables, gtol=1e-8, max_nfev=most,
+        x_scale=np.where(free.logarithmic[moving], 1.0, high - low),
     )  # fmt: skip
-    inner: np.ndarray = found.x
-    return inner
+    return with_moved(optimum.x)
 
 
 def _screened(likelihood: Likelihood, free: FreeEntries, starts: int, seed: int) -> list[np.ndarray]:
     """The scene's own values, and the most likely of quasi-random points around them."""
     own = np.clip(free.start, free.low, free.high)
-    low = np.where([each.log for each in free.entries], np.maximum(free.low, own - _NEIGHBOURHOOD), free.low)
-    high = np.where([each.log for each in free.entries], np.minimum(free.high, own + _NEIGHBOURHOOD), free.high)
+    low = np.where(free.logarithmic, np.maximum(free.low, own - _NEIGHBOURHOOD), free.low)
+    high = np.where(free.logarithmic, np.minimum(free.high, own + _NEIGHBOURHOOD), free.high)
     points = qmc.scale(qmc.Sobol(free.size, seed=seed).random(starts), low, high) if starts else np.zeros((0, 1))
     coarse = Objective(likelihood, free, COARSE)
-    values = [coarse.value(point) for point in points]
-    order = np.argsort([-value for value in values])
-    return [own, *(points[k] for k in order[: _FOLLOWED - 1])]
+    return [own, *sorted(points, key=lambda point: -coarse.value(point))[: _FOLLOWED - 1]]
 
 
 def _apart(objective: Objective, one: Optimum, other: Optimum) -> bool:

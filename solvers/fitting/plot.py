@@ -16,9 +16,9 @@ from ..formatting.ticks import plain
 from ..many.collide_many import collide_many
 from ..scene.held import AXIS_LABELS
 from .estimates import Fitted
-from .objective import whitening
+from .free_entries import unit_shown
+from .optimise import whitening
 from .profiles import DROP, profile_point
-from .shown import unit_shown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,9 +12,10 @@ from ...generated.automaton import OUTCOMES
 from ..formatting.markdown import table
 from ..host import files
 from ..host.outputs import check_folder
+from ..host.pictures import saved
 from ..scene.held import NAMES
 from .estimates import CONTRADICTED, Fitted
-from .shown import in_unit, interval
+from .plot import draw
 
 Table = tuple[list[str], list[list[str]]]
 _MOST = 12  # rows of the data that are shown: those that pull most
@@ -28,12 +29,14 @@ def write_report(found: Fitted, folder: str | Path) -> list[Path]:
     """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths."""
     into = check_folder(folder, "report")
     into.mkdir(parents=True, exist_ok=True)
-    found.plot(into / "fit.png")
+    saved(lambda: draw(found), into / "fit.png")
     title = f"Fit of {found.points} impacts" + (f" to {found.first.name}" if found.first.name else "")
+    change = f"with twice as fine integrals it changes by {found.quadrature:.2g}"
+    height = f"Log-likelihood {found.log_likelihood:.4f}; {change}."
     parts: list[tuple[str, Table | list[str]]] = [
         ("", [CONTRADICTED] if found.rows.contradicted else []),
-        ("Estimates", _estimates(found)),
-        ("", [*found.combinations, _height(found)]),
+        ("Estimates", found.table()),
+        ("", [*found.combinations, height]),
         ("Correlation", _correlation(found)),
         ("Remarks", list(found.remarks)),
         ("Impacts that pull most", _rows(found)),
@@ -56,19 +59,6 @@ def write_report(found: Fitted, folder: str | Path) -> list[Path]:
     files.write(into / "report.md", "\n\n".join(markdown) + "\n")
     files.write(into / "report.html", f"{head}<style>{_STYLE}</style><body>{''.join(page)}</body></html>\n")
     return [into / name for name in ("report.md", "report.html", "fit.png")]
-
-
-def _height(found: Fitted) -> str:
-    change = f"with twice as fine integrals it changes by {found.quadrature:.2g}"
-    return f"Log-likelihood {found.log_likelihood:.4f}; {change}."
-
-
-def _estimates(found: Fitted) -> Table:
-    rows = [
-        [name, in_unit(found.first, name, each.value), interval(found.first, name, each.low, each.high), each.verdict]
-        for name, each in found.estimates.items()
-    ]
-    return ["entry", "estimate", "95 % interval", "verdict"], rows
 
 
 def _correlation(found: Fitted) -> Table | list[str]:

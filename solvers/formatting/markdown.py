@@ -22,3 +22,9 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 def ms(seconds: float) -> str:
     """A time in milliseconds with three digits."""
     return f"{seconds * 1e3:#.3g}".removesuffix(".")
+
+
+def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Lines of plain text in which the cells of each column begin at the same place."""
+    widths = [max(map(len, cells)) for cells in zip(*rows, strict=True)]
+    return ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]

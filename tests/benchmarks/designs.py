@@ -18,7 +18,8 @@ import time
 import numpy as np
 from wetdoublet.solvers import InputError, Scene, design, fit
 from wetdoublet.solvers.fitting.measurements import Measurements
-from wetdoublet.solvers.fitting.synthetic import drawn
+
+from tests.helpers.synthetic import drawn
 
 from .near_presets import ANGLES, NOISE, drawn_truth, repeat, window_of
 

@@ -15,9 +15,10 @@ import numpy as np
 from wetdoublet.generated.automaton import OUTCOMES
 from wetdoublet.solvers import ComputationError, InputError
 from wetdoublet.solvers.fitting.fit import fit
+from wetdoublet.solvers.fitting.free_entries import IDENTIFIED
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
-from wetdoublet.solvers.fitting.synthetic import drawn
-from wetdoublet.solvers.fitting.verdicts import IDENTIFIED
+
+from tests.helpers.synthetic import drawn
 
 from .near_presets import ANGLES, ENTRIES, NOISE, drawn_truth, repeat, window_of
 

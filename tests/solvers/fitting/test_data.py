@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from wetdoublet.solvers import InputError, Scene, fit
-from wetdoublet.solvers.fitting.data import ANGLE_SD, SPEED_SD, read_data
+from wetdoublet.solvers.fitting.measurements import ANGLE_SD, SPEED_SD, read_data
 
 SCENE = Scene.load("granulation")
 

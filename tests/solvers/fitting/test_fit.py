@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, fit, log_likelihood
+from wetdoublet.solvers.fitting.free_entries import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
-from wetdoublet.solvers.fitting.synthetic import drawn
-from wetdoublet.solvers.fitting.verdicts import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE
 
 from tests.helpers.command import run
+from tests.helpers.synthetic import drawn
 
 VISCOSITY, FILM, ROUGHNESS = "liquid.viscosity", "liquid.film_thickness", "particles.roughness"
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from wetdoublet.generated.automaton import LAST_ANSWER
 from wetdoublet.solvers import Scene, collide_many, fit, log_likelihood
+from wetdoublet.solvers.changes import experiment
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
-from wetdoublet.solvers.fitting import law
 from wetdoublet.solvers.fitting.likelihood import EXACT, KNEE, Likelihood, Resolution, limit
 from wetdoublet.solvers.fitting.measurements import Measurements
 
@@ -137,7 +137,7 @@ def test_a_rare_outcome_does_not_hide_what_was_measured():
 def test_undecided_collisions_are_reported(monkeypatch: pytest.MonkeyPatch):
     """Where the budget of steps ends before some collisions do, their share of the scatter is that of drawn impacts."""
     few = partial(run_kernel, budget=30)
-    monkeypatch.setattr(law, "run_kernel", few)
+    monkeypatch.setattr(experiment, "run_kernel", few)
     scene = Scene.load("granulation")
     speed, angle, scatter = np.array([scene.speed_of(0.0317)]), np.array([1.0]), 0.01
     data = Measurements(speed, angle, scatter * np.ones(1), np.zeros(1), np.zeros(1, np.int8), {})

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-
-from ...generated.automaton import OUTCOMES, STICK
-from ..scene.scene import Scene
-from ..settings import RTOL
-from .law import Law
-from .measurements import Measurements
+from wetdoublet.generated.automaton import OUTCOMES, STICK
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.fitting.measurements import Measurements, rows_of
+from wetdoublet.solvers.settings import RTOL
 
 
 def drawn(scene: Scene, plan: Measurements, seed: int | None, rtol: float = RTOL) -> Measurements:
@@ -26,18 +24,14 @@ def drawn(scene: Scene, plan: Measurements, seed: int | None, rtol: float = RTOL
     def noise() -> np.ndarray:
         return np.zeros(plan.size) if random is None else random.standard_normal(plan.size)
 
-    law = Law(scene, (), plan, rtol).at(np.zeros(0))
-    assert law is not None  # a scene holds
+    experiment = rows_of(scene, (), plan, rtol).unchecked(np.zeros(0))
     speed = np.maximum(plan.speed + plan.speed_sd * noise(), 1e-3 * plan.speed)
     angle = plan.angle + plan.angle_sd * noise()
-    normal = speed * np.cos(angle) if plan.relative else speed
-    of, row = tuple(plan.observed), np.arange(plan.size)
-    outcome = law.outcomes(row, normal, angle)
-    observed = {}
-    found = law.results(of, row, normal, angle) if of else None
-    for k, name in enumerate(of):
-        wanted, sd = plan.observed[name]
-        assert found is not None
-        seen = np.isfinite(wanted) & (outcome != OUTCOMES.index(STICK))
-        observed[name] = np.where(seen, found.value[k] + sd * noise(), np.nan), sd
+    impacts = np.arange(plan.size), speed * np.cos(angle) if plan.relative else speed, angle
+    outcome = experiment.outcomes(*impacts)
+    results = experiment.plain(tuple(plan.observed), *impacts) if plan.observed else []
+    observed = {
+        name: (np.where(np.isfinite(wanted) & (outcome != OUTCOMES.index(STICK)), values + sd * noise(), np.nan), sd)
+        for (name, (wanted, sd)), values in zip(plan.observed.items(), results, strict=True)
+    }
     return replace(plan, outcome=outcome, observed=observed)

@@ -1,0 +1,307 @@
+"""Experiments: impacts on rows of scenes that share their choices and differ in numbers, and their results.
+
+All impacts of a call go through the kernel together. Quantities in which rows differ from each other or from the scene
+are passed as columns, so that no scene is built anew. With free entries the results have derivatives by their values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from casadi import SX, Function, densify, jacobian, vertcat
+
+from ...generated.automaton import LAST_ANSWER, Status
+from ..engines.taylor.call import Impacts, run_kernel
+from ..engines.taylor.tangent import COLUMNS, differentiates, run_tangent
+from ..errors import ComputationError
+from ..many.batch import Batch
+from ..many.by_kernel import admissible
+from ..many.compute import compute
+from ..many.dataset import empty, fill
+from ..many.results import Block
+from ..scene.quantities import quantities
+from ..scene.scene import Scene
+from ..scene.schema import MEETING, SPINS
+from ..settings import KERNEL_STEPS
+
+UNDECIDED = -1
+STEEPEST = np.arccos(4e-5)
+"""Largest impact angle that is computed, rad; a steeper impact counts as one at this angle."""
+
+_ENDLESS = (Status.NO_BUDGET, Status.CHATTER)  # the other engines' budget of steps is the same
+_HEAD_ON = 1e-12  # angle (rad) below which an impact is head-on: rounding on a line along the speeds
+_PLACES: dict[str, tuple[int, int | str]] = {  # column of the derivative, field of the value
+    "restitution": (0, 0),
+    "tangential_restitution": (1, 1),
+    "contact_time": (COLUMNS["time"], "time"),
+    "rotation": (COLUMNS["turned"], "turned"),
+}
+_TIMES = {"contact_time", "rotation"}  # these need every step of a trajectory
+
+
+class Rows:
+    """The quantities of rows as a function of the values of free entries.
+
+    Arguments:
+        scene: what the rows share.
+        names: the free entries, dotted.
+        columns: other entries that differ from row to row, by dotted name.
+        size: number of rows.
+        rtol: relative tolerance of the integrations.
+    """
+
+    def __init__(
+        self, scene: Scene, names: tuple[str, ...], columns: Mapping[str, np.ndarray], size: int, rtol: float
+    ) -> None:
+        self.scene, self.names, self.columns, self.rtol = scene, names, columns, rtol
+        self.size = size if columns else 1  # without columns all rows are alike
+        entries = [*names, *columns]
+        column = SX.sym("entries", len(entries))
+        own: dict[str, Any] = {name: value for name, value in scene.si if name not in MEETING}
+        by_quantity = quantities(own | {name: column[k] for k, name in enumerate(entries)}, scene.ways)
+        self._quantities = tuple(name for name in by_quantity if name != "density")
+        stacked = vertcat(*(SX(by_quantity[name]) for name in self._quantities))
+        slopes = jacobian(stacked, column[: len(names)]) if names else SX(stacked.numel(), 0)
+        self._map = Function("quantities", [column], [densify(stacked), densify(slopes)])
+
+    def at(self, values: np.ndarray) -> Experiment | None:
+        """The experiment with these values of the free entries; None where they make the scene of a row impossible."""
+        experiment = self.unchecked(values)
+        return experiment if experiment.possible.all() else None
+
+    def unchecked(self, values: np.ndarray) -> Experiment:
+        """The experiment with these values, which are (free entries,), or (free entries, rows)."""
+        values = np.asarray(values, dtype=float)
+        entries = np.broadcast_to(values.reshape(len(self.names), -1), (len(self.names), self.size))
+        mapped, slopes = self._map.map(self.size)(np.vstack([entries, *self.columns.values()]))
+        by_quantity = np.asarray(slopes.full()).reshape(len(self._quantities), self.size, len(self.names))
+        columns = dict(zip(self._quantities, np.asarray(mapped.full()), strict=True))
+        return Experiment(self, values, columns, dict(zip(self._quantities, by_quantity, strict=True)))
+
+
+@dataclass(frozen=True)
+class Results:
+    """Results of impacts and their derivatives, SI; NaN where the kernel has none.
+
+    Attributes:
+        outcome: (impacts,).
+        value: (results, impacts).
+        free: (results, impacts, free entries), by the values of the free entries.
+        speed, angle: (results, impacts), by normal speed and angle.
+    """
+
+    outcome: np.ndarray
+    value: np.ndarray
+    free: np.ndarray
+    speed: np.ndarray
+    angle: np.ndarray
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """Rows of scenes, on which impacts of any normal speeds (m/s) and angles (rad) are made.
+
+    The angle may be negative: the mirror image of the positive one.
+
+    Attributes:
+        values: of the free entries, (free entries,) or (free entries, rows).
+        columns: name of a quantity -> (rows,), or (1,) where all rows are alike, SI.
+        slopes: the same, with the derivatives by the free entries along the last axis.
+    """
+
+    rows: Rows
+    values: np.ndarray
+    columns: Mapping[str, np.ndarray]
+    slopes: Mapping[str, np.ndarray]
+
+    @property
+    def scene(self) -> Scene:
+        return self.rows.scene
+
+    @property
+    def possible(self) -> np.ndarray:
+        """Mask of the rows whose quantities make a scene; of one element where all rows are alike."""
+        finite = np.isfinite(list(self.columns.values())).all(axis=0)
+        possible: np.ndarray = finite & admissible(self.scene, self.columns)
+        return possible
+
+    def _share(self, row: np.ndarray) -> np.ndarray:
+        """Index of the quantities of each row."""
+        return row if next(iter(self.columns.values())).size > 1 else np.zeros(row.size, int)
+
+    def joined(self, others: Sequence[Experiment], row: np.ndarray) -> tuple[Experiment, np.ndarray]:
+        """These experiments, one after the other, as one, and its rows: `row` of the first, of the second, and on."""
+        every = [self, *others]
+        columns = {name: np.concatenate([each.columns[name] for each in every]) for name in self.columns}
+        size = next(iter(self.columns.values())).size
+        return replace(self, columns=columns), np.concatenate([self._share(row) + k * size for k in range(len(every))])
+
+    def impacts(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> Impacts:
+        """Impacts on these rows, as the kernel takes them."""
+        others = {
+            name: values[self._share(row)]
+            for name, values in self.columns.items()
+            if values.size > 1 or float(values[0]) != self.scene.material.get(name)
+        }
+        for name in ("impact_spin", "impact_partner_spin"):
+            spin = self.columns.get(name)
+            if spin is not None and spin.any() and (angle < 0).any():
+                others[name] = spin[self._share(row)] * np.where(angle < 0, -1.0, 1.0)
+        size = np.abs(angle)
+        return Impacts(self.scene, speed, np.where(size < _HEAD_ON, 0.0, np.minimum(size, STEEPEST)), others)
+
+    def answers(
+        self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, rotation: bool = False, **options: int
+    ) -> np.ndarray:
+        """What `run_kernel` answers, with its options.
+
+        Raises:
+            ComputationError: there is no kernel of this scene on this machine.
+        """
+        answers = run_kernel(self.impacts(row, speed, angle), self.rows.rtol, rotation, **options)
+        if answers is None:
+            raise _without_kernel("impacts on many scenes at once need the compiled kernel")
+        return answers
+
+    def outcomes(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, kernel_only: bool = False) -> np.ndarray:
+        """Outcomes of impacts.
+
+        What the kernel follows until its budget of steps ends, and whatever no engine follows to the end, is UNDECIDED.
+
+        Arguments:
+            kernel_only: so is whatever the kernel does not complete.
+        """
+        answers = self.answers(row, speed, angle, jumps=2)
+        outcome: np.ndarray = np.where(answers["status"] > LAST_ANSWER, UNDECIDED, answers["outcome"]).astype(np.int8)
+        late = np.flatnonzero((outcome == UNDECIDED) & ~np.isin(answers["status"], _ENDLESS))
+        if late.size and not kernel_only:
+            outcome[late] = self.completed(row[late], speed[late], angle[late])["outcome"]
+        return outcome
+
+    def completed(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, names: tuple[str, ...] = ()) -> Block:
+        """Columns of `collide_many` for impacts that the kernel hands over, by an engine that completes them."""
+        impacts, rows = self.impacts(row, speed, angle), self.rows
+        share = self._share(row)
+        values = np.broadcast_to(self.values.reshape(len(rows.names), -1), (len(rows.names), rows.size))
+        vary = dict(zip(rows.names, values[:, share], strict=True))
+        vary |= {name: column[row] for name, column in rows.columns.items()}
+        for name in SPINS:
+            spin = impacts.others.get(name.replace("impact.", "impact_"))
+            if name in vary or (spin is not None and name in self.scene.entries):
+                vary[name] = np.asarray(spin)
+        request = Batch(self.scene, None, impacts.speed, impacts.angle, vary, rows.rtol, "rosenbrock", names)
+        block = empty(request.size, names)
+        compute(request, np.arange(request.size), lambda where, part: fill(block, where, part))
+        return block
+
+    def plain(self, names: tuple[str, ...], row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
+        """The results alone, (results, impacts): of long trajectories in a fraction of the time."""
+        answers = self.answers(row, speed, angle, "rotation" in names, jumps=0 if _TIMES & set(names) else 2)
+        done = (answers["status"] <= LAST_ANSWER) & (answers["outcome"] > 0)
+        results = np.stack([np.where(done, _value(answers, name), np.nan) for name in names])
+        for k, name in enumerate(names):
+            if name == "contact_time":
+                results[k] *= self.columns["film_thickness"][self._share(row)] / speed
+            if name == "rotation":
+                results[k, angle < 0] *= -1
+        return results
+
+    def results(
+        self, names: tuple[str, ...], row: np.ndarray, speed: np.ndarray, angle: np.ndarray, forward: bool = False,
+        budget: int = KERNEL_STEPS,
+    ) -> Results:  # fmt: skip
+        """Results of impacts, with derivatives.
+
+        Arguments:
+            forward: carry all derivatives forward, also where the adjoint would give the restitution's.
+            budget: steps of a trajectory, where longer ones may be left out.
+        """
+        impacts = self.impacts(row, speed, angle)
+        shape = len(names), row.size
+        results = Results(
+            np.zeros(row.size, np.int8), np.full(shape, np.nan), np.zeros((*shape, len(self.rows.names))),
+            np.zeros(shape), np.zeros(shape),
+        )  # fmt: skip
+        for oblique in (True, False):
+            which = np.flatnonzero(impacts.oblique == oblique)
+            if which.size:
+                self._fill(results, names, row[which], impacts.part(which), which, oblique, forward, budget)
+        mirrored = np.where(angle < 0, -1.0, 1.0)
+        results.angle[:] *= mirrored
+        if "rotation" in names:
+            k = names.index("rotation")
+            for each in (results.value, results.speed, results.angle):
+                each[k] *= mirrored
+            results.free[k] *= mirrored[:, None]
+        return results
+
+    def _fill(
+        self, results: Results, names: tuple[str, ...], row: np.ndarray, impacts: Impacts, which: np.ndarray,
+        oblique: bool, forward: bool, budget: int,
+    ) -> None:  # fmt: skip
+        """Fill in the results of impacts `which`, that are all oblique or all head-on."""
+        rtol, rotation, share = self.rows.rtol, "rotation" in names, self._share(row)
+        moved = (*(name for name, slope in self.slopes.items() if slope.any()), "speed", "angle")
+        back = not forward and names == ("restitution",)
+        run = run_tangent(impacts, oblique, rtol, rotation, None if back else moved, None, budget, back, False)
+        if run is None:
+            raise _without_kernel("a fit needs derivatives by the compiled kernel")
+        answers, slopes = run.answers, run.slopes
+        late = np.flatnonzero(answers["status"] > LAST_ANSWER)
+        if back and late.size:
+            again = run_tangent(impacts.part(late), oblique, rtol, rotation, moved, None, budget, False, False)
+            assert again is not None
+            answers[late], slopes[late] = again.answers, again.slopes[:, :, :1]
+        done = answers["status"] <= LAST_ANSWER
+        results.outcome[which] = np.where(done, answers["outcome"], UNDECIDED)
+        for k, name in enumerate(names):
+            value = _value(answers, name)
+            by = {one: slopes[:, run.quantities.index(one), _PLACES[name][0]] for one in moved if one in run.quantities}
+            by_speed, by_angle = by.pop("speed").copy(), by.pop("angle", np.zeros(which.size)).copy()
+            free = np.zeros((which.size, len(self.rows.names)))
+            for one, each in by.items():
+                free += each[:, None] * self.slopes[one][share]
+            if name == "contact_time":
+                film = self.columns["film_thickness"][share]
+                scale = film / impacts.speed
+                by_film = self.slopes["film_thickness"][share] / film[:, None]
+                free = (free + value[:, None] * by_film) * scale[:, None]
+                by_speed = (by_speed - value / impacts.speed) * scale
+                by_angle, value = by_angle * scale, value * scale
+            results.value[k, which] = np.where(done & (answers["outcome"] > 0), value, np.nan)
+            results.free[k, which], results.speed[k, which], results.angle[k, which] = free, by_speed, by_angle
+
+    @property
+    def scales(self) -> np.ndarray:
+        """What steps of differences are parts of, as `values`: 1 for fractions and angles, which may be 0."""
+        bounded = [bool(np.isfinite(self.scene.fields[name].range.high)) for name in self.rows.names]
+        size = np.abs(self.values)
+        scales: np.ndarray = np.where(np.reshape(bounded, (-1, *[1] * (size.ndim - 1))) | (size == 0), 1.0, size)
+        return scales
+
+    def displaced(self, k: int, step: np.ndarray | float) -> Experiment | None:
+        """The experiment with free entry k changed by a step; None where that is impossible."""
+        values = self.values.copy()
+        values[k] += step
+        return self.rows.at(values)
+
+
+def check_derivatives(scene: Scene) -> None:
+    """Raise ComputationError unless the kernel differentiates the scene's collisions on this machine."""
+    if not differentiates(scene, (True,)):
+        raise _without_kernel("a fit needs derivatives by the compiled kernel")
+
+
+def _value(answers: np.ndarray, name: str) -> np.ndarray:
+    where = _PLACES[name][1]
+    return (answers[where] if isinstance(where, str) else answers["shown"][:, where]).copy()
+
+
+def _without_kernel(problem: str) -> ComputationError:
+    return ComputationError(
+        f"{problem}, which this scene or machine has not",
+        advice="install a C compiler, or leave out laws that have no derivative",
+    )

@@ -1,0 +1,205 @@
+"""Normals of the boundary at changes of outcome, and the derivatives of their places by the free entries.
+
+Beside a change the gradient of a result in free entries, speed and angle grows without bound along the normal of the
+boundary (the time near a saddle as 1/d, e_n at a graze or at a continuous start as 1/sqrt(d), d the distance); the
+rest of it is bounded and cancels in the difference of two gradients. Its direction gives the derivative of the
+change's place by the implicit function theorem; the error is of order d.
+
+A boundary that is met at initial contact has no such gradient: its place follows from the entries alone. There, and
+where the gradients do not grow as they should, the change is located again with displaced entries.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...generated.automaton import LAST_ANSWER
+from ..settings import KERNEL_STEPS
+from .brackets import Brackets, Labels, bisect
+from .experiment import Experiment
+from .lines import Lines
+
+_QUICK = 1000  # steps of a trajectory with derivatives, where an approximation replaces what takes longer
+_CLOSE, _BESIDE = (
+    1e-8,
+    1e-5,
+)  # least distances at which gradients are taken: exact, approximate; the other is 4 times it
+_GROWTH = 1.3, 8.0  # of a singular gradient from the farther to the nearer
+_FAR = 2e-6  # distance from a saddle at which times are taken
+_SHIFT, _STEP_OF_ENTRY = 0.1, 2e-3  # steps of an impact, and relative ones of an entry, over that distance
+_EXACT, _ROUGH = 1e-5, 1e-4  # relative step of an entry with which a change is located again
+_REACH = (5.0, 100.0, 2000.0)  # half widths of the intervals in which it is sought in turn, over that step
+_ENCLOSED = 1e-6  # width to which it is enclosed, over the same
+
+
+ExperimentLabels = Callable[[Experiment, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+"""Experiment, rows, normal speeds and angles -> labels of what happens."""
+
+
+def outcomes_along(experiment: Experiment, lines: Lines, kernel_only: bool = False) -> Labels:
+    """The outcomes at places on lines; other arguments as `Experiment.outcomes`."""
+    return lambda line, y: experiment.outcomes(lines.row[line], *lines.at(line, y), kernel_only)
+
+
+@dataclass(frozen=True)
+class Normals:
+    """Normals of the boundary at changes, of arbitrary length; NaN where there is no singular gradient.
+
+    Attributes:
+        free: (changes, free entries).
+        speed, angle: (changes,), by normal speed and by angle.
+        along: (changes,), by the place on the line.
+    """
+
+    free: np.ndarray
+    speed: np.ndarray
+    angle: np.ndarray
+    along: np.ndarray
+
+
+def normals(experiment: Experiment, lines: Lines, changes: Brackets, quick: bool) -> Normals:
+    """The normals at changes, on the side that separates, or that rebounds.
+
+    Arguments:
+        quick: where the derivatives of the trajectories take many steps, take them from times of plain ones, to 1e-4.
+    """
+    line, y, count = changes.line, changes.place, changes.size
+    side = np.where(changes.after > changes.before, 1.0, -1.0)
+    where = np.tile(line, 2)
+    distance = np.maximum(_BESIDE if quick else _CLOSE, 3 * changes.error)
+    at = np.concatenate([y + side * distance, y + 4 * side * distance])
+    budget = _QUICK if quick else KERNEL_STEPS
+    near = experiment.results(("contact_time",), lines.row[where], *lines.at(where, at), forward=True, budget=budget)
+    by_speed, by_angle = lines.slopes(where, at)
+    along = near.speed[0] * by_speed + near.angle[0] * by_angle
+    parts = [each[:count] - each[count:] for each in (near.free[0], near.speed[0], near.angle[0], along)]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        growth = np.abs(along[:count] / along[count:])
+    outcome = near.outcome.reshape(2, count)
+    sound = (outcome == np.maximum(changes.before, changes.after)).all(axis=0)
+    sound &= (growth > _GROWTH[0]) & (growth < _GROWTH[1])
+    free, speed, angle, along = (np.where(sound.reshape(-1, *[1] * (each.ndim - 1)), each, np.nan) for each in parts)
+    late = np.flatnonzero((outcome < 0).any(axis=0)) if quick else np.zeros(0, int)
+    if late.size:
+        far = np.maximum(_FAR, 4 * changes.error[late])
+        free[late], speed[late], angle[late] = _by_times(experiment, lines, line[late], y[late], side[late], far)
+        by_speed, by_angle = lines.slopes(line[late], y[late])
+        along[late] = speed[late] * by_speed + angle[late] * by_angle
+    return Normals(free, speed, angle, along)
+
+
+def _by_times(
+    experiment: Experiment, lines: Lines, line: np.ndarray, y: np.ndarray, side: np.ndarray, distance: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Normals beside a saddle, where the contact time is linear in the logarithm of the distance from the boundary.
+
+    Times at three distances give the rate, and how far the boundary is from where it was located. A displaced impact
+    or entry changes the distance as its time says. NaN where the times do not rise towards the boundary.
+    """
+    speed, angle = lines.at(line, y + side * distance)
+    by_speed, by_angle = lines.slopes(line, y)
+    step_speed = _SHIFT * distance * (np.abs(by_speed) + 1e-3 * speed)
+    step_angle = _SHIFT * distance * (np.abs(by_angle) + 1e-3)
+    steps = _STEP_OF_ENTRY * float(distance.min()) * experiment.scales
+    displaced = {k: each for k, step in enumerate(steps) if (each := experiment.displaced(k, step)) is not None}
+    possible = list(displaced)
+    points = [
+        (speed, angle), *(lines.at(line, y + factor * side * distance) for factor in (4, 16)),
+        (speed + step_speed, angle), (speed, angle + step_angle), *((speed, angle) for _ in possible),
+    ]  # fmt: skip
+    own = len(points) - len(possible)
+    every, rows = experiment.joined([*[experiment] * (own - 1), *displaced.values()], lines.row[line])
+    answers = every.answers(rows, *(np.concatenate(each) for each in zip(*points, strict=True)))
+    done = (answers["status"] <= LAST_ANSWER) & (answers["outcome"] > 0)
+    times = np.where(done, answers["time"], np.nan).reshape(len(points), -1)
+    time, second, third = times[:3]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        aside = np.interp((time - second) / (second - third), *_ASIDE, left=np.nan, right=np.nan)  # or no saddle
+        rate = np.log((4 + aside) / (1 + aside)) / (time - second)
+    rate[~(rate > 0)] = np.nan
+    nearer = side * distance * (1 + aside) * np.expm1(-rate * (times[3:] - time))  # minus the change of the distance
+    free = np.full((line.size, len(steps)), np.nan)
+    free[:, possible] = (nearer[2:] / steps[possible, None]).T
+    return free, nearer[0] / step_speed, nearer[1] / step_angle
+
+
+_RATIOS = np.linspace(-0.6, 0.6, 241)  # of the error of a place to the distance from it
+_ASIDE = (
+    (np.log((4 + _RATIOS) / (1 + _RATIOS)) / np.log((16 + _RATIOS) / (4 + _RATIOS)))[::-1],
+    _RATIOS[::-1],
+)  # ratio of the differences of times, ascending, and that error
+
+
+def slopes(experiment: Experiment, lines: Lines, changes: Brackets, quick: bool = False) -> np.ndarray:
+    """Derivatives of the places of changes of outcome by the free entries: (changes, free entries).
+
+    NaN where a change has no singular gradient and is not found again with displaced entries; `quick` as of `normals`.
+    """
+    normal = normals(experiment, lines, changes, quick)
+    by_free: np.ndarray = -normal.free / normal.along[:, None]
+    missing = np.flatnonzero(~np.isfinite(by_free).all(axis=1))
+    if missing.size:
+        step = _ROUGH if quick else _EXACT
+        by_free[missing] = slopes_by_differences(experiment, lines, changes.part(missing), step)
+    return by_free
+
+
+def slopes_by_differences(
+    experiment: Experiment,
+    lines: Lines,
+    changes: Brackets,
+    step: float = _EXACT,
+    labels: ExperimentLabels | None = None,
+) -> np.ndarray:
+    """The same from the places of the changes with displaced entries; NaN where a change is not found again.
+
+    Arguments:
+        step: of an entry, over its value.
+        labels: what differs below and above the changes; None: the outcome.
+    """
+    by_free = np.full((changes.size, len(experiment.rows.names)), np.nan)
+    steps = step * experiment.scales
+    ends = {k: [experiment.displaced(k, sign * own) for sign in (1, -1)] for k, own in enumerate(steps)}
+    possible = [k for k, both in ends.items() if None not in both]
+    moved = [each for k in possible for each in ends[k] if each is not None]
+    if moved:
+        places = _again(moved, lines, changes, step, labels or _outcomes).reshape(-1, 2, changes.size)
+        own = steps[possible] if steps.ndim == 1 else steps[possible][:, lines.row[changes.line]].T
+        by_free[:, possible] = (places[:, 0] - places[:, 1]).T / (2 * own)
+    return by_free
+
+
+def _again(
+    experiments: Sequence[Experiment], lines: Lines, changes: Brackets, step: float, labels: ExperimentLabels
+) -> np.ndarray:
+    """Places of changes near where they were, in each experiment in turn; NaN where they are not found."""
+    line, y, before, after = (
+        np.tile(each, len(experiments)) for each in (changes.line, changes.place, changes.before, changes.after)
+    )
+    every, rows = experiments[0].joined(experiments[1:], lines.row[changes.line])
+
+    def label(which: np.ndarray, places: np.ndarray) -> np.ndarray:
+        return labels(every, rows[which], *lines.at(line[which], places))
+
+    places, left = np.full(y.size, np.nan), np.arange(y.size)
+    for reach in _REACH:
+        low, high = (np.clip(y[left] + side * reach * step, *lines.ends(line[left])) for side in (-1, 1))
+        there = (label(left, low) == before[left]) & (label(left, high) == after[left])
+        which = left[there]
+        if which.size:
+
+            def is_before(at: np.ndarray, which: np.ndarray = which) -> np.ndarray:
+                below: np.ndarray = label(which, at) == before[which]
+                return below
+
+            ends = bisect(is_before, low[there], high[there], _ENCLOSED * step)
+            places[which] = (ends[0] + ends[1]) / 2
+        left = left[~there]
+    return places
+
+
+def _outcomes(experiment: Experiment, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    return experiment.outcomes(row, speed, angle, kernel_only=True)

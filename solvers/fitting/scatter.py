@@ -1,0 +1,307 @@
+"""Integrals over the scatter of single impacts: lines through it, their segments between changes, and interpolation.
+
+In units of the standard deviations the scatter of an impact in speed and angle is the same in all directions. A line
+goes the way in which the results change fastest; across it a few Gauss-Hermite nodes are enough. Between two changes of
+outcome along a line the results are smooth, and are interpolated by Chebyshev polynomials in a variable in which a
+square root at a change is smooth too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from scipy.special import ndtr
+
+from ..changes.brackets import Brackets, Changes, locate
+from ..changes.experiment import Experiment
+from ..changes.lines import Lines
+from ..changes.slopes import normals, outcomes_along, slopes
+from ..settings import KERNEL_STEPS
+from .measurements import Measurements
+
+REACH = 5.0  # standard deviations to either side within which an integral is taken
+WITHIN = 1e-5  # of the probability on either side of a change
+_LOOSER = 30.0  # most by which that grows with the distance from the centre: rare outcomes lie there
+_SLOWEST = 1e-3  # least speed of a scattered impact, over the nominal one
+_STEEPEST = np.radians(89.4)
+_OUTCOMES = 3
+_QUICK = 1000  # steps of a trajectory with derivatives, beyond which others' on the same segment stand for them
+_DEGREE = 4  # of the polynomial by which they do
+
+
+@lru_cache(maxsize=16)
+def hermite(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and weights of the mean over a standard normal variable."""
+    nodes, weights = np.polynomial.hermite_e.hermegauss(count)
+    return nodes, weights / weights.sum()
+
+
+@dataclass(frozen=True)
+class ScatterLines(Lines):
+    """Lines through the scatter of rows; y is in standard deviations.
+
+    Attributes:
+        weight: of each line in the mean over its row, over the probability of a possible impact on it.
+    """
+
+    weight: np.ndarray
+
+    @classmethod
+    def through(
+        cls, data: Measurements, direction: np.ndarray | float, counts: np.ndarray | int, reach: float = REACH
+    ) -> ScatterLines:
+        """The lines of all rows.
+
+        Arguments:
+            direction: angle from the axis of speeds to that of angles, both in standard deviations, for all rows or
+                for each.
+            counts: number of lines, likewise, 0 to leave a row out; one at most where a row scatters in speed or angle
+                alone.
+        """
+        alone = (data.speed_sd == 0) | (data.angle_sd == 0)
+        direction = np.where(data.speed_sd == 0, np.pi / 2, np.where(data.angle_sd == 0, 0.0, direction))
+        counts = np.where(alone, np.minimum(counts, 1), counts)
+        row = np.repeat(np.arange(data.size), counts)
+        nodes, weights = (np.concatenate([hermite(int(n))[k] for n in counts if n] or [np.zeros(0)]) for k in (0, 1))
+        c, s = np.cos(direction[row]), np.sin(direction[row])
+        speed = np.column_stack([data.speed[row] - data.speed_sd[row] * s * nodes, data.speed_sd[row] * c])
+        angle = np.column_stack([data.angle[row] + data.angle_sd[row] * c * nodes, data.angle_sd[row] * s])
+        low, high = np.full(row.size, -reach), np.full(row.size, reach)
+        for at, least, most in ((speed, _SLOWEST * data.speed[row], np.inf), (angle, -_STEEPEST, _STEEPEST)):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                ends = np.sort([(limit - at[:, 0]) / at[:, 1] for limit in (least, most)], axis=0)
+            moves = at[:, 1] != 0
+            low, high = np.where(moves, np.fmax(low, ends[0]), low), np.where(moves, np.fmin(high, ends[1]), high)
+        low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
+        return cls(row, speed, angle, low, high, data.relative, weights / (ndtr(high) - ndtr(low)))
+
+    def changes(self, experiment: Experiment, grid: int, within: float) -> Changes:
+        """The changes of outcome on the lines.
+
+        Arguments:
+            grid: number of samples along a line.
+            within: error of the probability on either side of a change, relative to that of a change at y = 0.
+        """
+
+        def width(brackets: Brackets) -> np.ndarray:
+            inside = (brackets.low < 0) & (brackets.high > 0)
+            nearest = np.where(inside, 0.0, np.minimum(np.abs(brackets.low), np.abs(brackets.high)))
+            allowed: np.ndarray = within * np.minimum(np.exp(nearest**2 / 2), _LOOSER)
+            return allowed
+
+        places = self.low[:, None] + (self.high - self.low)[:, None] * np.linspace(0, 1, grid)
+        return locate(outcomes_along(experiment, self), places, width)
+
+
+def nearest_normals(experiment: Experiment, data: Measurements) -> tuple[np.ndarray, np.ndarray]:
+    """Of each row and pair of outcomes the nearest boundary between them, in standard deviations.
+
+    Returns:
+        Distances (rows, 3), infinite without such a boundary, along the speed or the angle; and unit normals
+        (rows, 3, 2).
+    """
+    normal = np.full((data.size, _OUTCOMES, 2), np.nan)  # by the pair of outcomes, which their sum names
+    distance = np.full((data.size, _OUTCOMES), np.inf)
+    for across in (0.0, np.pi / 2):
+        lines = ScatterLines.through(data, across, 1)
+        changes = lines.changes(experiment, 15, 1e-3)
+        changes_row, pair, away = lines.row[changes.line], changes.before + changes.after - 1, np.abs(changes.place)
+        closer = (changes.before >= 0) & (changes.after >= 0) & (away < distance[changes_row, pair])
+        order = np.flatnonzero(closer)[np.argsort(away[closer])]
+        which = order[np.unique(changes_row[order] * _OUTCOMES + pair[order], return_index=True)[1]]
+        if not which.size:
+            continue
+        of = normals(experiment, lines, changes.part(which), True)
+        row, line, place = changes_row[which], changes.line[which], changes.place[which]
+        unit = in_deviations(data, row, *lines.at(line, place), of.speed, of.angle)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            unit /= np.linalg.norm(unit, axis=1, keepdims=True)
+        unit[~np.isfinite(unit).all(axis=1)] = np.cos(across), np.sin(across)
+        distance[row, pair[which]], normal[row, pair[which]] = away[which], unit
+    return distance, normal
+
+
+def in_deviations(
+    data: Measurements,
+    row: np.ndarray,
+    speed: np.ndarray,
+    angle: np.ndarray,
+    by_speed: np.ndarray,
+    by_angle: np.ndarray,
+) -> np.ndarray:
+    """Derivatives by normal speed and angle at impacts on rows, per standard deviation of the measured ones: (n, 2)."""
+    if data.relative:
+        by_angle = by_angle - by_speed * speed * np.tan(angle)
+        by_speed = by_speed * np.cos(angle)
+    return np.column_stack([by_speed * data.speed_sd[row], by_angle * data.angle_sd[row]])
+
+
+@dataclass(frozen=True)
+class Segments:
+    """Parts of lines with one outcome.
+
+    Attributes:
+        outcome: -1 where it is not decided.
+        low, high: the ends, within the errors of the changes so that the outcome is certain.
+        first, last: the changes at their ends; -1 at the end of a line.
+    """
+
+    line: np.ndarray
+    row: np.ndarray
+    weight: np.ndarray
+    outcome: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    first: np.ndarray
+    last: np.ndarray
+
+    @classmethod
+    def between(cls, lines: ScatterLines, changes: Changes) -> Segments:
+        """All segments of the lines."""
+        line, outcome, first, last = changes.pieces()
+        upper, lower = np.append(changes.high, 0.0), np.append(changes.low, 0.0)
+        low = np.where(first < 0, lines.low[line], upper[first])
+        high = np.where(last < 0, lines.high[line], lower[last])
+        found = cls(line, lines.row[line], lines.weight[line], outcome, low, high, first, last)
+        return found.part(high > low)
+
+    def part(self, which: np.ndarray) -> Segments:
+        """The segments of these indices, or of this mask."""
+        return Segments(*(values[which] for values in vars(self).values()))
+
+    @property
+    def kind(self) -> np.ndarray:
+        """Of the `segment_map`: 1 if the lower end is a change, 2 if the upper end is, 3 if both are."""
+        kind: np.ndarray = (self.first >= 0) + 2 * (self.last >= 0)
+        return kind
+
+    def mass(self) -> np.ndarray:
+        """Probability of the scatter within each."""
+        flip = self.low > 0  # the difference of two small numbers, not of two near one
+        mass: np.ndarray = np.where(flip, ndtr(-self.low) - ndtr(-self.high), ndtr(self.high) - ndtr(self.low))
+        return mass
+
+    def mass_slopes(self, ends: np.ndarray) -> np.ndarray:
+        """Derivatives of the logarithm of `mass`, from those of the ends."""
+        mass = np.maximum(self.mass(), 1e-300)
+        density = [np.exp(-(each**2) / 2) / np.sqrt(2 * np.pi) / mass for each in (self.low, self.high)]
+        by_free: np.ndarray = density[1][:, None] * ends[1] - density[0][:, None] * ends[0]
+        return by_free
+
+    def moving_ends(
+        self, experiment: Experiment, lines: Lines, changes: Changes, which: np.ndarray, quick: bool
+    ) -> np.ndarray:
+        """Derivatives of the ends by the free entries, (2, segments, free entries).
+
+        Arguments:
+            which: mask of the segments whose ends are needed.
+            quick: as of `normals`.
+        """
+        needed = np.unique(np.concatenate([self.first[which], self.last[which]]))
+        needed = needed[needed >= 0]
+        by_free = np.zeros((changes.size + 1, len(experiment.rows.names)))  # the last for ends that stay
+        if needed.size:
+            by_free[needed] = np.nan_to_num(slopes(experiment, lines, changes.part(needed), quick))
+        return by_free[np.stack([self.first, self.last])]
+
+    def results(
+        self, experiment: Experiment, lines: Lines, ends: np.ndarray, names: tuple[str, ...], nodes: int, points: int,
+        quick: bool = False,
+    ) -> Iterator[tuple[np.ndarray, SegmentMap, np.ndarray, np.ndarray]]:  # fmt: skip
+        """Results along the segments, for those of each `kind`.
+
+        Arguments:
+            ends: of `moving_ends`.
+            nodes: collisions on a segment; half as many more where it ends at a change.
+            points: of the quadrature.
+            quick: derivatives of long trajectories are those that their neighbours suggest.
+
+        Yields:
+            Indices of the segments, their map, the results at its nodes (results, segments, nodes), and their
+            derivatives by the free entries where the nodes move with the ends (results, segments, nodes, free entries).
+        """
+        kinds = [(kind, np.flatnonzero(self.kind == kind)) for kind in range(4)]
+        maps = [(which, segment_map(k, nodes * 3 // 2 if k else nodes, points)) for k, which in kinds if which.size]
+        if not maps:
+            return
+        at = [self.low[w, None] + (self.high - self.low)[w, None] * each.at_nodes for w, each in maps]
+        y = np.concatenate([each.ravel() for each in at])
+        line = np.concatenate([np.repeat(self.line[w], each.at_nodes.size) for w, each in maps])
+        row, impacts = lines.row[line], lines.at(line, y)
+        budget = _QUICK if quick else KERNEL_STEPS
+        found = experiment.results(names, row, *impacts, budget=budget)
+        late = np.flatnonzero(found.outcome < 0)
+        if late.size:
+            found.value[:, late] = experiment.plain(names, row[late], impacts[0][late], impacts[1][late])
+        by_speed, by_angle = lines.slopes(line, y)
+        by_y = found.speed * by_speed + found.angle * by_angle
+        first = 0
+        for which, each in maps:
+            own, g = slice(first, first + which.size * each.at_nodes.size), each.at_nodes[:, None]
+            first, shape = own.stop, (-1, which.size, each.at_nodes.size)
+            moves = ends[0, which][:, None] * (1 - g) + ends[1, which][:, None] * g
+            slope = found.free[:, own].reshape(*shape, moves.shape[-1]) + by_y[:, own].reshape(shape)[..., None] * moves
+            known = found.outcome[own].reshape(shape[1:]) >= 0
+            for k in np.flatnonzero(~known.all(axis=1) & known.any(axis=1)).tolist():
+                slope[:, k] = np.einsum("mn,rnp->rmp", _extension(tuple(known[k].tolist()), _DEGREE), slope[:, k])
+            yield which, each, found.value[:, own].reshape(shape), slope
+
+
+@dataclass(frozen=True)
+class SegmentMap:
+    """Place on a segment, from 0 to 1, as a function g of the variable in which results are interpolated.
+
+    Attributes:
+        at_nodes: g at the nodes of the interpolation.
+        at_points, rate, weight: g, g' and weights at the points of the quadrature.
+        interpolate: (points, nodes), from values at the nodes to values at the points.
+    """
+
+    at_nodes: np.ndarray
+    at_points: np.ndarray
+    rate: np.ndarray
+    weight: np.ndarray
+    interpolate: np.ndarray
+
+
+_MAPS = (  # g with a square at an end that is a change, and its derivative
+    (lambda t: t, np.ones_like),
+    (lambda t: t**2, lambda t: 2 * t),
+    (lambda t: t * (2 - t), lambda t: 2 - 2 * t),
+    (lambda t: t**2 * (3 - 2 * t), lambda t: 6 * t * (1 - t)),
+)
+
+
+def _chebyshev_nodes(count: int) -> np.ndarray:
+    nodes: np.ndarray = (1 - np.cos(np.pi * (np.arange(count) + 0.5) / count)) / 2
+    return nodes
+
+
+@lru_cache(maxsize=64)
+def segment_map(kind: int, nodes: int, points: int) -> SegmentMap:
+    """The map of a segment whose lower end (1), upper end (2) or both (3) are changes."""
+    t, s = _chebyshev_nodes(nodes), _chebyshev_nodes(points)
+    angle, order = np.pi * (np.arange(points) + 0.5) / points, np.arange(1, points // 2 + 1)  # Fejer's first rule
+    weight = 1 - 2 * (np.cos(2 * np.outer(angle, order)) / (4 * order**2 - 1)).sum(axis=1)
+    g, rate = _MAPS[kind]
+    chebyshev = np.polynomial.chebyshev.chebvander
+    matrix = chebyshev(2 * s - 1, nodes - 1) @ np.linalg.inv(chebyshev(2 * t - 1, nodes - 1))
+    return SegmentMap(g(t), g(s), rate(s), weight / points, matrix)
+
+
+@lru_cache(maxsize=256)
+def _extension(known: tuple[bool, ...], degree: int) -> np.ndarray:
+    """From values at some of the nodes to values at all of them, by a polynomial of this degree at most.
+
+    Arguments:
+        known: which of the nodes have a value.
+    """
+    nodes, kept = len(known), np.flatnonzero(known)
+    basis = np.polynomial.chebyshev.chebvander(2 * _chebyshev_nodes(nodes) - 1, min(degree, kept.size - 1))
+    matrix = np.zeros((nodes, nodes))
+    matrix[:, kept] = basis @ np.linalg.pinv(basis[kept])
+    matrix[kept] = np.eye(nodes)[kept]
+    return matrix
