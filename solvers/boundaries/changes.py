@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
+from ..changes.roots import Function, root, sample
 from ..errors import ComputationError
 from .line import Line
 from .look import Look
-from ..changes.roots import Function, root, sample
 from .samples import known
 
 # Kinds of change: a criterion is just met; a doublet begins to escape without or with a rebound; other.

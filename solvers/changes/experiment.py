@@ -72,10 +72,14 @@ class Rows:
         experiment = self.unchecked(values)
         return experiment if experiment.possible.all() else None
 
+    def by_row(self, values: np.ndarray) -> np.ndarray:
+        """Values of the free entries as (free entries, rows)."""
+        return np.broadcast_to(values if values.ndim == 2 else values[:, None], (len(self.names), self.size))
+
     def unchecked(self, values: np.ndarray) -> Experiment:
         """The experiment with these values, which are (free entries,), or (free entries, rows)."""
         values = np.asarray(values, dtype=float)
-        entries = np.broadcast_to(values.reshape(len(self.names), -1), (len(self.names), self.size))
+        entries = self.by_row(values)
         mapped, slopes = self._map.map(self.size)(np.vstack([entries, *self.columns.values()]))
         by_quantity = np.asarray(slopes.full()).reshape(len(self._quantities), self.size, len(self.names))
         columns = dict(zip(self._quantities, np.asarray(mapped.full()), strict=True))
@@ -185,8 +189,7 @@ class Experiment:
         """Columns of `collide_many` for impacts that the kernel hands over, by an engine that completes them."""
         impacts, rows = self.impacts(row, speed, angle), self.rows
         share = self._share(row)
-        values = np.broadcast_to(self.values.reshape(len(rows.names), -1), (len(rows.names), rows.size))
-        vary = dict(zip(rows.names, values[:, share], strict=True))
+        vary = dict(zip(rows.names, rows.by_row(self.values)[:, share], strict=True))
         vary |= {name: column[row] for name, column in rows.columns.items()}
         for name in SPINS:
             spin = impacts.others.get(name.replace("impact.", "impact_"))

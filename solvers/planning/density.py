@@ -1,7 +1,8 @@
-"""The density of a measured restitution over the scatter of an impact, and what it tells beyond the outcome.
+"""What a measured restitution tells of the free entries beyond the outcome of the impact.
 
-On a line through the scatter the restitution is a smooth curve between two changes of outcome. From line to line these
-curves change smoothly too, and are interpolated, so that the density has no trace of single lines.
+Along a line through the scatter of an impact, the restitution is a smooth function of the place between two changes of
+outcome: a curve. Curves of neighbouring lines that end in the same way form a sheet, a smooth surface over the scatter.
+Sheets are interpolated across the lines, so that the density of the restitution shows no trace of single lines.
 """
 
 from __future__ import annotations
@@ -14,16 +15,15 @@ import numpy as np
 from scipy.signal import oaconvolve
 from scipy.special import ndtr, ndtri
 
-from ..fitting.interpolation import segment_map
-from ..fitting.lines import hermite
+from ..fitting.scatter import hermite, segment_map
 
 _REACH = 4.5  # standard deviations of the scatter across the lines
-_APART = 0.5  # most that neighbouring points may be seen apart, in standard deviations of the noise
+_SPACING = 0.5  # largest distance of neighbouring points in the restitution, in standard deviations of the noise
 _CELL = 1 / 16  # of the histogram of restitutions, in the same
 _BEYOND = 6.0  # where a density ends, in the same
 _MOST_LINES, _MOST_POINTS = 128, 512
 _FEWEST_LINES = 16
-_ROUGH = 2.0  # most of the complete information that interpolation may add
+_ROUGH = 2.0  # largest factor by which interpolation between lines may raise the bound of the information
 _RARE = 1e-3  # probability of a sheet that is left out
 _TINY = 1e-290
 
@@ -49,11 +49,30 @@ class Curve:
     slope: np.ndarray
 
 
-def information_of(curves: Sequence[Curve], lines: int, noise: float, points: int) -> np.ndarray:
-    """What the restitution tells of the free entries if the outcome is known: (free entries, free entries).
+@dataclass(frozen=True)
+class _Points:
+    """Points of the quadrature over sheets: weights, derivatives of their logarithms, restitutions, derivatives."""
 
-    The integral of f' f'^T/f over the measured restitution, less p' p'^T/p with p the integral of f. It has no negative
-    eigenvalue, whatever the errors of f and f'.
+    weight: np.ndarray
+    log_slope: np.ndarray
+    value: np.ndarray
+    slope: np.ndarray
+
+    @classmethod
+    def joined(cls, parts: Sequence[_Points]) -> _Points:
+        return cls(*(np.concatenate(each) for each in zip(*(vars(part).values() for part in parts), strict=True)))
+
+    def bound(self, noise: float) -> np.ndarray:
+        """The information on each entry if the point of an impact were known; its density cannot tell more."""
+        bound: np.ndarray = self.weight @ (self.log_slope**2 + (self.slope / noise) ** 2)
+        return bound
+
+
+def information_of(curves: Sequence[Curve], lines: int, noise: float, points: int) -> np.ndarray:
+    """The information of the restitution, if the outcome is known: (free entries, free entries).
+
+    With f the density of the measured restitution and p its integral, the probability of the outcome, it is the
+    integral of f' f'^T/f less p' p'^T/p. It has no negative eigenvalue, whatever the errors of f and f'.
 
     Arguments:
         curves: of an impact and an outcome.
@@ -64,54 +83,60 @@ def information_of(curves: Sequence[Curve], lines: int, noise: float, points: in
     sheets = _sheets(curves, lines)
     if not sheets:
         return np.zeros((curves[0].slope.shape[1],) * 2)
-    noise *= max(1.0, *(_gap(each, noise, points) for each in sheets))
-    own = _joined([_points(each, noise, points) for each in _single(curves, lines)])
-    between = _joined([_points(each, noise, points) for each in sheets])
-    smooth = (_complete(between, noise) <= _ROUGH * _complete(own, noise)).all()
-    weight, slope, value, moves = between if smooth else own
+    noise *= max(1.0, *(each.gap(noise, points) for each in sheets))
+    single = _Points.joined([_sheet([each], lines).points(noise, points) for each in curves])
+    between = _Points.joined([each.points(noise, points) for each in sheets])
+    chosen = between if (between.bound(noise) <= _ROUGH * single.bound(noise)).all() else single
     cell = noise * _CELL
-    low = float(value.min()) - _BEYOND * noise
-    size = int((float(value.max()) + _BEYOND * noise - low) / cell) + 2
-    place = (value - low) / cell
-    at = place.astype(int)
-    share = place - at
+    low = float(chosen.value.min()) - _BEYOND * noise
+    size = int((float(chosen.value.max()) + _BEYOND * noise - low) / cell) + 2
+    place = (chosen.value - low) / cell
+    left = place.astype(int)
 
     def spread(amount: np.ndarray) -> np.ndarray:
-        """Amounts on the cells' edges, each shared by the two around its point."""
-        held = np.bincount(at, amount * (1 - share), size)
-        held[1:] += np.bincount(at, amount * share, size)[:-1]
-        return held
+        """Amounts on the edges of the cells, each shared by the two edges around its point."""
+        edges = np.bincount(left, amount * (1 - place + left), size)
+        edges[1:] += np.bincount(left, amount * (place - left), size)[:-1]
+        return edges
 
     off = np.arange(-int(_BEYOND / _CELL), int(_BEYOND / _CELL) + 1) * _CELL
     normal = np.exp(-(off**2) / 2) / (noise * np.sqrt(2 * np.pi))
-    f = oaconvolve(spread(weight), normal, mode="same")
-    by = [
-        oaconvolve(spread(weight * slope[:, k]), normal, mode="same")
-        + oaconvolve(spread(weight * moves[:, k]), normal * off / noise, mode="same")
-        for k in range(slope.shape[1])
+    f = oaconvolve(spread(chosen.weight), normal, mode="same")
+    f_slopes = [
+        oaconvolve(spread(chosen.weight * by_weight), normal, mode="same")
+        + oaconvolve(spread(chosen.weight * by_value), normal * off / noise, mode="same")
+        for by_weight, by_value in zip(chosen.log_slope.T, chosen.slope.T, strict=True)
     ]
     kept = f > max(_TINY, 1e-13 * float(f.max()))  # what is less is rounding of the convolution
     root = np.sqrt(f[kept])
-    score = np.array(by)[:, kept] / root
-    along = score @ (root / np.linalg.norm(root))  # the part that changes the probability of the outcome
-    found: np.ndarray = cell * (score @ score.T - np.outer(along, along))
-    return found
+    score = np.array(f_slopes)[:, kept] / root
+    by_outcome = score @ (root / np.linalg.norm(root))  # the part that changes the probability of the outcome
+    information: np.ndarray = cell * (score @ score.T - np.outer(by_outcome, by_outcome))
+    return information
 
 
-_Points = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
-"""Weights of points, derivatives of the weights' logarithms, restitutions, and their derivatives."""
+def _sheets(curves: Sequence[Curve], lines: int) -> list[_Sheet]:
+    """Sheets through neighbouring lines that have as many curves of the same kinds; rare ones are left out."""
+    on: list[list[Curve]] = [[] for _ in range(lines)]
+    for each in curves:
+        on[each.line].append(each)
+    weight = hermite(lines)[1]
+    sheets = []
+    for _, group in groupby(on, lambda line: tuple(each.kind for each in line)):
+        those = list(zip(*group, strict=True))
+        if those and weight[[each.line for each in those[0]]].sum() > _RARE:
+            sheets += [_sheet(sheet, lines) for sheet in those]
+    return sheets
 
 
-def _joined(found: Sequence[_Points]) -> _Points:
-    weight, slope, value, moves = (np.concatenate(each) for each in zip(*found, strict=True))
-    return weight, slope, value, moves
-
-
-def _complete(found: _Points, noise: float) -> np.ndarray:
-    """The information on each entry if it were seen on which point an impact lies, which the density cannot exceed."""
-    weight, slope, _, moves = found
-    total: np.ndarray = weight @ (slope**2 + (moves / noise) ** 2)
-    return total
+def _sheet(curves: Sequence[Curve], lines: int) -> _Sheet:
+    """The sheet of curves on neighbouring lines, for as much of the scatter as the lines stand for."""
+    z, weight = hermite(lines)
+    edges = np.clip(ndtri(np.clip(np.concatenate([[0], np.cumsum(weight)]), 0, 1)), -_REACH, _REACH)
+    first, last = curves[0].line, curves[-1].line + 1
+    arrays = (np.stack([getattr(each, name) for each in curves]) for name in ("ends", "moves", "value", "slope"))
+    span = float(edges[first]), float(edges[last])
+    return _Sheet(curves[0].kind, curves[0].nodes, z[first:last], span, *arrays)
 
 
 @dataclass(frozen=True)
@@ -132,99 +157,49 @@ class _Sheet:
     value: np.ndarray
     slope: np.ndarray
 
+    def _needed(self, noise: float, points: int) -> tuple[float, float, float]:
+        """Numbers of points along and across the sheet that leave no gaps, and its least extent along, in spacings."""
+        along = segment_map(self.kind, self.nodes, points).interpolate @ self.value.T / (noise * _SPACING)
+        apart = float(np.abs(np.diff(along, axis=0)).max())
+        steepest = float(np.abs(np.diff(along, axis=1) / np.diff(self.z)).max(initial=0.0))
+        return points * apart, (self.span[1] - self.span[0]) * steepest, float(np.ptp(along, axis=0).min())
 
-def _sheets(curves: Sequence[Curve], lines: int) -> list[_Sheet]:
-    """Sheets through neighbouring lines that have as many curves of the same kinds."""
-    weight = hermite(lines)[1]
-    z, edges = _places(lines)
-    on: list[list[Curve]] = [[] for _ in range(lines)]
-    for each in curves:
-        on[each.line].append(each)
-    found, first = [], 0
-    for _, those in groupby(on, lambda line: tuple(each.kind for each in line)):
-        group = list(those)
-        last = first + len(group)
-        if weight[first:last].sum() > _RARE:
-            found += [
-                _stacked(sheet, z[first:last], (float(edges[first]), float(edges[last])))
-                for sheet in zip(*group, strict=True)
-            ]
-        first = last
-    return found
+    def gap(self, noise: float, points: int) -> float:
+        """The largest gap that the largest numbers of points leave, in spacings.
 
+        A density with gaps has too much information. With a noise as large as the gaps it has at most what it should.
+        """
+        along, across, extent = self._needed(noise, points)
+        return max(along / _MOST_POINTS, across / _MOST_LINES / max(1.0, extent))
 
-def _single(curves: Sequence[Curve], lines: int) -> list[_Sheet]:
-    """Every curve by itself, for as much of the scatter as its line stands for."""
-    z, edges = _places(lines)
-    return [
-        _stacked([each], z[each.line : each.line + 1], (float(edges[each.line]), float(edges[each.line + 1])))
-        for each in curves
-    ]
-
-
-def _places(lines: int) -> tuple[np.ndarray, np.ndarray]:
-    """Where lines lie across the scatter, and (lines + 1,) the ends of what they stand for."""
-    z, weight = hermite(lines)
-    return z, np.clip(ndtri(np.clip(np.concatenate([[0], np.cumsum(weight)]), 0, 1)), -_REACH, _REACH)
-
-
-def _stacked(those: Sequence[Curve], z: np.ndarray, span: tuple[float, float]) -> _Sheet:
-    arrays = (np.stack([getattr(each, name) for each in those]) for name in ("ends", "moves", "value", "slope"))
-    return _Sheet(those[0].kind, those[0].nodes, z, span, *arrays)
-
-
-def _wanted(sheet: _Sheet, noise: float, points: int) -> tuple[float, float, float]:
-    """Numbers of points along and across a sheet that leave no gaps, and how far it reaches along, in `_APART`."""
-    along = segment_map(sheet.kind, sheet.nodes, points).interpolate @ sheet.value.T / (noise * _APART)
-    apart = float(np.abs(np.diff(along, axis=0)).max())
-    steepest = float(np.abs(np.diff(along, axis=1) / np.diff(sheet.z)).max(initial=0.0))
-    return points * apart, (sheet.span[1] - sheet.span[0]) * steepest, float(np.ptp(along, axis=0).min())
+    def points(self, noise: float, points: int) -> _Points:
+        """The points of the quadrature over the sheet."""
+        along, across, _ = self._needed(noise, points)
+        mapping = segment_map(self.kind, self.nodes, _doubled(points, along, _MOST_POINTS))
+        low_z, high_z = self.span
+        count = _doubled(_FEWEST_LINES if self.z.size > 1 else 1, across, _MOST_LINES)
+        z = low_z + (high_z - low_z) * (np.arange(count) + 0.5) / count
+        weight = np.exp(-(z**2) / 2)
+        weight *= (ndtr(high_z) - ndtr(low_z)) / weight.sum()
+        degree, vander = self.z.size - 1, np.polynomial.hermite_e.hermevander
+        between = vander(z, degree) @ np.linalg.inv(vander(self.z, degree))  # the polynomial through the lines
+        ends, moves, value, slope = (
+            np.tensordot(between, each, 1) for each in (self.ends, self.moves, self.value, self.slope)
+        )
+        low, length = ends[:, :1], np.maximum(ends[:, 1:] - ends[:, :1], 1e-12)
+        g = mapping.at_points
+        y = low + length * g
+        weight = weight[:, None] * length * mapping.rate * mapping.weight * np.exp(-(y**2) / 2) / np.sqrt(2 * np.pi)
+        of_y = moves[:, :1] * (1 - g)[:, None] + moves[:, 1:] * g[:, None]
+        log_slope = (moves[:, 1:] - moves[:, :1]) / length[..., None] - y[..., None] * of_y
+        by_free = np.einsum("qn,znp->zqp", mapping.interpolate, slope)
+        free = slope.shape[-1]
+        at = value @ mapping.interpolate.T
+        return _Points(weight.ravel(), log_slope.reshape(-1, free), at.ravel(), by_free.reshape(-1, free))
 
 
-def _gap(sheet: _Sheet, noise: float, points: int) -> float:
-    """The gaps between the most points that are made, over those that may be.
-
-    A density with gaps tells too much. With a noise as large as they are it tells at most what it should.
-    """
-    along, across, reach = _wanted(sheet, noise, points)
-    return max(along / _MOST_POINTS, across / _MOST_LINES / max(1.0, reach))
-
-
-def _points(sheet: _Sheet, noise: float, points: int) -> _Points:
-    """The points of a sheet."""
-    along, steps, _ = _wanted(sheet, noise, points)
-    mapping = segment_map(sheet.kind, sheet.nodes, _power(along, points, _MOST_POINTS))
-    low_z, high_z = sheet.span
-    count = _power(steps, _FEWEST_LINES if sheet.z.size > 1 else 1, _MOST_LINES)
-    z = low_z + (high_z - low_z) * (np.arange(count) + 0.5) / count
-    weight = np.exp(-(z**2) / 2)
-    weight *= (ndtr(high_z) - ndtr(low_z)) / weight.sum()
-    across = _across(sheet.z, z)
-    ends, moves, value, slope = (
-        np.tensordot(across, each, 1) for each in (sheet.ends, sheet.moves, sheet.value, sheet.slope)
-    )
-    low, length = ends[:, :1], np.maximum(ends[:, 1:] - ends[:, :1], 1e-12)
-    g = mapping.at_points
-    y = low + length * g
-    weight = weight[:, None] * length * mapping.rate * mapping.weight * np.exp(-(y**2) / 2) / np.sqrt(2 * np.pi)
-    between = moves[:, :1] * (1 - g)[:, None] + moves[:, 1:] * g[:, None]
-    by = (moves[:, 1:] - moves[:, :1]) / length[..., None] - y[..., None] * between
-    at = value @ mapping.interpolate.T
-    by_free = np.einsum("qn,znp->zqp", mapping.interpolate, slope)
-    free = slope.shape[-1]
-    return weight.ravel(), by.reshape(-1, free), at.ravel(), by_free.reshape(-1, free)
-
-
-def _across(given: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """(wanted, given): the polynomial through values at given places."""
-    degree = given.size - 1
-    vander = np.polynomial.hermite_e.hermevander
-    found: np.ndarray = vander(wanted, degree) @ np.linalg.inv(vander(given, degree))
-    return found
-
-
-def _power(wanted: float, least: int, most: int) -> int:
-    """The least number `least` times a power of two that is `wanted`, or at most `most`."""
-    while least < min(wanted, most):
+def _doubled(least: int, needed: float, most: int) -> int:
+    """`least` times the power of two that reaches what is needed, or `most`."""
+    while least < min(needed, most):
         least *= 2
     return least

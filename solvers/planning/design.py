@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,15 +12,14 @@ from scipy.stats import norm, qmc
 
 from ...generated.automaton import OUTCOMES, STICK
 from ..errors import InputError
-from ..fitting.data import read_data
 from ..fitting.fit import RTOL, fit
 from ..fitting.free_entries import FreeEntries, free_entries
-from ..fitting.measurements import Measurements
+from ..fitting.measurements import Measurements, read_data
 from ..host.arguments import check_mapping, check_name, check_whole
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import check_rtol
-from .information import Information, information, sure_information
+from .information import information, reliable_information
 from .result import Design
 from .search import Criterion, search
 from .window import Scatter, Window, check_over
@@ -84,94 +84,67 @@ def design(
     key, speed, angle = check_over(over)
     size, draws = check_whole(n, "n", 1, _MOST), check_whole(draws, "draws", 0, _MOST_DRAWS)
     priors = None if prior is None else check_mapping(prior, "prior", 'entries and priors, {"NAME": "2 um +- 20 %"}')
-    table = None
-    if data is not None:
-        table = data if isinstance(data, Measurements) else read_data(data, loaded)
-    scatter = Scatter.checked(speed_sd, angle_sd, restitution_sd, Scatter() if table is None else Scatter.of(table))
+    table = None if data is None else read_data(data, loaded)
+    default = Scatter() if table is None else Scatter.typical(table)
+    scatter = Scatter.checked(speed_sd, angle_sd, restitution_sd, default)
     window = Window(loaded, key, speed, angle, scatter)
     entries, before, scene_now = _known(loaded, free, table, priors, window, rtol)
-    wanted = None if target is None else check_name(target, entries.names, "target")
+    single = None if target is None else check_name(target, entries.names, "target")
     warn(scene_now)
     window = Window(scene_now, key, speed, angle, scatter)
     values = np.array([float(scene_now.entries[name]) for name in entries.names])
     ensemble = _ensemble(entries, values, before, draws, seed)
+    most = np.zeros(entries.size)  # information of an impact on each entry
 
-    def evaluate(points: np.ndarray, of: Callable[..., Information] = information) -> np.ndarray:
-        plan = window.plan(points)
-        found = (of(scene_now, entries.names, each, plan, rtol).total for each in ensemble)
-        return np.stack([_inner(entries, each, one) for each, one in zip(ensemble, found, strict=True)])
+    def evaluate(points: np.ndarray, exact: bool) -> np.ndarray:
+        """The information of impacts, in the variables of the search."""
+        compute, plan, result = reliable_information if exact else information, window.plan(points), []
+        for each in ensemble:
+            rates = entries.rates(each)
+            result.append(compute(scene_now, entries.names, each, plan, rtol).total * np.outer(rates, rates))
+        np.maximum(most, np.einsum("mcii->mci", result).max(axis=(0, 1)), out=most)
+        return np.stack(result)
 
     first = window.candidates(_SPACING, rtol)
-    weak = np.diag((2.0 / (entries.high - entries.low)) ** 2)  # nothing is known beyond the range of a search
-    known = np.broadcast_to(before + weak, (len(ensemble), *before.shape))
-    criterion = Criterion(None) if wanted is None else Criterion(entries.names.index(wanted), _OTHERS)
-    held = _Kept(evaluate)
-    found = search(
-        held, known, criterion, size, first, 1 / (_SPACING - 1), lambda points: evaluate(points, sure_information)
+    # the range of the search keeps the matrices from being singular; nothing is known beyond it
+    known = np.broadcast_to(before + entries.vague, (len(ensemble), *before.shape))
+    criterion = Criterion(None) if single is None else Criterion(entries.names.index(single), _OTHERS)
+    choice = search(
+        partial(evaluate, exact=False), known, criterion, size, first, 1 / (_SPACING - 1), partial(evaluate, exact=True)
     )
-    told = held.most(entries.names)
-    for name in entries.names if wanted is None else (wanted,):
-        if told[name] < _NOTHING:
+    for name, information_of_one in zip(entries.names, most, strict=True):
+        if single in (None, name) and information_of_one < _NOTHING:
             accepted = "entries that outcome or restitution depend on in this window"
-            one = set(window.outcomes(first, rtol).tolist()) == {OUTCOMES.index(STICK)}
-            why = "changes nothing that is observed in the window" + (", where all impacts stick" if one else "")
-            raise InputError("free", name, accepted, why)
-    return Design.of(window, entries, values, before, found, wanted, size, rtol, len(ensemble), loaded)
+            all_stick = set(window.outcomes(first, rtol).tolist()) == {OUTCOMES.index(STICK)}
+            problem = "changes nothing that is observed in the window" + ", where all impacts stick" * all_stick
+            raise InputError("free", name, accepted, problem)
+    return Design.of(window, entries, values, before, choice, single, size, rtol, len(ensemble), loaded)
 
 
 def _known(
     scene: Scene, free: Sequence[str] | str, data: Measurements | None, prior: Mapping[str, str] | None, window: Window,
     rtol: float,
 ) -> tuple[FreeEntries, np.ndarray, Scene]:  # fmt: skip
-    """The free entries, what priors and data tell (in the variables of the search), and the scene to plan for."""
+    """The free entries, the information of priors and data (in the variables of the search), the scene to plan for."""
     if data is not None:
-        found = fit(scene, data, free, prior=prior, rtol=rtol)
-        return found.free, found.objective.information(found.best), found.scene
+        fitted = fit(scene, data, free, prior=prior, rtol=rtol)
+        return fitted.free, fitted.objective.information(fitted.best), fitted.scene
     entries = free_entries(scene, free, window.plan(np.zeros((1, 2))), prior, rtol)
-    rates = entries.rates(np.array([each.value for each in entries.entries]))
-    precision = np.zeros(entries.size)
-    for k, each in enumerate(entries.entries):
-        if each.prior is not None:
-            precision[k] = (each.prior.misfit(each.value)[1] * float(rates[k])) ** 2
-    return entries, np.diag(precision), scene
-
-
-def _inner(entries: FreeEntries, values: np.ndarray, found: np.ndarray) -> np.ndarray:
-    """Information in the variables of the search."""
-    rates = entries.rates(values)
-    scaled: np.ndarray = found * np.outer(rates, rates)
-    return scaled
+    rates = entries.rates(entries.values(entries.start))
+    slopes = [0.0 if each.prior is None else each.prior.misfit(each.value)[1] for each in entries.entries]
+    return entries, np.diag((slopes * rates) ** 2), scene
 
 
 def _ensemble(entries: FreeEntries, values: np.ndarray, before: np.ndarray, draws: int, seed: int) -> list[np.ndarray]:
-    """Values for which the impacts are planned: the given ones, or quasi-random ones from what is known of them."""
+    """Values for which the impacts are planned: the scene's, or quasi-random ones from what is known of them."""
     if not draws:
         return [values]
-    told = np.diag(before) > 0
-    if not told.any():
+    known = np.diag(before) > 0
+    if not known.any():
         raise InputError("draws", draws, "priors or data, from which values are drawn", "has nothing to draw from")
     covariance = np.zeros_like(before)
-    covariance[np.ix_(told, told)] = np.linalg.pinv(before[np.ix_(told, told)])
+    covariance[np.ix_(known, known)] = np.linalg.pinv(before[np.ix_(known, known)])
     spread, axes = np.linalg.eigh(covariance)
     points = norm.ppf(qmc.Sobol(entries.size, seed=seed).random(draws) * (1 - 1e-9) + 5e-10)
-    centre = np.array([each.inner(value) for each, value in zip(entries.entries, values, strict=True)])
-    inner = centre + points @ (axes * np.sqrt(np.maximum(spread, 0))).T
+    inner = entries.inner(values) + points @ (axes * np.sqrt(np.maximum(spread, 0))).T
     return [entries.values(each) for each in np.clip(inner, entries.low, entries.high)]
-
-
-class _Kept:
-    """An evaluation that remembers the most that an impact told of each entry."""
-
-    def __init__(self, evaluate: Any) -> None:
-        self._evaluate = evaluate
-        self._most: np.ndarray | None = None
-
-    def __call__(self, points: np.ndarray) -> np.ndarray:
-        found: np.ndarray = self._evaluate(points)
-        most = np.einsum("mcii->mci", found).max(axis=(0, 1))
-        self._most = most if self._most is None else np.maximum(self._most, most)
-        return found
-
-    def most(self, names: Sequence[str]) -> dict[str, float]:
-        assert self._most is not None
-        return dict(zip(names, self._most.tolist(), strict=True))

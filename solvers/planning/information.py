@@ -15,23 +15,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
-from ..fitting import changes as boundaries
-from ..fitting.interpolation import segment_map
-from ..fitting.law import BoundLaw
+from ..changes.experiment import Experiment
 from ..fitting.likelihood import NEGLIGIBLE, Likelihood, Resolution
-from ..fitting.lines import Lines
 from ..fitting.measurements import Measurements
-from ..fitting.segments import Segments, moving_ends
+from ..fitting.scatter import ScatterLines, Segments, nearest_normals
 from ..scene.scene import Scene
 from ..settings import RTOL
 from .density import Curve, information_of
-from .directions import directions
 
 FINE = Resolution(points=64)
 FINEST = Resolution(lines=9, points=128), Resolution(lines=6, points=128)
 # with more lines, some would lie where impacts graze
 _STICK = OUTCOMES.index(STICK)
-_NOISE = "restitution"
+_RESTITUTION = "restitution"
+_NEAR = 4.0  # standard deviations within which a boundary turns the lines
+_TRIED = 36  # directions of the lines
 
 
 @dataclass(frozen=True)
@@ -68,79 +66,81 @@ def information(
     Raises:
         InputError: values that no scene may have.
     """
-    law = Likelihood(scene, names, plan, rtol).bound(values)
-    lines = Lines.of(plan, directions(law, plan), np.full(plan.size, resolution.lines))
-    found = boundaries.locate(law, lines, resolution.grid, resolution.within)
-    size = plan.size
-    noise = plan.observed[_NOISE][1] if _NOISE in plan.observed else np.full(size, np.nan)
-    segments, _ = Segments.of(lines, found, np.ones((size, len(OUTCOMES)), bool))
-    kind = np.where(segments.from_change, np.append(found.after, 0)[segments.first], found.first[segments.line])
+    experiment, size = Likelihood(scene, names, plan, rtol).bound(values), plan.size
+    lines = ScatterLines.through(plan, _directions(experiment, plan), resolution.lines)
+    changes = lines.changes(experiment, resolution.grid, resolution.within)
+    segments = Segments.between(lines, changes)
+    segments = segments.part(segments.outcome >= 0)
     mass = segments.mass()
-    ends = moving_ends(law, lines, found, segments, mass > NEGLIGIBLE, resolution.quick)
+    ends = segments.moving_ends(experiment, lines, changes, mass > NEGLIGIBLE, resolution.quick)
     share = segments.weight * mass
     probability = np.zeros((size, len(OUTCOMES)))
     slopes = np.zeros((*probability.shape, len(names)))
-    np.add.at(probability, (segments.row, kind), share)
-    np.add.at(slopes, (segments.row, kind), share[:, None] * segments.mass_slopes(ends))
-    given_outcome = np.zeros((size, len(names), len(names)))
-    dense = np.flatnonzero((mass > NEGLIGIBLE) & (kind != _STICK) & np.isfinite(noise[segments.row]))
+    np.add.at(probability, (segments.row, segments.outcome), share)
+    np.add.at(slopes, (segments.row, segments.outcome), share[:, None] * segments.mass_slopes(ends))
+    by_restitution = np.zeros((size, len(names), len(names)))
+    noise = plan.observed[_RESTITUTION][1] if _RESTITUTION in plan.observed else np.full(size, np.nan)
+    dense = (mass > NEGLIGIBLE) & (segments.outcome != _STICK) & np.isfinite(noise[segments.row])
     counts = np.bincount(lines.row, minlength=size)
-    for (row, _), curves in _curves(law, lines, segments, kind, ends, dense, resolution).items():
-        given_outcome[row] += information_of(curves, int(counts[row]), float(noise[row]), resolution.points)
+    curves = _curves(experiment, lines, segments.part(dense), ends[:, dense], resolution)
+    for (row, _), those in curves.items():
+        by_restitution[row] += information_of(those, int(counts[row]), float(noise[row]), resolution.points)
     outer = slopes[..., :, None] * slopes[..., None, :]
     single = np.where(probability[..., None, None] > NEGLIGIBLE, outer, 0.0)
-    single /= np.maximum(probability, NEGLIGIBLE)[..., None, None]
-    outcome = single.sum(axis=1)
-    return Information(outcome + given_outcome, outcome, probability)
+    outcome = (single / np.maximum(probability, NEGLIGIBLE)[..., None, None]).sum(axis=1)
+    return Information(outcome + by_restitution, outcome, probability)
 
 
-def sure_information(
+def reliable_information(
     scene: Scene, names: tuple[str, ...], values: np.ndarray, plan: Measurements, rtol: float = RTOL
 ) -> Information:
-    """The same by two finer quadratures, of which the one counts that finds less in an impact.
+    """The same by two finer quadratures: for each impact the smaller of the two.
 
     Where they differ, changes of outcome meet or impacts graze, and errors of a quadrature look like information.
     """
     one, other = (information(scene, names, values, plan, rtol, each) for each in FINEST)
     scale = values**2
-    less = (np.einsum("cii,i->c", other.total, scale) < np.einsum("cii,i->c", one.total, scale))[:, None]
+    less = np.einsum("cii,i->c", other.total, scale) < np.einsum("cii,i->c", one.total, scale)
     return Information(
-        np.where(less[..., None], other.total, one.total),
-        np.where(less[..., None], other.outcome, one.outcome),
-        np.where(less, other.probability, one.probability),
+        np.where(less[:, None, None], other.total, one.total),
+        np.where(less[:, None, None], other.outcome, one.outcome),
+        np.where(less[:, None], other.probability, one.probability),
     )
 
 
+def _directions(experiment: Experiment, plan: Measurements) -> np.ndarray:
+    """Of each impact the direction of its lines, from the axis of speeds to that of angles in standard deviations.
+
+    A line that is nearly parallel to a boundary gives its probability badly. Where one boundary is near, the lines go
+    across it; where several meet, between their normals.
+    """
+    if not ((plan.speed_sd > 0) & (plan.angle_sd > 0)).any():
+        return np.zeros(plan.size)
+    distance, normal = nearest_normals(experiment, plan)
+    near = distance < _NEAR
+    tried = np.pi * np.arange(_TRIED) / _TRIED
+    cosine = np.abs(normal @ np.stack([np.cos(tried), np.sin(tried)]))
+    worst = np.where(near[..., None], cosine, 1.0).min(axis=1)
+    return np.where(near.any(axis=1), tried[worst.argmax(axis=1)], 0.0)
+
+
 def _curves(
-    law: BoundLaw,
-    lines: Lines,
-    segments: Segments,
-    outcome: np.ndarray,
-    ends: tuple[np.ndarray, np.ndarray],
-    which: np.ndarray,
-    resolution: Resolution,
+    experiment: Experiment, lines: ScatterLines, segments: Segments, ends: np.ndarray, resolution: Resolution
 ) -> dict[tuple[int, int], list[Curve]]:
-    """Row and outcome -> the restitution on those of their segments that are among `which`."""
-    kinds = (segments.from_change[which] + 2 * segments.to_change[which]).tolist()
-    counts = [resolution.nodes * 3 // 2 if kind else resolution.nodes for kind in kinds]
-    if not counts:
-        return {}
-    nodes = [segment_map(kind, count, resolution.points).at_nodes for kind, count in zip(kinds, counts, strict=True)]
-    g, segment = np.concatenate(nodes), np.repeat(which, counts)
-    line, y = segments.line[segment], segments.low[segment] + (segments.high - segments.low)[segment] * g
-    found = law.results((_NOISE,), lines.row[line], *lines.at(line, y))
-    by_speed, by_angle = lines.slopes(line, y)
-    by_y = found.speed[0] * by_speed + found.angle[0] * by_angle
-    slope = found.free[0] + by_y[:, None] * (ends[0][segment] * (1 - g)[:, None] + ends[1][segment] * g[:, None])
+    """Row and outcome -> the restitution on the segments, line by line; without those that were not completed."""
+    number = segments.line - np.searchsorted(lines.row, segments.row)
+    every: dict[int, Curve] = {}
+    for which, mapping, value, slope in segments.results(
+        experiment, lines, ends, (_RESTITUTION,), resolution.nodes, resolution.points
+    ):
+        for j, k in enumerate(which.tolist()):
+            if np.isfinite(value[0, j]).all():
+                span = np.array([segments.low[k], segments.high[k]])
+                every[k] = Curve(
+                    int(segments.kind[k]), mapping.at_nodes.size, int(number[k]), span, ends[:, k],
+                    value[0, j], slope[0, j],
+                )  # fmt: skip
     curves: dict[tuple[int, int], list[Curve]] = {}
-    first_line = np.searchsorted(lines.row, segments.row)
-    first = 0
-    for k, kind, count in zip(which.tolist(), kinds, counts, strict=True):
-        own = slice(first, first + count)
-        first += count
-        if np.isfinite(found.value[0, own]).all():  # every trajectory on the way was completed
-            span = np.array([segments.low[k], segments.high[k]]), np.stack([ends[0][k], ends[1][k]])
-            number = int(segments.line[k] - first_line[k])
-            curve = Curve(kind, count, number, *span, found.value[0, own], slope[own])
-            curves.setdefault((int(segments.row[k]), int(outcome[k])), []).append(curve)
+    for k in sorted(every):
+        curves.setdefault((int(segments.row[k]), int(segments.outcome[k])), []).append(every[k])
     return curves

@@ -1,4 +1,4 @@
-"""Planned impacts, and what they will tell."""
+"""Planned impacts, and what will be known of the entries with them."""
 
 from __future__ import annotations
 
@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from ..fitting.free_entries import FreeEntries
+from ..fitting.free_entries import COMBINED, IDENTIFIED, FreeEntries, combinations
 from ..fitting.measurements import Measurements
-from ..fitting.verdicts import COMBINED, IDENTIFIED, combinations
 from ..scene.scene import Scene
-from .information import Information, information, sure_information
-from .search import Found
+from .information import Information, information, reliable_information
+from .search import Choice
 from .window import Window
 
 if TYPE_CHECKING:
@@ -94,30 +93,28 @@ class Planned:
 
     @classmethod
     def of(
-        cls, window: Window, free: FreeEntries, values: np.ndarray, before: np.ndarray, found: Found,
+        cls, window: Window, free: FreeEntries, values: np.ndarray, before: np.ndarray, choice: Choice,
         target: str | None, size: int, rtol: float, draws: int, given: Scene,
     ) -> Self:  # fmt: skip
-        """Make the result of what was found, by the information at the given values."""
-        order = np.lexsort((found.points[:, 0], found.points[:, 1]))
-        points, counts = found.points[order], found.counts[order]
+        """The result for chosen impacts, by their information at these values."""
+        order = np.lexsort((choice.points[:, 0], choice.points[:, 1]))
+        points, counts = choice.points[order], choice.counts[order]
         rates = np.outer(free.rates(values), free.rates(values))
-        weak = np.diag((2.0 / (free.high - free.low)) ** 2)
-        own = sure_information(window.scene, free.names, values, window.plan(points), rtol)
+        own = reliable_information(window.scene, free.names, values, window.plan(points), rtol)
         side = max(1, round(math.sqrt(size))) if window.extends.all() else size
         grid = tuple(np.where(window.extends, side, 1).tolist())
-        even = window.grid(*grid)
-        others = sure_information(window.scene, free.names, values, window.plan(even), rtol).total.sum(axis=0)
-        told = before + rates * np.einsum("c,cij->ij", counts, own.total)
-        expected = _expected(free, values, told, weak)
-        spread, by_grid = _spread(told + weak), _spread(before + weak + rates * others * size / len(even))
+        even = window.plan(window.grid(*grid))
+        by_grid = reliable_information(window.scene, free.names, values, even, rtol).total.sum(axis=0)
+        total = before + rates * np.einsum("c,cij->ij", counts, own.total)
+        expected = _expected(free, values, total)
+        spread = _spread(total + free.vague) / _spread(before + free.vague + rates * by_grid * size / even.size)
         verdicts = [COMBINED if each.low is None and each.high is None else IDENTIFIED for each in expected.values()]
         grows = free.size if target is None else 2
-        efficiency = None if found.bound is None else math.exp((found.value - found.bound) / grows)
+        efficiency = None if choice.bound is None else math.exp((choice.value - choice.bound) / grows)
         return cls(
-            window, free, values, _impacts(window, points, counts, own),
-            expected, _expected(free, values, before, weak),
-            dict(zip(free.names, (spread / by_grid).tolist(), strict=True)), grid,
-            combinations(free, told, verdicts, "These impacts"), efficiency, target, draws, found.candidates,
+            window, free, values, _impacts(window, points, counts, own), expected, _expected(free, values, before),
+            dict(zip(free.names, spread.tolist(), strict=True)), grid,
+            combinations(free, total, verdicts, "These impacts"), efficiency, target, draws, choice.candidates,
             points, rtol, given,
         )  # fmt: skip
 
@@ -143,7 +140,7 @@ class Planned:
         import xarray as xr
 
         points = self.window.grid(along, across)
-        found = information(self.window.scene, self.free.names, self.values, self.window.plan(points), self.rtol)
+        single = information(self.window.scene, self.free.names, self.values, self.window.plan(points), self.rtol)
         key, angle = self.window.values(points)
         shape = np.unique(points[:, 1]).size, np.unique(points[:, 0]).size
         squares = self.free.rates(self.values) ** 2
@@ -154,7 +151,7 @@ class Planned:
             return dims, diagonal.reshape(-1, *shape), {"units": "1"}
 
         return xr.Dataset(
-            {"information": of(found.total), "by_outcome": of(found.outcome)},
+            {"information": of(single.total), "by_outcome": of(single.outcome)},
             coords={"entry": list(self.free.names), "angle": angle.reshape(shape)[:, 0],
                     self.window.key: key.reshape(shape)[0]},
             attrs={"name": self.window.scene.name},
@@ -162,33 +159,33 @@ class Planned:
 
 
 def _spread(total: np.ndarray) -> np.ndarray:
-    found: np.ndarray = np.sqrt(np.diag(np.linalg.inv(total)))
-    return found
+    spread: np.ndarray = np.sqrt(np.diag(np.linalg.inv(total)))
+    return spread
 
 
-def _expected(free: FreeEntries, values: np.ndarray, told: np.ndarray, weak: np.ndarray) -> dict[str, Expected]:
+def _expected(free: FreeEntries, values: np.ndarray, total: np.ndarray) -> dict[str, Expected]:
     """Intervals to first order; open where they would end beyond the range of a search, or follow from it alone.
 
     Arguments:
-        told: information.
-        weak: that of the range of the search.
+        total: information, without that of the range of the search.
     """
-    found = {}
-    spread, wider = _spread(told + weak), _spread(told + weak / 4)  # of a range twice as wide
-    columns = zip(free.entries, values.tolist(), spread.tolist(), wider.tolist(), free.low, free.high, strict=True)
-    for each, value, sd, other, low, high in columns:
-        inner = each.inner(value)
-        ends = inner - _QUANTILE * sd, inner + _QUANTILE * sd
-        known = 2 * _QUANTILE * sd < high - low and other < _FROM_RANGE * sd
-        below = each.outer(ends[0]) if known and ends[0] > low else None
-        found[each.name] = Expected(sd, below, each.outer(ends[1]) if known and ends[1] < high else None)
-    return found
+    expected = {}
+    spread, wider = _spread(total + free.vague), _spread(total + free.vague / 4)  # of a range twice as wide
+    centre, ranges = free.inner(values), free.high - free.low
+    low, high = centre - _QUANTILE * spread, centre + _QUANTILE * spread
+    known = (2 * _QUANTILE * spread < ranges) & (wider < _FROM_RANGE * spread)
+    for k, each in enumerate(free.entries):
+        below = each.outer(float(low[k])) if known[k] and low[k] > free.low[k] else None
+        above = each.outer(float(high[k])) if known[k] and high[k] < free.high[k] else None
+        expected[each.name] = Expected(float(spread[k]), below, above)
+    return expected
 
 
 def _impacts(window: Window, points: np.ndarray, counts: np.ndarray, own: Information) -> tuple[Impact, ...]:
     plan = window.plan(points)
-    normal = plan.speed * np.cos(plan.angle) if plan.relative else plan.speed
     return tuple(
         Impact(int(count), window.scene.stokes_of(speed), speed, speed / math.cos(angle), angle, tuple(share))
-        for count, speed, angle, share in zip(counts, normal.tolist(), plan.angle.tolist(), own.probability.tolist())
+        for count, speed, angle, share in zip(
+            counts, plan.normal_speed.tolist(), plan.angle.tolist(), own.probability.tolist()
+        )
     )

@@ -32,8 +32,8 @@ def draw(design: Planned) -> Figure:
     rows = list(_ROWS) if measured else ["by_outcome"]
     figure = Figure(figsize=(1.4 + 3.3 * len(names), 0.9 + 2.9 * len(rows)), layout="constrained")
     panels: Any = figure.subplots(len(rows), len(names), sharex=True, sharey=True, squeeze=False)
-    told = np.sqrt(np.maximum(data[rows].to_array().values, 1e-300))
-    best = float(np.clip(1 / told.max(), _BEST, 0.3))
+    single = np.sqrt(np.maximum(data[rows].to_array().values, 1e-300))
+    best = float(np.clip(1 / single.max(), _BEST, 0.3))
     scale = LogNorm(best, _WORST)
     outcomes = _outcomes(design)
     mesh = None
@@ -62,9 +62,9 @@ def draw(design: Planned) -> Figure:
 
 
 def _panel(axes: Axes, design: Planned, data: xarray.Dataset, of: str, name: str, scale: LogNorm, outcomes: Any) -> Any:
-    told = data[of].sel(entry=name).values
+    single = data[of].sel(entry=name).values
     with np.errstate(divide="ignore"):
-        error = np.where(told > 0, 1 / np.sqrt(np.maximum(told, 1e-300)), np.inf)
+        error = np.where(single > 0, 1 / np.sqrt(np.maximum(single, 1e-300)), np.inf)
     x, y = np.degrees(data["angle"].values), data[design.window.key].values
     x, y = (np.array([each[0] * 0.97, each[0] * 1.03 + 1e-3]) if each.size == 1 else each for each in (x, y))
     shape = y.size, x.size

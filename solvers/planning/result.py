@@ -5,17 +5,17 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from ..fitting.shown import in_unit, interval
+from ..fitting.free_entries import in_unit, interval
+from ..formatting.markdown import aligned
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from .planned import Planned
 
-_TELLING = 0.5  # least bound on the efficiency that is worth a sentence
+_NOTABLE = 0.5  # least bound on the efficiency that is worth a sentence
 
 
 @dataclass(frozen=True)
@@ -93,16 +93,18 @@ class Design(Planned):
         averaged = f", averaged over {self.draws} draws" if self.draws > 1 else ""
         share_of_speed = f"{100 * scatter.speed:.3g} % of the {NAMES[self._speed]}"
         scattered = f"scatter {share_of_speed}, {math.degrees(scatter.angle):.3g} deg; {noise}"
-        said = [f"Planned for {now}{averaged}; {scattered}."]
+        sentences = [f"Planned for {now}{averaged}; {scattered}."]
         combined = [name for name, each in self.expected.items() if each.low is each.high]
         if self.combinations and combined:
-            said.append("Entries open at both ends are told in combination only; a prior on one may close the others.")
-        said += self.combinations
-        if (self.efficiency or 0) > _TELLING and self.candidates > 1:
+            sentences.append(
+                "Entries open at both ends are told in combination only; a prior on one may close the others."
+            )
+        sentences += self.combinations
+        if (self.efficiency or 0) > _NOTABLE and self.candidates > 1:
             share = math.floor(100 * (self.efficiency or 0))
             least = f"At least {share} % as good" if share < 100 else "As good"
-            said.append(f"{least} as any other {self.size} of {self.candidates} candidates.")
-        return "\n".join([title, "", *_columns(rows), "", *_columns(entries), "", *said])
+            sentences.append(f"{least} as any other {self.size} of {self.candidates} candidates.")
+        return "\n".join([title, "", *aligned(rows), "", *aligned(entries), "", *sentences])
 
     def _repr_html_(self) -> str:
         from ..formatting.notebook import view
@@ -134,8 +136,3 @@ class Design(Planned):
         from .plot import draw
 
         return saved(lambda: draw(self), path)
-
-
-def _columns(rows: Sequence[tuple[str, ...]]) -> list[str]:
-    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    return ["  ".join(cell.ljust(size) for cell, size in zip(row, widths, strict=True)).rstrip() for row in rows]

@@ -1,4 +1,4 @@
-"""The impacts that tell most: greedy choice and exchange among candidates, which are refined where they matter.
+"""The most informative impacts: greedy choice and exchange among candidates, which are refined where they matter.
 
 Information adds up over impacts, so a design is as good as a function of the sum of its impacts' matrices. Both
 functions used here are concave in that sum, which bounds how much better any other choice among the candidates can be.
@@ -23,7 +23,6 @@ _CORRECTIONS = 12  # rounds of exchange and exact information
 _GAIN = 1e-6  # least of the criterion that is worth an exchange
 _LOSS = 3e-3  # of the criterion, that neighbours may cost by becoming one
 _STEPS = 24  # evaluations of the continuous refinement of a point
-_TWO = 2.0
 
 
 @dataclass(frozen=True)
@@ -44,30 +43,28 @@ class Criterion:
 
     def value(self, total: np.ndarray) -> np.ndarray:
         """Of sums of information (draws, ..., entries, entries), (...)."""
-        if self.target is None:
-            found = np.linalg.slogdet(total)[1]
-        else:
-            found = -np.log(np.linalg.inv(total)[..., self.target, self.target])
-            found = found + self.part * np.linalg.slogdet(total)[1] / total.shape[-1]
-        mean: np.ndarray = found.mean(axis=0)
+        values = np.linalg.slogdet(total)[1]
+        if self.target is not None:
+            precision = -np.log(np.linalg.inv(total)[..., self.target, self.target])
+            values = precision + self.part * values / total.shape[-1]
+        mean: np.ndarray = values.mean(axis=0)
         return mean
 
     def rate(self, total: np.ndarray, single: np.ndarray) -> np.ndarray:
         """Derivatives of the value by the weights of single impacts (draws, impacts, entries, entries)."""
         inverse = np.linalg.inv(total)
-        if self.target is None:
-            found = np.einsum("mij,mcji->mc", inverse, single)
-        else:
+        rates = np.einsum("mij,mcji->mc", inverse, single)
+        if self.target is not None:
             row = inverse[:, self.target]
-            found = np.einsum("mi,mcij,mj->mc", row, single, row) / row[:, None, self.target]
-            found += self.part * np.einsum("mij,mcji->mc", inverse, single) / total.shape[-1]
-        mean: np.ndarray = found.mean(axis=0)
+            of_target = np.einsum("mi,mcij,mj->mc", row, single, row) / row[:, None, self.target]
+            rates = of_target + self.part * rates / total.shape[-1]
+        mean: np.ndarray = rates.mean(axis=0)
         return mean
 
 
 @dataclass(frozen=True)
-class Found:
-    """A design.
+class Choice:
+    """Chosen impacts.
 
     Attributes:
         points: (distinct impacts, 2), in the unit square.
@@ -75,7 +72,7 @@ class Found:
         information: (draws, entries, entries), of all of them and what was known before.
         value: of the criterion.
         bound: what `value` cannot exceed by any choice of as many impacts among the candidates; None where the
-            information of what promises most is too uncertain.
+            information of the most promising candidate is too uncertain.
         candidates: number of them.
     """
 
@@ -90,8 +87,8 @@ class Found:
 def search(
     evaluate: Evaluate, before: np.ndarray, criterion: Criterion, size: int, first: np.ndarray, h: float,
     exact: Evaluate | None = None,
-) -> Found:  # fmt: skip
-    """The best design that is found.
+) -> Choice:  # fmt: skip
+    """The best impacts among candidates, refined.
 
     Arguments:
         evaluate: information of impacts.
@@ -99,142 +96,145 @@ def search(
         size: number of impacts.
         first: (candidates, 2), the candidates to begin with.
         h: their spacing; it is halved at every level.
-        exact: `evaluate` without its errors, for impacts that are chosen: what is best by an error is not.
+        exact: `evaluate` with smaller errors, for impacts that are chosen: a candidate may be best by an error alone.
     """
-    exact = exact or evaluate
-    table = _Table(first, evaluate(first), np.zeros(len(first), bool))
-    chosen = table.best(criterion, before, _greedy(criterion, before, table.single, size), exact)
+    table = _Candidates(evaluate, exact or evaluate, criterion, before, first)
     moving = np.ptp(first, axis=0) > 0
     steps = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)]) * moving
+    chosen = table.exchanged(table.greedy(size))
     for _ in range(_LEVELS):
-        h /= _TWO
-        rate = criterion.rate(before + table.single[:, chosen].sum(axis=1), table.single)
-        around = np.unique(np.concatenate([chosen, np.argsort(-rate)[:_PROMISING]]))
-        table.add((table.points[around][:, None] + h * steps).reshape(-1, 2), evaluate)
-        chosen = table.best(criterion, before, chosen, exact)
-    chosen = table.settled(criterion, before, chosen, exact)
-    points, single = table.points, table.single
-    total = before + single[:, chosen].sum(axis=1)
-    rate = criterion.rate(total, single)
-    bound = None
-    if table.sure[np.argmax(rate)]:
+        h /= 2
+        around = np.unique(np.concatenate([chosen, np.argsort(-table.rate(chosen))[:_PROMISING]]))
+        table.add((table.points[around][:, None] + h * steps).reshape(-1, 2))
+        chosen = table.exchanged(chosen)
+    chosen = table.settled(chosen)
+    total, rate, bound = table.total(chosen), table.rate(chosen), None
+    if table.is_exact[np.argmax(rate)]:
         bound = float(criterion.value(total)) + size * float(rate.max()) - float(rate[chosen].sum())
     distinct, counts = np.unique(chosen, return_counts=True)
-    places, total = _moved(exact, criterion, total, points[distinct], single[:, distinct], counts, h * moving)
-    places, counts, total = _merged(exact, criterion, before, total, places, counts, 3 * h)
+    points, total = table.moved(distinct, counts, total, h * moving)
+    points, counts, total = table.merged(points, counts, total, 3 * h)
     value = float(criterion.value(total))
-    return Found(places, counts, total, value, None if bound is None else max(bound, value), len(points))
+    return Choice(points, counts, total, value, None if bound is None else max(bound, value), len(table.points))
 
 
-@dataclass
-class _Table:
+class _Candidates:
     """Candidates, their information, and whether that is exact."""
 
-    points: np.ndarray
-    single: np.ndarray
-    sure: np.ndarray
+    def __init__(
+        self, evaluate: Evaluate, exact: Evaluate, criterion: Criterion, before: np.ndarray, points: np.ndarray
+    ) -> None:
+        self.evaluate, self.exact, self.criterion, self.before = evaluate, exact, criterion, before
+        self.points, self.single = points, evaluate(points)
+        self.is_exact = np.zeros(len(points), bool)
 
-    def add(self, points: np.ndarray, evaluate: Evaluate) -> None:
+    def total(self, chosen: np.ndarray) -> np.ndarray:
+        """The information of chosen candidates and of what was known before."""
+        total: np.ndarray = self.before + self.single[:, chosen].sum(axis=1)
+        return total
+
+    def rate(self, chosen: np.ndarray) -> np.ndarray:
+        """Derivatives of the criterion by the weights of the candidates."""
+        return self.criterion.rate(self.total(chosen), self.single)
+
+    def add(self, points: np.ndarray) -> None:
         """Add points that are not among the candidates, clipped to the unit square."""
         known = {tuple(each) for each in self.points.round(9).tolist()}
         new = np.unique(np.clip(points, 0, 1).round(9), axis=0)
         new = np.array([each for each in new.tolist() if tuple(each) not in known]).reshape(-1, 2)
         if new.size:
             self.points = np.concatenate([self.points, new])
-            self.single = np.concatenate([self.single, evaluate(new)], axis=1)
-            self.sure = np.concatenate([self.sure, np.zeros(len(new), bool)])
+            self.single = np.concatenate([self.single, self.evaluate(new)], axis=1)
+            self.is_exact = np.concatenate([self.is_exact, np.zeros(len(new), bool)])
 
-    def best(self, criterion: Criterion, before: np.ndarray, chosen: np.ndarray, exact: Evaluate) -> np.ndarray:
-        """The exchanged design, of impacts whose information is exact."""
+    def _make_exact(self, which: np.ndarray) -> bool:
+        """Compute the exact information of those that have not got it; False if there is none."""
+        which = np.unique(which[~self.is_exact[which]])
+        if which.size:
+            self.single[:, which], self.is_exact[which] = self.exact(self.points[which]), True
+        return bool(which.size)
+
+    def greedy(self, size: int) -> np.ndarray:
+        """Candidates chosen one by one, each the best in addition to those before it."""
+        total, chosen = self.before, []
+        for _ in range(size):
+            best = int(np.argmax(self.criterion.value(total[:, None] + self.single)))
+            chosen.append(best)
+            total = total + self.single[:, best]
+        return np.array(chosen)
+
+    def exchanged(self, chosen: np.ndarray) -> np.ndarray:
+        """The choice after Fedorov's exchange, repeated until the information of all its impacts is exact."""
         for _ in range(_CORRECTIONS):
-            chosen = _exchanged(criterion, before, self.single, chosen)
-            unsure = np.unique(chosen[~self.sure[chosen]])
-            if not unsure.size:
+            chosen = self._exchange(chosen.copy())
+            if not self._make_exact(chosen):
                 break
-            self.single[:, unsure], self.sure[unsure] = exact(self.points[unsure]), True
         return chosen
 
-    def settled(self, criterion: Criterion, before: np.ndarray, chosen: np.ndarray, exact: Evaluate) -> np.ndarray:
-        """The same, after the candidates that promise most have been made exact, on which the bound depends."""
-        for _ in range(_CORRECTIONS):
-            rate = criterion.rate(before + self.single[:, chosen].sum(axis=1), self.single)
-            top = np.argsort(-rate)[:_TOP]
-            if self.sure[top[0]]:
+    def _exchange(self, chosen: np.ndarray) -> np.ndarray:
+        """Each impact is replaced by the best candidate, until none is better."""
+        value = float(self.criterion.value(self.total(chosen)))
+        for _ in range(_ROUNDS):
+            start = value
+            for k in range(chosen.size):
+                values = self.criterion.value(self.total(np.delete(chosen, k))[:, None] + self.single)
+                best = int(np.argmax(values))
+                if values[best] > value + _GAIN:
+                    chosen[k], value = best, float(values[best])
+            if value <= start + _GAIN:
                 break
-            unsure = top[~self.sure[top]]
-            self.single[:, unsure], self.sure[unsure] = exact(self.points[unsure]), True
-            chosen = self.best(criterion, before, chosen, exact)
         return chosen
 
+    def settled(self, chosen: np.ndarray) -> np.ndarray:
+        """The choice after the most promising candidates, on which the bound depends, have exact information."""
+        for _ in range(_CORRECTIONS):
+            top = np.argsort(-self.rate(chosen))[:_TOP]
+            if self.is_exact[top[0]]:
+                break
+            self._make_exact(top)
+            chosen = self.exchanged(chosen)
+        return chosen
 
-def _greedy(criterion: Criterion, before: np.ndarray, single: np.ndarray, size: int) -> np.ndarray:
-    """Candidates chosen one by one, each the best in addition to those before it."""
-    total, chosen = before, []
-    for _ in range(size):
-        best = int(np.argmax(criterion.value(total[:, None] + single)))
-        chosen.append(best)
-        total = total + single[:, best]
-    return np.array(chosen)
+    def moved(
+        self, distinct: np.ndarray, counts: np.ndarray, total: np.ndarray, h: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The points of distinct impacts, each moved continuously to where it is best; and the information of all."""
+        points = self.points[distinct].copy()
+        free = np.flatnonzero(h > 0)
+        for k in range(len(points)) if free.size else ():
+            rest = total - counts[k] * self.single[:, distinct[k]]
 
+            def with_point(at: np.ndarray, k: int = k, rest: np.ndarray = rest) -> np.ndarray:
+                place = points[k].copy()
+                place[free] = at
+                information: np.ndarray = rest + counts[k] * self.exact(place[None])[:, 0]
+                return information
 
-def _exchanged(criterion: Criterion, before: np.ndarray, single: np.ndarray, chosen: np.ndarray) -> np.ndarray:
-    """Fedorov's exchange: each impact is replaced by the best candidate, until none is better."""
-    chosen = chosen.copy()
-    value = float(criterion.value(before + single[:, chosen].sum(axis=1)))
-    for _ in range(_ROUNDS):
-        start = value
-        for k in range(chosen.size):
-            rest = before + single[:, np.delete(chosen, k)].sum(axis=1)
-            values = criterion.value(rest[:, None] + single)
-            best = int(np.argmax(values))
-            if values[best] > value + _GAIN:
-                chosen[k], value = best, float(values[best])
-        if value <= start + _GAIN:
-            break
-    return chosen
+            start = points[k][free]
+            corners = np.vstack([start, start + np.diag(np.where(start < 0.5, 1, -1) * h[free])])
+            best = minimize(
+                lambda at, information=with_point: -float(self.criterion.value(information(at))), start,
+                method="Nelder-Mead", bounds=[(0, 1)] * free.size,
+                options={"maxfev": _STEPS, "initial_simplex": corners},
+            )  # fmt: skip
+            if -best.fun > self.criterion.value(total):
+                total = with_point(best.x)
+                points[k, free] = best.x
+        return points, total
 
-
-def _moved(
-    evaluate: Evaluate, criterion: Criterion, total: np.ndarray, points: np.ndarray, single: np.ndarray,
-    counts: np.ndarray, h: np.ndarray,
-) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-    """The design's points moved continuously, one after the other; and its information."""
-    points = points.copy()
-    free = np.flatnonzero(h > 0)
-    for k in range(len(points)) if free.size else ():
-        rest = total - counts[k] * single[:, k]
-
-        def lack(at: np.ndarray, k: int = k, rest: np.ndarray = rest) -> float:
-            place = points[k].copy()
-            place[free] = at
-            return -float(criterion.value(rest + counts[k] * evaluate(place[None])[:, 0]))
-
-        start = points[k][free]
-        corners = np.vstack([start, start + np.diag(np.where(start < 0.5, 1, -1) * h[free])])
-        found = minimize(
-            lack, start, method="Nelder-Mead", bounds=[(0, 1)] * free.size,
-            options={"maxfev": _STEPS, "initial_simplex": corners},
-        )  # fmt: skip
-        if -found.fun > criterion.value(total):
-            points[k, free] = found.x
-            total = rest + counts[k] * evaluate(points[k][None])[:, 0]
-    return points, total
-
-
-def _merged(
-    evaluate: Evaluate, criterion: Criterion, before: np.ndarray, total: np.ndarray, points: np.ndarray,
-    counts: np.ndarray, near: float,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # fmt: skip
-    """The design with neighbours as repetitions of one impact, as far as that costs next to nothing."""
-    apart = np.abs(points[:, None] - points).max(axis=-1)
-    for one, other in np.argwhere(np.triu(apart < near, 1)).tolist():
-        into, gone = (one, other) if counts[one] >= counts[other] else (other, one)
-        if counts[one] and counts[other]:
-            fewer = counts.copy()
-            fewer[into], fewer[gone] = counts[into] + counts[gone], 0
-            kept = np.flatnonzero(fewer)
-            again = before + np.einsum("c,mcij->mij", fewer[kept], evaluate(points[kept]))
-            if criterion.value(again) > criterion.value(total) - _LOSS:
-                counts, total = fewer, again
-    kept = np.flatnonzero(counts)
-    return points[kept], counts[kept], total
+    def merged(
+        self, points: np.ndarray, counts: np.ndarray, total: np.ndarray, near: float
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The impacts with neighbours as repetitions of one, as far as that costs next to nothing."""
+        apart = np.abs(points[:, None] - points).max(axis=-1)
+        for one, other in np.argwhere(np.triu(apart < near, 1)).tolist():
+            into, gone = (one, other) if counts[one] >= counts[other] else (other, one)
+            if counts[one] and counts[other]:
+                fewer = counts.copy()
+                fewer[into], fewer[gone] = counts[into] + counts[gone], 0
+                kept = np.flatnonzero(fewer)
+                again = self.before + np.einsum("c,mcij->mij", fewer[kept], self.exact(points[kept]))
+                if self.criterion.value(again) > self.criterion.value(total) - _LOSS:
+                    counts, total = fewer, again
+        kept = np.flatnonzero(counts)
+        return points[kept], counts[kept], total

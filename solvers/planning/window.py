@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ..errors import InputError, did_you_mean
-from ..fitting.data import ANGLE_SD, RESULT_SD, SPEED_SD
-from ..fitting.law import Law
-from ..fitting.measurements import UNKNOWN, Measurements
+from ..fitting.measurements import ANGLE_SD, RESULT_SD, SPEED_SD, UNKNOWN, Measurements, rows_of
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS
 
@@ -39,8 +37,8 @@ class Scatter:
     restitution: float | None = RESULT_SD[RESTITUTION]
 
     @classmethod
-    def of(cls, data: Measurements) -> Scatter:
-        """That of most measured impacts."""
+    def typical(cls, data: Measurements) -> Scatter:
+        """The median of measured impacts."""
         noise = None
         if RESTITUTION in data.observed:
             values, sd = data.observed[RESTITUTION]
@@ -54,49 +52,37 @@ class Scatter:
         Raises:
             InputError: no acceptable standard deviation, or none in speed and angle.
         """
-        found = cls(
-            default.speed if speed is None else _part(speed, "speed_sd", _WIDEST_SPEED),
-            default.angle if angle is None else _angle(angle),
-            default.restitution if restitution is None else _noise(restitution),
-        )
-        if found.speed == 0 and found.angle == 0:
+        parts = {"speed": default.speed, "angle": default.angle, "restitution": default.restitution}
+        if speed is not None:
+            accepted = f'a part of the speed, 0 to below {_WIDEST_SPEED:.2g}, such as "2 %" or 0.02'
+            parts["speed"] = _number("speed_sd", speed, accepted, lambda value: 0 <= value < _WIDEST_SPEED, True)
+        if angle is not None:
+            parts["angle"] = FIELDS["impact.angle"].number(angle, label="angle_sd")
+            if parts["angle"] >= _WIDEST_ANGLE:
+                accepted = f'an angle from 0 to below {_WIDEST_ANGLE} rad, such as "1 deg"'
+                raise InputError("angle_sd", angle, accepted, "is out of range")
+        if isinstance(restitution, str) and restitution.strip() == "none":
+            parts["restitution"] = None
+        elif restitution is not None:
+            accepted = 'a number > 0, or "none" where only outcomes are recorded'
+            parts["restitution"] = _number("restitution_sd", restitution, accepted, lambda value: 0 < value < math.inf)
+        if parts["speed"] == parts["angle"] == 0:
             accepted = "speed_sd or angle_sd above 0: an outcome without scatter has no likelihood"
             raise InputError("speed_sd", 0, accepted)
-        return found
+        return cls(**parts)
 
 
-def _part(given: Any, label: str, most: float) -> float:
-    accepted = f'a part of the speed, 0 to below {most:.2g}, such as "2 %" or 0.02'
-    text = given.strip() if isinstance(given, str) else given
+def _number(label: str, value: Any, accepted: str, holds: Callable[[float], bool], percent: bool = False) -> float:
+    """A number, or with `percent` also text in %; InputError for anything else."""
+    text = value.strip() if isinstance(value, str) else value
     try:
-        percent = isinstance(text, str) and text.endswith("%")
-        found = float(text[:-1]) / 100 if percent else float(text)
+        in_percent = percent and isinstance(text, str) and text.endswith("%")
+        number = float(text[:-1]) / 100 if in_percent else float(text)
     except (TypeError, ValueError):
-        raise InputError(label, given, accepted, "is not a number") from None
-    if not 0 <= found < most:
-        raise InputError(label, given, accepted, "is out of range")
-    return found
-
-
-def _angle(given: object) -> float:
-    found = FIELDS["impact.angle"].number(given, label="angle_sd")
-    if found >= _WIDEST_ANGLE:
-        accepted = f'an angle from 0 to below {_WIDEST_ANGLE} rad, such as "1 deg"'
-        raise InputError("angle_sd", given, accepted, "is out of range")
-    return found
-
-
-def _noise(given: Any) -> float | None:
-    accepted = 'a number > 0, or "none" where only outcomes are recorded'
-    if isinstance(given, str) and given.strip() == "none":
-        return None
-    try:
-        found = float(given)
-    except (TypeError, ValueError):
-        raise InputError("restitution_sd", given, accepted, "is not a number") from None
-    if not 0 < found < math.inf:
-        raise InputError("restitution_sd", given, accepted, "is out of range")
-    return found
+        raise InputError(label, value, accepted, "is not a number") from None
+    if not holds(number):
+        raise InputError(label, value, accepted, "is out of range")
+    return number
 
 
 @dataclass(frozen=True)
@@ -124,8 +110,8 @@ class Window:
     def values(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Values of the key, SI, and angles."""
         low, high = np.log(self.speed)
-        found = np.clip(np.exp(low + points[:, 0] * (high - low)), *self.speed)
-        return found, self.angle[0] + points[:, 1] * (self.angle[1] - self.angle[0])
+        speed = np.clip(np.exp(low + points[:, 0] * (high - low)), *self.speed)
+        return speed, self.angle[0] + points[:, 1] * (self.angle[1] - self.angle[0])
 
     def plan(self, points: np.ndarray) -> Measurements:
         """The impacts as rows without observations."""
@@ -149,10 +135,8 @@ class Window:
     def outcomes(self, points: np.ndarray, rtol: float) -> np.ndarray:
         """Outcomes without scatter."""
         plan = self.plan(points)
-        law = Law(self.scene, (), plan, rtol).at(np.zeros(0))
-        assert law is not None  # a scene holds
-        speed = plan.speed * np.cos(plan.angle) if plan.relative else plan.speed
-        return law.outcomes(np.arange(plan.size), speed, plan.angle)
+        experiment = rows_of(self.scene, (), plan, rtol).unchecked(np.zeros(0))
+        return experiment.outcomes(np.arange(plan.size), plan.normal_speed, plan.angle)
 
     def candidates(self, spacing: int, rtol: float) -> np.ndarray:
         """An even grid, and points beside the changes of outcome, which are narrower than its cells."""
@@ -186,15 +170,16 @@ def check_over(over: object) -> tuple[str, tuple[float, float], tuple[float, flo
         raise InputError("over", ", ".join(over), f"one of {', '.join(SPEEDS)}, and angle")
     if "angle" not in over:
         raise InputError("over", ", ".join(over), "angle=LO:HI beside it, or angle=VALUE", "lacks the angle")
-    found = {}
-    for name in (keys[0], "angle"):
-        given: Any = over[name]
-        several = isinstance(given, Sequence | np.ndarray) and not isinstance(given, str)
-        ends = list(given) if several else [given, given]
-        if len(ends) != 2:
-            raise InputError(f"over {name}", given, "two ends, (LO, HI), or one value")
-        low, high = (FIELDS[f"impact.{name}"].number(end, label=f"over {name}") for end in ends)
-        if low > high:
-            raise InputError(f"over {name}", given, "LO at most HI", "is not a range")
-        found[name] = low, high
-    return keys[0], found[keys[0]], found["angle"]
+    return keys[0], _ends(over, keys[0]), _ends(over, "angle")
+
+
+def _ends(over: Mapping[str, Any], name: str) -> tuple[float, float]:
+    value = over[name]
+    several = isinstance(value, Sequence | np.ndarray) and not isinstance(value, str)
+    ends = list(value) if several else [value, value]
+    if len(ends) != 2:
+        raise InputError(f"over {name}", value, "two ends, (LO, HI), or one value")
+    low, high = (FIELDS[f"impact.{name}"].number(end, label=f"over {name}") for end in ends)
+    if low > high:
+        raise InputError(f"over {name}", value, "LO at most HI", "is not a range")
+    return low, high

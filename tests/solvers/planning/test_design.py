@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Design, InputError, Scene, design
-from wetdoublet.solvers.fitting.data import read_data
+from wetdoublet.solvers.fitting.measurements import read_data
 from wetdoublet.solvers.planning.information import information
 from wetdoublet.solvers.planning.search import Criterion, search
 
