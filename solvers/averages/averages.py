@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from ..host.arguments import check_function, check_name, check_names
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
 from ..many.batch import checked_numbers
+from ..many.dataset import fill
 from ..many.journal import Journal
 from ..many.journal import journal as checked_journal
 from ..many.stream import software
@@ -27,7 +28,7 @@ from .dataset import Columns, dataset
 from .geometry import COLUMNS
 from .gradients import gradients
 from .over_speeds import SHARP_CUT, means
-from .sizes import FILMS, FIXED, Pairs, scene_of_sizes
+from .sizes import FILMS, FIXED, experiment_of, scene_of_sizes
 from .speeds import Speeds
 
 if TYPE_CHECKING:
@@ -96,14 +97,16 @@ def collision_averages(
         >>> round(float(found.stick_probability), 3)
         0.355
     """
-    loaded, told = Scene.load(scene), check_function(progress, "progress")
-    asked = _asked(loaded, speeds, radii, films, tolerance, rtol, wrt)
+    loaded = Scene.load(scene)
+    check_function(progress, "progress")
+    request = _checked(loaded, speeds, radii, films, tolerance, rtol, wrt)
     kept = checked_journal(journal)
     warn(loaded)
     if kept is not None:
-        kept.under(asked.identity())
+        kept.under(request.identity())
     with nullcontext() if kept is None else kept.held():
-        return dataset(asked.scene, asked.axes, _computed(asked, kept, told), asked.attributes(), asked.wrt)
+        columns = _computed(request, kept, progress)
+    return dataset(loaded, request.axes, columns, request.attributes(), request.wrt)
 
 
 def check_tolerance(tolerance: object, label: str = "tolerance") -> float:
@@ -112,7 +115,7 @@ def check_tolerance(tolerance: object, label: str = "tolerance") -> float:
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _Request:
     """Averages as requested."""
 
     scene: Scene
@@ -138,37 +141,32 @@ class _Asked:
     def scene_of(self, index: tuple[int, ...]) -> Scene:
         """The scene of a pair; InputError if it is impossible."""
         if not index:
-            given = {name: value for name, value in self.scene.given if name not in MEETING}
-            return Scene(self.scene.name, tuple(given.items()), package=self.scene.package)
+            entries = tuple((name, value) for name, value in self.scene.given if name not in MEETING)
+            return Scene(self.scene.name, entries, package=self.scene.package)
         radius, *other = (float(axis[k]) for axis, k in zip(self.axes.values(), index, strict=True))
         return scene_of_sizes(self.scene, radius, other[0] if other else None, self.films)
 
     def attributes(self) -> dict[str, Any]:
-        return {
-            "speeds": self.speeds.text,
-            "films": self.films,
-            "tolerance": self.tolerance,
-            "rtol": self.rtol,
-        }
+        return {"speeds": self.speeds.text, "films": self.films, "tolerance": self.tolerance, "rtol": self.rtol}
 
     def identity(self) -> dict[str, Any]:
         """Everything that the results depend on, as the journal's request."""
         distribution = None if self.speeds.density is None else self.speeds.density(self.speeds.knots).tolist()
         return {
+            **self.attributes(),
             "averages": [entry for entry in self.scene.si if entry[0] not in MEETING],
             "volume": self.scene.ways.volume,
             "speeds": [self.speeds.text, self.speeds.knots.tolist(), distribution],
             "axes": {name: axis.tolist() for name, axis in self.axes.items()},
             "wrt": list(self.wrt),
-            **{name: value for name, value in self.attributes().items() if name != "speeds"},
             **software(),
             "model": self.scene.package and self.scene.package.digest,
         }
 
 
-def _asked(
+def _checked(
     scene: Scene, speeds: Any, radii: Any, films: str, tolerance: float, rtol: float, wrt: Sequence[str] | str
-) -> _Asked:
+) -> _Request:
     if scene.pendulum is not None:
         raise InputError("scene", scene.name, "a scene without [pendulum]", "has strings, so that nothing is isotropic")
     distribution = Speeds.of(scene.impact.relative_speed if speeds is None else speeds)
@@ -178,82 +176,78 @@ def _asked(
         if not 1 <= np.unique(axis).size == axis.size <= MOST:
             raise InputError("radii", axis, f"1 to {MOST} different radii", f"has {axis.size}")
         axes = {"radius": axis} if scene.wall else {"radius": axis, "partner_radius": axis.copy()}
-    asked = _Asked(
+    request = _Request(
         scene, distribution, axes, check_name(films, FILMS, "films"), check_tolerance(tolerance), check_rtol(rtol), ()
     )
     first: InputError | None = None
-    for index in np.ndindex(asked.shape):
+    for index in np.ndindex(request.shape):
         try:
-            known = known_of_particles(asked.scene_of(index))
+            known = known_of_particles(request.scene_of(index))
         except InputError as error:
             first = first or error
         else:
-            names = check_names(wrt, known, "wrt")
-            return _Asked(scene, distribution, axes, films, asked.tolerance, asked.rtol, names)
+            return replace(request, wrt=check_names(wrt, known, "wrt"))
     assert first is not None  # there is a pair
     raise first
 
 
-def _computed(asked: _Asked, kept: Journal | None, progress: Progress | None) -> Columns:
-    size = int(np.prod(asked.shape))
-    found = _blank(size, len(asked.wrt))
-    done = np.zeros(size, bool)
+def _computed(request: _Request, kept: Journal | None, progress: Progress | None) -> Columns:
+    """The columns of all pairs: those of the journal, and the others as they are computed."""
+    size = int(np.prod(request.shape))
+    columns, done = _blank(size, len(request.wrt)), np.zeros(size, bool)
     for where, block in kept.read() if kept else ():
-        for name, values in block.items():
-            found[name][where] = values
+        fill(columns, where, block)
         done[where] = True
-    mirror = np.arange(size).reshape(asked.shape).T.ravel() if asked.symmetric else np.arange(size)
-    left = np.flatnonzero(~done & (mirror >= np.arange(size)))
-    total = int(np.count_nonzero(mirror >= np.arange(size)))
+    every = np.arange(size)
+    mirror = every.reshape(request.shape).T.ravel() if request.symmetric else every
+    wanted = mirror >= every
+    left, total = np.flatnonzero(~done & wanted), int(np.count_nonzero(wanted))
     ready = total - left.size
-    if progress is not None:
-        progress(ready, total)
-    for where, block in _blocks(asked, [left[k : k + _BLOCK] for k in range(0, left.size, _BLOCK)]):
+    tell = progress or (lambda _done, _total: None)
+    tell(ready, total)
+    for where, block in _blocks(request, [left[k : k + _BLOCK] for k in range(0, left.size, _BLOCK)]):
         if kept is not None:
             kept.add(where, block)
-        for name, values in block.items():
-            found[name][where] = values
+        fill(columns, where, block)
         ready += where.size
-        if progress is not None:
-            progress(ready, total)
-    return {name: values[np.minimum(mirror, np.arange(size))] for name, values in found.items()}
+        tell(ready, total)
+    return {name: values[np.minimum(mirror, every)] for name, values in columns.items()}
 
 
-def _blocks(asked: _Asked, blocks: list[np.ndarray]) -> Iterator[tuple[np.ndarray, Columns]]:
+def _blocks(request: _Request, blocks: list[np.ndarray]) -> Iterator[tuple[np.ndarray, Columns]]:
     """Pairs and their columns: the first in this process, which compiles the kernel, many others on all cores."""
     cores = min(usable_cores(), len(blocks) - 1)
-    alone = blocks[:1] if cores > 1 else blocks
-    for where in alone:
-        yield where, _block(asked, where)
+    for where in blocks[:1] if cores > 1 else blocks:
+        yield where, _block(request, where)
     if cores > 1:
-        yield from in_workers(cores, _block, ((where, (asked, where)) for where in blocks[1:]))
+        yield from in_workers(cores, _block, ((where, (request, where)) for where in blocks[1:]))
 
 
 def _blank(size: int, parameters: int) -> Columns:
-    found: Columns = {name: np.full((size, COLUMNS), np.nan) for name in ("mean", "error")}
-    found |= {name: np.full((size, COLUMNS * parameters), np.nan) for name in ("gradient", "gradient_error")}
-    return found | {"reason": np.full(size, "", dtype=object)}
+    columns: Columns = {name: np.full((size, COLUMNS), np.nan) for name in ("mean", "error")}
+    columns |= {name: np.full((size, COLUMNS * parameters), np.nan) for name in ("gradient", "gradient_error")}
+    return columns | {"reason": np.full(size, "", dtype=object)}
 
 
-def _block(asked: _Asked, where: np.ndarray) -> Columns:
+def _block(request: _Request, where: np.ndarray) -> Columns:
     """The columns of some pairs."""
-    found = _blank(where.size, len(asked.wrt))
+    columns = _blank(where.size, len(request.wrt))
     scenes: dict[int, Scene] = {}
     for k, flat in enumerate(where.tolist()):
         try:
-            scenes[k] = asked.scene_of(tuple(int(each) for each in np.unravel_index(flat, asked.shape)))
+            scenes[k] = request.scene_of(tuple(int(each) for each in np.unravel_index(flat, request.shape)))
         except InputError as error:
-            found["reason"][k] = str(error)
+            columns["reason"][k] = str(error)
     rows = np.array(list(scenes), dtype=int)
     if not rows.size:
-        return found
-    pairs = Pairs.of(list(scenes.values()))
-    made = means(pairs, asked.speeds, asked.tolerance, asked.rtol)
-    found["mean"][rows], found["error"][rows] = made.mean, made.error
-    found["reason"][rows[np.isnan(made.mean).any(axis=1)]] = "collisions that no engine completes"
-    if asked.wrt:
-        along = means(pairs, asked.speeds, _OF_GRADIENTS * asked.tolerance, asked.rtol, SHARP_CUT)
-        slopes, errors = gradients(pairs, along, asked.wrt, asked.rtol)
-        found["gradient"][rows] = slopes.reshape(rows.size, -1)
-        found["gradient_error"][rows] = errors.reshape(rows.size, -1)
-    return found
+        return columns
+    experiment = experiment_of(list(scenes.values()), request.wrt, request.rtol)
+    result = means(experiment, rows.size, request.speeds, request.tolerance)
+    columns["mean"][rows], columns["error"][rows] = result.mean, result.error
+    columns["reason"][rows[np.isnan(result.mean).any(axis=1)]] = "collisions that no engine completes"
+    if request.wrt:
+        coarser = means(experiment, rows.size, request.speeds, _OF_GRADIENTS * request.tolerance, SHARP_CUT)
+        slopes, errors = gradients(experiment, coarser)
+        columns["gradient"][rows] = slopes.reshape(rows.size, -1)
+        columns["gradient_error"][rows] = errors.reshape(rows.size, -1)
+    return columns

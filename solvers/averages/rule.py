@@ -2,56 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+# Piessens, de Doncker-Kapenga, Ueberhuber & Kahaner, QUADPACK, 1983: points on (-1, 0], and their weights
+_POINTS = np.array([
+    -0.991455371120812639206854697526329, -0.949107912342758524526189684047851, -0.864864423359769072789712788640926,
+    -0.741531185599394439863864773280788, -0.586087235467691130294144691258438, -0.405845151377397166906606412076961,
+    -0.207784955007898467600689403773245, 0.0,
+])  # fmt: skip
+_WEIGHTS = np.array([
+    0.022935322010529224963732008058970, 0.063092092629978553290700663189204, 0.104790010322250183839876322541518,
+    0.140653259715525918745189590510238, 0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
+    0.204432940075298892414161999234649, 0.209482141084727828012999174891714,
+])  # fmt: skip
 
-@dataclass(frozen=True)
-class Rule:
-    """Two rules on (0, 1): points, and the weights of Kronrod's and of Gauss's, which are 0 at every other point."""
-
-    points: np.ndarray
-    kronrod: np.ndarray
-    gauss: np.ndarray
-
-    @classmethod
-    def of(cls, points: tuple[float, ...], kronrod: tuple[float, ...], gauss: tuple[float, ...]) -> Rule:
-        """The rule from what is printed: points on (-1, 1) that are not negative, descending, and their weights."""
-        inner = np.zeros(2 * len(points) - 1)
-        inner[1::2] = _mirrored(np.array(gauss), len(points) - 1)
-        half = np.array(points)
-        return cls(
-            (1 + np.concatenate([-half, half[-2::-1]])) / 2, _mirrored(np.array(kronrod), inner.size) / 2, inner / 2
-        )
-
-    @property
-    def size(self) -> int:
-        return int(self.points.size)
-
-
-def _mirrored(half: np.ndarray, size: int) -> np.ndarray:
-    """Weights from one end to the middle, continued to the other end; an odd number has one in the middle."""
-    return np.concatenate([half, half[size // 2 - 1 :: -1]])
-
-
-# Piessens, de Doncker-Kapenga, Ueberhuber & Kahaner, QUADPACK, 1983: 7 and 15 points
-RULE = Rule.of(
-    (
-        0.991455371120812639206854697526329, 0.949107912342758524526189684047851, 0.864864423359769072789712788640926,
-        0.741531185599394439863864773280788, 0.586087235467691130294144691258438, 0.405845151377397166906606412076961,
-        0.207784955007898467600689403773245, 0.0,
-    ),
-    (
-        0.022935322010529224963732008058970, 0.063092092629978553290700663189204, 0.104790010322250183839876322541518,
-        0.140653259715525918745189590510238, 0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
-        0.204432940075298892414161999234649, 0.209482141084727828012999174891714,
-    ),
-    (
-        0.129484966168869693270611432679082, 0.279705391489276667901467771423780, 0.381830050505118944950369775488975,
-        0.417959183673469387755102040816327,
-    ),
-)  # fmt: skip
+POINTS = (1 + np.concatenate([_POINTS, -_POINTS[-2::-1]])) / 2
+"""Nodes on (0, 1)."""
+KRONROD = np.concatenate([_WEIGHTS, _WEIGHTS[-2::-1]]) / 2
+"""Their weights by Kronrod's rule."""
+GAUSS = np.zeros(POINTS.size)
+"""Their weights by Gauss's rule, 0 at every other node."""
+GAUSS[1::2] = np.polynomial.legendre.leggauss(POINTS.size // 2)[1] / 2
 
 
 @dataclass(frozen=True)
@@ -61,13 +34,13 @@ class Panels:
     At an end that is sharp, where an integrand may start as a square root, the map from u is quadratic.
 
     Attributes:
-        of: index of what the interval belongs to.
+        owner: index of what the interval belongs to.
         low, high: the interval.
         sharp_low, sharp_high: whether its ends are sharp.
         first, last: the part, in u.
     """
 
-    of: np.ndarray
+    owner: np.ndarray
     low: np.ndarray
     high: np.ndarray
     sharp_low: np.ndarray
@@ -76,33 +49,31 @@ class Panels:
     last: np.ndarray
 
     @classmethod
-    def whole(
-        cls, of: np.ndarray, low: np.ndarray, high: np.ndarray, sharp_low: np.ndarray, sharp_high: np.ndarray
-    ) -> Panels:
-        """One panel for each interval."""
-        return cls(of, low, high, sharp_low, sharp_high, np.zeros(of.size), np.ones(of.size))
+    def over(cls, low: np.ndarray, high: np.ndarray, sharp_low: np.ndarray, sharp_high: np.ndarray) -> Panels:
+        """One panel for each interval, which it belongs to."""
+        return cls(np.arange(low.size), low, high, sharp_low, sharp_high, np.zeros(low.size), np.ones(low.size))
 
     @property
     def size(self) -> int:
-        return int(self.of.size)
+        return int(self.owner.size)
 
-    @staticmethod
-    def joined(*parts: Panels) -> Panels:
-        """All panels of these."""
-        return Panels(*(np.concatenate([getattr(one, each.name) for one in parts]) for each in fields(Panels)))
+    def joined(self, other: Panels) -> Panels:
+        """The panels of both."""
+        return Panels(*(np.concatenate([values, vars(other)[name]]) for name, values in vars(self).items()))
 
-    def where(self, which: np.ndarray) -> Panels:
-        return Panels(*(getattr(self, each.name)[which] for each in fields(self)))
+    def part(self, which: np.ndarray) -> Panels:
+        """The panels of these indices, or of this mask."""
+        return Panels(*(values[which] for values in vars(self).values()))
 
     def halved(self) -> Panels:
         """Both halves of every panel."""
         middle = (self.first + self.last) / 2
-        return Panels.joined(replace(self, last=middle), replace(self, first=middle))
+        return replace(self, last=middle).joined(replace(self, first=middle))
 
-    def nodes(self, rule: Rule) -> tuple[np.ndarray, np.ndarray]:
-        """Nodes, and the lengths that belong to them (to be multiplied by weights of the rule): (panels, points)."""
+    def nodes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Nodes, and the lengths that belong to them (to be multiplied by weights of a rule): (panels, nodes)."""
         part = (self.last - self.first)[:, None]
-        u = self.first[:, None] + part * rule.points
+        u = self.first[:, None] + part * POINTS
         low, high = self.sharp_low[:, None], self.sharp_high[:, None]
         place = np.where(low & high, u * u * (3 - 2 * u), np.where(low, u * u, np.where(high, u * (2 - u), u)))
         slope = np.where(low & high, 6 * u * (1 - u), np.where(low, 2 * u, np.where(high, 2 * (1 - u), 1.0)))
@@ -110,6 +81,6 @@ class Panels:
         return self.low[:, None] + length * place, length * part * slope
 
 
-def summed(of: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
-    """Sums of rows of `values` that belong to the same index: (count, columns)."""
-    return np.stack([np.bincount(of, column, count) for column in values.T], axis=1)
+def summed(owner: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
+    """Sums of the rows of `values` that have the same owner: (count, columns)."""
+    return np.stack([np.bincount(owner, column, count) for column in values.T], axis=1)

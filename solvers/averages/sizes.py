@@ -1,4 +1,4 @@
-"""Pairs of sizes made from one scene: each a scene of its own, collided together in one call of the kernel."""
+"""Pairs of sizes made from one scene, and their collisions in one call of the kernel."""
 
 from __future__ import annotations
 
@@ -9,21 +9,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES
-from ..collision.collide import collide
-from ..engines.taylor.call import Impacts, run_kernel
-from ..errors import ComputationError
+from ..changes.experiment import STEEPEST, UNDECIDED, Experiment, Rows
 from ..host.cores import usable_cores
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
 from ..settings import FEW, KERNEL_STEPS
 
 FIXED, PROPORTIONAL = FILMS = ("fixed", "proportional")
-STICK = 0  # label of every stick
-UNDECIDED = -1
 BOUNCES = OUTCOMES.index(BOUNCE)
-STEEPEST = math.acos(4e-5)  # rad; more oblique impacts are beyond what the kernel takes
 _BUDGET = 20_000  # steps of a collision that only locates a change
 _EVENTS, _CRITERIA = 1000, 10  # the label's parts
+_RESULTS = ("restitution", "tangential_restitution")
 _OF_SPHERES = tuple(
     f"{table}.{key}"
     for table in ("particles", "partner")
@@ -31,99 +27,78 @@ _OF_SPHERES = tuple(
 )
 
 
-@dataclass(frozen=True)
-class Struck:
-    """Collisions of a request: a label of what happened, e_n and e_t (0 for sticks), and which were undecided.
+def experiment_of(scenes: Sequence[Scene], names: tuple[str, ...], rtol: float) -> Experiment:
+    """An experiment with a row for each scene; they have the same entries, with other values.
 
-    The label is 0 for a stick and -1 for an undecided collision; others have the same one if the outcome is the same,
-    and of bounces the first rebound criterion, the number of events, and whether it is met at initial contact.
+    Arguments:
+        names: free entries.
+    """
+    first = scenes[0]
+    numbers = [name for name, value in first.si if not isinstance(value, str) and name not in MEETING]
+    values = {name: np.array([float(one.entries[name]) for one in scenes]) for name in numbers}
+    columns = {name: row for name, row in values.items() if name not in names and np.any(row != row[0])}
+    free = np.array([values[name] for name in names]).reshape(len(names), len(scenes))
+    alike = not columns and not np.any(free != free[:, :1])
+    return Rows(first, names, columns, 1 if alike else len(scenes), rtol).unchecked(free[:, :1] if alike else free)
+
+
+@dataclass(frozen=True)
+class Collided:
+    """What happened in collisions.
+
+    Attributes:
+        label: 0 for a stick and -1 for an undecided collision; others have the same one if the outcome is the same,
+            and of bounces the first rebound criterion, the number of events, and whether it is met at initial contact.
+        results: (2, collisions), e_n and e_t; 0 for sticks.
     """
 
     label: np.ndarray
-    restitution: np.ndarray
-    tangential: np.ndarray
+    results: np.ndarray
+
+    @property
+    def outcome(self) -> np.ndarray:
+        return outcome_of(self.label)
 
 
 def outcome_of(label: np.ndarray) -> np.ndarray:
-    """The outcome's number from a label that is not undecided."""
-    found: np.ndarray = label // (_EVENTS * _CRITERIA * 2)
-    return found
+    """The outcome's number from a label; -1 if it is undecided."""
+    return np.where(label == UNDECIDED, UNDECIDED, label // (_EVENTS * _CRITERIA * 2))
 
 
-@dataclass(frozen=True)
-class Pairs:
-    """Pairs of particles, and the quantities in which they differ (SI, one per pair).
+def collide(
+    experiment: Experiment, pair: np.ndarray, speed: np.ndarray, angle: np.ndarray, locating: bool = False
+) -> Collided:
+    """Collisions of pairs (by index) at relative speeds (m/s) and angles (rad).
 
-    Example:
-        >>> from wetdoublet.solvers import Scene
-        >>> Pairs.of([Scene.load("granulation")]).size
-        1
+    Beyond STEEPEST the normal speed before is so small that the one after no longer depends on it: it is that of a
+    collision at STEEPEST.
+
+    Arguments:
+        locating: leave collisions undecided that take long; others that the kernel does not complete go to an engine
+            that does, NaN where none does.
+
+    Raises:
+        ComputationError: there is no compiled kernel.
     """
-
-    scenes: tuple[Scene, ...]
-    columns: dict[str, np.ndarray]
-
-    @classmethod
-    def of(cls, scenes: Sequence[Scene]) -> Pairs:
-        """The pairs of these scenes, which have the same entries with other values."""
-        values = {name: np.array([one.material[name] for one in scenes]) for name in scenes[0].material}
-        return cls(tuple(scenes), {name: column for name, column in values.items() if np.any(column != column[0])})
-
-    @property
-    def size(self) -> int:
-        return len(self.scenes)
-
-    def part(self, which: slice) -> Pairs:
-        """Some of the pairs; what does not differ between them stays a column, so that the kernel is the same."""
-        return Pairs(self.scenes[which], {name: column[which] for name, column in self.columns.items()})
-
-    def collide(
-        self, pair: np.ndarray, speed: np.ndarray, angle: np.ndarray, rtol: float, locating: bool = False
-    ) -> Struck:
-        """Collisions of pairs (by index) at relative speeds (m/s) and angles (rad).
-
-        Arguments:
-            locating: leave collisions undecided that take long.
-
-        Beyond STEEPEST the normal speed before is so small that the one after no longer depends on it: it is that of a
-        collision at STEEPEST.
-
-        Raises:
-            ComputationError: there is no compiled kernel.
-        """
-        others = {name: column[pair] for name, column in self.columns.items()}
-        within = np.minimum(angle, STEEPEST)
-        impacts = Impacts(self.scenes[0], speed * np.cos(within), within, others)
-        threads = usable_cores() if angle.size > FEW else 1
-        found = run_kernel(impacts, rtol, threads=threads, budget=_BUDGET if locating else KERNEL_STEPS, jumps=1)
-        if found is None:
-            raise ComputationError(
-                "averages need the compiled kernel, which this scene or machine does not have",
-                advice="install a C compiler, or see `wetdoublet compile`",
-            )
-        outcome = found["outcome"].astype(np.int64)
-        events = np.where(outcome == BOUNCES, np.minimum(found["events"], _EVENTS - 1), 0)
-        label = ((outcome * _CRITERIA + found["reversal"] + 1) * _EVENTS + events) * 2
-        label = np.where(outcome > 0, label + (found["smallest_gap"] >= 1), STICK)
-        decided = found["status"] <= LAST_ANSWER
-        struck = Struck(
-            np.where(decided, label, UNDECIDED),
-            np.where(outcome > 0, found["shown"][:, 0] * (np.cos(within) / np.cos(angle)), 0.0),
-            np.where(outcome > 0, found["shown"][:, 1], 0.0),
-        )
-        for k in np.flatnonzero(~decided).tolist() if not locating else ():
-            self._alone(struck, k, int(pair[k]), float(impacts.speed[k]), float(within[k]), rtol)
-        return struck
-
-    def _alone(self, struck: Struck, k: int, pair: int, speed: float, angle: float, rtol: float) -> None:
-        """Complete a collision that the kernel has not decided by another engine; NaN where none does."""
-        struck.restitution[k] = struck.tangential[k] = np.nan
-        try:
-            one = collide(self.scenes[pair], speed=speed, angle=angle, rtol=rtol, engine="rosenbrock", ledger=False)
-        except ComputationError:
-            return
-        struck.label[k] = OUTCOMES.index(one.outcome) * _CRITERIA * _EVENTS * 2
-        struck.restitution[k], struck.tangential[k] = one.restitution, one.tangential_restitution or 0.0
+    within = np.minimum(angle, STEEPEST)
+    normal, flatter = speed * np.cos(within), np.cos(within) / np.cos(angle)
+    threads = usable_cores() if angle.size > FEW else 1
+    budget = _BUDGET if locating else KERNEL_STEPS
+    answers = experiment.answers(pair, normal, within, threads=threads, budget=budget, jumps=1)
+    outcome = answers["outcome"].astype(np.int64)
+    decided = answers["status"] <= LAST_ANSWER
+    events = np.where(outcome == BOUNCES, np.minimum(answers["events"], _EVENTS - 1), 0)
+    label = ((outcome * _CRITERIA + answers["reversal"] + 1) * _EVENTS + events) * 2 + (answers["smallest_gap"] >= 1)
+    label = np.where(decided, np.where(outcome > 0, label, 0), UNDECIDED)
+    results = np.where(outcome > 0, answers["shown"][:, :2].T, 0.0)
+    late = np.flatnonzero(~decided)
+    if late.size and not locating:
+        block = experiment.completed(pair[late], normal[late], within[late], _RESULTS)
+        known = block["outcome"] >= 0
+        label[late] = np.where(known, block["outcome"].astype(np.int64) * _CRITERIA * _EVENTS * 2, UNDECIDED)
+        results[:, late] = np.where(known, np.nan_to_num([block[name] for name in _RESULTS]), np.nan)
+    results[0] *= flatter
+    return Collided(label, results)
 
 
 def scene_of_sizes(scene: Scene, radius: float, partner_radius: float | None, films: str) -> Scene:
@@ -158,5 +133,6 @@ def scene_of_sizes(scene: Scene, radius: float, partner_radius: float | None, fi
                 entries[name] = float(entries[name]) * growth
         if scene.ways.volume == "absolute":
             entries["bridge.volume"] = float(entries["bridge.volume"]) * growth**3
-    given = {name: scene.as_given(name, value) for name, value in entries.items()}
-    return Scene(scene.name, tuple(given.items()), package=scene.package)
+    return Scene(
+        scene.name, tuple((name, scene.as_given(name, value)) for name, value in entries.items()), package=scene.package
+    )

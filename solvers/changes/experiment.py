@@ -83,7 +83,7 @@ class Rows:
         mapped, slopes = self._map.map(self.size)(np.vstack([entries, *self.columns.values()]))
         by_quantity = np.asarray(slopes.full()).reshape(len(self._quantities), self.size, len(self.names))
         columns = dict(zip(self._quantities, np.asarray(mapped.full()), strict=True))
-        return Experiment(self, values, columns, dict(zip(self._quantities, by_quantity, strict=True)))
+        return Experiment(self, values, columns, dict(zip(self._quantities, by_quantity, strict=True)), self.rtol)
 
 
 @dataclass(frozen=True)
@@ -114,12 +114,14 @@ class Experiment:
         values: of the free entries, (free entries,) or (free entries, rows).
         columns: name of a quantity -> (rows,), or (1,) where all rows are alike, SI.
         slopes: the same, with the derivatives by the free entries along the last axis.
+        rtol: relative tolerance of the integrations.
     """
 
     rows: Rows
     values: np.ndarray
     columns: Mapping[str, np.ndarray]
     slopes: Mapping[str, np.ndarray]
+    rtol: float
 
     @property
     def scene(self) -> Scene:
@@ -165,9 +167,12 @@ class Experiment:
         Raises:
             ComputationError: there is no kernel of this scene on this machine.
         """
-        answers = run_kernel(self.impacts(row, speed, angle), self.rows.rtol, rotation, **options)
+        answers = run_kernel(self.impacts(row, speed, angle), self.rtol, rotation, **options)
         if answers is None:
-            raise _without_kernel("impacts on many scenes at once need the compiled kernel")
+            raise ComputationError(
+                "impacts on many scenes at once need the compiled kernel, which this scene or machine has not",
+                advice="install a C compiler, or see `wetdoublet compile`",
+            )
         return answers
 
     def outcomes(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, kernel_only: bool = False) -> np.ndarray:
@@ -195,7 +200,7 @@ class Experiment:
             spin = impacts.others.get(name.replace("impact.", "impact_"))
             if name in vary or (spin is not None and name in self.scene.entries):
                 vary[name] = np.asarray(spin)
-        request = Batch(self.scene, None, impacts.speed, impacts.angle, vary, rows.rtol, "rosenbrock", names)
+        request = Batch(self.scene, None, impacts.speed, impacts.angle, vary, self.rtol, "rosenbrock", names)
         block = empty(request.size, names)
         compute(request, np.arange(request.size), lambda where, part: fill(block, where, part))
         return block
@@ -246,12 +251,12 @@ class Experiment:
         oblique: bool, forward: bool, budget: int,
     ) -> None:  # fmt: skip
         """Fill in the results of impacts `which`, that are all oblique or all head-on."""
-        rtol, rotation, share = self.rows.rtol, "rotation" in names, self._share(row)
+        rtol, rotation, share = self.rtol, "rotation" in names, self._share(row)
         moved = (*(name for name, slope in self.slopes.items() if slope.any()), "speed", "angle")
         back = not forward and names == ("restitution",)
         run = run_tangent(impacts, oblique, rtol, rotation, None if back else moved, None, budget, back, False)
         if run is None:
-            raise _without_kernel("a fit needs derivatives by the compiled kernel")
+            raise _without_derivatives()
         answers, slopes = run.answers, run.slopes
         late = np.flatnonzero(answers["status"] > LAST_ANSWER)
         if back and late.size:
@@ -295,7 +300,7 @@ class Experiment:
 def check_derivatives(scene: Scene) -> None:
     """Raise ComputationError unless the kernel differentiates the scene's collisions on this machine."""
     if not differentiates(scene, (True,)):
-        raise _without_kernel("a fit needs derivatives by the compiled kernel")
+        raise _without_derivatives()
 
 
 def _value(answers: np.ndarray, name: str) -> np.ndarray:
@@ -303,8 +308,8 @@ def _value(answers: np.ndarray, name: str) -> np.ndarray:
     return (answers[where] if isinstance(where, str) else answers["shown"][:, where]).copy()
 
 
-def _without_kernel(problem: str) -> ComputationError:
+def _without_derivatives() -> ComputationError:
     return ComputationError(
-        f"{problem}, which this scene or machine has not",
+        "derivatives by the compiled kernel are needed, which this scene or machine has not",
         advice="install a C compiler, or leave out laws that have no derivative",
     )

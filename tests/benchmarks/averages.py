@@ -15,7 +15,7 @@ import numpy as np
 from wetdoublet.solvers import Scene, collision_averages
 from wetdoublet.solvers.averages.dataset import QUANTITIES
 from wetdoublet.solvers.averages.over_speeds import means
-from wetdoublet.solvers.averages.sizes import FIXED, Pairs, scene_of_sizes
+from wetdoublet.solvers.averages.sizes import FIXED, experiment_of, scene_of_sizes
 from wetdoublet.solvers.averages.speeds import Speeds
 
 SCENE, SPEEDS, RADII = "granulation", "maxwell:0.5 m/s", (30e-6, 300e-6)
@@ -55,8 +55,9 @@ def _compare(found, radii: np.ndarray, sample: int) -> None:
     """Print the largest differences from a finer quadrature of random pairs."""
     chosen = np.random.default_rng(1).integers(0, radii.size, (sample, 2))
     scene = Scene.load(SCENE)
-    pairs = Pairs.of([scene_of_sizes(scene, float(radii[i]), float(radii[j]), FIXED) for i, j in chosen])
-    finer = means(pairs, Speeds.of(SPEEDS), 1e-6 / FINER, 1e-9 / FINER).mean
+    scenes = [scene_of_sizes(scene, float(radii[i]), float(radii[j]), FIXED) for i, j in chosen]
+    experiment = experiment_of(scenes, (), 1e-9 / FINER)
+    finer = means(experiment, sample, Speeds.of(SPEEDS), 1e-6 / FINER).mean
     print(f"largest differences of {sample} pairs from tolerances {FINER:g} times smaller:")
     for k, name in enumerate(ALL):
         values = found[name].values[chosen[:, 0], chosen[:, 1]]
