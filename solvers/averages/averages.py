@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..changes.experiment import free_names
 from ..errors import InputError
 from ..host.arguments import check_function, check_name, check_names
 from ..host.cores import usable_cores
@@ -22,7 +23,6 @@ from ..many.stream import software
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, Field, Range
-from ..sensitivity.parameters import known_of_particles
 from ..settings import RTOL, check_rtol
 from .dataset import Columns, dataset
 from .geometry import COLUMNS
@@ -182,7 +182,7 @@ def _checked(
     first: InputError | None = None
     for index in np.ndindex(request.shape):
         try:
-            known = known_of_particles(request.scene_of(index))
+            known = free_names(request.scene_of(index))
         except InputError as error:
             first = first or error
         else:

@@ -1,4 +1,4 @@
-"""Derivatives of means by entries of the scene, by Leibniz' rule: of the integrand, and of the angles of the changes."""
+"""Derivatives of means by entries of the scene, by Leibniz' rule: of the integrand, and of the angles of changes."""
 
 from __future__ import annotations
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
+from ..changes.brackets import Brackets, enclose
 from ..changes.roots import Function, root, sample
 from ..errors import ComputationError
 from .line import Line
@@ -25,8 +26,6 @@ _BESIDE = 1e-9  # relative distance at which both sides of a graze are computed
 _ACCEPTED = 1e-6  # relative distance at which collisions must confirm a change
 _LOCATED = 1e-8  # the same for one located by a smooth function; otherwise it is bracketed again by outcomes
 _NARROW = 2e-9  # width in ln St to which outcomes bracket a change
-_ROUNDS = 48  # rounds of dividing brackets; 16 suffice where every collision is decided
-_PARTS = 16  # most subdivisions of a bracket in a round
 _AT_ONCE = 16  # collisions of a round that are worth waiting for together: two for each lane of the kernel
 
 
@@ -63,15 +62,6 @@ class _Bracket:
     before: str
     after: str
     met: tuple[int, int]
-
-    @property
-    def width(self) -> float:
-        return math.log(self.high / self.low)
-
-    def divided(self, count: int) -> np.ndarray:
-        """Stokes numbers that divide it into `count` parts, even in the logarithm, without its ends."""
-        inside: np.ndarray = self.low * (self.high / self.low) ** (np.arange(1, count) / count)
-        return inside
 
 
 def changes_along(
@@ -264,73 +254,40 @@ def _agreeing(groups: list[list[Change]], seen: np.ndarray, narrow: np.ndarray) 
 
 
 def _enclosed(look: Look, brackets: Sequence[_Bracket], kernel_only: bool) -> list[list[Change]]:
-    """Refine brackets of any lines together by outcomes until each is narrower than _NARROW in ln St.
-
-    Few brackets are divided into many parts, many into two: the fewest collisions that fill the kernel's lanes. One
-    whose collisions are undecided is divided into _PARTS.
+    """The changes within brackets of any lines, all enclosed together by outcomes to _NARROW in ln St.
 
     Arguments:
-        kernel_only: return no changes for a bracket in which the kernel decides no collision.
+        kernel_only: no changes of a bracket within which the kernel does not decide a collision.
 
     Raises:
-        ComputationError: no collision in a bracket could be decided.
+        ComputationError: no collision within a bracket could be decided.
     """
-    open_ = list(enumerate(brackets))
-    closed: list[list[_Bracket]] = [[] for _ in brackets]
-    undecided: set[int] = set()
-    slow: set[int] = set()
-    for _ in range(_ROUNDS):
-        if not open_:
-            break
-        parts = 1 + math.ceil(_AT_ONCE / len(open_))
-        counts = [_PARTS if k in slow else min(parts, _PARTS) for k, _ in open_]
-        grids = [one.divided(count) for (_, one), count in zip(open_, counts)]
-        sizes = [grid.size for grid in grids]
-        angle = np.repeat([one.line.angle for _, one in open_], sizes)
-        seen = np.split(look.outcomes(angle, np.concatenate(grids), kernel_only), np.cumsum(sizes)[:-1])
-        narrower: list[tuple[int, _Bracket]] = []
-        for (k, one), grid, own in zip(open_, grids, seen, strict=True):
-            usable = own["outcome"] >= 0
-            if usable.any():
-                narrower += [(k, each) for each in _parts_of(one, grid[usable], own[usable])]
-            elif one.width < MERGED:  # a band narrower than the error of collisions
-                closed[k].append(one)
-            elif grid.size < _PARTS - 1:
-                slow.add(k)
-                narrower.append((k, one))
-            elif kernel_only:
-                undecided.add(k)
-            else:
-                reason = look.reason(one.line.angle, one.low, one.high)
-                raise ComputationError(f"a change of outcome between St {one.low:.10g} and {one.high:.10g}: {reason}")
-        open_ = [(k, one) for k, one in narrower if one.width > _NARROW and k not in undecided]
-        for k, one in narrower:
-            if one.width <= _NARROW:
-                closed[k].append(one)
-    if open_ and not kernel_only:
-        one = open_[0][1]
-        raise ComputationError(f"a change of outcome between St {one.low:.10g} and {one.high:.10g} is not enclosed")
-    undecided |= {k for k, _ in open_}
-    return [
-        [] if k in undecided else [_enclosed_change(one) for one in sorted(own, key=lambda one: one.low)]
-        for k, own in enumerate(closed)
-    ]
+    angle = np.array([one.line.angle for one in brackets])
+    met = {(k, at): own for k, one in enumerate(brackets) for at, own in zip((one.low, one.high), one.met)}
 
+    def labels(which: np.ndarray, stokes: np.ndarray) -> np.ndarray:
+        seen = look.outcomes(angle[which], stokes, kernel_only)
+        met.update(zip(zip(which.tolist(), stokes.tolist()), seen["reversal"].tolist()))
+        outcome: np.ndarray = seen["outcome"]
+        return outcome
 
-def _parts_of(bracket: _Bracket, grid: np.ndarray, seen: np.ndarray) -> list[_Bracket]:
-    """The narrower brackets given by collisions within one."""
-    at = [bracket.low, *grid.tolist(), bracket.high]
-    outcomes = [bracket.before, *(OUTCOMES[k] for k in seen["outcome"]), bracket.after]
-    met = [bracket.met[0], *seen["reversal"].tolist(), bracket.met[1]]
-    return [
-        _Bracket(bracket.line, at[k], at[k + 1], outcomes[k], outcomes[k + 1], (met[k], met[k + 1]))
-        for k in range(len(at) - 1)
-        if outcomes[k] != outcomes[k + 1]
-    ]
-
-
-def _enclosed_change(one: _Bracket) -> Change:
-    return _change(one.line, math.sqrt(one.low * one.high), one.before, one.after, _kind(one))
+    ends = ([one.low for one in brackets], [one.high for one in brackets])
+    words = ([OUTCOMES.index(one.before) for one in brackets], [OUTCOMES.index(one.after) for one in brackets])
+    wide = Brackets(np.arange(len(brackets)), *(np.array(each) for each in (*ends, *words)))
+    narrow = enclose(labels, wide, _NARROW, at_once=_AT_ONCE, unknown=-1, logarithmic=True)
+    changes: list[list[Change]] = [[] for _ in brackets]
+    undecided = set()
+    for k, low, high, before, after in zip(*(each.tolist() for each in vars(narrow).values()), strict=True):
+        line = brackets[k].line
+        if math.log(high / low) >= MERGED:  # a narrower band may be the error of collisions
+            if not kernel_only:
+                reason = look.reason(line.angle, low, high)
+                raise ComputationError(f"a change of outcome between St {low:.10g} and {high:.10g}: {reason}")
+            undecided.add(k)
+            continue
+        one = _Bracket(line, low, high, OUTCOMES[before], OUTCOMES[after], (met[k, low], met[k, high]))
+        changes[k].append(_change(line, math.sqrt(low * high), one.before, one.after, _kind(one)))
+    return [[] if k in undecided else own for k, own in enumerate(changes)]
 
 
 def _kind(one: _Bracket) -> str:

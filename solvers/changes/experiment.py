@@ -42,6 +42,11 @@ _PLACES: dict[str, tuple[int, int | str]] = {  # column of the derivative, field
 _TIMES = {"contact_time", "rotation"}  # these need every step of a trajectory
 
 
+def free_names(scene: Scene) -> tuple[str, ...]:
+    """The entries of a scene that may be free: its numbers, without those of the impact."""
+    return tuple(name for name, value in scene.si if not isinstance(value, str) and not name.startswith("impact."))
+
+
 class Rows:
     """The quantities of rows as a function of the values of free entries.
 

@@ -12,13 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..changes.experiment import Rows
+from ..changes.experiment import Rows, free_names
 from ..errors import InputError
 from ..host.arguments import check_names
 from ..scene import units
 from ..scene.scene import Scene
-from ..scene.schema import ANY, FRACTION, NOT_NEGATIVE, PART, POISSON, POSITIVE, SPINS, WETTING_ANGLE
-from ..sensitivity.parameters import known_of_particles
+from ..scene.schema import ANY, FRACTION, NOT_NEGATIVE, PART, POISSON, POSITIVE, WETTING_ANGLE
 from .measurements import Measurements, rows_of
 
 IDENTIFIED = "identified"
@@ -145,7 +144,7 @@ def free_entries(
         InputError: an entry that the scene has not, that is a choice, or varies in the data; one without a first
             guess; a prior of another entry.
     """
-    known = tuple(name for name in known_of_particles(scene) if name not in SPINS)
+    known = free_names(scene)
     chosen = check_names(names, known, "free")
     if not chosen:
         raise InputError("free", "", ", ".join(known), "names no entry")

@@ -11,6 +11,7 @@ import numpy as np
 from casadi import Function, vertcat
 
 from ...generated.automaton import OUTCOMES
+from ..changes.experiment import free_names
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance_for
 from ..engines.casadi.locate import EventLocator
 from ..errors import ComputationError, WetDoubletError
@@ -29,7 +30,7 @@ from ..space.pairs import Pairs, checked
 from .boundary_distance import checked_by_estimates
 from .directions import differentiated
 from .pair_maps import RESULTS, pair_maps, quantities_of
-from .parameters import kind_of, known_of_particles, parameter_map, references
+from .parameters import kind_of, parameter_map, references
 from .problem import LOCATED, amplifies, sharpened
 from .trajectory_expression import Course, TrajectoryExpression, course_of, follow_course, influential, symbols
 
@@ -81,7 +82,7 @@ def pair_gradients(
     register()
     loaded, rtol = Scene.load(scene), check_rtol(rtol)
     check_scene(loaded)
-    everything = (*known_of_particles(loaded), *INPUTS)
+    everything = (*free_names(loaded), *INPUTS)
     names = everything if wrt is None else check_names(wrt, everything, "wrt")
     pairs = checked(loaded, normal, velocities, spins)
     asked = _Asked.of(loaded, names)

@@ -54,11 +54,6 @@ def _defaults(scene: Scene) -> dict[str, float]:
     return {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in tables and name not in barred}
 
 
-def known_of_particles(scene: Scene) -> tuple[str, ...]:
-    """The parameters of a scene without its impact."""
-    return tuple(name for name in known(scene) if not name.startswith("impact."))
-
-
 @dataclass(frozen=True)
 class Kind:
     """Key of a parameter map: the entries that a scene has, and the held quantity of the impact."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..changes.brackets import bisect
 from ..errors import ComputationError
 from ..scene.scene import Scene
 from .build import Builder, Slice
@@ -120,13 +121,13 @@ class Slicer:
     def _changes(self, low: float, high: float) -> tuple[float, float]:
         """Two values close to each other between which the layout changes."""
         shape = self.layout(low).shape
-        while high - low > _APART * (1.0 if self.range.logarithmic else max(abs(low), abs(high))):
-            middle = 0.5 * (low + high)
-            if self.layout(middle).shape == shape:
-                low = middle
-            else:
-                high = middle
-        return low, high
+        apart = _APART * (1.0 if self.range.logarithmic else max(abs(low), abs(high)))
+
+        def is_below(at: np.ndarray) -> np.ndarray:
+            return np.array([self.layout(float(each)).shape == shape for each in at])
+
+        first, last = bisect(is_below, np.array([low]), np.array([high]), apart)
+        return float(first[0]), float(last[0])
 
     def _shown(self, at: float) -> str:
         return f"{math.exp(at) if self.range.logarithmic else at:.6g}"
