@@ -76,7 +76,7 @@ def locate(
     first = label.reshape(places.shape)[:, 0].copy()
     rows, earliest = np.unique(line[known], return_index=True)
     first[rows] = label[known[earliest]]
-    return Changes(*(getattr(closed, each.name) for each in fields(Brackets)), first)
+    return Changes(closed.line, closed.low, closed.high, closed.before, closed.after, first)
 
 
 def enclose(

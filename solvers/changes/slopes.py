@@ -112,7 +112,8 @@ def _by_times(
     ]  # fmt: skip
     own = len(points) - len(possible)
     every, rows = experiment.joined([*[experiment] * (own - 1), *displaced.values()], lines.row[line])
-    answers = every.answers(rows, *(np.concatenate(each) for each in zip(*points, strict=True)))
+    speeds, angles = (np.concatenate(each) for each in zip(*points, strict=True))
+    answers = every.answers(rows, speeds, angles)
     done = (answers["status"] <= LAST_ANSWER) & (answers["outcome"] > 0)
     times = np.where(done, answers["time"], np.nan).reshape(len(points), -1)
     time, second, third = times[:3]

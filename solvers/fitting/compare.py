@@ -122,12 +122,13 @@ def compare_models(
     tolerance = check_rtol(rtol)
     own, *others = _scenes(first, names)
     request = table, free, prior, min(folds, table.size), tolerance, seed
-    candidates = [_candidate(*own, *request)]
+    candidates = [_candidate(own[0], own[1], *request)]
     cores = min(usable_cores(), len(others))
     if cores > 1:
-        candidates += [each for _, each in in_workers(cores, _tried, ((one[0], (*one, *request)) for one in others))]
+        parts = ((name, (name, scene, *request)) for name, scene in others)
+        candidates += [each for _, each in in_workers(cores, _tried, parts)]
     else:
-        candidates += [_tried(*one, *request) for one in others]
+        candidates += [_tried(name, scene, *request) for name, scene in others]
     order = sorted(candidates, key=lambda each: (np.inf if each.aic is None else each.aic, each.name))
     return Comparison(first, tuple(order))
 

@@ -85,18 +85,25 @@ class Measurements:
     @property
     def measured(self) -> np.ndarray:
         """Mask of the rows with a measured result."""
-        return np.isfinite([values for values, _ in self.observed.values()] or [np.full(self.size, np.nan)]).any(axis=0)
+        seen = np.zeros(self.size, bool)
+        for values, _ in self.observed.values():
+            seen |= np.isfinite(values)
+        return seen
 
     @property
     def separated(self) -> np.ndarray:
         """Mask of the rows of which the likelihood holds a density of a measured result."""
-        return self.measured & (self.outcome != _STICK)
+        separated: np.ndarray = self.measured & (self.outcome != _STICK)
+        return separated
 
     @property
     def allowed(self) -> np.ndarray:
         """Mask (rows, outcomes) of the outcomes that agree with a row."""
         codes = np.arange(len(OUTCOMES))
-        return np.where(self.outcome[:, None] == UNKNOWN, codes != _STICK, self.outcome[:, None] == codes)
+        allowed: np.ndarray = np.where(
+            self.outcome[:, None] == UNKNOWN, codes != _STICK, self.outcome[:, None] == codes
+        )
+        return allowed
 
     def part(self, which: np.ndarray) -> Measurements:
         """The rows of these indices."""

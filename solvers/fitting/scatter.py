@@ -8,7 +8,7 @@ square root at a change is smooth too.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -28,6 +28,7 @@ _LOOSER = 30.0  # most by which that grows with the distance from the centre: ra
 _SLOWEST = 1e-3  # least speed of a scattered impact, over the nominal one
 _STEEPEST = np.radians(89.4)
 _OUTCOMES = 3
+Function = Callable[[np.ndarray], np.ndarray]
 _QUICK = 1000  # steps of a trajectory with derivatives, beyond which others' on the same segment stand for them
 _DEGREE = 4  # of the polynomial by which they do
 
@@ -205,7 +206,8 @@ class Segments:
         by_free = np.zeros((changes.size + 1, len(experiment.rows.names)))  # the last for ends that stay
         if needed.size:
             by_free[needed] = np.nan_to_num(slopes(experiment, lines, changes.part(needed), quick))
-        return by_free[np.stack([self.first, self.last])]
+        moving: np.ndarray = by_free[np.stack([self.first, self.last])]
+        return moving
 
     def results(
         self, experiment: Experiment, lines: Lines, ends: np.ndarray, names: tuple[str, ...], nodes: int, points: int,
@@ -267,7 +269,7 @@ class SegmentMap:
     interpolate: np.ndarray
 
 
-_MAPS = (  # g with a square at an end that is a change, and its derivative
+_MAPS: tuple[tuple[Function, Function], ...] = (  # g with a square at an end that is a change, and its derivative
     (lambda t: t, np.ones_like),
     (lambda t: t**2, lambda t: 2 * t),
     (lambda t: t * (2 - t), lambda t: 2 - 2 * t),

@@ -131,7 +131,7 @@ def _known(
         return fitted.free, fitted.objective.information(fitted.best), fitted.scene
     entries = free_entries(scene, free, window.plan(np.zeros((1, 2))), prior, rtol)
     rates = entries.rates(entries.values(entries.start))
-    slopes = [0.0 if each.prior is None else each.prior.misfit(each.value)[1] for each in entries.entries]
+    slopes = np.array([0.0 if each.prior is None else each.prior.misfit(each.value)[1] for each in entries.entries])
     return entries, np.diag((slopes * rates) ** 2), scene
 
 

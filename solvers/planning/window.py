@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -45,31 +45,33 @@ class Scatter:
             noise = float(np.median(sd[np.isfinite(values)])) if np.isfinite(values).any() else None
         return cls(float(np.median(data.speed_sd / data.speed)), float(np.median(data.angle_sd)), noise)
 
-    @classmethod
-    def checked(cls, speed: object, angle: object, restitution: object, default: Scatter) -> Scatter:
+    @staticmethod
+    def checked(speed: object, angle: object, restitution: object, default: Scatter) -> Scatter:
         """From an argument each, None for the default; "none" for a restitution that is not measured.
 
         Raises:
             InputError: no acceptable standard deviation, or none in speed and angle.
         """
-        parts = {"speed": default.speed, "angle": default.angle, "restitution": default.restitution}
+        scatter = default
         if speed is not None:
             accepted = f'a part of the speed, 0 to below {_WIDEST_SPEED:.2g}, such as "2 %" or 0.02'
-            parts["speed"] = _number("speed_sd", speed, accepted, lambda value: 0 <= value < _WIDEST_SPEED, True)
+            part = _number("speed_sd", speed, accepted, lambda value: 0 <= value < _WIDEST_SPEED, True)
+            scatter = replace(scatter, speed=part)
         if angle is not None:
-            parts["angle"] = FIELDS["impact.angle"].number(angle, label="angle_sd")
-            if parts["angle"] >= _WIDEST_ANGLE:
+            scatter = replace(scatter, angle=FIELDS["impact.angle"].number(angle, label="angle_sd"))
+            if scatter.angle >= _WIDEST_ANGLE:
                 accepted = f'an angle from 0 to below {_WIDEST_ANGLE} rad, such as "1 deg"'
                 raise InputError("angle_sd", angle, accepted, "is out of range")
         if isinstance(restitution, str) and restitution.strip() == "none":
-            parts["restitution"] = None
+            scatter = replace(scatter, restitution=None)
         elif restitution is not None:
             accepted = 'a number > 0, or "none" where only outcomes are recorded'
-            parts["restitution"] = _number("restitution_sd", restitution, accepted, lambda value: 0 < value < math.inf)
-        if parts["speed"] == parts["angle"] == 0:
+            noise = _number("restitution_sd", restitution, accepted, lambda value: 0 < value < math.inf)
+            scatter = replace(scatter, restitution=noise)
+        if scatter.speed == scatter.angle == 0:
             accepted = "speed_sd or angle_sd above 0: an outcome without scatter has no likelihood"
             raise InputError("speed_sd", 0, accepted)
-        return cls(**parts)
+        return scatter
 
 
 def _number(label: str, value: Any, accepted: str, holds: Callable[[float], bool], percent: bool = False) -> float:
