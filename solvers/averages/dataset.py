@@ -38,30 +38,28 @@ _AXES = {"radius": "radius of the first sphere", "partner_radius": "radius of th
 
 
 def dataset(
-    scene: Scene, axes: Mapping[str, np.ndarray], found: Columns, attributes: Mapping[str, Any], wrt: Sequence[str]
+    scene: Scene, axes: Mapping[str, np.ndarray], columns: Columns, attributes: Mapping[str, Any], wrt: Sequence[str]
 ) -> xarray.Dataset:
     """The Dataset of flat columns, one row for each pair."""
     import xarray as xr
 
     dims, shape = tuple(axes), tuple(axis.size for axis in axes.values())
-    mean, error = _quantities(found["mean"], found["error"])
+    mean, error, slope, slope_error = _quantities(columns, len(wrt))
     variables: dict[str, Any] = {}
-    for k, (name, (_, said)) in enumerate({**_MEANS, **_SEPARATED}.items()):
-        variables[name] = dims, mean[:, k].reshape(shape), {"units": "1", "long_name": said}
-        told = {"units": "1", "long_name": f"estimated error of the quadrature of {name}"}
-        variables[f"{name}_error"] = dims, error[:, k].reshape(shape), told
+    for k, (name, (_, meaning)) in enumerate({**_MEANS, **_SEPARATED}.items()):
+        variables[name] = dims, mean[:, k].reshape(shape), {"units": "1", "long_name": meaning}
+        meaning = f"estimated error of the quadrature of {name}"
+        variables[f"{name}_error"] = dims, error[:, k].reshape(shape), {"units": "1", "long_name": meaning}
     coordinates: dict[str, Any] = {
         name: (name, axis, {"units": "m", "long_name": _AXES[name]}) for name, axis in axes.items()
     }
     if wrt:
-        over = (*dims, "quantity", "parameter")
-        slopes, doubts = _gradients(found, len(wrt))
-        sizes = (*shape, len(QUANTITIES), len(wrt))
-        variables["gradient"] = over, slopes.reshape(sizes), {"long_name": "derivatives by entries of the scene, SI"}
-        variables["gradient_error"] = over, doubts.reshape(sizes), {"long_name": "estimated errors of gradient"}
+        over, sizes = (*dims, "quantity", "parameter"), (*shape, len(QUANTITIES), len(wrt))
+        variables["gradient"] = over, slope.reshape(sizes), {"long_name": "derivatives by entries of the scene, SI"}
+        variables["gradient_error"] = over, slope_error.reshape(sizes), {"long_name": "estimated errors of gradient"}
         coordinates |= {"quantity": list(QUANTITIES), "parameter": list(wrt)}
-    variables["reason"] = dims, found["reason"].astype(str).reshape(shape), {"long_name": "why it failed"}
-    told = {
+    variables["reason"] = dims, columns["reason"].astype(str).reshape(shape), {"long_name": "why it failed"}
+    all_attributes = {
         "Conventions": "CF-1.11",
         "title": f"Collision averages: {scene.name or 'unnamed scene'}",
         "source": f"wetdoublet {version('wetdoublet')}",
@@ -70,35 +68,27 @@ def dataset(
         "scene": scene.to_toml(),
         **({} if scene.package is None else {"model": scene.package.text}),
     }
-    return xr.Dataset(variables, coordinates, told)
+    return xr.Dataset(variables, coordinates, all_attributes)
 
 
-def _quantities(mean: np.ndarray, error: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Means and errors of `QUANTITIES`, (pairs, quantities)."""
-    apart, doubt = _apart(mean), error[:, [STICKS]]
-    some = np.where(apart > np.maximum(doubt, 1e-12), apart, np.nan)
+def _quantities(columns: Columns, parameters: int) -> tuple[np.ndarray, ...]:
+    """Means and errors of `QUANTITIES`, (pairs, quantities), and their derivatives, (pairs, quantities, parameters).
+
+    The means over the collisions that separate are those over all, divided by the share of the former, s = 1 - stick.
+    """
+    mean, error = columns["mean"], columns["error"]
+    slope, slope_error = (
+        columns[name].reshape(len(mean), COLUMNS, parameters) for name in ("gradient", "gradient_error")
+    )
+    separate, of_share = mean[:, [ROTATES]] + mean[:, [BOUNCES]], error[:, [STICKS]]
+    share = np.where(separate > np.maximum(of_share, 1e-12), separate, np.nan)
     both = [place for place, _ in _SEPARATED.values()]
-    ratio = mean[:, both] / some
-    return np.hstack([mean, ratio]), np.hstack([error, (error[:, both] + np.abs(ratio) * doubt) / some])
-
-
-def _gradients(found: Columns, parameters: int) -> tuple[np.ndarray, np.ndarray]:
-    """Derivatives of `QUANTITIES` and their errors, (pairs, quantities, parameters)."""
-    mean, doubt = found["mean"], found["error"][:, [STICKS]]
-    slope, error = (found[name].reshape(-1, COLUMNS, parameters) for name in ("gradient", "gradient_error"))
-    apart = _apart(mean)
-    some = np.where(apart > np.maximum(doubt, 1e-12), apart, np.nan)[:, :, None]
-    both = [place for place, _ in _SEPARATED.values()]
-    ratio = mean[:, both, None] / some
-    of_ratio = (slope[:, both] + ratio * slope[:, [STICKS]]) / some
-    errors = (error[:, both] + np.abs(ratio) * error[:, [STICKS]]) / some
-    return np.concatenate([slope, of_ratio], axis=1), np.concatenate([error, errors], axis=1)
-
-
-def _apart(mean: np.ndarray) -> np.ndarray:
-    """The share of collisions that separate, (pairs, 1)."""
-    found: np.ndarray = mean[:, [ROTATES]] + mean[:, [BOUNCES]]
-    return found
+    ratio = mean[:, both] / share
+    ratio_error = (error[:, both] + np.abs(ratio) * of_share) / share
+    ratio_slope = (slope[:, both] + ratio[..., None] * slope[:, [STICKS]]) / share[..., None]
+    ratio_slope_error = (slope_error[:, both] + np.abs(ratio)[..., None] * slope_error[:, [STICKS]]) / share[..., None]
+    pairs = (mean, ratio), (error, ratio_error), (slope, ratio_slope), (slope_error, ratio_slope_error)
+    return tuple(np.concatenate(each, axis=1) for each in pairs)
 
 
 def to_csv(data: xarray.Dataset) -> str:
@@ -116,16 +106,16 @@ def to_csv(data: xarray.Dataset) -> str:
     columns["relative_speeds"] = np.full(data["stick_probability"].size, data.attrs["speeds"])
     plain = [str(name) for name in data.data_vars if data[name].dims == data["stick_probability"].dims]
     columns |= {name: data[name].values.ravel() for name in sorted(plain, key=lambda name: name == "reason")}
-    for variable, said in (("gradient", ""), ("gradient_error", " error")) if "gradient" in data else ():
+    for variable, suffix in (("gradient", ""), ("gradient_error", " error")) if "gradient" in data else ():
         values = data[variable].transpose("quantity", "parameter", *dims).values
         for quantity, row in zip(data["quantity"].values, values, strict=True):
-            for parameter, own in zip(data["parameter"].values, row, strict=True):
-                columns[f"d({quantity})/d({parameter}){said}"] = own.ravel()
-    made = io.StringIO()
-    table = csv.writer(made, lineterminator="\n")
+            for parameter, cells in zip(data["parameter"].values, row, strict=True):
+                columns[f"d({quantity})/d({parameter}){suffix}"] = cells.ravel()
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
     table.writerow(columns)
     table.writerows(zip(*(_cells(values) for values in columns.values()), strict=True))
-    return made.getvalue()
+    return text.getvalue()
 
 
 def _cells(values: np.ndarray) -> list[Any]:

@@ -47,27 +47,30 @@ class Speeds:
     density: Callable[[np.ndarray], np.ndarray] | None
 
     @classmethod
-    def of(cls, given: Any, label: str = "speeds") -> Speeds:
+    def of(cls, value: Any, label: str = "speeds") -> Speeds:
         """The distribution that is meant.
 
         Arguments:
-            given: a Speeds; a number in m/s, or text with its unit; text `maxwell:` with a speed; a pair of arrays
+            value: a Speeds; a number in m/s, or text with its unit; text `maxwell:` with a speed; a pair of arrays
                 (speeds, densities); or a CSV file of two columns.
 
         Raises:
             InputError: anything else.
         """
-        if isinstance(given, Speeds):
-            return given
-        if isinstance(given, str) and given.strip().lower().startswith(_PREFIX):
-            return maxwellian(_GAS.number(given.strip()[len(_PREFIX) :], label=label))
-        if isinstance(given, Path) or (isinstance(given, str) and given.strip().lower().endswith(".csv")):
-            return _table(*_columns(Path(given), label), label)
-        if isinstance(given, (tuple, list)) and len(given) == 2 and np.ndim(given[0]) == 1:
-            return _table(array(given[0], _SPEED, label), np.asarray(given[1], dtype=float), label)
-        if given is None or isinstance(given, (tuple, list)):
-            raise InputError(label, given, _ACCEPTED, "missing" if given is None else "is no such pair of arrays")
-        speed = _SPEED.number(given, label=label)
+        if isinstance(value, Speeds):
+            return value
+        text = value.strip().lower() if isinstance(value, str) else ""
+        if text.startswith(_PREFIX):
+            return maxwellian(_GAS.number(value.strip()[len(_PREFIX) :], label=label))
+        if isinstance(value, Path) or text.endswith(".csv"):
+            return _table(*_columns(Path(value), label), label)
+        if value is None:
+            raise InputError(label, value, _ACCEPTED, "missing")
+        if isinstance(value, (tuple, list)):
+            if len(value) != 2 or np.ndim(value[0]) != 1:
+                raise InputError(label, value, _ACCEPTED, "is no such pair of arrays")
+            return _table(array(value[0], _SPEED, label), np.asarray(value[1], dtype=float), label)
+        speed = _SPEED.number(value, label=label)
         return cls(f"relative speed {speed:.6g} m/s", np.array([speed]), None)
 
 
@@ -85,8 +88,8 @@ def maxwellian(deviation: float) -> Speeds:
 
     def density(speed: np.ndarray) -> np.ndarray:
         u = (speed / (2 * deviation)) ** 2
-        found: np.ndarray = u * speed / (2 * deviation**2) * np.exp(-u)
-        return found
+        per_speed: np.ndarray = u * speed / (2 * deviation**2) * np.exp(-u)
+        return per_speed
 
     text = f"Maxwellian gas, velocity components of standard deviation {deviation:.6g} m/s"
     return Speeds(text, np.array(_MAXWELL) * deviation, density)
@@ -116,15 +119,15 @@ def _columns(path: Path, label: str) -> tuple[np.ndarray, np.ndarray]:
     try:
         with path.open(newline="", encoding="utf-8") as file:
             header, *rows = list(csv.reader(file))
-        if [name.partition("[")[0].strip() for name in header] != list(_HEADER):
-            raise InputError(label, str(path), accepted, f"has the header {shown(','.join(header))}")
-        found = np.array([[float(value) for value in row] for row in rows if row])
+        named = [name.partition("[")[0].strip() for name in header] == list(_HEADER)
+        numbers = [[float(cell) for cell in row] for row in rows if row] if named else []
     except OSError as error:
         raise InputError(label, str(path), accepted, f"cannot be read ({error.strerror or error})") from None
     except (ValueError, csv.Error) as error:
-        if isinstance(error, InputError):
-            raise
         raise InputError(label, str(path), accepted, f"is no such table ({error})") from None
-    if found.ndim != 2 or found.shape[1] != 2:
+    if not named:
+        raise InputError(label, str(path), accepted, f"has the header {shown(','.join(header))}")
+    if {len(row) for row in numbers} != {2}:
         raise InputError(label, str(path), accepted, "has rows of another length")
-    return found[:, 0], found[:, 1]
+    speed, density = np.array(numbers).T
+    return speed, density

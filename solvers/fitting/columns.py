@@ -32,23 +32,22 @@ class Column:
 
 def columns_of(source: Any, label: str) -> tuple[list[Column], list[int]]:
     """The columns of a source, and the line of each row where it is a file, else the number of the row."""
-    if isinstance(source, Mapping) and not hasattr(source, "data_vars"):
-        made = {str(name): _listed(values, f"{label}, column {name}") for name, values in source.items()}
-        return _named(made, {}, label)
     if hasattr(source, "data_vars"):  # xarray
         frame = source.to_dataframe().reset_index()
-        given = {str(name): source[name].attrs.get("units") for name in (*source.data_vars, *source.coords)}
+        units = {str(name): source[name].attrs.get("units") for name in (*source.data_vars, *source.coords)}
         for name in source.dims:
             if name in source.coords and np.array_equal(source[name].values, np.arange(source.sizes[name])):
-                del given[str(name)]  # it numbers the rows
-        kept = {str(name): frame[name].tolist() for name in frame.columns if str(name) in given}
-        return _named(kept, {name: unit for name, unit in given.items() if isinstance(unit, str)}, label)
+                del units[str(name)]  # it numbers the rows
+        cells = {str(name): frame[name].tolist() for name in frame.columns if str(name) in units}
+        return _named(cells, label, {name: unit for name, unit in units.items() if isinstance(unit, str)})
+    if isinstance(source, Mapping):
+        return _named({str(name): _listed(each, f"{label}, column {name}") for name, each in source.items()}, label)
     if hasattr(source, "columns") and hasattr(source, "iloc"):  # pandas
         if not source.columns.is_unique:
             name = source.columns[source.columns.duplicated()][0]
             raise InputError(f"{label}, header", str(name), "each column once", "is given twice")
         known = source.astype(object).where(source.notna(), None)  # pandas has several kinds of missing cells
-        return _named({str(name): known[name].tolist() for name in known.columns}, {}, label)
+        return _named({str(name): known[name].tolist() for name in known.columns}, label)
     if isinstance(source, (str, Path)):
         return _from_csv(source, label)
     accepted = "a CSV file, a DataFrame, a Dataset, or a mapping of columns"
@@ -56,21 +55,22 @@ def columns_of(source: Any, label: str) -> tuple[list[Column], list[int]]:
 
 
 def _listed(values: Any, label: str) -> list[Any]:
-    found = values.tolist() if hasattr(values, "tolist") else values
-    if isinstance(found, (list, tuple)):
-        return list(found)
+    cells = values.tolist() if hasattr(values, "tolist") else values
+    if isinstance(cells, (list, tuple)):
+        return list(cells)
     raise InputError(label, values, "a list or a 1-D array", "is not a column")
 
 
-def _named(cells: Mapping[str, list[Any]], given: Mapping[str, str], label: str) -> tuple[list[Column], list[int]]:
+def _named(
+    cells: Mapping[str, list[Any]], label: str, units: Mapping[str, str] | None = None
+) -> tuple[list[Column], list[int]]:
+    """Columns of cells; the units of their names are those of `units`, where it has them."""
     lengths = {name: len(values) for name, values in cells.items()}
     if len(set(lengths.values())) > 1:
         name, length = max(lengths.items(), key=lambda item: item[1])
         raise InputError(f"{label}, column {name}", f"{length} values", "columns of one length", "differs in length")
-    columns = []
-    for name, values in cells.items():
-        known, unit = _header(name, label)
-        columns.append(Column(known, given.get(name, unit), values))
+    headers = ((name, *_header(name, label)) for name in cells)
+    columns = [Column(known, (units or {}).get(name, unit), cells[name]) for name, known, unit in headers]
     return columns, list(range(1, max(lengths.values(), default=0) + 1))
 
 

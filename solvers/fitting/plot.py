@@ -30,7 +30,7 @@ _TRIED = 32  # values of the entries, for bands
 _JOINT = 0.95
 _CURVE = 80  # points of a curve of a result
 _PROFILE = 5  # points of a profile to each side
-_MARKS = dict(zip(OUTCOMES, ("o", "s", "^"), strict=True))
+_MARKS = {0: "o", 1: "s", 2: "^", -1: "x"}  # by outcome; -1: not recorded
 _LINES = ("#2a6f97", "#c1554a", "#4f772d")
 _LABELS = {
     "restitution": r"restitution $e_n$",
@@ -41,49 +41,49 @@ _LABELS = {
 
 
 @picture
-def draw(found: Fitted) -> Figure:
+def draw(fit: Fitted) -> Figure:
     """The four kinds of pictures of a fit in one figure."""
-    free = found.free
+    free = fit.free
     figure = Figure(figsize=(11.0, 7.6), layout="constrained")
     parts: Any = figure.subfigures(2, 1, height_ratios=(1.25, 1.0))
     top, bottom = parts
     left, right = top.subplots(1, 2)
-    samples = _samples(found)
-    _map(left, found, samples)
-    _results(right, found, samples)
+    samples = _samples(fit)
+    _map(left, fit, samples)
+    _results(right, fit, samples)
     axes = bottom.subplots(1, free.size + 1, width_ratios=[1.0] * free.size + [1.5], squeeze=False)[0]
     for k in range(free.size):
-        _profile(axes[k], found, k)
+        _profile(axes[k], fit, k)
     axes[0].set_ylabel("log-likelihood - maximum")
-    _residuals(axes[-1], found)
+    _residuals(axes[-1], fit)
     return figure
 
 
-def _samples(found: Fitted) -> np.ndarray:
+def _samples(fit: Fitted) -> np.ndarray:
     """Values of the entries within their joint 95 % region, the estimates first; bands are the range over them."""
-    free, objective = found.free, found.objective
-    white = whitening(objective, found.best)
-    ends = [(each.low, each.high) for each in found.estimates.values()]
+    free, objective = fit.free, fit.objective
+    white = whitening(objective, fit.best)
+    ends = [(each.low, each.high) for each in fit.estimates.values()]
     low = [free.low[k] if end[0] is None else free.entries[k].inner(end[0]) for k, end in enumerate(ends)]
     high = [free.high[k] if end[1] is None else free.entries[k].inner(end[1]) for k, end in enumerate(ends)]
     radius = np.sqrt(chi2.ppf(_JOINT, free.size))
     normal = np.random.default_rng(0).standard_normal((_TRIED, free.size))
     normal *= radius * np.linspace(0.4, 1.0, _TRIED)[:, None] / np.linalg.norm(normal, axis=1)[:, None]
-    least = objective.value(found.best) - radius**2 / 2
-    inside = [found.best]
-    tried = np.clip(found.best + normal @ white.T, low, high)
+    least = objective.value(fit.best) - radius**2 / 2
+    inside = [fit.best]
+    tried = np.clip(fit.best + normal @ white.T, low, high)
     inside += [each for each in tried if objective.value(each) >= least]
     return np.array([free.values(each) for each in inside])
 
 
-def _collided(found: Fitted, values: np.ndarray, speed: np.ndarray, angle: np.ndarray, of: tuple[str, ...] = ()) -> Any:
+def _collided(fit: Fitted, values: np.ndarray, speed: np.ndarray, angle: np.ndarray, of: tuple[str, ...] = ()) -> Any:
     """Collisions at all points with each of several values of the entries, (values, points)."""
     count, size = values.shape[0], speed.size
     vary = {}
-    for k, name in enumerate(found.free.names):
-        vary[name] = found.first.as_given(name, np.repeat(values[:, k], size))
-    kind: dict[str, Any] = {found.data.speed_name: np.tile(speed, count)}
-    return collide_many(found.first, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
+    for k, name in enumerate(fit.free.names):
+        vary[name] = fit.first.as_given(name, np.repeat(values[:, k], size))
+    kind: dict[str, Any] = {fit.data.speed_name: np.tile(speed, count)}
+    return collide_many(fit.first, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
 
 
 def _emptiest_corner(axes: Axes, x: np.ndarray, y: np.ndarray) -> str:
@@ -97,8 +97,8 @@ def _emptiest_corner(axes: Axes, x: np.ndarray, y: np.ndarray) -> str:
     return min(covered, key=lambda place: int(covered[place].sum()))
 
 
-def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
-    data = found.data
+def _map(axes: Axes, fit: Fitted, samples: np.ndarray) -> None:
+    data = fit.data
     low, high = data.speed.min(), data.speed.max()
     margin = max((high / low) ** 0.06, 1.05)
     first, last = np.degrees([data.angle.min(), data.angle.max()])
@@ -109,8 +109,8 @@ def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
         speed = np.geomspace(low / margin, high * margin, count)
         angle = np.linspace(limits[0], limits[1], count)
         points = [each.ravel() for each in np.meshgrid(speed, angle, indexing="ij")]
-        found_ = _collided(found, values, points[0], points[1]).outcome.values.reshape(-1, count, count)
-        return np.degrees(angle), speed, found_
+        outcome = _collided(fit, values, points[0], points[1]).outcome.values.reshape(-1, count, count)
+        return np.degrees(angle), speed, outcome
 
     degrees, speed, codes = outcomes(samples[:1], _FINE)
     colours = ListedColormap([FILLS[name] for name in OUTCOMES])
@@ -124,24 +124,18 @@ def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
     if differs.any():
         axes.contourf(rough_degrees, rough_speed, differs, levels=[0.5, 1.5], colors=["#000000"], alpha=0.18)
     handles = []
-    for code, name in enumerate(OUTCOMES):
+    for code, mark in _MARKS.items():
         seen = data.outcome == code
         if seen.any():
-            axes.plot(np.degrees(data.angle[seen]), data.speed[seen], _MARKS[name], color=INK, markerfacecolor="white",
-                      markersize=5, markeredgewidth=1.0, clip_on=False, zorder=3)  # fmt: skip
-            handles.append(_mark(name, f"{LETTERS[name]} observed"))
-    unknown = data.outcome < 0
-    if unknown.any():
-        axes.plot(
-            np.degrees(data.angle[unknown]), data.speed[unknown], "x", color=INK, markersize=5, clip_on=False, zorder=3
-        )
-        handles.append(Line2D([], [], linestyle="", marker="x", color=INK, label="outcome not recorded"))
-    odd = found.rows.contradicting
+            style: Any = {"color": INK, "marker": mark, "linestyle": "", "markerfacecolor": "white", "markersize": 5}
+            axes.plot(np.degrees(data.angle[seen]), data.speed[seen], **style, clip_on=False, zorder=3)
+            label = f"{LETTERS[OUTCOMES[code]]} observed" if code >= 0 else "outcome not recorded"
+            handles.append(Line2D([], [], **style, label=label))
+    odd = fit.rows.contradicting
     if odd.size:
-        axes.plot(np.degrees(data.angle[odd]), data.speed[odd], "o", color="#b00020", markerfacecolor="none",
-                  markersize=11, clip_on=False, zorder=3)  # fmt: skip
-        handles.append(Line2D([], [], linestyle="", marker="o", color="#b00020", markerfacecolor="none", markersize=9,
-                              label="contradicts the model"))  # fmt: skip
+        style = {"color": "#b00020", "marker": "o", "linestyle": "", "markerfacecolor": "none"}
+        axes.plot(np.degrees(data.angle[odd]), data.speed[odd], **style, markersize=11, clip_on=False, zorder=3)
+        handles.append(Line2D([], [], **style, markersize=9, label="contradicts the model"))
     present = [patch(name) for code, name in enumerate(OUTCOMES) if (codes[0] == code).any()]
     for each in present:
         each.set(edgecolor=INK, hatch=None, linewidth=0.6)  # the legend may lie on the same colour
@@ -151,16 +145,14 @@ def _map(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
     axes.set_ylabel(AXIS_LABELS[data.speed_name])
     corner: Any = _emptiest_corner(axes, np.degrees(data.angle), data.speed)
     axes.legend(handles=present + handles, fontsize=6.5, loc=corner, frameon=True, framealpha=0.9)
-    axes.set_title("impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _own(found), fontsize=9)
+    axes.set_title(
+        "impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _caveat(fit), fontsize=9
+    )
 
 
-def _mark(name: str, label: str) -> Line2D:
-    return Line2D([], [], linestyle="", marker=_MARKS[name], color=INK, markerfacecolor="white", label=label)
-
-
-def _results(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
-    data = found.data
-    name = next(iter(found.rows.expected), "")
+def _results(axes: Axes, fit: Fitted, samples: np.ndarray) -> None:
+    data = fit.data
+    name = next(iter(fit.rows.expected), "")
     if not name:
         axes.axis("off")
         axes.text(0.5, 0.5, "no result was measured beside the outcome", ha="center", va="center", color=NOTE)
@@ -171,17 +163,15 @@ def _results(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
     for colour, group in zip(_LINES, _by_angle(data.angle[rows])):
         own = rows[group]
         angle = float(np.mean(data.angle[own]))
-        values = _collided(found, samples, speed, np.full(_CURVE, angle), (name,))[name].values.reshape(-1, _CURVE)
-        told = np.isfinite(values).mean(axis=0) > 0.5
-        low, high = np.full(_CURVE, np.nan), np.full(_CURVE, np.nan)
-        if told.any():
-            low[told], high[told] = np.nanmin(values[:, told], axis=0), np.nanmax(values[:, told], axis=0)
+        values = _collided(fit, samples, speed, np.full(_CURVE, angle), (name,))[name].values.reshape(-1, _CURVE)
+        known = np.isfinite(values).mean(axis=0) > 0.5
+        low, high = (np.where(known, each(values, axis=0), np.nan) for each in (np.fmin.reduce, np.fmax.reduce))
         axes.fill_between(speed, low, high, color=colour, alpha=0.25, linewidth=0)
         axes.plot(speed, values[0], color=colour, linewidth=1.2, label=f"{np.degrees(angle):.3g}°")
         axes.errorbar(data.speed[own], measured[own], sd[own], data.speed_sd[own], fmt="o", color=colour,
                       markersize=3.5, elinewidth=0.7)  # fmt: skip
         if data.columns:
-            axes.plot(data.speed[own], found.rows.expected[name][own], "_", color=colour, markersize=10)
+            axes.plot(data.speed[own], fit.rows.expected[name][own], "_", color=colour, markersize=10)
     axes.set_xscale("log")
     plain(axes.xaxis)
     axes.set_xlabel(AXIS_LABELS[data.speed_name])
@@ -189,12 +179,12 @@ def _results(axes: Axes, found: Fitted, samples: np.ndarray) -> None:
     axes.legend(title="mean angle of the group", fontsize=7, title_fontsize=7)
     dashes = ";\ndashes: the fit with each impact's own entries" if data.columns else ""
     title = "measured, and the fit at the mean angle of each group with its band (95 %)"
-    axes.set_title(title + _own(found) + dashes, fontsize=9)
+    axes.set_title(title + _caveat(fit) + dashes, fontsize=9)
 
 
-def _own(found: Fitted) -> str:
+def _caveat(fit: Fitted) -> str:
     """What a picture for one value of every entry says where entries differ from impact to impact."""
-    names = ", ".join(found.data.columns)
+    names = ", ".join(fit.data.columns)
     return f",\nwith the scene's own {names}" if names else ""
 
 
@@ -205,18 +195,18 @@ def _by_angle(angle: np.ndarray) -> list[np.ndarray]:
     return [np.flatnonzero(np.isin(which, part)) for part in parts]
 
 
-def _profile(axes: Axes, found: Fitted, k: int) -> None:
-    free, objective, best = found.free, found.objective, found.best
+def _profile(axes: Axes, fit: Fitted, k: int) -> None:
+    free, objective, best = fit.free, fit.objective, fit.best
     entry = free.entries[k]
-    estimate = found.estimates[entry.name]
-    unit, size = unit_shown(found.first, entry.name)
+    estimate = fit.estimates[entry.name]
+    unit, size = unit_shown(fit.first, entry.name)
     top = objective.value(best)
     places, heights = [float(best[k])], [0.0]
     sides = (estimate.low, free.low[k]), (estimate.high, free.high[k])
-    for (bound, limit), end in zip(sides, found.ends[k], strict=True):
+    for (bound, limit), end in zip(sides, fit.ends[k], strict=True):
         far = limit if bound is None else best[k] + 1.35 * (entry.inner(bound) - best[k])
         outward = np.linspace(best[k], np.clip(far, free.low[k], free.high[k]), _PROFILE + 1)[1:]
-        both = _followed(found, k, best, outward), _followed(found, k, end, outward[::-1])[::-1]
+        both = _followed(fit, k, best, outward), _followed(fit, k, end, outward[::-1])[::-1]
         higher = np.maximum(*both) - top  # the other entries may have several maxima
         possible = np.isfinite(higher)
         places += outward[possible].tolist()
@@ -236,31 +226,28 @@ def _profile(axes: Axes, found: Fitted, k: int) -> None:
     axes.set_title(estimate.verdict, fontsize=8)
 
 
-def _followed(found: Fitted, k: int, start: np.ndarray, places: np.ndarray) -> np.ndarray:
+def _followed(fit: Fitted, k: int, start: np.ndarray, places: np.ndarray) -> np.ndarray:
     """Heights of the profile at places of entry k, the other entries each time from where they were before."""
     heights = []
     for at in places.tolist():
-        point = profile_point(found.objective, start, k, at)
-        heights.append(found.objective.value(point))
+        point = profile_point(fit.objective, start, k, at)
+        heights.append(fit.objective.value(point))
         start = point if np.isfinite(heights[-1]) else start
     return np.array(heights)
 
 
-def _residuals(axes: Axes, found: Fitted) -> None:
-    data, rows = found.data, found.rows
+def _residuals(axes: Axes, fit: Fitted) -> None:
+    data, rows = fit.data, fit.rows
     axes.axhspan(-2, 2, color=NOTE, alpha=0.12, linewidth=0)
     axes.axhline(0, color=NOTE, linewidth=0.8)
     for name, residual in rows.residual.items():
-        known = np.isfinite(residual)
-        for code, outcome in enumerate(OUTCOMES):
-            own = known & (data.outcome == code)
-            if own.any():
-                axes.plot(data.speed[own], residual[own], _MARKS[outcome], color=INK, markerfacecolor=EDGES[outcome],
-                          markersize=5, label=f"{LETTERS[outcome]}, {name.replace('_', ' ')}")  # fmt: skip
-        own = known & (data.outcome < 0)
-        if own.any():
-            label = f"outcome not recorded, {name.replace('_', ' ')}"
-            axes.plot(data.speed[own], residual[own], "x", color=INK, markersize=5, label=label)
+        for code, mark in _MARKS.items():
+            those = np.isfinite(residual) & (data.outcome == code)
+            if those.any():
+                outcome = LETTERS[OUTCOMES[code]] if code >= 0 else "outcome not recorded"
+                fill = EDGES[OUTCOMES[code]] if code >= 0 else INK
+                axes.plot(data.speed[those], residual[those], mark, color=INK, markerfacecolor=fill, markersize=5,
+                          label=f"{outcome}, {name.replace('_', ' ')}")  # fmt: skip
     stuck = ~data.separated
     if stuck.any():
         surprise = np.sqrt(np.maximum(-2 * np.log(np.maximum(rows.probability[stuck], 1e-9)), 0.0))

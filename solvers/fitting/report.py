@@ -25,21 +25,21 @@ _STYLE = (
 )
 
 
-def write_report(found: Fitted, folder: str | Path) -> list[Path]:
+def write_report(fit: Fitted, folder: str | Path) -> list[Path]:
     """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths."""
     into = check_folder(folder, "report")
     into.mkdir(parents=True, exist_ok=True)
-    saved(lambda: draw(found), into / "fit.png")
-    title = f"Fit of {found.points} impacts" + (f" to {found.first.name}" if found.first.name else "")
-    change = f"with twice as fine integrals it changes by {found.quadrature:.2g}"
-    height = f"Log-likelihood {found.log_likelihood:.4f}; {change}."
+    saved(lambda: draw(fit), into / "fit.png")
+    title = f"Fit of {fit.points} impacts" + (f" to {fit.first.name}" if fit.first.name else "")
+    change = f"with twice as fine integrals it changes by {fit.quadrature:.2g}"
+    height = f"Log-likelihood {fit.log_likelihood:.4f}; {change}."
     parts: list[tuple[str, Table | list[str]]] = [
-        ("", [CONTRADICTED] if found.rows.contradicted else []),
-        ("Estimates", found.table()),
-        ("", [*found.combinations, height]),
-        ("Correlation", _correlation(found)),
-        ("Remarks", list(found.remarks)),
-        ("Impacts that pull most", _rows(found)),
+        ("", [CONTRADICTED] if fit.rows.contradicted else []),
+        ("Estimates", fit.table()),
+        ("", [*fit.combinations, height]),
+        ("Correlation", _correlation(fit)),
+        ("Remarks", list(fit.remarks)),
+        ("Impacts that pull most", _rows(fit)),
         ("", ["Pull: how far the estimates would move without the impact, in standard errors, to first order."]),
     ]  # fmt: skip
     parts = [(head, part) for head, part in parts if part]
@@ -61,16 +61,16 @@ def write_report(found: Fitted, folder: str | Path) -> list[Path]:
     return [into / name for name in ("report.md", "report.html", "fit.png")]
 
 
-def _correlation(found: Fitted) -> Table | list[str]:
-    names = list(found.estimates)
+def _correlation(fit: Fitted) -> Table | list[str]:
+    names = list(fit.estimates)
     if len(names) < 2:
         return []
-    rows = [[name, *(f"{value:.2f}" for value in row)] for name, row in zip(names, found.correlation.tolist())]
+    rows = [[name, *(f"{value:.2f}" for value in row)] for name, row in zip(names, fit.correlation.tolist())]
     return ["", *names], rows
 
 
-def _rows(found: Fitted) -> Table:
-    data, rows = found.data, found.rows
+def _rows(fit: Fitted) -> Table:
+    data, rows = fit.data, fit.rows
     names = list(rows.expected)
     head = ["impact", f"{NAMES[data.speed_name]} (m/s)", "angle (deg)", "outcome", "probability"]
     head += [f"{name} (expected)" for name in names] + ["pull"]

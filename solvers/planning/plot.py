@@ -93,5 +93,5 @@ def _outcomes(design: Planned) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     points = window.grid(*_FINE)
     key, angle = window.values(points)
     along = np.unique(points[:, 0]).size
-    found = window.outcomes(points, design.rtol).reshape(-1, along)
-    return np.degrees(angle.reshape(-1, along)[:, 0]), key.reshape(-1, along)[0], found.T
+    outcomes = window.outcomes(points, design.rtol).reshape(-1, along)
+    return np.degrees(angle.reshape(-1, along)[:, 0]), key.reshape(-1, along)[0], outcomes.T

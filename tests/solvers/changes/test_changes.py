@@ -1,0 +1,197 @@
+"""Brackets, roots, experiments and slopes of changes, beside known places and beside collisions of single scenes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import ComputationError, Scene, boundary, boundary_sensitivities, collide_many
+from wetdoublet.solvers.changes.brackets import Brackets, bisect, enclose, locate
+from wetdoublet.solvers.changes.experiment import Experiment, Rows
+from wetdoublet.solvers.changes.lines import Lines
+from wetdoublet.solvers.changes.roots import root, sample
+from wetdoublet.solvers.changes.slopes import outcomes_along, slopes, slopes_by_differences
+
+ENTRIES = ("liquid.viscosity", "liquid.film_thickness")
+
+
+def steps(edges: np.ndarray):
+    """Labels 0, 1, 2, ... between the edges (lines, edges) of each line."""
+    return lambda line, place: (place[:, None] >= edges[line]).sum(axis=1)
+
+
+def test_changes_of_many_lines_are_enclosed() -> None:
+    """Every change is within its bracket, which is as narrow as asked, and has the labels of its sides."""
+    edges = np.sort(np.random.default_rng(0).uniform(0.05, 0.95, (50, 4)), axis=1)
+    changes = locate(steps(edges), np.tile(np.linspace(0, 1, 9), (50, 1)), 1e-9)
+    assert changes.size == edges.size  # strips narrower than the samples, too
+    assert ((changes.low <= edges.ravel()) & (edges.ravel() <= changes.high)).all()
+    assert (changes.high - changes.low).max() <= 1e-9
+    assert changes.before.tolist() == [0, 1, 2, 3] * 50
+    assert (changes.after == changes.before + 1).all()
+
+
+def test_pieces_lie_between_the_changes() -> None:
+    """Each line has one part more than changes; neighbouring parts share a change."""
+    changes = locate(steps(np.array([[0.3, 0.6], [2.0, 2.0]])), np.tile(np.linspace(0, 1, 5), (2, 1)), 1e-6)
+    line, label, lower, upper = changes.pieces()
+    assert line.tolist() == [0, 0, 0, 1]
+    assert label.tolist() == [0, 1, 2, 0]
+    assert lower.tolist() == [-1, 0, 1, -1]
+    assert upper.tolist() == [0, 1, -1, -1]
+
+
+def test_a_width_may_depend_on_the_place() -> None:
+    """Brackets are as narrow as the function of them says."""
+    edges = np.array([[0.2, 0.8]])
+    changes = locate(
+        steps(edges), np.linspace(0, 1, 4)[None], lambda brackets: np.where(brackets.low < 0.5, 1e-3, 1e-6)
+    )
+    assert 1e-4 < changes.high[0] - changes.low[0] <= 1e-3
+    assert changes.high[1] - changes.low[1] <= 1e-6
+
+
+def test_unknown_labels_are_passed_over() -> None:
+    """A bracket becomes as narrow as the band without labels within it; a change on another line is not affected."""
+
+    def labels(line: np.ndarray, place: np.ndarray) -> np.ndarray:
+        hidden = (line == 0) & (np.abs(place - 0.5) < 0.01)
+        return np.where(hidden, -1, place >= np.array([0.5, 0.505])[line])
+
+    changes = locate(labels, np.tile([0.0, 0.4, 1.0], (2, 1)), 1e-6, unknown=-1)
+    assert changes.low[0] <= 0.49 < 0.51 <= changes.high[0]
+    assert changes.high[0] - changes.low[0] < 0.03
+    assert changes.low[1] <= 0.505 <= changes.high[1] <= changes.low[1] + 1e-6
+
+
+def test_few_brackets_are_divided_into_many_parts() -> None:
+    """With samples to spare the rounds are few: sixteen parts each, and as many samples as one call may have."""
+    calls = []
+
+    def labels(line: np.ndarray, place: np.ndarray) -> np.ndarray:
+        calls.append(place.size)
+        return (place >= 2.5).astype(int)
+
+    one = Brackets(*(np.array([each]) for each in (0, 1.0, 10.0, 0, 1)))
+    narrow = enclose(labels, one, 1e-9, at_once=16, logarithmic=True)
+    assert np.log(narrow.high / narrow.low).item() <= 1e-9
+    assert narrow.low.item() <= 2.5 <= narrow.high.item()
+    assert calls == [15] * math.ceil(math.log(math.log(10.0) / 1e-9, 16))
+
+
+def test_chatter_is_not_separated() -> None:
+    """Of a line with more changes than wanted, further ones within a bracket are left out."""
+    edges = np.linspace(0.1, 0.9, 200)[None]
+    changes = locate(steps(edges), np.array([[0.0, 1.0]]), 1e-6, most=10)
+    assert 5 <= changes.size <= 20
+
+
+def test_a_property_that_ends_is_bisected() -> None:
+    """All intervals at once, to the width that is asked."""
+    edges = np.array([0.1, 0.7])
+    low, high = bisect(lambda place: place < edges, np.zeros(2), np.ones(2), 1e-8)
+    assert ((low <= edges) & (edges <= high) & (high - low <= 1e-8)).all()
+
+
+@pytest.mark.parametrize("known", [0.0, 0.05, math.inf])
+def test_roots_need_no_values(known: float) -> None:
+    """A root is located where values are known everywhere, away from it only, or nowhere."""
+
+    def function(stokes: float) -> tuple[bool, float | None]:
+        value = math.log(stokes / 0.3) + 0.4 * math.log(stokes / 0.3) ** 2
+        return value >= 0, value if abs(value) >= known else None
+
+    assert root(function, sample(function, 0.1), sample(function, 1.0)) == pytest.approx(0.3, rel=2e-9)
+
+
+def rows(scene: Scene, viscosities: list[float], values: list[float]) -> Experiment:
+    """Rows that differ in their viscosity, with the film thickness and the roughness free."""
+    names = ("liquid.film_thickness", "particles.roughness")
+    found = Rows(scene, names, {"liquid.viscosity": np.array(viscosities)}, len(viscosities), 1e-9).at(np.array(values))
+    assert found is not None
+    return found
+
+
+def test_rows_collide_as_their_scenes() -> None:
+    """Outcomes and results of impacts on rows are those of `collide_many` with the entries of each row."""
+    scene = Scene.load("granulation")
+    film, roughness = float(scene.entries["liquid.film_thickness"]), float(scene.entries["particles.roughness"])
+    experiment = rows(scene, [1.8, 2.2], [1.1 * film, 0.9 * roughness])
+    row, speed, angle = np.repeat([0, 1], 20), np.tile(np.linspace(0.3, 3.0, 20), 2), np.linspace(0.0, 1.2, 40)
+    vary = {"liquid.viscosity": np.array([1.8, 2.2])[row], "liquid.film_thickness": np.full(40, 1.1 * film)}
+    vary["particles.roughness"] = np.full(40, 0.9 * roughness)
+    of = ("restitution", "contact_time")
+    single = collide_many(scene, speed=speed, angle=angle, vary=vary, of=of)
+    assert experiment.outcomes(row, speed, angle).tolist() == single.outcome.values.tolist()
+    results = experiment.results(of, row, speed, angle)
+    apart = single.outcome.values > 0
+    for k, name in enumerate(of):
+        assert results.value[k, apart] == pytest.approx(single[name].values[apart], rel=1e-6)
+    assert np.isnan(results.value[:, ~apart]).all()
+    assert {0, 1, 2} == set(single.outcome.values.tolist())
+
+
+def test_derivatives_are_those_of_displaced_experiments() -> None:
+    """By the free entries, and by speed and angle, results change as differences say."""
+    scene = Scene.load("granulation")
+    values = [float(scene.entries[name]) for name in ("liquid.film_thickness", "particles.roughness")]
+    experiment = rows(scene, [1.8, 2.2], values)
+    at = np.array([0, 1]), np.array([2.5, 3.0]), np.array([0.4, 0.6])
+    names, step = ("restitution", "rotation"), 1e-5
+    results = experiment.results(names, *at)
+    for k, value in enumerate(values):
+        high, low = (experiment.displaced(k, sign * step * value) for sign in (1, -1))
+        assert high is not None and low is not None
+        slope = (high.plain(names, *at) - low.plain(names, *at)) / (2 * step * value)
+        assert results.free[..., k] == pytest.approx(slope, rel=1e-3, abs=1e-3 * np.abs(slope).max())
+    ends = [experiment.plain(names, at[0], at[1] + step, at[2]), experiment.plain(names, at[0], at[1] - step, at[2])]
+    assert results.speed == pytest.approx((ends[0] - ends[1]) / (2 * step), rel=1e-3)
+    ends = [experiment.plain(names, at[0], at[1], at[2] + step), experiment.plain(names, at[0], at[1], at[2] - step)]
+    assert results.angle == pytest.approx((ends[0] - ends[1]) / (2 * step), rel=1e-3)
+    mirrored = experiment.results(names, at[0], at[1], -at[2])
+    assert mirrored.value == pytest.approx(results.value * np.array([[1.0], [-1.0]]))
+
+
+@pytest.mark.parametrize(("degrees", "quick", "within"), [(0.0, False, 1e-5), (45.0, False, 1e-5), (45.0, True, 1e-2)])
+def test_slopes_are_those_of_boundary_sensitivities(degrees: float, quick: bool, within: float) -> None:
+    """Critical speeds at an angle move with viscosity and film thickness as the exact derivatives say."""
+    scene, angle = Scene.load("granulation"), math.radians(degrees)
+    experiment = Rows(scene, ENTRIES, {}, 1, 1e-11).at(np.array([scene.entries[name] for name in ENTRIES]))
+    assert experiment is not None
+    unit = scene.speed_of(1.0)
+    lines = Lines(
+        np.zeros(1, int), np.array([[0.0, unit]]), np.array([[angle, 0.0]]), np.array([0.03]), np.array([0.5]), False
+    )
+    changes = locate(outcomes_along(experiment, lines), np.geomspace(0.03, 0.5, 60)[None], 1e-10)
+    [exact] = boundary_sensitivities(scene, angle=angle, stokes=(0.03, 0.5), wrt=list(ENTRIES), rtol=1e-11).changes
+    assert changes.place == pytest.approx([each.change.stokes for each in exact], rel=1e-7)
+    expected = np.array([[each.elasticity["speed"][name] for name in ENTRIES] for each in exact])
+    relative = (
+        experiment.values / changes.place[:, None]
+    )  # errors are those of the distance at which gradients are taken
+    assert slopes(experiment, lines, changes, quick) * relative == pytest.approx(expected, abs=within)
+    assert slopes_by_differences(experiment, lines, changes) * relative == pytest.approx(expected, abs=1e-3)
+
+
+def test_a_boundary_at_initial_contact_has_slopes() -> None:
+    """Where solids meet at once, no gradient is singular; the change is located again with displaced entries."""
+    scene = Scene.load("granulation")
+    lines = Lines(np.zeros(1, int), np.array([[0.0, 1.0]]), np.zeros((1, 2)), np.array([0.1]), np.array([20.0]), False)
+    experiment = Rows(scene, ENTRIES[:1], {}, 1, 1e-10).at(np.array([scene.entries[ENTRIES[0]]]))
+    assert experiment is not None
+    changes = locate(outcomes_along(experiment, lines), np.geomspace(0.1, 20, 40)[None], 1e-9)
+    viscosity = float(scene.entries[ENTRIES[0]])
+    ends = [boundary(scene.with_si({ENTRIES[0]: viscosity * (1 + sign * 1e-4)}), angle=[0.0]) for sign in (1, -1)]
+    critical = [each.changes[0][0].stokes / each.scene.stokes_per_speed for each in ends]
+    difference = (critical[0] - critical[1]) / (2e-4 * viscosity)
+    assert slopes(experiment, lines, changes)[0, 0] == pytest.approx(difference, rel=1e-4)
+
+
+def test_without_a_kernel_an_experiment_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The error names what is missing."""
+    monkeypatch.setattr("wetdoublet.solvers.changes.experiment.run_kernel", lambda *_, **__: None)
+    scene = Scene.load("granulation")
+    experiment = Rows(scene, (), {}, 1, 1e-9).unchecked(np.zeros(0))
+    with pytest.raises(ComputationError, match="compiled kernel"):
+        experiment.outcomes(np.zeros(1, int), np.ones(1), np.zeros(1))
