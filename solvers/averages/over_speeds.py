@@ -58,7 +58,7 @@ def means(experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, 
         along = over_angles(experiment, every, speed, None, inner)
         return Means(along.mean, along.error, along.collisions, [Batch(every, speed, one, one, along)])
     sequences = _Sequences(replace(experiment, rtol=max(experiment.rtol, _LOOSE)), float(speeds.knots[-1]))
-    panels, own, hints = _panels(sequences, pairs, speeds, cut)
+    panels, pair_of, hints = _panels(sequences, pairs, speeds, cut)
     collisions = sequences.collisions
     mean, error = np.zeros((pairs, COLUMNS)), np.zeros((pairs, COLUMNS))
     batches = []
@@ -66,8 +66,8 @@ def means(experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, 
         if not panels.size:
             break
         speed, length = panels.nodes()
-        of = own[panels.owner]
-        pair, near = np.repeat(of, KRONROD.size), np.repeat(hints[panels.owner], KRONROD.size, axis=0)
+        owner = pair_of[panels.owner]
+        pair, near = np.repeat(owner, KRONROD.size), np.repeat(hints[panels.owner], KRONROD.size, axis=0)
         along = over_angles(experiment, pair, speed.ravel(), near, inner)
         collisions += along.collisions
         weight = (length * speeds.density(speed))[:, :, None]
@@ -77,11 +77,11 @@ def means(experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, 
             for each, rule in ((values, KRONROD), (values, GAUSS), (errors, KRONROD))
         )
         difference = np.abs(fine - rough)
-        allowed = (1 - _INNER) * tolerance / np.bincount(of, minlength=pairs)[of]
-        enough = (error + summed(of, difference, pairs)).max(axis=1) <= (1 - _INNER) * tolerance
-        done = (difference.max(axis=1) <= allowed) | enough[of] | last
-        mean += summed(of[done], fine[done], pairs)
-        error += summed(of[done], (difference + within)[done], pairs)
+        allowed = (1 - _INNER) * tolerance / np.bincount(owner, minlength=pairs)[owner]
+        enough = (error + summed(owner, difference, pairs)).max(axis=1) <= (1 - _INNER) * tolerance
+        done = (difference.max(axis=1) <= allowed) | enough[owner] | last
+        mean += summed(owner[done], fine[done], pairs)
+        error += summed(owner[done], (difference + within)[done], pairs)
         kept = weight[:, :, 0] * done[:, None]
         batches.append(Batch(pair, speed.ravel(), (kept * KRONROD).ravel(), (kept * GAUSS).ravel(), along))
         panels = panels.part(~done).halved()
@@ -128,10 +128,10 @@ class _Sequences:
 
         hints = self.hints(pair, speed, speed) if self._keys.size else None
         parts = segments(labels, pair.size, _COARSE, hints)
-        own = parts.hints(pair.size)
+        new = parts.hints(pair.size)
         keys = np.concatenate([self._keys, pair * self._far + speed])
         order = np.argsort(keys)
-        self._keys, self._hints = keys[order], np.vstack([self._hints, own] if self._hints.size else [own])[order]
+        self._keys, self._hints = keys[order], np.vstack([self._hints, new] if self._hints.size else [new])[order]
         first = np.searchsorted(parts.line, np.arange(pair.size + 1))
         return np.array([hash(tuple(parts.label[a:b].tolist())) for a, b in pairwise(first.tolist())])
 

@@ -128,8 +128,9 @@ def enclose(
         undecided = undecided[narrower.line]
         brackets = Brackets(brackets.line[narrower.line], narrower.low, narrower.high, narrower.before, narrower.after)
     closed.append(brackets)
-    every_one = Brackets(*(np.concatenate([getattr(each, own.name) for each in closed]) for own in fields(Brackets)))
-    return every_one.part(np.lexsort((every_one.low, every_one.line)))
+    columns = zip(*(vars(each).values() for each in closed), strict=True)
+    enclosed = Brackets(*(np.concatenate(parts) for parts in columns))
+    return enclosed.part(np.lexsort((enclosed.low, enclosed.line)))
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from .brackets import Brackets, Labels, bisect
 from .experiment import Experiment
 from .lines import Lines
 
-_QUICK = 1000  # steps of a trajectory with derivatives, where an approximation replaces what takes longer
+_SHORT = 1000  # steps of a trajectory with derivatives, where an approximation replaces what takes longer
 _CLOSE, _BESIDE = (
     1e-8,
     1e-5,
@@ -60,18 +60,18 @@ class Normals:
     along: np.ndarray
 
 
-def normals(experiment: Experiment, lines: Lines, changes: Brackets, quick: bool) -> Normals:
+def normals(experiment: Experiment, lines: Lines, changes: Brackets, approximate: bool) -> Normals:
     """The normals at changes, on the side that separates, or that rebounds.
 
     Arguments:
-        quick: where the derivatives of the trajectories take many steps, take them from times of plain ones, to 1e-4.
+        approximate: where trajectories with derivatives take many steps, use the times of plain ones; normals to 1e-4.
     """
     line, y, count = changes.line, changes.place, changes.size
     side = np.where(changes.after > changes.before, 1.0, -1.0)
     where = np.tile(line, 2)
-    distance = np.maximum(_BESIDE if quick else _CLOSE, 3 * changes.error)
+    distance = np.maximum(_BESIDE if approximate else _CLOSE, 3 * changes.error)
     at = np.concatenate([y + side * distance, y + 4 * side * distance])
-    budget = _QUICK if quick else KERNEL_STEPS
+    budget = _SHORT if approximate else KERNEL_STEPS
     near = experiment.results(("contact_time",), lines.row[where], *lines.at(where, at), forward=True, budget=budget)
     by_speed, by_angle = lines.slopes(where, at)
     along = near.speed[0] * by_speed + near.angle[0] * by_angle
@@ -82,7 +82,7 @@ def normals(experiment: Experiment, lines: Lines, changes: Brackets, quick: bool
     sound = (outcome == np.maximum(changes.before, changes.after)).all(axis=0)
     sound &= (growth > _GROWTH[0]) & (growth < _GROWTH[1])
     free, speed, angle, along = (np.where(sound.reshape(-1, *[1] * (each.ndim - 1)), each, np.nan) for each in parts)
-    late = np.flatnonzero((outcome < 0).any(axis=0)) if quick else np.zeros(0, int)
+    late = np.flatnonzero((outcome < 0).any(axis=0)) if approximate else np.zeros(0, int)
     if late.size:
         far = np.maximum(_FAR, 4 * changes.error[late])
         free[late], speed[late], angle[late] = _by_times(experiment, lines, line[late], y[late], side[late], far)
@@ -110,8 +110,8 @@ def _by_times(
         (speed, angle), *(lines.at(line, y + factor * side * distance) for factor in (4, 16)),
         (speed + step_speed, angle), (speed, angle + step_angle), *((speed, angle) for _ in possible),
     ]  # fmt: skip
-    own = len(points) - len(possible)
-    every, rows = experiment.joined([*[experiment] * (own - 1), *displaced.values()], lines.row[line])
+    undisplaced = len(points) - len(possible)
+    every, rows = experiment.joined([*[experiment] * (undisplaced - 1), *displaced.values()], lines.row[line])
     speeds, angles = (np.concatenate(each) for each in zip(*points, strict=True))
     answers = every.answers(rows, speeds, angles)
     done = (answers["status"] <= LAST_ANSWER) & (answers["outcome"] > 0)
@@ -134,16 +134,19 @@ _ASIDE = (
 )  # ratio of the differences of times, ascending, and that error
 
 
-def slopes(experiment: Experiment, lines: Lines, changes: Brackets, quick: bool = False) -> np.ndarray:
+def slopes(experiment: Experiment, lines: Lines, changes: Brackets, approximate: bool = False) -> np.ndarray:
     """Derivatives of the places of changes of outcome by the free entries: (changes, free entries).
 
-    NaN where a change has no singular gradient and is not found again with displaced entries; `quick` as of `normals`.
+    NaN where a change has no singular gradient and is not found again with displaced entries.
+
+    Arguments:
+        approximate: as of `normals`.
     """
-    normal = normals(experiment, lines, changes, quick)
+    normal = normals(experiment, lines, changes, approximate)
     by_free: np.ndarray = -normal.free / normal.along[:, None]
     missing = np.flatnonzero(~np.isfinite(by_free).all(axis=1))
     if missing.size:
-        step = _ROUGH if quick else _EXACT
+        step = _ROUGH if approximate else _EXACT
         by_free[missing] = slopes_by_differences(experiment, lines, changes.part(missing), step)
     return by_free
 
@@ -163,13 +166,13 @@ def slopes_by_differences(
     """
     by_free = np.full((changes.size, len(experiment.rows.names)), np.nan)
     steps = step * experiment.scales
-    ends = {k: [experiment.displaced(k, sign * own) for sign in (1, -1)] for k, own in enumerate(steps)}
+    ends = {k: [experiment.displaced(k, sign * one) for sign in (1, -1)] for k, one in enumerate(steps)}
     possible = [k for k, both in ends.items() if None not in both]
     moved = [each for k in possible for each in ends[k] if each is not None]
     if moved:
         places = _again(moved, lines, changes, step, labels or _outcomes).reshape(-1, 2, changes.size)
-        own = steps[possible] if steps.ndim == 1 else steps[possible][:, lines.row[changes.line]].T
-        by_free[:, possible] = (places[:, 0] - places[:, 1]).T / (2 * own)
+        of_changes = steps[possible] if steps.ndim == 1 else steps[possible][:, lines.row[changes.line]].T
+        by_free[:, possible] = (places[:, 0] - places[:, 1]).T / (2 * of_changes)
     return by_free
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -18,9 +19,10 @@ from ..scene.scene import Scene
 from ..settings import check_rtol
 from .fit import RTOL
 from .free_entries import FreeEntries, free_entries, in_unit
-from .likelihood import Likelihood, Resolution
+from .likelihood import Likelihood
 from .measurements import Measurements, read_data
 from .optimise import Objective, Optimum, optimise, settled
+from .scatter import Resolution
 
 CHOICES = ("bridge.law", "model.film", "model.glass", "model.tangential", "model.arm", "pendulum.law")
 
@@ -120,9 +122,9 @@ def compare_models(
     if not isinstance(folds, int) or isinstance(folds, bool) or folds < 0 or folds == 1:
         raise InputError("folds", folds, "a whole number from 2, or 0 for no cross-validation")
     tolerance = check_rtol(rtol)
-    own, *others = _scenes(first, names)
+    unchanged, *others = _scenes(first, names)
     request = table, free, prior, min(folds, table.size), tolerance, seed
-    candidates = [_candidate(own[0], own[1], *request)]
+    candidates = [_candidate(unchanged[0], unchanged[1], *request)]
     cores = min(usable_cores(), len(others))
     if cores > 1:
         parts = ((name, (name, scene, *request)) for name, scene in others)
@@ -150,11 +152,11 @@ def check_choices(scene: Scene, over: Sequence[str] | str) -> tuple[str, ...]:
 
 def _scenes(first: Scene, names: Sequence[str]) -> list[tuple[str, Scene | InputError]]:
     """The scene and those with another choice, each with its name; an InputError where a choice is not possible."""
-    own = {name: str(getattr(getattr(first, table), key)) for name in names for table, _, key in (name.partition("."),)}
-    scenes: list[tuple[str, Scene | InputError]] = [(", ".join(f"{name} = {own[name]}" for name in names), first)]
+    current = {name: str(attrgetter(name)(first)) for name in names}
+    scenes: list[tuple[str, Scene | InputError]] = [(", ".join(f"{name} = {current[name]}" for name in names), first)]
     for name in names:
         for other in first.fields[name].choices:
-            if other != own[name]:
+            if other != current[name]:
                 try:
                     scenes.append((f"{name} = {other}", first.with_entries({name: other})))
                 except InputError as error:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -19,7 +18,7 @@ CONTRADICTED = (
     "At least half of the impacts contradict the model: no entry is identified. The estimates are the least bad ones, "
     "and the intervals say only which values are as bad."
 )
-"""The first remark where `Rows.contradicted`."""
+"""The first remark where `RowDiagnostics.contradicted`."""
 
 
 @dataclass(frozen=True)
@@ -31,13 +30,9 @@ class Estimate:
     high: float | None
     verdict: str
 
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of an estimate."""
-        return {"value": self.value, "low": self.low, "high": self.high, "verdict": self.verdict}
-
 
 @dataclass(frozen=True)
-class Rows:
+class RowDiagnostics:
     """The rows of the data under the estimates; arrays of one length, NaN where a row has no such number.
 
     Attributes:
@@ -90,7 +85,7 @@ class Fitted:
     correlation: np.ndarray
     combinations: tuple[str, ...]
     remarks: tuple[str, ...]
-    rows: Rows
+    rows: RowDiagnostics
     quadrature: float
     others: tuple[tuple[Mapping[str, float], float], ...]
     objective: Objective = field(repr=False, compare=False)

@@ -14,13 +14,14 @@ from ..host.arguments import check_mapping
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import check_rtol
-from .estimates import CONTRADICTED, Estimate, Rows
+from .estimates import CONTRADICTED, Estimate, RowDiagnostics
 from .free_entries import IDENTIFIED, NOT_AT_ALL, FreeEntries, combinations, free_entries, in_unit
-from .likelihood import Evaluation, Likelihood, Resolution
+from .likelihood import Evaluation, Likelihood
 from .measurements import UNKNOWN, Measurements, read_data
 from .optimise import Objective, Optimum, optimise, whitening
 from .profiles import End, intervals, judged
 from .result import Fit
+from .scatter import Resolution
 
 RTOL = 1e-8
 """Relative tolerance of the collisions of a fit."""
@@ -104,7 +105,7 @@ def log_likelihood(
     entries = free_entries(first, free, table, prior, check_rtol(rtol))
     likelihood = Likelihood(first, entries.names, table, rtol)
     likelihood.aim(entries.values(entries.start))
-    return LogLikelihood(Objective(likelihood, entries, resolution or Resolution(quick=False)))
+    return LogLikelihood(Objective(likelihood, entries, resolution or Resolution(approximate=False)))
 
 
 class LogLikelihood:
@@ -163,7 +164,7 @@ def _only_outcome(data: Measurements) -> str | None:
     return None if len(codes) > 1 or UNKNOWN in codes or data.separated.any() else OUTCOMES[codes.pop()]
 
 
-def _rows(likelihood: Likelihood, evaluation: Evaluation, white_scores: np.ndarray) -> Rows:
+def _rows(likelihood: Likelihood, evaluation: Evaluation, white_scores: np.ndarray) -> RowDiagnostics:
     residual = {}
     for name in likelihood.measured:
         values, sd = likelihood.data.observed[name]
@@ -171,11 +172,11 @@ def _rows(likelihood: Likelihood, evaluation: Evaluation, white_scores: np.ndarr
             residual[name] = (values - evaluation.mean[name]) / np.hypot(sd, evaluation.spread[name])
     relative = evaluation.plain - likelihood.constant
     pull = np.linalg.norm(white_scores, axis=1)
-    return Rows(evaluation.probability, evaluation.mean, residual, relative, pull)
+    return RowDiagnostics(evaluation.probability, evaluation.mean, residual, relative, pull)
 
 
 def _remarks(
-    first: Scene, data: Measurements, rows: Rows, undecided: np.ndarray, error: float,
+    first: Scene, data: Measurements, rows: RowDiagnostics, undecided: np.ndarray, error: float,
     others: tuple[tuple[dict[str, float], float], ...],
 ) -> list[str]:  # fmt: skip
     remarks = []

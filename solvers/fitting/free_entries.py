@@ -158,9 +158,11 @@ def free_entries(
     rows = rows_of(scene, chosen, data, rtol)
     start = np.array([float(scene.entries[name]) for name in chosen])
     for row in np.flatnonzero(~rows.unchecked(start).possible)[:1].tolist():
-        given = ", ".join(f"{name} = {values[row]:.6g}" for name, values in data.columns.items())
+        values_there = ", ".join(f"{name} = {values[row]:.6g}" for name, values in data.columns.items())
         field = f"data, {data.label(row)}, column {', '.join(data.columns)}"
-        raise InputError(field, given, "values that make a scene together with its other entries", "is impossible")
+        raise InputError(
+            field, values_there, "values that make a scene together with its other entries", "is impossible"
+        )
     entries = []
     for k, name in enumerate(chosen):
         entry = scene.fields[name]
@@ -257,8 +259,8 @@ def unit_shown(scene: Scene, name: str) -> tuple[str, float]:
     if si is None:
         return "", 1.0
     raw = dict(scene.given).get(name)
-    own = units.unit_of(raw) if isinstance(raw, str) else ""
-    return (own, units.factor(own, si, name, si, raw)) if own else (si, 1.0)
+    written = units.unit_of(raw) if isinstance(raw, str) else ""
+    return (written, units.factor(written, si, name, si, raw)) if written else (si, 1.0)
 
 
 def in_unit(scene: Scene, name: str, value: float | None) -> str:

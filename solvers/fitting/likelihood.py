@@ -21,7 +21,7 @@ from ..scene.schema import SPINS
 from ..settings import RTOL
 from .measurements import Measurements, rows_of
 from .rare import RARE, beyond_reach
-from .scatter import WITHIN, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals
+from .scatter import Resolution, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
 FINER = (3, 7)
@@ -32,35 +32,6 @@ deviations) contradicts the model; from there its log-likelihood falls with the 
 
 _BEYOND = 6.0  # standard deviations of noise and angle beyond which a restitution is impossible
 _NAMED = 8  # rows in a message
-
-
-@dataclass(frozen=True)
-class Resolution:
-    """How finely the scatter is integrated.
-
-    Arguments:
-        lines: lines through the scatter of a row.
-        nodes: collisions on a segment; half as many more where it ends at a change.
-        points: of the quadrature over the interpolated results.
-        grid: points of a line at which the outcome is sampled first.
-        quick: derivatives beside slow saddles are approximate: of changes to 1e-4, of results from their neighbours.
-        within: error of a probability from the place of a change.
-    """
-
-    lines: int = 3
-    nodes: int = 8
-    points: int = 128
-    grid: int = 15
-    quick: bool = True
-    within: float = WITHIN
-
-    def doubled(self) -> Resolution:
-        """The same, twice as fine and with exact derivatives."""
-        return Resolution(2 * self.lines + 1, 2 * self.nodes, 2 * self.points, 2 * self.grid, False, self.within / 100)
-
-
-COARSE = Resolution(1, 4, 64, 11)
-EXACT = Resolution(quick=False, within=1e-10)
 
 
 @dataclass(frozen=True)
@@ -171,7 +142,7 @@ class Likelihood:
         if factors is None:
             factors = self.more if resolution.lines > 1 else np.ones(size, int)
         lines = ScatterLines.through(data, self.direction, resolution.lines * factors)
-        changes = lines.changes(experiment, resolution.grid, resolution.within)
+        changes = lines.changes(experiment, resolution)
         segments = Segments.between(lines, changes)
         unknown = segments.part(segments.outcome < 0)
         undecided = np.bincount(unknown.row, unknown.weight * unknown.mass(), size)
@@ -180,16 +151,15 @@ class Likelihood:
         probability = np.bincount(segments.row, segments.weight * mass, size)
         dense = data.separated[segments.row]
         counts = mass > np.where(dense, NEGLIGIBLE, 0.0)
-        ends = segments.moving_ends(experiment, lines, changes, counts, resolution.quick)
+        ends = segments.moving_ends(experiment, lines, changes, counts, resolution.approximate)
         by_free = segments.mass_slopes(ends)
         total, moments = _Sums(size, len(self.names)), {name: np.zeros((3, size)) for name in self.measured}
         plain = ~dense & counts
         total.add(segments.row[plain], np.log((segments.weight * mass)[plain]), by_free[plain])
         which = np.flatnonzero(dense & counts)
         dense_part = segments.part(which)
-        for part, mapping, value, slope in dense_part.results(
-            experiment, lines, ends[:, which], self.measured, resolution.nodes, resolution.points, resolution.quick
-        ):
+        results = dense_part.results(experiment, lines, ends[:, which], self.measured, resolution)
+        for part, mapping, value, slope in results:
             self._integrate(dense_part.part(part), ends[:, which[part]], mapping, value, slope, total, moments)
         rows, scores = total.result()
         rare = np.flatnonzero((probability < RARE) & (factors > 0))
@@ -198,9 +168,8 @@ class Likelihood:
             np.add.at(moves, segments.row, (segments.weight * mass)[:, None] * by_free)
             moves /= np.maximum(probability, 1e-300)[:, None]
             log, slope = beyond_reach(
-                experiment, data, rare, self.direction, self.measured, resolution.within, resolution.quick,
-                probability[rare], moves[rare],
-            )  # fmt: skip
+                experiment, data, rare, self.direction, self.measured, resolution, probability[rare], moves[rare]
+            )
             missing = log > rows[rare]
             rows[rare[missing]], scores[rare[missing]] = log[missing], slope[missing]
         limited, factor = limit(rows)

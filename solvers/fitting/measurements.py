@@ -250,14 +250,14 @@ class _Table:
             speed, angle, speed_sd, angle_sd, outcome.astype(np.int8), observed, columns, of_speed == "relative_speed",
             (), labels,
         )  # fmt: skip
-        told = data.measured | (outcome != UNKNOWN)
-        if not told.any():
+        observation = data.measured | (outcome != UNKNOWN)
+        if not observation.any():
             accepted = "outcome, restitution or another result in at least one row"
             raise InputError(self.label, None, accepted, "says nothing of any impact")
-        if not told.all():
-            left = ", ".join(labels[k] for k in np.flatnonzero(~told)[:8])
+        if not observation.all():
+            left = ", ".join(labels[k] for k in np.flatnonzero(~observation)[:8])
             self.remarks.append(f"Left out, for neither outcome nor result is given: {left}.")
-            data = data.part(np.flatnonzero(told))
+            data = data.part(np.flatnonzero(observation))
         return replace(data, remarks=tuple(self.remarks))
 
     def _angle(self) -> np.ndarray:
@@ -283,9 +283,10 @@ class _Table:
         [name] = names
         speed = self._numbers(name, _IMPACT[name], lambda v: v > 0, "a number > 0", gaps=False)
         if name == "stokes":
-            own: dict[str, Any] = {entry: value for entry, value in self.scene.si if entry not in MEETING}
-            of = quantities(own | dict(columns), self.scene.ways)
-            speed = speed / scaling.stokes(of["reduced_radius"], of["reduced_mass"], of["viscosity"], 1.0)
+            entries: dict[str, Any] = {entry: value for entry, value in self.scene.si if entry not in MEETING}
+            values = quantities(entries | dict(columns), self.scene.ways)
+            radius, mass, viscosity = (values[each] for each in ("reduced_radius", "reduced_mass", "viscosity"))
+            speed = speed / scaling.stokes(radius, mass, viscosity, 1.0)
             self.remarks.append("Normal speeds are those of the Stokes numbers with the scene's own entries.")
         return np.broadcast_to(speed, self.size).copy(), name
 

@@ -16,7 +16,8 @@ from scipy.stats import qmc
 
 from ..errors import ComputationError
 from .free_entries import FreeEntries
-from .likelihood import COARSE, Evaluation, Likelihood, Resolution
+from .likelihood import Evaluation, Likelihood
+from .scatter import COARSE, Resolution
 
 _STARTS = 16  # quasi-random points at which the likelihood is looked at
 _FOLLOWED = 3  # of these, the number from which an optimum is sought
@@ -237,12 +238,12 @@ def climbed(
 
 def _screened(likelihood: Likelihood, free: FreeEntries, starts: int, seed: int) -> list[np.ndarray]:
     """The scene's own values, and the most likely of quasi-random points around them."""
-    own = np.clip(free.start, free.low, free.high)
-    low = np.where(free.logarithmic, np.maximum(free.low, own - _NEIGHBOURHOOD), free.low)
-    high = np.where(free.logarithmic, np.minimum(free.high, own + _NEIGHBOURHOOD), free.high)
+    scene = np.clip(free.start, free.low, free.high)
+    low = np.where(free.logarithmic, np.maximum(free.low, scene - _NEIGHBOURHOOD), free.low)
+    high = np.where(free.logarithmic, np.minimum(free.high, scene + _NEIGHBOURHOOD), free.high)
     points = qmc.scale(qmc.Sobol(free.size, seed=seed).random(starts), low, high) if starts else np.zeros((0, 1))
     coarse = Objective(likelihood, free, COARSE)
-    return [own, *sorted(points, key=lambda point: -coarse.value(point))[: _FOLLOWED - 1]]
+    return [scene, *sorted(points, key=lambda point: -coarse.value(point))[: _FOLLOWED - 1]]
 
 
 def _apart(objective: Objective, one: Optimum, other: Optimum) -> bool:

@@ -161,23 +161,23 @@ def _results(axes: Axes, fit: Fitted, samples: np.ndarray) -> None:
     rows = np.flatnonzero(np.isfinite(measured))
     speed = np.geomspace(0.9 * data.speed.min(), 1.1 * data.speed.max(), _CURVE)
     for colour, group in zip(_LINES, _by_angle(data.angle[rows])):
-        own = rows[group]
-        angle = float(np.mean(data.angle[own]))
+        group = rows[group]
+        angle = float(np.mean(data.angle[group]))
         values = _collided(fit, samples, speed, np.full(_CURVE, angle), (name,))[name].values.reshape(-1, _CURVE)
         known = np.isfinite(values).mean(axis=0) > 0.5
         low, high = (np.where(known, each(values, axis=0), np.nan) for each in (np.fmin.reduce, np.fmax.reduce))
         axes.fill_between(speed, low, high, color=colour, alpha=0.25, linewidth=0)
         axes.plot(speed, values[0], color=colour, linewidth=1.2, label=f"{np.degrees(angle):.3g}°")
-        axes.errorbar(data.speed[own], measured[own], sd[own], data.speed_sd[own], fmt="o", color=colour,
+        axes.errorbar(data.speed[group], measured[group], sd[group], data.speed_sd[group], fmt="o", color=colour,
                       markersize=3.5, elinewidth=0.7)  # fmt: skip
         if data.columns:
-            axes.plot(data.speed[own], fit.rows.expected[name][own], "_", color=colour, markersize=10)
+            axes.plot(data.speed[group], fit.rows.expected[name][group], "_", color=colour, markersize=10)
     axes.set_xscale("log")
     plain(axes.xaxis)
     axes.set_xlabel(AXIS_LABELS[data.speed_name])
     axes.set_ylabel(_LABELS[name])
     axes.legend(title="mean angle of the group", fontsize=7, title_fontsize=7)
-    dashes = ";\ndashes: the fit with each impact's own entries" if data.columns else ""
+    dashes = ";\ndashes: the fit with each impact's group entries" if data.columns else ""
     title = "measured, and the fit at the mean angle of each group with its band (95 %)"
     axes.set_title(title + _caveat(fit) + dashes, fontsize=9)
 
@@ -185,7 +185,7 @@ def _results(axes: Axes, fit: Fitted, samples: np.ndarray) -> None:
 def _caveat(fit: Fitted) -> str:
     """What a picture for one value of every entry says where entries differ from impact to impact."""
     names = ", ".join(fit.data.columns)
-    return f",\nwith the scene's own {names}" if names else ""
+    return f",\nwith the scene's group {names}" if names else ""
 
 
 def _by_angle(angle: np.ndarray) -> list[np.ndarray]:

@@ -14,8 +14,9 @@ import numpy as np
 
 from ..errors import ComputationError
 from .free_entries import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE, FreeEntries
-from .likelihood import COARSE, Likelihood, Resolution
+from .likelihood import Likelihood
 from .optimise import Objective, Optimum, climbed, settled, whitening
+from .scatter import COARSE, Resolution
 
 DROP = 1.920729410347062  # half the 95 % quantile of chi-squared with one degree of freedom
 _WITHIN = 0.02  # relative error of the root of twice the drop at an end

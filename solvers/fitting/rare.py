@@ -17,7 +17,7 @@ from ..changes.experiment import Experiment
 from ..changes.lines import Lines
 from ..changes.slopes import outcomes_along, slopes
 from .measurements import Measurements
-from .scatter import REACH, ScatterLines
+from .scatter import REACH, Resolution, ScatterLines
 
 RARE = 1e-4
 """Probability within REACH below which the observed outcome is looked for beyond."""
@@ -32,7 +32,7 @@ _WORST = 1e3  # most that what was measured lowers the logarithm; as much as whe
 
 def beyond_reach(
     experiment: Experiment, data: Measurements, rows: np.ndarray, direction: np.ndarray, measured: tuple[str, ...],
-    within: float, quick: bool, probability: np.ndarray, moves: np.ndarray,
+    resolution: Resolution, probability: np.ndarray, moves: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """Log-likelihoods of rare rows, and their derivatives by the free entries.
 
@@ -42,11 +42,10 @@ def beyond_reach(
         rows: the rare rows.
         direction: (rows of the data,), of their lines; the change is looked for in three other directions too.
         measured: names of the results.
-        within, quick: of the `Resolution`.
         probability: of the rows, by the integral.
         moves: derivatives of its logarithm.
     """
-    log, slope = _from_nearest_change(experiment, data, rows, direction, measured, within, quick)
+    log, slope = _from_nearest_change(experiment, data, rows, direction, measured, resolution)
     span = float(np.log(RARE / _FADED))
     with np.errstate(divide="ignore"):
         part = np.clip(np.log(RARE / probability) / span, 0.0, 1.0)
@@ -57,7 +56,7 @@ def beyond_reach(
 
 def _from_nearest_change(
     experiment: Experiment, data: Measurements, rows: np.ndarray, direction: np.ndarray, measured: tuple[str, ...],
-    within: float, quick: bool,
+    resolution: Resolution,
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """The likelihoods in full, as functions of the distance of the nearest change and of the results beyond it."""
     part = data.part(rows)
@@ -69,7 +68,7 @@ def _from_nearest_change(
     of_part = columns["row"]
     lines = replace(fan[0], **columns | {"row": rows[of_part]})
     places = np.clip(np.concatenate([-_PLACES[::-1], _PLACES]), lines.low[:, None], lines.high[:, None])
-    changes = locate(outcomes_along(experiment, lines, kernel_only=True), places, within)
+    changes = locate(outcomes_along(experiment, lines, kernel_only=True), places, resolution.within)
     least = np.where(np.arange(of_part.size) < rows.size, -ndtri(RARE), REACH)  # no likelier than by the integral
     which = _nearest(changes, least, of_part, part.allowed)
     line, y, at = changes.line[which], changes.place[which], of_part[changes.line[which]]
@@ -79,7 +78,7 @@ def _from_nearest_change(
         return log, slope
     sign, distance = np.where(y < 0, -1.0, 1.0), np.maximum(np.abs(y), least[line])
     log[at] = log_ndtr(-distance)
-    moves = np.nan_to_num(slopes(experiment, lines, changes.part(which), quick))
+    moves = np.nan_to_num(slopes(experiment, lines, changes.part(which), resolution.approximate))
     hazard = np.exp(-(distance**2) / 2 - np.log(2 * np.pi) / 2 - log[at])
     slope[at] = -(np.where(distance > least[line], hazard, 0.0) * sign)[:, None] * moves
     misfit, by_free = _misfit(experiment, data, measured, lines, line, y + _BESIDE * sign, moves)

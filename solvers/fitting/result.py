@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -52,7 +52,7 @@ class Fit(Fitted):
             for name, values in self.rows.residual.items()
         }
         return {
-            "estimates": {name: each.to_dict() for name, each in self.estimates.items()},
+            "estimates": {name: asdict(each) for name, each in self.estimates.items()},
             "log_likelihood": self.log_likelihood,
             "points": self.points,
             "correlation": {name: dict(zip(names, row)) for name, row in zip(names, self.correlation.tolist())},

@@ -23,14 +23,43 @@ from ..settings import KERNEL_STEPS
 from .measurements import Measurements
 
 REACH = 5.0  # standard deviations to either side within which an integral is taken
-WITHIN = 1e-5  # of the probability on either side of a change
 _LOOSER = 30.0  # most by which that grows with the distance from the centre: rare outcomes lie there
 _SLOWEST = 1e-3  # least speed of a scattered impact, over the nominal one
 _STEEPEST = np.radians(89.4)
 _OUTCOMES = 3
 Function = Callable[[np.ndarray], np.ndarray]
-_QUICK = 1000  # steps of a trajectory with derivatives, beyond which others' on the same segment stand for them
+_SHORT = 1000  # steps of a trajectory with derivatives, beyond which others' on the same segment stand for them
 _DEGREE = 4  # of the polynomial by which they do
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """How finely the scatter is integrated.
+
+    Arguments:
+        lines: lines through the scatter of a row.
+        nodes: collisions on a segment; half as many more where it ends at a change.
+        points: of the quadrature over the interpolated results.
+        grid: points of a line at which the outcome is sampled first.
+        approximate: derivatives beside slow saddles are approximate: of changes to 1e-4, of results those that their
+            neighbours suggest.
+        within: error of a probability from the place of a change.
+    """
+
+    lines: int = 3
+    nodes: int = 8
+    points: int = 128
+    grid: int = 15
+    approximate: bool = True
+    within: float = 1e-5
+
+    def doubled(self) -> Resolution:
+        """The same, twice as fine and with exact derivatives."""
+        return Resolution(2 * self.lines + 1, 2 * self.nodes, 2 * self.points, 2 * self.grid, False, self.within / 100)
+
+
+COARSE = Resolution(1, 4, 64, 11)
+EXACT = Resolution(approximate=False, within=1e-10)
 
 
 @lru_cache(maxsize=16)
@@ -79,21 +108,16 @@ class ScatterLines(Lines):
         low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
         return cls(row, speed, angle, low, high, data.relative, weights / (ndtr(high) - ndtr(low)))
 
-    def changes(self, experiment: Experiment, grid: int, within: float) -> Changes:
-        """The changes of outcome on the lines.
-
-        Arguments:
-            grid: number of samples along a line.
-            within: error of the probability on either side of a change, relative to that of a change at y = 0.
-        """
+    def changes(self, experiment: Experiment, resolution: Resolution) -> Changes:
+        """The changes of outcome on the lines."""
 
         def width(brackets: Brackets) -> np.ndarray:
             inside = (brackets.low < 0) & (brackets.high > 0)
             nearest = np.where(inside, 0.0, np.minimum(np.abs(brackets.low), np.abs(brackets.high)))
-            allowed: np.ndarray = within * np.minimum(np.exp(nearest**2 / 2), _LOOSER)
+            allowed: np.ndarray = resolution.within * np.minimum(np.exp(nearest**2 / 2), _LOOSER)
             return allowed
 
-        places = self.low[:, None] + (self.high - self.low)[:, None] * np.linspace(0, 1, grid)
+        places = self.low[:, None] + (self.high - self.low)[:, None] * np.linspace(0, 1, resolution.grid)
         return locate(outcomes_along(experiment, self), places, width)
 
 
@@ -108,16 +132,16 @@ def nearest_normals(experiment: Experiment, data: Measurements) -> tuple[np.ndar
     distance = np.full((data.size, _OUTCOMES), np.inf)
     for across in (0.0, np.pi / 2):
         lines = ScatterLines.through(data, across, 1)
-        changes = lines.changes(experiment, 15, 1e-3)
+        changes = lines.changes(experiment, Resolution(within=1e-3))
         changes_row, pair, away = lines.row[changes.line], changes.before + changes.after - 1, np.abs(changes.place)
         closer = (changes.before >= 0) & (changes.after >= 0) & (away < distance[changes_row, pair])
         order = np.flatnonzero(closer)[np.argsort(away[closer])]
         which = order[np.unique(changes_row[order] * _OUTCOMES + pair[order], return_index=True)[1]]
         if not which.size:
             continue
-        of = normals(experiment, lines, changes.part(which), True)
+        normal_of = normals(experiment, lines, changes.part(which), approximate=True)
         row, line, place = changes_row[which], changes.line[which], changes.place[which]
-        unit = in_deviations(data, row, *lines.at(line, place), of.speed, of.angle)
+        unit = in_deviations(data, row, *lines.at(line, place), normal_of.speed, normal_of.angle)
         with np.errstate(invalid="ignore", divide="ignore"):
             unit /= np.linalg.norm(unit, axis=1, keepdims=True)
         unit[~np.isfinite(unit).all(axis=1)] = np.cos(across), np.sin(across)
@@ -166,8 +190,8 @@ class Segments:
         upper, lower = np.append(changes.high, 0.0), np.append(changes.low, 0.0)
         low = np.where(first < 0, lines.low[line], upper[first])
         high = np.where(last < 0, lines.high[line], lower[last])
-        found = cls(line, lines.row[line], lines.weight[line], outcome, low, high, first, last)
-        return found.part(high > low)
+        segments = cls(line, lines.row[line], lines.weight[line], outcome, low, high, first, last)
+        return segments.part(high > low)
 
     def part(self, which: np.ndarray) -> Segments:
         """The segments of these indices, or of this mask."""
@@ -193,39 +217,33 @@ class Segments:
         return by_free
 
     def moving_ends(
-        self, experiment: Experiment, lines: Lines, changes: Changes, which: np.ndarray, quick: bool
+        self, experiment: Experiment, lines: Lines, changes: Changes, which: np.ndarray, approximate: bool
     ) -> np.ndarray:
         """Derivatives of the ends by the free entries, (2, segments, free entries).
 
         Arguments:
             which: mask of the segments whose ends are needed.
-            quick: as of `normals`.
+            approximate: as of `normals`.
         """
         needed = np.unique(np.concatenate([self.first[which], self.last[which]]))
         needed = needed[needed >= 0]
         by_free = np.zeros((changes.size + 1, len(experiment.rows.names)))  # the last for ends that stay
         if needed.size:
-            by_free[needed] = np.nan_to_num(slopes(experiment, lines, changes.part(needed), quick))
+            by_free[needed] = np.nan_to_num(slopes(experiment, lines, changes.part(needed), approximate))
         moving: np.ndarray = by_free[np.stack([self.first, self.last])]
         return moving
 
     def results(
-        self, experiment: Experiment, lines: Lines, ends: np.ndarray, names: tuple[str, ...], nodes: int, points: int,
-        quick: bool = False,
-    ) -> Iterator[tuple[np.ndarray, SegmentMap, np.ndarray, np.ndarray]]:  # fmt: skip
-        """Results along the segments, for those of each `kind`.
-
-        Arguments:
-            ends: of `moving_ends`.
-            nodes: collisions on a segment; half as many more where it ends at a change.
-            points: of the quadrature.
-            quick: derivatives of long trajectories are those that their neighbours suggest.
+        self, experiment: Experiment, lines: Lines, ends: np.ndarray, names: tuple[str, ...], resolution: Resolution
+    ) -> Iterator[tuple[np.ndarray, SegmentMap, np.ndarray, np.ndarray]]:
+        """Results along the segments, for those of each `kind`; `ends` are those of `moving_ends`.
 
         Yields:
             Indices of the segments, their map, the results at its nodes (results, segments, nodes), and their
             derivatives by the free entries where the nodes move with the ends (results, segments, nodes, free entries).
         """
         kinds = [(kind, np.flatnonzero(self.kind == kind)) for kind in range(4)]
+        nodes, points = resolution.nodes, resolution.points
         maps = [(which, segment_map(k, nodes * 3 // 2 if k else nodes, points)) for k, which in kinds if which.size]
         if not maps:
             return
@@ -233,23 +251,26 @@ class Segments:
         y = np.concatenate([each.ravel() for each in at])
         line = np.concatenate([np.repeat(self.line[w], each.at_nodes.size) for w, each in maps])
         row, impacts = lines.row[line], lines.at(line, y)
-        budget = _QUICK if quick else KERNEL_STEPS
-        found = experiment.results(names, row, *impacts, budget=budget)
-        late = np.flatnonzero(found.outcome < 0)
+        budget = _SHORT if resolution.approximate else KERNEL_STEPS
+        at_nodes = experiment.results(names, row, *impacts, budget=budget)
+        late = np.flatnonzero(at_nodes.outcome < 0)
         if late.size:
-            found.value[:, late] = experiment.plain(names, row[late], impacts[0][late], impacts[1][late])
+            at_nodes.value[:, late] = experiment.plain(names, row[late], impacts[0][late], impacts[1][late])
         by_speed, by_angle = lines.slopes(line, y)
-        by_y = found.speed * by_speed + found.angle * by_angle
+        by_y = at_nodes.speed * by_speed + at_nodes.angle * by_angle
         first = 0
         for which, each in maps:
-            own, g = slice(first, first + which.size * each.at_nodes.size), each.at_nodes[:, None]
-            first, shape = own.stop, (-1, which.size, each.at_nodes.size)
+            span, g = slice(first, first + which.size * each.at_nodes.size), each.at_nodes[:, None]
+            first, shape = span.stop, (-1, which.size, each.at_nodes.size)
             moves = ends[0, which][:, None] * (1 - g) + ends[1, which][:, None] * g
-            slope = found.free[:, own].reshape(*shape, moves.shape[-1]) + by_y[:, own].reshape(shape)[..., None] * moves
-            known = found.outcome[own].reshape(shape[1:]) >= 0
+            slope = (
+                at_nodes.free[:, span].reshape(*shape, moves.shape[-1])
+                + by_y[:, span].reshape(shape)[..., None] * moves
+            )
+            known = at_nodes.outcome[span].reshape(shape[1:]) >= 0
             for k in np.flatnonzero(~known.all(axis=1) & known.any(axis=1)).tolist():
                 slope[:, k] = np.einsum("mn,rnp->rmp", _extension(tuple(known[k].tolist()), _DEGREE), slope[:, k])
-            yield which, each, found.value[:, own].reshape(shape), slope
+            yield which, each, at_nodes.value[:, span].reshape(shape), slope
 
 
 @dataclass(frozen=True)

@@ -10,15 +10,15 @@ quadrature, with exact derivatives.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
 from ..changes.experiment import Experiment
-from ..fitting.likelihood import NEGLIGIBLE, Likelihood, Resolution
+from ..fitting.likelihood import NEGLIGIBLE, Likelihood
 from ..fitting.measurements import Measurements
-from ..fitting.scatter import ScatterLines, Segments, nearest_normals
+from ..fitting.scatter import Resolution, ScatterLines, Segments, nearest_normals
 from ..scene.scene import Scene
 from ..settings import RTOL
 from .density import Curve, information_of
@@ -68,11 +68,11 @@ def information(
     """
     experiment, size = Likelihood(scene, names, plan, rtol).bound(values), plan.size
     lines = ScatterLines.through(plan, _directions(experiment, plan), resolution.lines)
-    changes = lines.changes(experiment, resolution.grid, resolution.within)
+    changes = lines.changes(experiment, resolution)
     segments = Segments.between(lines, changes)
     segments = segments.part(segments.outcome >= 0)
     mass = segments.mass()
-    ends = segments.moving_ends(experiment, lines, changes, mass > NEGLIGIBLE, resolution.quick)
+    ends = segments.moving_ends(experiment, lines, changes, mass > NEGLIGIBLE, resolution.approximate)
     share = segments.weight * mass
     probability = np.zeros((size, len(OUTCOMES)))
     slopes = np.zeros((*probability.shape, len(names)))
@@ -130,9 +130,8 @@ def _curves(
     """Row and outcome -> the restitution on the segments, line by line; without those that were not completed."""
     number = segments.line - np.searchsorted(lines.row, segments.row)
     every: dict[int, Curve] = {}
-    for which, mapping, value, slope in segments.results(
-        experiment, lines, ends, (_RESTITUTION,), resolution.nodes, resolution.points
-    ):
+    exact = replace(resolution, approximate=False)
+    for which, mapping, value, slope in segments.results(experiment, lines, ends, (_RESTITUTION,), exact):
         for j, k in enumerate(which.tolist()):
             if np.isfinite(value[0, j]).all():
                 span = np.array([segments.low[k], segments.high[k]])

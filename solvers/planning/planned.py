@@ -100,19 +100,19 @@ class Planned:
         order = np.lexsort((choice.points[:, 0], choice.points[:, 1]))
         points, counts = choice.points[order], choice.counts[order]
         rates = np.outer(free.rates(values), free.rates(values))
-        own = reliable_information(window.scene, free.names, values, window.plan(points), rtol)
+        single = reliable_information(window.scene, free.names, values, window.plan(points), rtol)
         side = max(1, round(math.sqrt(size))) if window.extends.all() else size
         grid = tuple(np.where(window.extends, side, 1).tolist())
         even = window.plan(window.grid(*grid))
         by_grid = reliable_information(window.scene, free.names, values, even, rtol).total.sum(axis=0)
-        total = before + rates * np.einsum("c,cij->ij", counts, own.total)
+        total = before + rates * np.einsum("c,cij->ij", counts, single.total)
         expected = _expected(free, values, total)
         spread = _spread(total + free.vague) / _spread(before + free.vague + rates * by_grid * size / even.size)
         verdicts = [COMBINED if each.low is None and each.high is None else IDENTIFIED for each in expected.values()]
         grows = free.size if target is None else 2
         efficiency = None if choice.bound is None else math.exp((choice.value - choice.bound) / grows)
         return cls(
-            window, free, values, _impacts(window, points, counts, own), expected, _expected(free, values, before),
+            window, free, values, _impacts(window, points, counts, single), expected, _expected(free, values, before),
             dict(zip(free.names, spread.tolist(), strict=True)), grid,
             combinations(free, total, verdicts, "These impacts"), efficiency, target, draws, choice.candidates,
             points, rtol, given,
@@ -181,11 +181,11 @@ def _expected(free: FreeEntries, values: np.ndarray, total: np.ndarray) -> dict[
     return expected
 
 
-def _impacts(window: Window, points: np.ndarray, counts: np.ndarray, own: Information) -> tuple[Impact, ...]:
+def _impacts(window: Window, points: np.ndarray, counts: np.ndarray, single: Information) -> tuple[Impact, ...]:
     plan = window.plan(points)
     return tuple(
         Impact(int(count), window.scene.stokes_of(speed), speed, speed / math.cos(angle), angle, tuple(share))
         for count, speed, angle, share in zip(
-            counts, plan.normal_speed.tolist(), plan.angle.tolist(), own.probability.tolist()
+            counts, plan.normal_speed.tolist(), plan.angle.tolist(), single.probability.tolist()
         )
     )

@@ -153,8 +153,10 @@ def test_derivatives_are_those_of_displaced_experiments() -> None:
     assert mirrored.value == pytest.approx(results.value * np.array([[1.0], [-1.0]]))
 
 
-@pytest.mark.parametrize(("degrees", "quick", "within"), [(0.0, False, 1e-5), (45.0, False, 1e-5), (45.0, True, 1e-2)])
-def test_slopes_are_those_of_boundary_sensitivities(degrees: float, quick: bool, within: float) -> None:
+@pytest.mark.parametrize(
+    ("degrees", "approximate", "within"), [(0.0, False, 1e-5), (45.0, False, 1e-5), (45.0, True, 1e-2)]
+)
+def test_slopes_are_those_of_boundary_sensitivities(degrees: float, approximate: bool, within: float) -> None:
     """Critical speeds at an angle move with viscosity and film thickness as the exact derivatives say."""
     scene, angle = Scene.load("granulation"), math.radians(degrees)
     experiment = Rows(scene, ENTRIES, {}, 1, 1e-11).at(np.array([scene.entries[name] for name in ENTRIES]))
@@ -170,7 +172,7 @@ def test_slopes_are_those_of_boundary_sensitivities(degrees: float, quick: bool,
     relative = (
         experiment.values / changes.place[:, None]
     )  # errors are those of the distance at which gradients are taken
-    assert slopes(experiment, lines, changes, quick) * relative == pytest.approx(expected, abs=within)
+    assert slopes(experiment, lines, changes, approximate) * relative == pytest.approx(expected, abs=within)
     assert slopes_by_differences(experiment, lines, changes) * relative == pytest.approx(expected, abs=1e-3)
 
 

@@ -11,8 +11,9 @@ from wetdoublet.generated.automaton import LAST_ANSWER
 from wetdoublet.solvers import Scene, collide_many, fit, log_likelihood
 from wetdoublet.solvers.changes import experiment
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
-from wetdoublet.solvers.fitting.likelihood import EXACT, KNEE, Likelihood, Resolution, limit
+from wetdoublet.solvers.fitting.likelihood import KNEE, Likelihood, limit
 from wetdoublet.solvers.fitting.measurements import Measurements
+from wetdoublet.solvers.fitting.scatter import EXACT, Resolution
 
 FINE = Resolution(7, 12, 256, 21, False, 1e-10)
 

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 from wetdoublet.solvers import Scene, boundary, collide_many
-from wetdoublet.solvers.fitting.likelihood import Likelihood, Resolution
+from wetdoublet.solvers.fitting.likelihood import Likelihood
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
+from wetdoublet.solvers.fitting.scatter import Resolution
 from wetdoublet.solvers.planning.information import information
 
 NOISE = 0.03
@@ -46,7 +47,7 @@ def test_information_is_the_covariance_of_the_score(
     data = replace(rows, outcome=outcome, observed={"restitution": (measured, rows.observed["restitution"][1])})
     likelihood = Likelihood(scene, names, data)
     likelihood.direction[:] = 0.0  # along the speeds
-    found = likelihood(values, Resolution(lines=15, points=256, quick=False))
+    found = likelihood(values, Resolution(lines=15, points=256, approximate=False))
     assert found is not None
     weight = np.exp(found.plain) * np.where(outcome == 0, 1.0, step)
     score = found.scores * values
