@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...generated.automaton import BOUNCE, KINDS, LAST_ANSWER, OUTCOMES, ROTATE, STICK, EventKind, Purpose, Status
+from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES, ROTATE, STICK, EventKind, Purpose, Status
+from ..collision.by_kernel import words_of
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.endless import limits
 from ..engines.taylor.record import Recorded, Steps, run_recorded
@@ -119,8 +120,9 @@ def happenings(
     )  # fmt: skip
     if recorded is None or (recorded.answers["status"] > LAST_ANSWER).any():
         return None
+    words = words_of(scene)
     rows = [log[:count] for log, count in zip(recorded.events, recorded.answers["events"], strict=True)]
-    return [[(KINDS[row["kind"]], float(row["time"])) for row in own] for own in rows]
+    return [[(words[int(row["kind"])], float(row["time"])) for row in own] for own in rows]
 
 
 def _take_limits(
