@@ -91,7 +91,8 @@ class Look:
     def _give_up(self, angle: float, stokes: float, told: np.void) -> None:
         n = nondimensionalise(self.scene, self.scene.speed_of(stokes), angle)
         self.reasons[angle, stokes] = (
-            f"{KERNEL_STEPS} steps do not decide the outcome: {told['events']} events by "
+            f"the doublet rebounds again and again: {KERNEL_STEPS} steps do not decide the outcome, "
+            f"{told['events']} events by "
             f"t = {told['time'] * n.time:.6g} s, "
             f"now at a gap of {told['final_gap'] * n.length:.6g} m; try another --rtol, or a collision further off"
         )
