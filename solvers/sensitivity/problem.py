@@ -105,6 +105,12 @@ class Problem:
         course = course_of(path, select_model(self.scene, path.model.oblique, full=full))
         rtol = sharpened(rtol, near)
         if plugin == "cvodes":
+            if near is not None and amplifies(near) and near.boundary == nearness.SADDLE:
+                raise ComputationError(
+                    f"no derivative by cvodes: its steps do not follow those of a trajectory that lies at the {near}, "
+                    f"nearer than {NEAR:g}",
+                    advice="--engine rosenbrock",
+                )
             rtol = max(rtol, _SHARPEST_CVODES)
         expression = trajectory_expression(course, of, plugin, tolerance_for(rtol, plugin, self.n.groups))
         mapping = parameter_map(self.kind, self.wrt, expression.groups)
