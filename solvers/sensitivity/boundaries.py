@@ -31,7 +31,7 @@ _OF = ("stokes", "speed", "relative_speed", "centrifugal")
 _SYMBOLS = {"stokes": "St*", "speed": "v*", "centrifugal": "Ce*"}
 _STEPS = (1e-3, 1e-4)  # in theta, at which derivatives are confirmed; the second where the boundary is strongly curved
 _REACH = 3e-3  # in ln St, about where it is expected
-_AGREES = 1e-3  # largest error of the confirmed derivative, in ln St per theta
+_AGREES = 1e-4  # largest error of the confirmed derivative, in ln St per theta
 _SHARPEST = 1e-11  # tolerance of the differentiated trajectories, which pass the saddle
 
 
