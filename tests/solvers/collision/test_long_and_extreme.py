@@ -373,3 +373,22 @@ def test_circling_on_the_surface_lever_arm_is_decided_by_its_limit() -> None:
         assert sample["chatters"].all()
         assert sample["outcome"].tolist() == far["outcome"].tolist() == [0, 1]
         assert far["status"].tolist() == [0, 0]
+
+
+def test_strings_that_pull_a_million_times_faster_than_the_approach_keep_the_ledger():
+    """Work of strings of 1e12 of the energy of the approach: Rosenbrock's ledger closes, and is CVODES'."""
+    scene = Scene.from_dict(
+        {
+            "particles": {"reduced_radius": 1.34394e-3, "density": 2617.44, "roughness": 5.51467e-6,
+                          "dry_restitution": 0.376264, "youngs_modulus": 2.71279e6, "poisson_ratio": 0.47309},
+            "liquid": {"viscosity": 9.27384e-5, "film_thickness": 9.06288e-4, "glass_transition_pressure": 9.92989e9},
+            "pendulum": {"length": 0.672202, "gravity": 0.39167, "law": "small-angle"},
+            "impact": {"stokes": 1.91989e-5, "angle": 0.0},
+        }
+    )  # fmt: skip
+    ours, other = (collide(scene, engine=engine, rtol=1e-9) for engine in ("rosenbrock", "cvodes"))
+    assert ours.outcome == other.outcome == "stick"
+    assert ours.energy is not None and other.energy is not None
+    lost, expected = ours.energy.normal_lubrication, other.energy.normal_lubrication
+    assert lost == pytest.approx(expected, rel=1e-7) and lost > 1e10 * ours.energy.initial
+    assert abs(ours.energy.residual) < 1e-9 * lost
