@@ -136,8 +136,8 @@ def expressions(flow: Flow) -> Expressions:
 def extra_units(model: Model, names: Sequence[str], p: Any) -> list[Any]:
     """Units of a flow's extras in a ledger's m v0^2, for groups `p`.
 
-    That of an energy that is lost is the sum of the approach, the sliding, and the work of the strings over x0: entries of
-    an implicit integrator's matrix that are much larger than those of the motion spoil the motion's digits.
+    That of an energy that is lost is the sum of the approach, the sliding, and the work of the strings over x0. Entries
+    of an implicit integrator's matrix that are much larger than those of the motion spoil the motion's digits.
     """
     group = {name: p[k] for k, name in enumerate(model.groups)}
     lost = 1 + group.get("obliquity", 0.0) ** 2
