@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...generated.automaton import KINDS, OUTCOMES, Purpose
-from ..engines.casadi.locate import EventLocator
+from ..engines.casadi.locate import CHATTERS, EventLocator
 from ..engines.choice import collision_engine
 from ..errors import ComputationError, InputError
 from ..model.dimensionless import nondimensionalise
@@ -94,7 +94,8 @@ class Look:
             f"the doublet rebounds again and again: {KERNEL_STEPS} steps do not decide the outcome, "
             f"{told['events']} events by "
             f"t = {told['time'] * n.time:.6g} s, "
-            f"now at a gap of {told['final_gap'] * n.length:.6g} m; try another --rtol, or a collision further off"
+            f"now at a gap of {told['final_gap'] * n.length:.6g} m, {CHATTERS}; "
+            "try another --rtol, or a collision further off"
         )
 
     def reason(self, angle: float, low: float, high: float) -> str:
