@@ -10,10 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
+from ...generated.automaton import BOUNCE, CRITERIA, OUTCOMES, ROTATE, STICK
 from ..changes.brackets import Brackets, enclose
 from ..changes.roots import Function, root, sample
 from ..errors import ComputationError
+from ..scene.contact import GAPS
 from .line import Line
 from .look import Look
 from .samples import known
@@ -26,6 +27,7 @@ _BESIDE = 1e-9  # relative distance at which both sides of a graze are computed
 _ACCEPTED = 1e-6  # relative distance at which collisions must confirm a change
 _LOCATED = 1e-8  # the same for one located by a smooth function; otherwise it is bracketed again by outcomes
 _NARROW = 2e-9  # width in ln St to which outcomes bracket a change
+_TOGETHER = 0.1  # part of a phase within which contact and a turning point just above it happen
 _AT_ONCE = 16  # collisions of a round that are worth waiting for together: two for each lane of the kernel
 
 
@@ -54,14 +56,13 @@ class Change:
 
 @dataclass(frozen=True)
 class _Bracket:
-    """Two Stokes numbers of a line with different outcomes, and the criterion first met at each (-1 for none)."""
+    """Two Stokes numbers of a line with different outcomes."""
 
     line: Line
     low: float
     high: float
     before: str
     after: str
-    met: tuple[int, int]
 
 
 def changes_along(
@@ -97,14 +98,11 @@ def _attempt(step: Callable[..., Any], *arguments: Any) -> Any:
 
 def _brackets(line: Line, samples: np.ndarray) -> list[_Bracket]:
     """Neighbouring samples with different outcomes."""
-    places = np.flatnonzero(np.diff(samples["outcome"])).tolist()
-    return [_bracket(line, samples[k], samples[k + 1]) for k in places]
-
-
-def _bracket(line: Line, low: np.void, high: np.void) -> _Bracket:
-    outcomes = OUTCOMES[low["outcome"]], OUTCOMES[high["outcome"]]
-    met = int(low["reversal"]), int(high["reversal"])
-    return _Bracket(line, float(low["stokes"]), float(high["stokes"]), *outcomes, met)
+    stokes, words = samples["stokes"].tolist(), [OUTCOMES[k] for k in samples["outcome"]]
+    return [
+        _Bracket(line, stokes[k], stokes[k + 1], words[k], words[k + 1])
+        for k in np.flatnonzero(np.diff(samples["outcome"])).tolist()
+    ]
 
 
 def _completed(line: Line, look: Look, brackets: list[_Bracket], found: list[list[Change]]) -> list[list[Change]]:
@@ -263,12 +261,9 @@ def _enclosed(look: Look, brackets: Sequence[_Bracket], kernel_only: bool) -> li
         ComputationError: no collision within a bracket could be decided.
     """
     angle = np.array([one.line.angle for one in brackets])
-    met = {(k, at): own for k, one in enumerate(brackets) for at, own in zip((one.low, one.high), one.met)}
 
     def labels(which: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        seen = look.outcomes(angle[which], stokes, kernel_only)
-        met.update(zip(zip(which.tolist(), stokes.tolist()), seen["reversal"].tolist()))
-        outcome: np.ndarray = seen["outcome"]
+        outcome: np.ndarray = look.outcomes(angle[which], stokes, kernel_only)["outcome"]
         return outcome
 
     ends = ([one.low for one in brackets], [one.high for one in brackets])
@@ -285,34 +280,39 @@ def _enclosed(look: Look, brackets: Sequence[_Bracket], kernel_only: bool) -> li
                 raise ComputationError(f"a change of outcome between St {low:.10g} and {high:.10g}: {reason}")
             undecided.add(k)
             continue
-        one = _Bracket(line, low, high, OUTCOMES[before], OUTCOMES[after], (met[k, low], met[k, high]))
+        one = _Bracket(line, low, high, OUTCOMES[before], OUTCOMES[after])
         changes[k].append(_change(line, math.sqrt(low * high), one.before, one.after, _kind(one)))
     return [[] if k in undecided else own for k, own in enumerate(changes)]
 
 
 def _kind(one: _Bracket) -> str:
-    """Kind of a change from its narrow bracket."""
-    if one.line.model.own_events:
-        return _kind_beside_events(one)
-    if STICK not in (one.before, one.after):
-        return GRAZE
-    stuck, at = (one.met[0], one.low) if one.before == STICK else (one.met[1], one.high)
-    rebounds = stuck >= 0 or (BOUNCE in (one.before, one.after) and one.line.criterion(at) >= 0)
-    if BOUNCE in (one.before, one.after):
-        return REVERSED if rebounds else GRAZE
-    return GRAZE if rebounds else FREE
-
-
-def _kind_beside_events(one: _Bracket) -> str:
-    """Kind of a change where a model declares events: named by the first that happens on one side only."""
-    sides = [one.line.words(stokes) for stokes in (one.low, one.high)]
+    """Kind of a change from its narrow bracket: by what happens first on one of its sides only."""
     declared = [each.word for each in one.line.model.own_events]
-    for word in (word for side in sides for word in side if word in declared):
-        if (word in sides[0]) != (word in sides[1]):
-            return f"{DECLARED} {word}"
-    if (one.met[0] < 0) != (one.met[1] < 0):
+    if STICK not in (one.before, one.after) and not declared:
         return GRAZE
-    return FREE if one.met[0] < 0 else REVERSED
+    try:
+        low, high = one.line.happenings(one.low, one.high)
+    except ComputationError:
+        return PLAIN
+    words = [[word for word, _ in side] for side in (low, high)]
+    for word in (word for side in words for word in side if word in declared):
+        if (word in words[0]) != (word in words[1]):
+            return f"{DECLARED} {word}"
+    k = next((k for k, (a, b) in enumerate(zip(*words)) if a != b), min(len(low), len(high)))
+    begin = low[k - 1][1] if k else 0.0
+    ends = [side[k] for side in (low, high) if len(side) > k]
+    if any(_just_met(word, time - begin, [other - begin for _, other in ends]) for word, time in ends):
+        return GRAZE
+    return REVERSED if any(word in CRITERIA for word in words[0][:k]) else FREE
+
+
+def _just_met(word: str, time: float, times: list[float]) -> bool:
+    """True if an event of one side only is a rebound criterion that is just met.
+
+    Contact is just met where the other side turns, at the same time. Where a saddle parts both sides, one is drawn into
+    contact, at another time.
+    """
+    return word in CRITERIA and not (word in GAPS and max(times) - min(times) > _TOGETHER * time)
 
 
 def _demand_agreement(changes: list[Change], samples: np.ndarray) -> None:
