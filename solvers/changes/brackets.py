@@ -98,7 +98,7 @@ def enclose(
     Arguments:
         width: of a bracket, as a number or a function of the brackets that returns one for each.
         unknown: label of a sample that says nothing; such samples are passed over. None if every label counts.
-        most: brackets of a line from which on further changes within a bracket are not separated.
+        most: number of brackets of a line from which on only the last of several changes within a bracket is followed.
         logarithmic: places are positive, and widths and divisions those of their logarithms.
     """
     closed: list[Brackets] = []

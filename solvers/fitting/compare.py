@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
@@ -57,13 +57,10 @@ class Comparison:
     def to_dict(self) -> list[dict[str, Any]]:
         """The JSON of the comparison."""
         return [
-            {
-                "choice": each.name, "log_likelihood": each.log_likelihood, "aic": each.aic,
-                "predicted": each.predicted, "estimates": None if each.estimates is None else dict(each.estimates),
-                "reason": each.reason or None,
-            }
+            {"choice": each.name, **{name: value for name, value in asdict(each).items() if name != "name"}}
+            | {"reason": each.reason or None}
             for each in self.candidates
-        ]  # fmt: skip
+        ]
 
     def rows(self) -> tuple[list[str], list[list[str]]]:
         """Head and cells of a table; AIC as the difference from the best."""

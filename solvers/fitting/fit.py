@@ -10,7 +10,6 @@ import numpy as np
 from scipy.stats import chi2
 
 from ...generated.automaton import OUTCOMES, STICK
-from ..host.arguments import check_mapping
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import check_rtol
@@ -71,8 +70,7 @@ def fit(
     first = Scene.load(scene)
     rtol = check_rtol(rtol)
     table = read_data(data, first)
-    priors = None if prior is None else check_mapping(prior, "prior", 'entries and priors, {"NAME": "2 um +- 20 %"}')
-    entries = free_entries(first, free, table, priors, rtol)
+    entries = free_entries(first, free, table, prior, rtol)
     warn(first)
     likelihood = Likelihood(first, entries.names, table, rtol)
     best, ends = intervals(likelihood, entries, optimise(likelihood, entries, starts, seed))

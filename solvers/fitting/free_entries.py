@@ -14,7 +14,7 @@ import numpy as np
 
 from ..changes.experiment import Rows, free_names
 from ..errors import InputError
-from ..host.arguments import check_names
+from ..host.arguments import check_mapping, check_names
 from ..scene import units
 from ..scene.scene import Scene
 from ..scene.schema import ANY, FRACTION, NOT_NEGATIVE, PART, POISSON, POSITIVE, WETTING_ANGLE
@@ -58,7 +58,6 @@ class FreeEntry:
         value: of the scene, SI; the first guess.
         log: varied in its logarithm.
         low, high: bounds of the search, SI.
-        unit: SI unit, empty for a number.
     """
 
     name: str
@@ -66,7 +65,6 @@ class FreeEntry:
     log: bool
     low: float
     high: float
-    unit: str
     prior: Prior | None = None
 
     def inner(self, value: float) -> float:
@@ -151,7 +149,8 @@ def free_entries(
     for name in chosen:
         if name in data.columns:
             raise InputError("free", name, "entries that are not a column of the data", "is given row by row")
-    priors = {} if priors is None else priors
+    accepted = 'entries and priors, {"NAME": "2 um +- 20 %"}'
+    priors = {} if priors is None else check_mapping(priors, "prior", accepted)
     for name in priors:
         if name not in chosen:
             raise InputError("prior", name, ", ".join(chosen), "is not free")
@@ -172,7 +171,7 @@ def free_entries(
         low, high = _SPAN.get(entry.range, (start[k] / _RANGE, start[k] * _RANGE) if log else (-1e3, 1e3))
         low, high = (_feasible(rows, start, k, end) for end in (low, high))
         prior = _prior(scene, name, priors[name], log) if name in priors else None
-        entries.append(FreeEntry(name, float(start[k]), log, low, high, entry.unit or "", prior))
+        entries.append(FreeEntry(name, float(start[k]), log, low, high, prior))
     return FreeEntries(tuple(entries))
 
 

@@ -15,7 +15,7 @@ from ..errors import InputError
 from ..fitting.fit import RTOL, fit
 from ..fitting.free_entries import FreeEntries, free_entries
 from ..fitting.measurements import Measurements, read_data
-from ..host.arguments import check_mapping, check_name, check_whole
+from ..host.arguments import check_name, check_whole
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import check_rtol
@@ -83,12 +83,11 @@ def design(
     loaded = Scene.load(scene)
     key, speed, angle = check_over(over)
     size, draws = check_whole(n, "n", 1, _MOST), check_whole(draws, "draws", 0, _MOST_DRAWS)
-    priors = None if prior is None else check_mapping(prior, "prior", 'entries and priors, {"NAME": "2 um +- 20 %"}')
     table = None if data is None else read_data(data, loaded)
     default = Scatter() if table is None else Scatter.typical(table)
     scatter = Scatter.checked(speed_sd, angle_sd, restitution_sd, default)
     window = Window(loaded, key, speed, angle, scatter)
-    entries, before, scene_now = _known(loaded, free, table, priors, window, rtol)
+    entries, before, scene_now = _known(loaded, free, table, prior, window, rtol)
     single = None if target is None else check_name(target, entries.names, "target")
     warn(scene_now)
     window = Window(scene_now, key, speed, angle, scatter)
