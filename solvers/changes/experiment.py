@@ -54,7 +54,7 @@ class Rows:
         scene: what the rows share.
         names: the free entries, dotted.
         columns: other entries that differ from row to row, by dotted name.
-        size: number of rows.
+        size: number of rows, 1 if all are alike.
         rtol: relative tolerance of the integrations.
     """
 
@@ -62,11 +62,11 @@ class Rows:
         self, scene: Scene, names: tuple[str, ...], columns: Mapping[str, np.ndarray], size: int, rtol: float
     ) -> None:
         self.scene, self.names, self.columns, self.rtol = scene, names, columns, rtol
-        self.size = size if columns else 1  # without columns all rows are alike
+        self.size = size
         entries = [*names, *columns]
         column = SX.sym("entries", len(entries))
-        own: dict[str, Any] = {name: value for name, value in scene.si if name not in MEETING}
-        by_quantity = quantities(own | {name: column[k] for k, name in enumerate(entries)}, scene.ways)
+        shared: dict[str, Any] = {name: value for name, value in scene.si if name not in MEETING}
+        by_quantity = quantities(shared | {name: column[k] for k, name in enumerate(entries)}, scene.ways)
         self._quantities = tuple(name for name in by_quantity if name != "density")
         stacked = vertcat(*(SX(by_quantity[name]) for name in self._quantities))
         slopes = jacobian(stacked, column[: len(names)]) if names else SX(stacked.numel(), 0)
@@ -111,11 +111,12 @@ class Results:
 
 @dataclass(frozen=True)
 class Experiment:
-    """Rows of scenes, on which impacts of any normal speeds (m/s) and angles (rad) are made.
+    """Scenes by row, and collisions of them at any normal speeds (m/s) and angles (rad), each on one of the rows.
 
     The angle may be negative: the mirror image of the positive one.
 
     Attributes:
+        rows: the quantities as a function of the free entries.
         values: of the free entries, (free entries,) or (free entries, rows).
         columns: name of a quantity -> (rows,), or (1,) where all rows are alike, SI.
         slopes: the same, with the derivatives by the free entries along the last axis.
