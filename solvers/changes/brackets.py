@@ -161,6 +161,8 @@ class Changes(Brackets):
 
 def _divisions(brackets: Brackets, parts: np.ndarray, logarithmic: bool) -> tuple[np.ndarray, np.ndarray]:
     """The places that divide each bracket into equal parts, ends excluded, and the index of its bracket for each."""
+    if not (logarithmic or np.any(parts - 2)):  # the usual case
+        return np.arange(brackets.size), brackets.place
     owner = np.repeat(np.arange(brackets.size), parts - 1)
     number = 1 + np.arange(owner.size) - np.repeat(np.cumsum(parts - 1) - (parts - 1), parts - 1)
     fraction, low, high = number / parts[owner], brackets.low[owner], brackets.high[owner]

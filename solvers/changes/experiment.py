@@ -153,15 +153,16 @@ class Experiment:
 
     def impacts(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> Impacts:
         """Impacts on these rows, as the kernel takes them."""
+        share, material = self._share(row), self.scene.material
         others = {
-            name: values[self._share(row)]
+            name: values[share]
             for name, values in self.columns.items()
-            if values.size > 1 or float(values[0]) != self.scene.material.get(name)
+            if values.size > 1 or float(values[0]) != material.get(name)
         }
         for name in ("impact_spin", "impact_partner_spin"):
             spin = self.columns.get(name)
             if spin is not None and spin.any() and (angle < 0).any():
-                others[name] = spin[self._share(row)] * np.where(angle < 0, -1.0, 1.0)
+                others[name] = spin[share] * np.where(angle < 0, -1.0, 1.0)
         size = np.abs(angle)
         return Impacts(self.scene, speed, np.where(size < _HEAD_ON, 0.0, np.minimum(size, STEEPEST)), others)
 
@@ -191,7 +192,8 @@ class Experiment:
         """
         answers = self.answers(row, speed, angle, jumps=2)
         outcome: np.ndarray = np.where(answers["status"] > LAST_ANSWER, UNDECIDED, answers["outcome"]).astype(np.int8)
-        late = np.flatnonzero((outcome == UNDECIDED) & ~np.isin(answers["status"], _ENDLESS))
+        late = np.flatnonzero(outcome == UNDECIDED)
+        late = late[~np.isin(answers["status"][late], _ENDLESS)] if late.size else late
         if late.size and not kernel_only:
             outcome[late] = self.completed(row[late], speed[late], angle[late])["outcome"]
         return outcome
