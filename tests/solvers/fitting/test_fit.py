@@ -110,7 +110,9 @@ law = "willett"
     at = corners[np.argmin(np.abs(corners[:, 0] - 3.0)), 0]
     band = corners[corners[:, 0] == at, 1]
     estimate = found.estimates[VISCOSITY]
-    ends = collide_many(scene, speed=at, angle=angle, vary={VISCOSITY: [estimate.low, estimate.high]}).restitution.values
+    ends = collide_many(
+        scene, speed=at, angle=angle, vary={VISCOSITY: [estimate.low, estimate.high]}
+    ).restitution.values
     assert band.min() <= ends.min() + 1e-9
     assert band.max() >= ends.max() - 1e-9
 
