@@ -17,7 +17,7 @@ from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import aspect, beta, gap, normal_velocity, obliquity, orbital_momentum, stokes
-from .base import Check, Evidence, check, vanishing
+from .base import Check, Evidence, check, checks, vanishing
 from .closed import SIZES
 
 _BRIDGE = Structure(oblique=True, bridge=True, strings=False)
@@ -29,6 +29,7 @@ _STRINGS = Structure(oblique=True, bridge=False, strings=True)
 _PULL, _DEPTH, _LEFT = sp.symbols("pull depth left", positive=True)
 
 
+@checks
 def braking_is_the_films() -> tuple[Check, ...]:
     """What a film takes from an approach is the integral of its resistance from x0."""
     checks = []
@@ -118,6 +119,3 @@ def as_emitted() -> Evidence:
             thrown = 2 * aspect * (kinetic - normal_velocity**2 / 2) * distance**2 / near**3
         inner = outward.args[1] if outward.args[0] == 0 else outward.args[0]
         yield filled(inner - (thrown - model.expanded(attractions(structure, gap), SIZES)), {})
-
-
-CHECKS = (braking_is_the_films, closing_speed, rotation_gains, as_emitted)

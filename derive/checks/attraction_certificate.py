@@ -15,7 +15,7 @@ from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check
+from .base import Check, Evidence, check, checks
 
 _COSINE = sp.Symbol("cosine", nonnegative=True)  # for a contact angle up to 90 deg
 
@@ -71,6 +71,7 @@ def margins_are_the_forces() -> Evidence:
         )
 
 
+@checks
 def momentum_is_bounded() -> Check:
     """|J| falls where it exceeds |s L|, the largest in rigid rotation up to a gap, for L of either sign.
 
@@ -98,9 +99,7 @@ def momentum_is_bounded() -> Check:
     )
 
 
+@checks
 def attractions_fall() -> tuple[Check, ...]:
     """`force_falls` for the attractions."""
     return force_falls(law for slot in ("bridge", "attraction") for law in LAWS[slot].values())
-
-
-CHECKS = (attractions_fall, momentum_is_bounded, margins_are_the_forces)

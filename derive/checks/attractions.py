@@ -13,7 +13,7 @@ from ..physics.scaling import generalised_centrifugal, group_definitions
 from ..physics.structure import Structure
 from ..vocabulary.dimensions import ENERGY, FORCE, LENGTH, PRESSURE, demand_dimension
 from ..vocabulary.quantities import DIMENSIONS, centrifugal, contact_angle, gap, normal_velocity, omega0, x, x0
-from .base import Check, Evidence, check, vanishing
+from .base import Check, Evidence, check, checks, vanishing
 from .closed import SIZES, slope_along
 
 _H = sp.Symbol("h", positive=True)
@@ -26,6 +26,7 @@ _ATTRACTED = (
 )
 
 
+@checks
 def films() -> tuple[Check, ...]:
     """Each film law is a force and tends to the force of an unlimited film as the rim goes to infinity."""
     rim = sp.Symbol("rim", positive=True)
@@ -51,6 +52,7 @@ def films() -> tuple[Check, ...]:
     )
 
 
+@checks
 def resistances() -> Check:
     """The resistance of every film is nowhere negative, so that lubrication only dissipates."""
     wrong = []
@@ -93,6 +95,3 @@ def _slope(model: Model, energy: sp.Expr) -> sp.Expr:
     own, inertia = (model.expanded(by_name[name], SIZES) for name in ("momentum", "inertia_ratio"))
     momentum, scale = sp.Symbol("L", positive=True), sp.simplify(energy * inertia / own**2)
     return (scale * momentum**2 / inertia).diff(gap).subs(momentum, own)
-
-
-CHECKS = (films, resistances, generalised_number, slopes)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import wraps
-from typing import ParamSpec
+from itertools import chain
+from typing import ParamSpec, TypeVar
 
 import sympy as sp
 
 from ..vocabulary.quantities import VOCABULARY
 
 P = ParamSpec("P")
+C = TypeVar("C")
 Evidence = Iterator[sp.Expr | tuple[bool | None, str] | str]
 """What a check yields: expressions that must vanish, claims (truth, figure if false), and the figure to show."""
 
@@ -24,6 +27,21 @@ class Check:
     statement: str
     ok: bool | None
     figure: str
+
+
+Several = Callable[[], Check | Iterable[Check]]
+_REGISTERED: dict[str, list[Several]] = defaultdict(list)
+
+
+def checks(function: Callable[P, C]) -> Callable[P, C]:
+    """Decorator: the function, which needs no argument, is among the checks of its module."""
+    _REGISTERED[function.__module__].append(function)
+    return function
+
+
+def checks_of(*modules: str) -> list[Several]:
+    """The checks of modules, in the order of their definition."""
+    return [each for module in modules for each in _REGISTERED[module]]
 
 
 def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callable[P, Check]]:
@@ -43,18 +61,15 @@ def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callab
             result = vanishing(name, statement, left, figure)
             return replace(result, ok=False, figure=false[0]) if false and result.ok else result
 
-        return run
+        return checks(run)
 
     return checked
 
 
-def run(checks: Iterable[Callable[[], Check | Iterable[Check]]]) -> tuple[Check, ...]:
+def run(several: Iterable[Several]) -> tuple[Check, ...]:
     """The results of checks; one function may give several."""
-    found: list[Check] = []
-    for each in checks:
-        result = each()
-        found += [result] if isinstance(result, Check) else result
-    return tuple(found)
+    results = (each() for each in several)
+    return tuple(chain.from_iterable([each] if isinstance(each, Check) else each for each in results))
 
 
 def vanishing(name: str, statement: str, left: list[sp.Expr], figure: str = "", *, holds: bool | None = True) -> Check:

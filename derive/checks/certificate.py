@@ -74,6 +74,3 @@ def least_energy_is_a_minimum() -> Evidence:
         convex &= all(minor.is_positive for minor in minors)
     yield convex, "the Hessian is not positive definite"
     yield "gradient zero, Hessian positive definite, value as emitted"
-
-
-CHECKS = (least_energy, least_energy_is_a_minimum)

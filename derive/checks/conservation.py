@@ -12,7 +12,7 @@ from ..physics.laws import Law, strings
 from ..physics.laws.base import filled
 from ..physics.structure import Structure, structures
 from ..vocabulary.quantities import orbital_momentum, spin
-from .base import Check, vanishing
+from .base import Check, checks, vanishing
 from .closed import slope_along
 
 _FULL = tuple(structure for structure in structures() if not structure.reduced)
@@ -34,6 +34,7 @@ def energy_balance(structure: Structure) -> sp.Expr:
     return sp.factor(sp.expand(strings.half_angles(total + lost)))
 
 
+@checks
 def energy(among: Iterable[Structure] = _FULL) -> tuple[Check, ...]:
     """Film, shear and bridge are the only forces that change the mechanical energy; strings are conservative."""
     return tuple(
@@ -44,6 +45,3 @@ def energy(among: Iterable[Structure] = _FULL) -> tuple[Check, ...]:
         )
         for structure in among
     )
-
-
-CHECKS = (energy,)

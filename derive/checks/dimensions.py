@@ -39,7 +39,7 @@ from ..vocabulary.dimensions import (
     demand_dimension,
 )
 from ..vocabulary.quantities import DIMENSIONS, beta
-from .base import Check
+from .base import Check, checks
 
 Equations = dict[str, tuple[sp.Expr, Dimension]]
 
@@ -100,6 +100,7 @@ def symbol_dimensions() -> dict[sp.Basic, Dimension]:
     return {**DIMENSIONS, **forces, **lengths, FILM: ONE, SHEAR: ONE}
 
 
+@checks
 def dimension_checks(rooms: Mapping[str, Equations] | None = None) -> tuple[Check, ...]:
     """One check per room of `si_equations`: each equation is homogeneous and has the expected dimension."""
     dimensions = symbol_dimensions()
@@ -115,6 +116,3 @@ def dimension_checks(rooms: Mapping[str, Equations] | None = None) -> tuple[Chec
         figure = "; ".join(errors) or f"{len(equations)} equations"
         checks.append(Check(f"dimensions: {room}", statement, not errors, figure))
     return tuple(checks)
-
-
-CHECKS = (dimension_checks,)

@@ -24,7 +24,7 @@ from ..physics.mechanics import F_t, S_t, arm, equations_of_motion, sphere_inert
 from ..physics.scaling import DISTANCE, nondimensional
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
-from .base import Check, readable, settled, vanishing
+from .base import Check, checks, readable, settled, vanishing
 from .signs import nonnegative
 
 _OBLIQUE = Structure(oblique=True, bridge=False, strings=False)
@@ -150,6 +150,7 @@ def arms(levers: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
     return tuple(checks)
 
 
+@checks
 @cache
 def bridge_does_work() -> Check:
     """The bridge force depends on the gap only, so it has a potential W_c(x), the same while closing and opening."""
@@ -164,6 +165,7 @@ def bridge_does_work() -> Check:
     return vanishing("bridge does work only", "F_c = F_c(x): its work W_c(x) is a potential, for any bridge law", left)
 
 
+@checks
 @cache
 def rebound_dissipates() -> tuple[Check, ...]:
     """A rebound loses exactly the kinetic energy of `rebound_loss`, which is not negative for 0 <= e_dry <= 1."""
@@ -179,6 +181,3 @@ def rebound_dissipates() -> tuple[Check, ...]:
         vanishing("rebound's energy", "kinetic energy before - after = (1 - e_dry^2) u^2/2, all else continuous", left),
         Check("rebound dissipates", "(1 - e_dry^2) u^2/2 >= 0 for 0 < e_dry <= 1", sign.proved, sign.shown),
     )
-
-
-CHECKS = (bridge_does_work, rebound_dissipates)

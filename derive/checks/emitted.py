@@ -132,9 +132,3 @@ def tangential_force_is_the_published() -> Evidence:
     factor = nondimensional(spun / ((q.omega - q.xi) / q.rate_scale) / sp.log(2 * q.a / q.x))
     logarithm = sp.log(2 * q.a / q.x).subs(q.x, q.gap * q.x0).subs(q.x0, q.a * q.aspect)
     yield from (sp.expand_log(force - published, force=True), emitted - model.expanded(slip * factor) * logarithm)
-
-
-CHECKS = (
-    resting_is_held, inward_is_minus_the_acceleration, momentum_is_the_bodies, outputs_are_the_definitions,
-    events_are_the_definitions, tangential_force_is_the_published,
-)  # fmt: skip

@@ -35,6 +35,3 @@ def floating_doublets() -> Evidence:
         yield from ((drag / (FILM * normal_velocity)).diff(normal_velocity), drag.diff(stokes) * stokes + drag)
         laws_of_gap &= not inward.free_symbols & (set(model.states) - {gap, orbital_momentum})
     yield laws_of_gap, "inward depends on another state"
-
-
-CHECKS = (floating_doublets,)

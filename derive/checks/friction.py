@@ -19,7 +19,7 @@ from ..physics.partners.space import PARTNER_SLIPS, PARTNER_TWIST, SLIPS, TWIST
 from ..physics.partners.vectors import dot, on_the_sphere
 from ..physics.structure import Partner, Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, vanishing
+from .base import Check, Evidence, check, checks, vanishing
 from .signs import nonnegative
 
 _PARTNERS: tuple[Partner, ...] = ("", "pair", "wall")
@@ -63,6 +63,7 @@ def energy_is_booked() -> Evidence:
         yield kinetic - _after(model, kinetic) - lost
 
 
+@checks
 def never_gains() -> Check:
     """An impulse of at most the one that sticks dissipates, for 0 <= beta_0 <= 1."""
     model = derive(_FREE[0])
@@ -73,6 +74,7 @@ def never_gains() -> Check:
     return Check("friction dissipates", statement, sign.proved, sign.shown)
 
 
+@checks
 def angular_momentum() -> tuple[Check, ...]:
     """L is kept with the lever arm at mid-gap; on the surface it changes by minus the gap times the impulse."""
     kept, moved = [], []
@@ -87,6 +89,7 @@ def angular_momentum() -> tuple[Check, ...]:
     )
 
 
+@checks
 def resting_contact() -> tuple[Check, ...]:
     """In resting contact sliding takes what the ledger books, and rolling keeps the slip."""
     booked, held = [], []
@@ -107,6 +110,7 @@ def resting_contact() -> tuple[Check, ...]:
     )
 
 
+@checks
 def in_space() -> tuple[Check, ...]:
     """The slip lies across n, and the impulse along it, within the cone, with the plane's answer in each component.
 
@@ -145,9 +149,3 @@ def in_space() -> tuple[Check, ...]:
         vanishing("friction in space: answer", "each component of slip and impulse is the plane's", left),
         Check("friction in space: cone", "|impulse| <= Coulomb's limit", part.is_nonnegative, str(part)),
     )
-
-
-CHECKS = (
-    effective_mass, sticking_reverses_the_slip, energy_is_booked, never_gains, angular_momentum, resting_contact,
-    in_space,
-)  # fmt: skip

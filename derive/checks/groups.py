@@ -6,7 +6,7 @@ import sympy as sp
 
 from ..physics.scaling import dimension_matrix, group_definitions, nondimensional
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, readable, vanishing
+from .base import Check, Evidence, check, checks, readable, vanishing
 
 
 def _dimensional(symbols: set[sp.Basic]) -> list[sp.Symbol]:
@@ -44,6 +44,7 @@ def number_of_groups() -> Evidence:
     yield f"{independent} = {len(quantities)} - {rank}"
 
 
+@checks
 def groups_span_the_nullspace() -> Check:
     """St, Ca and Ce are combinations of the dimensionless monomials of their quantities (nullspace)."""
     left, shown = [], []
@@ -66,8 +67,3 @@ def groups_are_the_papers() -> Evidence:
         q.centrifugal: q.m * (q.v0 * sp.tan(q.theta0) / (4 * q.a)) ** 2 / q.sigma,
     }
     yield from [group_definitions()[group] - value for group, value in expected.items()]
-
-
-CHECKS = (
-    groups_span_the_nullspace, groups_are_the_papers, centrifugal_number, normalisation_of_the_paper, number_of_groups,
-)  # fmt: skip

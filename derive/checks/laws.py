@@ -106,6 +106,3 @@ def film_integral(law: Law) -> tuple[sp.Expr, bool]:
     if integral.has(sp.Integral):
         return sp.Integral(resistance, (inner, gap, 1)), False
     return sp.expand(integral), True
-
-
-CHECKS = (rigid_rotation_is_free, small_angle_is_linear)

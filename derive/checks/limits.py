@@ -48,6 +48,3 @@ def head_on_is_oblique_at_rest() -> Evidence:
         names = ["right_hand_side", "events", "energies", "energy_rates", "inward_force", "outputs"]
         names += ["effective_potential"] if "effective_potential" in wide else []  # not for rotating strings
         yield from special_case(narrow, names, wide, methodcaller("subs", still))
-
-
-CHECKS = (reduced_is_full, head_on_is_oblique_at_rest)

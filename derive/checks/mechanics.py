@@ -47,6 +47,3 @@ def _conservative(law: Law) -> Check:
     arguments = rise.arguments
     left.append(sp.simplify(2 * rise(*arguments).diff(arguments[1]) - stiffness(*arguments)))
     return vanishing(f"strings: {law.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", left)
-
-
-CHECKS = (inertia_is_rigid_rotation,)

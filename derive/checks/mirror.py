@@ -27,6 +27,3 @@ def mirror() -> Evidence:
                 result = model.expanded(value, SIZES)
                 sign = -1 if name == "right_hand_side" and key in {state.name for state in reversed_} else 1
                 yield result - sign * result.subs(reversed_, simultaneous=True)
-
-
-CHECKS = (mirror,)

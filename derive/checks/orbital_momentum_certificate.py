@@ -13,7 +13,7 @@ from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import aspect, gap, obliquity, orbital_momentum, spin
-from .base import Check, Evidence, check, vanishing
+from .base import Check, Evidence, check, checks, vanishing
 
 _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
 # square roots of momentum and spin, in which all expressions are rational
@@ -60,6 +60,7 @@ def _change(lever: str, energy: sp.Expr) -> sp.Expr:
     return margin.diff(_Q) / (2 * _Q) - rate * margin.diff(_P) / (2 * _P)
 
 
+@checks
 def midgap_takes() -> Check:
     """Lever arm at mid-gap: d(margin)/dxi = -(32/5)(omega - xi) a^2, so that F_t never increases the margin."""
     ratio = _settled(_change("midgap", _midgap()) / (_P**2 / _NEAR**2 - _Q**2))
@@ -67,6 +68,7 @@ def midgap_takes() -> Check:
     return Check("exchange takes, midgap", "d(margin) = -c (omega - xi) dxi, dxi ~ omega - xi", ok, f"c = {-ratio}")
 
 
+@checks
 def midgap_ends() -> Check:
     """Beyond the edge of the shear: the same exchange, zero once omega = xi at the edge, and positive before."""
     within = orbital.midgap_within(_FAR, _EDGE, _P**2, _Q**2)
@@ -84,6 +86,7 @@ def midgap_ends() -> Check:
     return replace(same, ok=same.ok and falls)
 
 
+@checks
 def transferable_bounds() -> tuple[Check, ...]:
     """What can be transferred, for momenta of any sign: where |J| falls G falls, elsewhere the sum with slip energy.
 
@@ -124,6 +127,7 @@ def _clamped(value: sp.Expr) -> sp.Expr:
     )
 
 
+@checks
 def surface_takes() -> Check:
     """Lever arm at the surface: the same sign at every distance r <= d, for rho between 4 and d, d - rho <= 4.
 
@@ -166,6 +170,3 @@ def as_emitted() -> Evidence:
         if "surface" in emitted:
             own = orbital.surface(here, orbital_momentum, turning, orbital.rigid_share(orbital_momentum, turning))
             yield emitted["surface"] - unit * own
-
-
-CHECKS = (exchange, stationary, midgap_takes, midgap_ends, transferable_bounds, surface_takes, as_emitted)

@@ -12,7 +12,7 @@ from ..physics.laws.base import filled
 from ..physics.partners import bodies, rolling, wall
 from ..physics.structure import Partner, Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check
+from .base import Check, Evidence, check, checks
 from .closed import SIZES, special_case
 
 _PARTNERS: tuple[Partner, ...] = ("pair", "wall")
@@ -36,6 +36,7 @@ def conserved_momenta() -> list[dict[str, sp.Expr]]:
     ]
 
 
+@checks
 def momenta_are_found() -> Check:
     """Linear momentum and total angular momentum are the only invariants linear in the momenta."""
     result = conserved_momenta()
@@ -183,9 +184,3 @@ def wall_friction_decays() -> Evidence:
     shares = [known[s].subs(unspun).subs(wall.SLOW_MODE, wall.FAST_MODE + slower) for s in (q.slide, q.roll)]
     positive = sp.simplify(ratio) > 1 and all(sp.expand(share).is_positive for share in shares)
     yield positive, f"not positive: {shares}"
-
-
-CHECKS = (
-    momenta_are_found, angular_momentum_is_kept, energy_is_accounted_for, friction_dissipates, published_logarithms,
-    equal_is_the_doublet, slip_energy_adds, wall_is_head_on, wall_friction_decays,
-)  # fmt: skip

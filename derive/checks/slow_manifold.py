@@ -12,7 +12,7 @@ from ..physics.laws.base import slot_call
 from ..physics.scaling import DISTANCE
 from ..physics.structure import structures
 from ..vocabulary.quantities import aspect, gap, normal_velocity, orbital_momentum
-from .base import Check, Evidence, check, vanishing
+from .base import Check, Evidence, check, checks, vanishing
 
 _OPEN = sp.Symbol("beyond_touching", nonnegative=True)  # centre distance over a, above 4
 
@@ -26,6 +26,7 @@ def _models() -> list[tuple[Model, dict[str, sp.Expr]]]:
     return result
 
 
+@checks
 def rates_have_the_form() -> Check:
     """du/dt = c J^2 - A - f u and dJ/dt = -s (J - J_r), with the coefficients that are emitted."""
     left = []
@@ -57,6 +58,7 @@ def secants() -> Evidence:
     yield from (rise1 - rise2 - normal, turn1 - turn2 - tangential)
 
 
+@checks
 def coefficients_are_monotonic() -> Check:
     """C falls; s over the logarithm rises, but slower than the distance; |J_r|, a share of |L|, ever more slowly."""
     signs = []
@@ -81,6 +83,3 @@ def coefficients_are_monotonic() -> Check:
         bool(signs) and all(signs),
         f"{sum(signs)} of {len(signs)} signs",
     )
-
-
-CHECKS = (rates_have_the_form, secants, coefficients_are_monotonic)

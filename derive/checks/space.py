@@ -17,7 +17,7 @@ from ..physics.partners.pair import INERTIA_RATIO
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, vanishing
+from .base import Check, Evidence, check, checks, vanishing
 from .closed import SIZES, special_case
 
 _SPACE = Structure(True, True, False, attraction=True, partner="space")
@@ -43,6 +43,7 @@ def spin_turns_with_the_torque() -> Evidence:
     yield from vectors.spin_balance()
 
 
+@checks
 def momenta_in_space_are_found() -> Check:
     """The three components of the angular momentum are found among the invariants linear in the momenta."""
     name, statement = "space: angular momentum", "J + I_1 xi_1 + I_2 xi_2 is conserved, component by component"
@@ -56,6 +57,7 @@ def momenta_in_space_are_found() -> Check:
     return vanishing(name, statement, left)
 
 
+@checks
 def directions_are_found() -> Check:
     """|n|^2 and, where it is 1, J . n are the only invariants quadratic in n and J."""
     unit = quadratic_invariants(_rates(), q.normal)
@@ -209,10 +211,3 @@ def plane_in_space() -> Evidence:
 
 def _components(*pairs: tuple[q.Vector, tuple[sp.Expr, ...]]) -> dict[sp.Symbol, sp.Expr]:
     return {of: value for vector, values in pairs for of, value in zip(vector, values, strict=True)}
-
-
-CHECKS = (
-    spin_turns_with_the_torque, momenta_in_space_are_found, directions_are_found, energy_in_space,
-    friction_in_space_dissipates, least_energy_in_space, outward_at_smaller_gaps, rebounds_do_not_come_back,
-    reduced_in_space, plane_in_space,
-)  # fmt: skip

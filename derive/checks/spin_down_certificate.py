@@ -16,7 +16,7 @@ from ..physics.partners.rolling import R_1, R_2, torque_matrix
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, vanishing
+from .base import Check, Evidence, check, checks, vanishing
 from .closed import SIZES
 
 _ALONE = Structure(oblique=True, bridge=False, strings=False)
@@ -134,6 +134,7 @@ def rotation_falls() -> Evidence:
     yield squares, "the energy of the spins is no sum of squares"
 
 
+@checks
 def film_takes() -> tuple[Check, ...]:
     """S' = -resistance < 0, and a rebound counts most at the present gap."""
     checks = []
@@ -186,6 +187,3 @@ def as_emitted() -> Evidence:
             + slot_call("film", "stopping", q.gap)
         )
         yield from (emitted["apart"] - sp.Max(opens, closes), emitted["inside"] - (spin_down.EDGE - q.gap))
-
-
-CHECKS = (slips_decay, mobility_is_monotonic, rotation_falls, film_takes, apart_from_shear, as_emitted)

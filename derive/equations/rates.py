@@ -1,4 +1,4 @@
-"""Rates of the states per v0/x0, in motion and in resting contact, from the equations of motion."""
+"""Rates of the states per v0/x0, from the equations of motion."""
 
 from __future__ import annotations
 
@@ -61,11 +61,6 @@ def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     if structure.strings:
         rate[q.beta] = turning_rate()
     return rate
-
-
-def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
-    """Time derivatives of the states in resting contact: the gap is held, the rotation goes on."""
-    return {**rates(structure), q.gap: sp.Integer(0), q.normal_velocity: sp.Integer(0)}
 
 
 def turning_rate(structure: Structure | None = None) -> sp.Expr | None:

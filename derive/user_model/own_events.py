@@ -35,8 +35,6 @@ MOTIONS = {"closing": CLOSING, "opening": OPENING, "any": 0}
 REGIONS = {"": None, "inside the film": 1, "beyond the film": 0}
 PLACES = tuple(f"{motion} {region}".strip() for motion in MOTIONS for region in REGIONS)
 ENDINGS = {"": "go on", "separated": "part", "stick": "cut off"}
-_PROOFS = ("pendulum_margins", "attraction_margins", "approach_step", "approach_force", "orbital_margins",
-           "spin_down_margins")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -235,7 +233,7 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     }  # fmt: skip
     functions = []
     for function in model.functions:
-        if function.name in _PROOFS:
+        if function.for_proof:
             continue
         outputs = function.outputs + tuple((mark.name, value) for mark, value in more.get(function.name, {}).items())
         if function.name == "events":

@@ -12,14 +12,14 @@ import sympy as sp
 
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
-from ...physics.laws.base import Law
+from ...physics.laws.base import Law, needed
 from ...physics.scaling import first_rates, group_definitions, impact_groups, scale_definitions
 from ...vocabulary.quantities import VOCABULARY, obliquity, obliquity_pair, obliquity_space, obliquity_wall, rate_scale
 from ..taylor.header import Beside, structure_header
 from ..taylor.law_header import law_header
 from ..taylor.law_slopes import slopes_header
 from ..taylor.tangent import tangent_header
-from ..text import INDENT, WIDTH, assignment, docstring, module, needed, operations
+from ..text import INDENT, WIDTH, assignment, docstring, module, operations
 from .printer import Printer
 
 PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`."

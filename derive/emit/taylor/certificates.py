@@ -8,9 +8,8 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ...equations.model import Model
-from ...physics.laws.base import Definition, is_slot_call
+from ...physics.laws.base import Definition, is_slot_call, needed
 from ...physics.slots import places
-from ..text import needed
 from .c_text import Constants, Text
 from .law_header import moves
 from .layout import comment, function

@@ -10,8 +10,7 @@ from collections.abc import Set as AbstractSet
 import sympy as sp
 
 from ...equations.model import GROUPS
-from ...physics.laws.base import Law, LawFunction
-from ..text import needed
+from ...physics.laws.base import Law, LawFunction, needed
 from .antiderivative import antiderivative
 from .c_text import Constants, Recurrences, Text
 from .layout import comment, documented, function, struct

@@ -9,8 +9,7 @@ from functools import cache
 import sympy as sp
 
 from ...physics.laws import LAWS
-from ...physics.laws.base import Law, LawFunction
-from ..text import needed
+from ...physics.laws.base import Law, LawFunction, needed
 from .c_text import Constants, Recurrences, Text
 from .chain_rule import Chain
 from .law_header import LIMIT, compared, moves

@@ -12,8 +12,8 @@ from typing import Protocol
 import sympy as sp
 
 from ...equations.model import Model
+from ...physics.laws.base import needed
 from ..casadi.printer import EmissionError
-from ..text import needed
 from .c_text import Constants, Recurrences
 from .layout import compiled_if, documented, struct
 from .program import Program

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -128,3 +128,16 @@ def filled(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
         if is_slot_call(node) and node.func.__name__.split(".")[0] not in laws:
             kept[node] = sp.Dummy(node.func.__name__.replace(".", "_"))
     return fill(expression.xreplace(kept), laws).xreplace({dummy: node for node, dummy in kept.items()})
+
+
+def needed(outputs: Sequence[sp.Expr], definitions: Sequence[Definition]) -> tuple[list[Definition], set[sp.Symbol]]:
+    """The definitions that the outputs depend on, in order, and every symbol that occurs in either."""
+    used: set[sp.Symbol] = set()
+    for expression in outputs:
+        used |= sp.sympify(expression).free_symbols
+    kept: list[Definition] = []
+    for symbol, expression in reversed(definitions):
+        if symbol in used:
+            kept.append((symbol, expression))
+            used |= expression.free_symbols
+    return kept[::-1], used

@@ -16,8 +16,8 @@ from wetdoublet.derive.checks.emitted import (
     resting_is_held,
     tangential_force_is_the_published,
 )
-from wetdoublet.derive.checks.margins import CHECKS as MARGINS
-from wetdoublet.derive.checks.margins import margins_are_the_lemmas
+from wetdoublet.derive.checks.pendulum_certificate import CHECKS as MARGINS
+from wetdoublet.derive.checks.pendulum_certificate import margins_are_the_lemmas
 from wetdoublet.derive.checks.restitution import decomposition
 from wetdoublet.derive.equations import events, observables, rates
 from wetdoublet.derive.equations.certificates import pendulum
@@ -32,9 +32,18 @@ from .test_mutants import Healthy, Mutate, altered_force, caught
 pytestmark = pytest.mark.slow
 
 
+def _margins() -> dict[str, sp.Expr]:
+    ((_, _, margins),) = pendulum.functions()
+    return dict(margins)
+
+
+def _emit(mutate: Mutate, margins: dict[str, sp.Expr]) -> None:
+    mutate(pendulum.functions, lambda *_: [("pendulum_margins", "", margins)])
+
+
 def _recoil_of(share: sp.Expr) -> dict[str, sp.Expr]:
     """The margins with a recoil at a share of its speed."""
-    right = pendulum.margins()
+    right = _margins()
     slower = right["recoil"].subs(pendulum.FASTEST, share * pendulum.FASTEST)
     assert slower != right["recoil"]
     return {**right, "recoil": slower}
@@ -43,15 +52,15 @@ def _recoil_of(share: sp.Expr) -> dict[str, sp.Expr]:
 def test_a_recoil_of_a_tenth(mutate: Mutate, healthy: Healthy):
     """A rebound taken at a tenth of its speed: the film stops it where it would not."""
     wrong = _recoil_of(sp.Rational(1, 10))
-    mutate(pendulum.margins, lambda: wrong)
+    _emit(mutate, wrong)
     caught(run(MARGINS), healthy, "margin of the stick proof: recoil")
 
 
 def test_a_recoil_without_its_reach(mutate: Mutate, healthy: Healthy):
     """A rebound that starts in contact always, and never where the glass criterion is met."""
-    right = pendulum.margins()
+    right = _margins()
     wrong = {**right, "recoil": right["recoil"].subs(pendulum.REACH, pendulum.CONTACT)}
-    mutate(pendulum.margins, lambda: wrong)
+    _emit(mutate, wrong)
     caught(run(MARGINS), healthy, "margin of the stick proof: recoil")
 
 
@@ -72,14 +81,14 @@ def test_a_bound_taken_elsewhere(mutate: Mutate, healthy: Healthy, name, wrong, 
     """Least and largest distance, orbit, contact, pull and speed taken where they are not the worst."""
     right = dict(pendulum.definitions())
     assert right[name] != wrong
-    mutate(pendulum.definitions, lambda: tuple({**right, name: wrong}.items()))
+    mutate(pendulum.definitions, lambda *_: tuple({**right, name: wrong}.items()))
     caught(margins_are_the_lemmas(), healthy, *(f"margin of the stick proof: {each}" for each in margin.split(", ")))
 
 
 def test_a_pull_at_first_touch(mutate: Mutate, healthy: Healthy):
     """The pull at x0 is larger than at contact: the inward force is taken for too large."""
-    wrong = {**pendulum.margins(), "pull": pendulum.pull_at(sp.Integer(1), q.beta)}
-    mutate(pendulum.margins, lambda: wrong)
+    wrong = {**_margins(), "pull": pendulum.pull_at(sp.Integer(1), q.beta)}
+    _emit(mutate, wrong)
     caught(run(MARGINS), healthy, "margin of the stick proof: pull")
 
 
