@@ -12,6 +12,7 @@ from ..physics.laws import LAWS, Law
 from ..physics.structure import Structure, structures
 from ..vocabulary.quantities import gap
 from .base import Check, readable
+from .conservation import strings_are_conservative
 from .dissipation import (
     bridge_does_work,
     conserves,
@@ -22,7 +23,6 @@ from .dissipation import (
     shear_range,
     torque,
 )
-from .mechanics import strings_are_conservative
 from .pendulum_certificate import pendulum_certificate
 
 _DEFAULTS = {"film": "finite", "shear": "immersed", "arm": "midgap", "strings": "exact"}

@@ -17,8 +17,7 @@ from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import aspect, beta, gap, normal_velocity, obliquity, orbital_momentum, stokes
-from .base import Check, Evidence, check, checks, vanishing
-from .closed import SIZES
+from .base import SIZES, Check, Evidence, check, checks, vanishing
 
 _BRIDGE = Structure(oblique=True, bridge=True, strings=False)
 _ATTRACTED = (

@@ -9,8 +9,7 @@ from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.structure import structures
 from ..vocabulary import quantities as q
-from .base import Evidence, check
-from .closed import slope_along
+from .base import Evidence, check, slope_along
 
 
 @check("stick certificate", "slope = d/dx [L^2/(2 I(x)) + U_s(x) + W_c(x)] at fixed L")

@@ -24,8 +24,7 @@ from ..physics.mechanics import F_t, S_t, arm, equations_of_motion, sphere_inert
 from ..physics.scaling import DISTANCE, nondimensional
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
-from .base import Check, checks, readable, settled, vanishing
-from .signs import nonnegative
+from .base import Check, checks, nonnegative, readable, settled, vanishing
 
 _OBLIQUE = Structure(oblique=True, bridge=False, strings=False)
 

@@ -19,8 +19,7 @@ from ..physics.partners.space import PARTNER_SLIPS, PARTNER_TWIST, SLIPS, TWIST
 from ..physics.partners.vectors import dot, on_the_sphere
 from ..physics.structure import Partner, Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, checks, vanishing
-from .signs import nonnegative
+from .base import Check, Evidence, check, checks, nonnegative, vanishing
 
 _PARTNERS: tuple[Partner, ...] = ("", "pair", "wall")
 _FREE = tuple(Structure(True, False, False, partner=partner, friction="solid") for partner in _PARTNERS)

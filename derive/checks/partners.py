@@ -12,8 +12,7 @@ from ..physics.laws.base import filled
 from ..physics.partners import bodies, rolling, wall
 from ..physics.structure import Partner, Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, checks
-from .closed import SIZES, special_case
+from .base import SIZES, Check, Evidence, check, checks, special_case
 
 _PARTNERS: tuple[Partner, ...] = ("pair", "wall")
 _MIDGAP = {"arm": LAWS["arm"]["midgap"]}

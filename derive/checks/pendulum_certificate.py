@@ -21,8 +21,7 @@ from ..physics.laws.base import filled
 from ..physics.laws.strings import offset_squared
 from ..physics.scaling import DISTANCE
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, checks, checks_of, readable, run, vanishing
-from .signs import positive
+from .base import Check, Evidence, check, checks, checks_of, positive, readable, run, vanishing
 
 _HERE = 4 + q.aspect * q.gap
 _HALF = sp.Symbol("half_angle_sine", nonnegative=True)  # sin(beta/2), which grows with beta up to half a turn

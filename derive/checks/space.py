@@ -17,8 +17,7 @@ from ..physics.partners.pair import INERTIA_RATIO
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, checks, vanishing
-from .closed import SIZES, special_case
+from .base import SIZES, Check, Evidence, check, checks, special_case, vanishing
 
 _SPACE = Structure(True, True, False, attraction=True, partner="space")
 _MIDGAP = {"arm": LAWS["arm"]["midgap"]}

@@ -16,8 +16,7 @@ from ..physics.partners.rolling import R_1, R_2, torque_matrix
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, checks, vanishing
-from .closed import SIZES
+from .base import SIZES, Check, Evidence, check, checks, vanishing
 
 _ALONE = Structure(oblique=True, bridge=False, strings=False)
 _COVERED = (_ALONE, replace(_ALONE, partner="pair"))
