@@ -8,9 +8,8 @@ import sympy as sp
 
 from ..physics.forces import FILM, SHEAR, force_laws
 from ..physics.laws import LAWS, film, shear, strings
-from ..physics.laws.elastic_length import elastic_compliance, elastic_length
-from ..physics.laws.rupture import rupture_distance
-from ..physics.laws.start import start_values
+from ..physics.laws.bridge import rupture_distance
+from ..physics.laws.glass import elastic_compliance, elastic_length
 from ..physics.mechanics import (
     F_c,
     F_n,
@@ -24,7 +23,7 @@ from ..physics.mechanics import (
     sphere_inertia,
     string_forces,
 )
-from ..physics.scaling import dimension_matrix, group_definitions, nondimensional
+from ..physics.scaling import dimension_matrix, group_definitions, nondimensional, start_values
 from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import (
     ENERGY,

@@ -12,10 +12,9 @@ from ..equations.model import Model, derive
 from ..physics.forces import force_laws
 from ..physics.laws import LAWS, Law, attraction, fill, film
 from ..physics.laws.base import filled
-from ..physics.laws.start import initial_rate
 from ..physics.laws.strings import offset_squared
 from ..physics.mechanics import F_c, F_n, F_t, S_n, S_t
-from ..physics.scaling import DISTANCE, generalised_centrifugal, group_definitions
+from ..physics.scaling import DISTANCE, generalised_centrifugal, group_definitions, initial_rate
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import ENERGY, FORCE, LENGTH, PRESSURE, demand_dimension

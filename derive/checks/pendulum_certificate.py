@@ -12,9 +12,8 @@ import sympy as sp
 from ..equations.certificates import pendulum
 from ..equations.certificates.pendulum import PENDULUM, outward_at, pull_at, rigid_momentum
 from ..equations.events import contact_gap
-from ..equations.intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE, STRING_PULL
+from ..equations.intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE, STRING_PULL, rates
 from ..equations.model import Model, derive
-from ..equations.rates import rates
 from ..physics.forces import SHEAR
 from ..physics.laws import LAWS, slot_call
 from ..physics.laws.base import filled

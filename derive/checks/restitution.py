@@ -7,9 +7,8 @@ from dataclasses import replace
 import sympy as sp
 
 from ..equations.model import derive
-from ..physics.laws.start import initial_rate, start_values
 from ..physics.mechanics import doublet_inertia, equations_of_motion
-from ..physics.scaling import nondimensional
+from ..physics.scaling import initial_rate, nondimensional, start_values
 from ..physics.structure import structures
 from ..vocabulary import quantities as q
 from .base import Check, Evidence, check, checks, vanishing

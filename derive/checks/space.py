@@ -7,9 +7,8 @@ from functools import cache
 
 import sympy as sp
 
-from ..equations.invariants import NoInvariantError, conserved_components
+from ..equations.invariants import NoInvariantError, conserved_components, quadratic_invariants
 from ..equations.model import derive
-from ..equations.quadratic_invariants import quadratic_invariants
 from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.partners import space, vectors

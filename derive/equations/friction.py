@@ -14,8 +14,7 @@ from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from .automaton import CREEP
-from .intermediates import ORBITAL_RATE
-from .rates import rates
+from .intermediates import ORBITAL_RATE, rates
 
 IMPULSE = sp.Symbol("impulse", real=True)
 """A tangential impulse, which an engine passes to the emitted functions: the smaller of the two of `at_rebound`."""

@@ -20,7 +20,7 @@ from ..vocabulary import quantities as q
 from . import friction, observables
 from .certificates.table import CERTIFICATES
 from .events import events, rebound, rebound_loss, start
-from .rates import inward_force, rates, turning_rate
+from .intermediates import inward_force, rates, turning_rate
 
 Values = Mapping[str, sp.Expr]
 

@@ -22,9 +22,8 @@ from . import friction
 from .certificates.table import CERTIFICATES
 from .events import CONTACT_GAPS, start
 from .functions import ModelFunction, functions
-from .intermediates import intermediates
+from .intermediates import intermediates, inward_force
 from .invariants import Invariant, conserved_components, conserved_momentum
-from .rates import inward_force
 
 
 @dataclass(frozen=True)

@@ -14,9 +14,8 @@ from sympy.core.function import AppliedUndef
 
 from ..vocabulary import quantities as q
 from .laws.attraction import van_der_waals_force
-from .laws.elastic_length import elastic_length
-from .laws.rupture import rupture_distance
-from .laws.start import initial_rate
+from .laws.bridge import rupture_distance
+from .laws.glass import elastic_length
 
 DISTANCE = sp.Symbol("distance", positive=True)  # r/a, named in emitted code
 
@@ -194,3 +193,13 @@ def _substituted(expression: sp.Expr, rules: dict[sp.Symbol, sp.Expr]) -> sp.Exp
     if isinstance(expression, AppliedUndef):
         return expression.func(*(sp.simplify(argument) for argument in expression.args))
     return expression
+
+
+def initial_rate() -> sp.Expr:
+    """omega0: the tangential speed v0 tan(theta0) over the centre distance, taken as 4a as in the paper."""
+    return q.v0 * sp.tan(q.theta0) / (EQUAL * q.a)
+
+
+def start_values() -> dict[sp.Symbol, sp.Expr]:
+    """SI values of x, u, omega, xi and beta at initial contact: at x = x0 with v0 and theta0; spheres may spin."""
+    return {q.x: q.x0, q.u: -q.v0, q.omega: initial_rate(), q.xi: q.impact_spin, q.beta: sp.Integer(0)}

@@ -46,7 +46,7 @@ from ..physics.laws.bridge import h
 from ..physics.laws.glass import approach
 from ..physics.laws.strings import offset_squared
 from ..vocabulary.allowed_values import Bounds, BoundsError
-from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, dimension_of
+from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, UnitError, dimension_of, dimension_of_unit
 from ..vocabulary.quantities import (  # fmt: skip
     DIMENSIONS,
     VOCABULARY,
@@ -80,7 +80,6 @@ from ..vocabulary.quantities import (  # fmt: skip
 from ..vocabulary.quantities import contact_angle as phi
 from ..vocabulary.quantities import normal_velocity as opening  # its name in older model files
 from ..vocabulary.quantities import volume as V
-from ..vocabulary.unitnames import UnitError, dimension_of_unit
 from . import own_events
 
 __all__ = [

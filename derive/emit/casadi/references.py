@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ...physics.laws import LAWS
-from ...physics.laws.elastic_length import ELASTIC
+from ...physics.laws.bridge import COMMON
+from ...physics.laws.glass import ELASTIC
 from ...physics.laws.references import PAPER, WALTON, Reference
-from ...physics.laws.rupture import COMMON
 from ...physics.partners import PUBLISHED
 from .modules import PROVENANCE
 

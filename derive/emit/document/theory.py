@@ -14,12 +14,11 @@ from ...physics.contact_friction import equal_spheres
 from ...physics.forces import FILM, SHEAR, force_laws
 from ...physics.laws import LAWS, Law, fill
 from ...physics.laws.base import slot_calls
-from ...physics.laws.elastic_length import elastic_compliance, elastic_length
-from ...physics.laws.rupture import rupture_distance
-from ...physics.laws.start import initial_rate, start_values
+from ...physics.laws.bridge import rupture_distance
+from ...physics.laws.glass import elastic_compliance, elastic_length
 from ...physics.laws.strings import r as string_distance
 from ...physics.laws.strings import swing_squared
-from ...physics.scaling import LUBRICATION_PRESSURE, group_definitions
+from ...physics.scaling import LUBRICATION_PRESSURE, group_definitions, initial_rate, start_values
 from ...vocabulary import quantities as q
 from .latex import latex
 

@@ -14,7 +14,7 @@ from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import slot_calls
 from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
 from .c_text import Constants, Recurrences
-from .certificates import Margins
+from .certificates import Margins, slow_manifold_functions
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
 from .groups_from_si import scale_function
 from .layout import comment, compiled_if, documented, function, struct
@@ -23,7 +23,6 @@ from .own_events import own_event_functions
 from .program import Program
 from .resting import FLAGS as RUBBING
 from .resting import QUADRATURES, Resting
-from .slow_manifold import slow_manifold_functions
 
 if TYPE_CHECKING:
     from ...user_model.own_events import OwnEvent

@@ -42,8 +42,7 @@ from ...physics.scaling import DISTANCE, INERTIA, nondimensional
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..events import contact_gap
-from ..intermediates import MOMENTUM, ORBITAL_RATE, STRING_SIDEWAYS
-from ..rates import rates, turning_rate
+from ..intermediates import MOMENTUM, ORBITAL_RATE, STRING_SIDEWAYS, rates, turning_rate
 
 CONTACT, FASTEST, REACH = sp.symbols("contact fastest reach", positive=True)
 NEAREST, FARTHEST = sp.symbols("nearest farthest", positive=True)  # smallest and largest centre distance over a

@@ -40,9 +40,8 @@ from ...physics.scaling import DISTANCE
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..events import contact_gap, start
-from ..intermediates import SLIP, intermediates
+from ..intermediates import SLIP, intermediates, rates
 from ..observables import energies
-from ..rates import rates
 from .pendulum import Functions
 
 BEYOND, NEAR, FAR = sp.symbols("beyond near far", positive=True)  # d, and the distances in contact and at d, over a

@@ -1,4 +1,4 @@
-"""Glass criterion: the film pressure on the axis reaches the glass-transition pressure of the liquid."""
+"""Where an approach rebounds: the film pressure on the axis reaches the glass transition, or the solids deform."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from functools import cache
 
 import sympy as sp
 
-from ...vocabulary.quantities import a, gap, glass_number, mu, u, x, x0
+from ...vocabulary.quantities import E, a, gap, glass_number, mu, nu, u, v0, x, x0
 from .base import Law, LawFunction
 from .film import axis_pressure
-from .references import CRADLE
+from .references import CRADLE, RAGER, SERAYSSOL
 
 approach = sp.Symbol("approach", real=True)  # -u/v0, positive while closing
 
@@ -60,3 +60,20 @@ GLASSES = (
     _law("literal", _literal(), "3 mu a |u|/x^2 as published: can fire at initial contact"),
     _law("film-corrected", _film_corrected(), "with the film's rim, 1/x^2 - 1/x0^2: zero at initial contact"),
 )
+
+
+ELASTIC = (RAGER, SERAYSSOL)  # publications of the elastic length
+
+
+def elastic_compliance() -> sp.Expr:
+    """theta_e = 2 (1 - nu^2)/(pi E) of two equal spheres (1/Pa): the sum of (1 - nu_i^2)/(pi E_i)."""
+    one = (1 - nu**2) / (sp.pi * E)
+    return one + one
+
+
+def elastic_length() -> sp.Expr:
+    """x_r = (3 pi theta_e mu a^(3/2) v0/sqrt 2)^(2/5): gap at which elastic deformation stops the approach.
+
+    From Davis, Rager & Good 2002, after Davis, Serayssol & Hinch 1986.
+    """
+    return (3 * sp.pi * elastic_compliance() * mu * a ** sp.Rational(3, 2) * v0 / sp.sqrt(2)) ** sp.Rational(2, 5)

@@ -7,9 +7,8 @@ import re
 import pytest
 import sympy as sp
 from wetdoublet.derive.emit.casadi.printer import EmissionError
-from wetdoublet.derive.emit.taylor.antiderivative import antiderivative
 from wetdoublet.derive.emit.taylor.header import structure_header
-from wetdoublet.derive.emit.taylor.law_header import law_header, moves
+from wetdoublet.derive.emit.taylor.law_header import antiderivative, law_header, moves
 from wetdoublet.derive.emit.taylor.program import Program, cheapest
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.physics.laws import LAWS
