@@ -17,15 +17,8 @@ from ..physics.structure import Structure, structures
 from ..user_model.own_events import OwnEvent
 from ..user_model.structures import UserModel
 from ..vocabulary.quantities import VOCABULARY
-from .casadi.modules import (
-    Own,
-    digest,
-    groups_module,
-    law_digest,
-    law_module,
-    model_digest,
-    structure_module,
-)
+from .casadi.modules import groups_module, law_module, structure_module
+from .provenance import Own, digest, law_digest, model_digest
 from .write import sha256
 
 FORMAT = 1

@@ -22,14 +22,19 @@ from .casadi.printer import Printer
 from .casadi.references import references_module
 from .document.automaton import DIAGRAM, automaton_page
 from .document.diagram import diagram
+from .provenance import PROVENANCE, law_digest, model_digest
 from .taylor.automaton import automaton_header, criteria_header, effects_header
+from .taylor.header import structure_header
+from .taylor.law_header import law_header
+from .taylor.law_slopes import slopes_header
+from .taylor.tangent import tangent_header
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 _IGNORED = ("__pycache__",)
 
 
 def _package(doc: str) -> str:
-    return f'# {modules.PROVENANCE}\n"""{doc}"""\n'
+    return f'# {PROVENANCE}\n"""{doc}"""\n'
 
 
 def sha256(text: str) -> str:
@@ -47,7 +52,7 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
     files = {
         "__init__.py": _package("Emitted CasADi modules: one per structure, laws in `laws`, groups in `scaling`."),
         "laws/__init__.py": _package("Emitted laws: `<slot>_<name>`, functions of dimensionless arguments."),
-        "assemble.py": f"# {modules.PROVENANCE}\n{ASSEMBLE}",
+        "assemble.py": f"# {PROVENANCE}\n{ASSEMBLE}",
         "scaling.py": modules.scaling_module(),
         "automaton.py": automaton_module(),
         "references.py": references_module(),
@@ -67,19 +72,19 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
     for slot, laws in LAWS.items():
         for law in laws.values():
             files[f"laws/{law.module}.py"] = modules.law_module(law)
-            files[f"taylor/laws/{law.module}.h"] = modules.law_kernel(law)
-            files[f"taylor/tangent/laws/{law.module}.h"] = modules.law_slopes(law)
-            manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": modules.law_digest(law)}
+            files[f"taylor/laws/{law.module}.h"] = law_header(law)
+            files[f"taylor/tangent/laws/{law.module}.h"] = slopes_header(law)
+            manifest["laws"][law.module] = {"slot": slot, "name": law.name, "digest": law_digest(law)}
     models = [derive(structure) for structure in (committed() if chosen is None else chosen)]
     shared, headers = homes(models), {}
     for model in models:
         structure = model.structure
         files[f"{structure.name}.py"] = modules.structure_module(model, shared=shared)
         if structure in structures():
-            headers[f"taylor/{structure.name}.h"] = modules.structure_kernel(model)
-            headers[f"taylor/tangent/{structure.name}.h"] = modules.structure_tangent(model)
-        manifest["structures"][structure.name] = modules.model_digest(model)
-    files |= with_shared_functions(headers, f"/* {modules.PROVENANCE} */\n")
+            headers[f"taylor/{structure.name}.h"] = structure_header(model)
+            headers[f"taylor/tangent/{structure.name}.h"] = tangent_header(model)
+        manifest["structures"][structure.name] = model_digest(model)
+    files |= with_shared_functions(headers, f"/* {PROVENANCE} */\n")
     manifest["files"] = {name: sha256(text) for name, text in sorted(files.items()) if name.endswith((".py", ".h"))}
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
     return MappingProxyType(dict(sorted(files.items())))

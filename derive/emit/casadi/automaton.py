@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields
 
 from ...equations import automaton
-from .modules import PROVENANCE, digest
+from ..provenance import PROVENANCE, digest
 
 _DOC = "A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."
 _CRITERION_FIELDS = {

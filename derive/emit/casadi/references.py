@@ -7,7 +7,7 @@ from ...physics.laws.bridge import COMMON
 from ...physics.laws.glass import ELASTIC
 from ...physics.laws.references import PAPER, WALTON, Reference
 from ...physics.partners import PUBLISHED
-from .modules import PROVENANCE
+from ..provenance import PROVENANCE
 
 _DOC = "Where the equations and the laws are published."
 _FIELDS = {

@@ -13,6 +13,7 @@ from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import slot_calls
 from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
+from ..provenance import Own, describe, header, model_digest
 from .c_text import Constants, Recurrences
 from .certificates import Margins, slow_manifold_functions
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
@@ -36,13 +37,13 @@ class Beside:
 
     Arguments:
         definitions: its groups in SI quantities.
-        meanings: of groups and quantities, by name.
+        own: unit and meaning of groups and quantities, by name.
         extra: additional arguments of its calls, by slot function.
         events: its declared events.
     """
 
     definitions: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
-    meanings: Mapping[str, str] = field(default_factory=dict)
+    own: Own = field(default_factory=dict)
     extra: Mapping[str, tuple[sp.Symbol, ...]] = field(default_factory=dict)
     events: tuple[OwnEvent, ...] = ()
 
@@ -97,11 +98,12 @@ class Header:
 
     # ---- the complete header
 
-    def text(self, digest: str, provenance: str, doc: str) -> str:
+    def text(self) -> str:
         """The header."""
         functions = [*self._coefficients(), *self._values()]
         table, own = own_event_functions(self.model, self.beside.events, self.constants, self._valued)
-        lines = comment(f"{provenance}\nEquations sha256 {digest}")
+        lines = comment(header(model_digest(self.model)))
+        doc = describe(self.model, self.beside.own)
         lines += ["", *comment(f"{doc}\n\nProducts of series: {self.flow.cost:g} and those of the laws."), ""]
         lines += [*self._enumerations(), *table]
         lines += [*self._constants(), *self._series(), *functions, *own]
@@ -179,7 +181,7 @@ class Header:
         ]
 
     def _meaning(self, group: sp.Symbol) -> str:
-        return self.beside.meanings.get(group.name) or VOCABULARY[group.name].meaning
+        return self.beside.own[group.name][1] if group.name in self.beside.own else VOCABULARY[group.name].meaning
 
     def _glass_groups(self) -> str:
         """Additional arguments of a user's glass law, as C text."""
@@ -366,6 +368,6 @@ class Header:
         return lines
 
 
-def structure_header(model: Model, digest: str, provenance: str, doc: str, beside: Beside | None = None) -> str:
-    """The C header of a structure."""
-    return Header(model, beside or Beside()).text(digest, provenance, doc)
+def structure_header(model: Model, beside: Beside | None = None) -> str:
+    """The C header of a structure; `beside` is a user's."""
+    return Header(model, beside or Beside()).text()

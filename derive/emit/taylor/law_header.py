@@ -11,6 +11,7 @@ import sympy as sp
 
 from ...equations.model import GROUPS
 from ...physics.laws.base import Law, LawFunction, needed
+from ..provenance import header, law_digest
 from .c_text import Constants, Recurrences, Text
 from .layout import comment, documented, function, struct
 from .program import Program, cheapest
@@ -32,13 +33,9 @@ def compared() -> set[tuple[str, str]]:
     return {("glass", "pressure")}
 
 
-def law_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
-    """The C header of a law.
-
-    Arguments:
-        groups: those of a user's model, beside the library's.
-    """
-    lines = comment(f"{provenance}\nEquations sha256 {digest}")
+def law_header(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+    """The C header of a law; `groups` are a user's."""
+    lines = comment(header(law_digest(law)))
     lines += ["", *comment(f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."), ""]
     for each in law.functions:
         if each.name == "suction":

@@ -10,6 +10,7 @@ import sympy as sp
 
 from ...physics.laws import LAWS
 from ...physics.laws.base import Law, LawFunction, needed
+from ..provenance import header, law_digest
 from .c_text import Constants, Recurrences, Text
 from .chain_rule import Chain
 from .law_header import LIMIT, compared, moves
@@ -36,9 +37,9 @@ def _by(argument: sp.Symbol) -> str:
     return f"by_{argument.name.removeprefix(UNUSED)}"
 
 
-def slopes_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+def slopes_header(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
     """The C header with the derivatives of a law; `groups` are a user's."""
-    lines = comment(f"{provenance}\nEquations sha256 {digest}")
+    lines = comment(header(law_digest(law)))
     lines += ["", *comment(f"Slopes of the {law.slot} law `{law.name}`."), ""]
     for each in law.functions:
         if each.for_proof or each.name in ("suction", "potential"):  # no force, nor the work of one

@@ -27,7 +27,7 @@ class LinearFlow:
             raise EmissionError("no slopes of a glass law with quantities of its own")
         self.model, self.beside = model, beside
         self.header = Header(model, beside)
-        self.header.text("", "", "")  # receives its constants and calls
+        self.header.text()  # receives its constants and calls
         self.states = [state.name for state in model.states]
         flow = self.header.flow
         self._flow = {operation.name for operation in flow.operations}

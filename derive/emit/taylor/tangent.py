@@ -16,6 +16,7 @@ from ...equations.friction import IMPULSE
 from ...equations.model import Model
 from ...physics.laws import LAWS
 from ...physics.laws.base import Law, filled, slot_calls
+from ..provenance import header, model_digest
 from .adjoint import Adjoint, contraction
 from .c_text import Text
 from .groups_from_si import scale_slopes
@@ -29,7 +30,7 @@ _IN = "    "
 class Tangent(LinearFlow):
     """Text of one structure's tangent header."""
 
-    def text(self, digest: str, provenance: str) -> str:
+    def text(self) -> str:
         """The header."""
         coefficients, row, source = self._coefficients(), self._row(), self._sources()
         back = Adjoint(self)
@@ -37,7 +38,7 @@ class Tangent(LinearFlow):
         cost = f"Products of series: {self.program.cost:g} and those of the laws, then {per_direction} a direction; "
         cost += f"backwards {back.cost:g} and those of the laws' derivatives."
         name = self.model.structure.name
-        lines = comment(f"{provenance}\nEquations sha256 {digest}")
+        lines = comment(header(model_digest(self.model)))
         lines += ["", *comment(f"Tangent of {name}.h: derivatives of the states by the groups.\n\n{cost}"), ""]
         lines += self._enumerations()
         lines += [
@@ -290,6 +291,6 @@ def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Ex
     return ["switch (group) {", *body, "}"] if body else ["(void)group;"]
 
 
-def tangent_header(model: Model, digest: str, provenance: str, beside: Beside | None = None) -> str:
-    """The C header of a structure's tangent."""
-    return Tangent(model, beside or Beside()).text(digest, provenance)
+def tangent_header(model: Model, beside: Beside | None = None) -> str:
+    """The C header of a structure's tangent; `beside` is a user's."""
+    return Tangent(model, beside or Beside()).text()
