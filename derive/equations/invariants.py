@@ -106,14 +106,12 @@ class Invariant:
         for momentum, factor in self.coefficients:
             plain = factor.is_Symbol or factor.is_Integer
             terms.append(momentum.name if factor == 1 else f"{factor if plain else f'({factor})'} {momentum.name}")
-        return f"{' + '.join(terms)}: {self._meaning()}"
-
-    def _meaning(self) -> str:
+        meaning = "a combination of momenta"
         if self.is_angular_momentum:
-            return "angular momentum L/(m a^2 Omega)"
-        if len(self.coefficients) == 1 and self.coefficients[0][0].name in VOCABULARY:
-            return VOCABULARY[self.coefficients[0][0].name].meaning
-        return "a combination of momenta"
+            meaning = "angular momentum L/(m a^2 Omega)"
+        elif len(terms) == 1 and self.coefficients[0][0].name in VOCABULARY:
+            meaning = VOCABULARY[self.coefficients[0][0].name].meaning
+        return f"{' + '.join(terms)}: {meaning}"
 
 
 @cache
@@ -148,7 +146,15 @@ def invariants(
         return ()
     field = DomainMatrix.from_Matrix(_conditions(rates, ansatz)).to_field()  # exact, over the field of the groups
     basis = field.nullspace().rref()[0].to_Matrix()
-    return tuple(_normalised(ansatz, basis.row(index)) for index in range(basis.rows))
+    result = []
+    for vector in (basis.row(index) for index in range(basis.rows)):
+        first = next(value for value in vector if value != 0)
+        total: dict[sp.Symbol, sp.Expr] = {}
+        for (momentum, power), value in zip(ansatz, vector, strict=True):
+            if value != 0:
+                total[momentum] = total.get(momentum, sp.Integer(0)) + sp.factor(value / first) * power
+        result.append(Invariant(tuple(total.items())))
+    return tuple(result)
 
 
 def conserved_momentum(
@@ -215,15 +221,6 @@ def _rational(expression: sp.Expr, states: set[sp.Symbol], values: dict[sp.Expr,
     if expression.is_Symbol or expression.free_symbols <= constants:
         return expression  # a group, or an expression in groups only
     return values.setdefault(expression, sp.Dummy(f"value{len(values)}"))
-
-
-def _normalised(ansatz: list[tuple[sp.Symbol, sp.Expr]], vector: sp.Matrix) -> Invariant:
-    first = next(value for value in vector if value != 0)
-    total: dict[sp.Symbol, sp.Expr] = {}
-    for (momentum, power), value in zip(ansatz, vector, strict=True):
-        if value != 0:
-            total[momentum] = total.get(momentum, sp.Integer(0)) + sp.factor(value / first) * power
-    return Invariant(tuple(total.items()))
 
 
 def quadratic_invariants(

@@ -181,9 +181,21 @@ def nondimensional(expression: sp.Expr, centres: sp.Expr = EQUAL) -> sp.Expr:
     calls = {node: _substituted(node, rules) for node in expression.atoms(AppliedUndef)}
     body = sp.sympify(expression).xreplace(calls)
     result = sp.simplify(_substituted(body, {**rules, q.x: q.a * (DISTANCE - centres)}))
-    left = sorted(s.name for s in result.free_symbols if s in q.DIMENSIONS and any(q.DIMENSIONS[s].exponents))
-    if left:
+    if left := dimensional(result):
         raise ScalingError(f"{', '.join(left)} did not cancel from {expression}")
+    return result
+
+
+def dimensional(expression: sp.Expr) -> list[str]:
+    """Names of the quantities with a dimension in an expression."""
+    return sorted(s.name for s in expression.free_symbols if s in q.DIMENSIONS and any(q.DIMENSIONS[s].exponents))
+
+
+def cancelled(label: str, by_term: sp.Expr, whole: sp.Expr) -> sp.Expr:
+    """An expression simplified by its terms, or as a whole if a quantity is left in one; ScalingError if it stays."""
+    result = sp.simplify(whole) if dimensional(by_term) else by_term
+    if left := dimensional(result):
+        raise ScalingError(f"{label}: {', '.join(left)} did not cancel from {result}")
     return result
 
 

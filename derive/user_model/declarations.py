@@ -271,9 +271,7 @@ def law(
             raise ModelFileError(label, given, "the functions " + ", ".join(known), "is no function of this slot")
     for missing in (function for function, required in known.items() if required and function not in functions):
         raise ModelFileError(f"{label}.{missing}", None, f"{missing} = an expression", "is missing")
-    for what, text in (("source", source), ("bibtex", bibtex)):
-        if not isinstance(text, str):
-            raise ModelFileError(f"{label}.{what}", text, "text")
+    _check_texts(label, source=source, bibtex=bibtex)
     if bibtex and not _BIBTEX.fullmatch(bibtex):
         raise ModelFileError(f"{label}.bibtex", bibtex, "an entry such as @article{key, author = {...}, ...}")
     expressions = tuple((f, _expression(f"{label}.{f}", functions[f])) for f in known if f in functions)
@@ -320,9 +318,9 @@ def event(
     reported = word or name.replace("_", " ") if isinstance(name, str) else word
     if not isinstance(reported, str) or not own_events.WORD.fullmatch(reported):
         raise ModelFileError(f"{label}.word", reported, "small letters, digits and single spaces")
-    if reported in own_events.TAKEN_WORDS or reported in [known.word for known in there.events.values()]:
-        taken = ", ".join(sorted({*own_events.TAKEN_WORDS, *(known.word for known in there.events.values())}))
-        raise ModelFileError(f"{label}.word", reported, f"any word but {taken}", "exists already")
+    taken = own_events.TAKEN_WORDS.union(known.word for known in there.events.values())
+    if reported in taken:
+        raise ModelFileError(f"{label}.word", reported, f"any word but {', '.join(sorted(taken))}", "exists already")
     if where not in own_events.PLACES:
         raise ModelFileError(f"{label}.where", where, ", ".join(own_events.PLACES))
     if ends not in own_events.ENDINGS:
@@ -330,9 +328,7 @@ def event(
     if ends == "separated" and not where.startswith("opening"):  # a restitution would be negative
         accepted = '"opening", "opening inside the film" or "opening beyond the film" with ends="separated"'
         raise ModelFileError(f"{label}.where", where, accepted, "may be on approach, where nothing separates")
-    for what, text in (("meaning", meaning), ("source", source)):
-        if not isinstance(text, str):
-            raise ModelFileError(f"{label}.{what}", text, "text")
+    _check_texts(label, meaning=meaning, source=source)
     tested = _of_event(f"{label}.guard", guard, there)
     if not unfolded(tested, there).free_symbols & set(own_events.MOVING):
         raise ModelFileError(f"{label}.guard", guard, "an expression of x, u, omega or xi", "never changes")
@@ -341,9 +337,8 @@ def event(
     after = []
     for target, value in (jump or {}).items():
         if target == x:
-            raise ModelFileError(
-                f"{label}.jump", "x", "u, omega, xi", "jumps, but surfaces move apart and together continuously: a gap"
-            )
+            problem = "jumps, but surfaces move apart and together continuously: a gap"
+            raise ModelFileError(f"{label}.jump", "x", "u, omega, xi", problem)
         if target not in own_events.JUMPS:
             raise ModelFileError(f"{label}.jump", target, "u, omega, xi", "is no velocity of the particles")
         new = _of_event(f"{label}.jump", value, there, own_events.JUMPS[target])
@@ -395,6 +390,12 @@ def functions_of(slot: str) -> dict[str, bool]:
     laws = LAWS[slot].values()
     names = dict.fromkeys(function.name for law in laws for function in law.functions)
     return {name: all(name in [f.name for f in law.functions if not f.for_proof] for law in laws) for name in names}
+
+
+def _check_texts(label: str, **texts: object) -> None:
+    for what, text in texts.items():
+        if not isinstance(text, str):
+            raise ModelFileError(f"{label}.{what}", text, "text")
 
 
 def _check_name(what: str, name: object, there: Declarations) -> None:

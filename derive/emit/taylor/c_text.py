@@ -306,7 +306,8 @@ class Recurrences:
                 return f"{target} = {terms};"
             return f"{target} = k == 0 ? {terms} + {offset} : {terms};"
         if kind == "product":
-            older, newer = (self.array(part) for part in sorted(operation.series, key=self._age))
+            ages = {each.name: age for age, each in enumerate(self.program.operations)}  # given series come first
+            older, newer = (self.array(part) for part in sorted(operation.series, key=lambda part: ages.get(part, -1)))
             return f"{target} = {_times(factors[0])}product({older}, {newer}, k);"
         if kind in _RECURRENCES:
             inner = f"{place}slope_of_{operation.series[0]}"
@@ -324,10 +325,6 @@ class Recurrences:
         slot, function, arguments = operation.call
         passed = "".join(f", {self.array(a)}" for a in arguments if isinstance(a, str))
         return f"{slot}_{function}_next(&s->{name}, &c->{name}{passed}, k);"
-
-    def _age(self, name: str) -> int:
-        """Position of a series in the program; given series come first."""
-        return next((k for k, operation in enumerate(self.program.operations) if operation.name == name), -1)
 
     def values(self, results: Iterable[object]) -> list[str]:
         """Declarations of local variables with the values at order zero; `where` of given series must be values too.

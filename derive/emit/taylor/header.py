@@ -161,13 +161,12 @@ class Header:
         fields += ["glass_pressure_clearance_constants glass;", *self.ledger.member()]
         body = constants.assignments()
         for name, (slot, call, arguments) in self.calls.items():
-            passed = "".join(
-                f", {self.constants.vector(argument, 'argument')}"
-                for argument in arguments
-                if not isinstance(argument, str)
-            )
+            still = [argument for argument in arguments if not isinstance(argument, str)]
+            passed = "".join(f", {constants.vector(argument, 'argument')}" for argument in still)
             body.append(f"{slot}_{call}_prepare(&c->{name}{passed});")
-        body.append(f"glass_pressure_clearance_prepare(&c->glass{self._glass_groups()}, c->glass_number);")
+        (call,) = slot_calls(self.model["events"]["glass"])
+        passed = "".join(f", {constants.vector(argument, 'argument')}" for argument in call.args[2:])  # a user's groups
+        body.append(f"glass_pressure_clearance_prepare(&c->glass{passed}, c->glass_number);")
         body += self.ledger.prepare()
         return [
             *self.ledger.constants_struct(),
@@ -182,11 +181,6 @@ class Header:
 
     def _meaning(self, group: sp.Symbol) -> str:
         return self.beside.own[group.name][1] if group.name in self.beside.own else VOCABULARY[group.name].meaning
-
-    def _glass_groups(self) -> str:
-        """Additional arguments of a user's glass law, as C text."""
-        (call,) = slot_calls(self.model["events"]["glass"])
-        return "".join(f", {self.constants.vector(argument, 'argument')}" for argument in call.args[2:])
 
     def _series(self) -> list[str]:
         fields = [f"vec {state.name}[TERMS]; /* {self._meaning(state)} */" for state in self.model.states]

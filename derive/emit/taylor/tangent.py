@@ -6,7 +6,7 @@ per step from those of the flow. A direction then costs as many products as the 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from itertools import groupby
 from types import MappingProxyType
 
@@ -34,6 +34,7 @@ class Tangent(LinearFlow):
         """The header."""
         coefficients, row, source = self._coefficients(), self._row(), self._sources()
         back = Adjoint(self)
+        levels = [f"vec {row}_by_{by}[TERMS];" for (row, by), e in self.sources.items() if not isinstance(e, str)]
         per_direction = sum(isinstance(entry, str) for (of, _), entry in self.matrix.items() if of != "turned")
         cost = f"Products of series: {self.program.cost:g} and those of the laws, then {per_direction} a direction; "
         cost += f"backwards {back.cost:g} and those of the laws' derivatives."
@@ -46,7 +47,8 @@ class Tangent(LinearFlow):
             *back.lines(),
             "#else",
             *self._constants(),
-            *self._structs(),
+            *comment("Derivatives of the rates: entries of the matrix, and source terms of a direction."),
+            *struct("slopes", [*self._law_fields("s->"), *self.recurrences.fields(), *levels]),
             *coefficients,
             *row,
             *source,
@@ -82,12 +84,6 @@ class Tangent(LinearFlow):
         head = "static inline void prepare_slopes(slope_constants *c, const constants *v)"
         doc = "Constants of the derivatives, computed once per collision."
         return [*struct("slope_constants", fields), *documented(doc, head, body)]
-
-    def _structs(self) -> list[str]:
-        levels = [f"vec {row}_by_{by}[TERMS];" for (row, by), e in self.sources.items() if not isinstance(e, str)]
-        fields = [*self._law_fields("s->"), *self.recurrences.fields(), *levels]
-        doc = "Derivatives of the rates: entries of the matrix, and source terms of a direction."
-        return [*comment(doc), *struct("slopes", fields)]
 
     def _law_fields(self, place: str) -> list[str]:
         laws = self._laws().items()
@@ -251,7 +247,8 @@ class Tangent(LinearFlow):
             laws: that fill their slots.
         """
         outputs = {key: filled(self.model.expanded(sp.sympify(value)), laws) for key, value in self.model[name].outputs}
-        text = Text(lambda symbol: symbol.name if symbol in moved else self._plain_name(symbol))
+        names = {s: f"y[{s.name.upper()}]" for s in self.model.states} | {s: s.name for s in moved}
+        text = Text(lambda symbol: names.get(symbol, f"v->{symbol.name}"))
         body = ["(void)v;"] + (["(void)y;"] if moves else [])
         for key, target in targets.items():
             terms = [
@@ -261,14 +258,12 @@ class Tangent(LinearFlow):
             ]  # fmt: skip
             terms += [f"({text(outputs[key].diff(each))})*moved" for each in moved if outputs[key].diff(each) != 0]
             body.append(f"{target} = {' + '.join(terms) or 'splat(0.0)'};")
-        body += _switch(
-            (group.name, [(target, outputs[key].diff(group)) for key, target in targets.items()], text)
-            for group in self.model.groups
-        )
-        return documented(doc, head, body)
-
-    def _plain_name(self, symbol: sp.Symbol) -> str:
-        return f"y[{symbol.name.upper()}]" if symbol in self.model.states else f"v->{symbol.name}"
+        cases = []
+        for group in self.model.groups:
+            slopes = {target: outputs[key].diff(group) for key, target in targets.items()}
+            lines = [f"{_IN}{target} += {text(sp.factor(slope))};" for target, slope in slopes.items() if slope != 0]
+            cases += [f"case BY_{group.name.upper()}:", *lines, _IN + "break;"] if lines else []
+        return documented(doc, head, [*body, *(["switch (group) {", *cases, "}"] if cases else ["(void)group;"])])
 
     def _edge(self) -> list[str]:
         (call,) = slot_calls(self.model["events"]["tangential_edge"])
@@ -280,15 +275,6 @@ class Tangent(LinearFlow):
         body += ["default:", f"{_IN}return splat(0.0);", "}"]
         head = "static inline vec tangential_edge_along(const constants *v, int group)"
         return documented("Derivative of the gap beyond which there is no tangential force.", head, body)
-
-
-def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Expr], str]]]) -> list[str]:
-    body = []
-    for group, slopes, text in rows:
-        lines = [f"{_IN}{target} += {text(sp.factor(slope))};" for target, slope in slopes if slope != 0]
-        if lines:
-            body += [f"case BY_{group.upper()}:", *lines, _IN + "break;"]
-    return ["switch (group) {", *body, "}"] if body else ["(void)group;"]
 
 
 def tangent_header(model: Model, beside: Beside | None = None) -> str:
