@@ -64,23 +64,16 @@ def potential(small_angle: bool) -> sp.Expr:
 
 def _law(name: str, small_angle: bool, meaning: str) -> Law:
     stiffness = sp.simplify(2 * height(small_angle).diff(offset_squared))
-    arguments = (string_ratio, offset_squared)
-    return Law(
-        slot="strings",
-        name=name,
-        meaning=meaning,
-        references=(DOUBLETS,),
-        source=f"{DOUBLETS.short}: vertical tension balances the weight",
-        functions=(
-            LawFunction("rise", arguments, rise(small_angle), "Height gained by each sphere over a."),
-            LawFunction(
-                "stiffness",
-                arguments,
-                stiffness,
-                "Horizontal restoring force over weight and swing d/a: a/sqrt(l^2 - d^2).",
-            ),
-        ),
+    arguments, doc = (
+        (string_ratio, offset_squared),
+        "Horizontal restoring force over weight and swing d/a: a/sqrt(l^2 - d^2).",
     )
+    functions = (
+        LawFunction("rise", arguments, rise(small_angle), "Height gained by each sphere over a."),
+        LawFunction("stiffness", arguments, stiffness, doc),
+    )
+    source = f"{DOUBLETS.short}: vertical tension balances the weight"
+    return Law("strings", name, meaning, source, functions, references=(DOUBLETS,))
 
 
 STRINGS = (
