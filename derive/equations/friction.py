@@ -9,7 +9,7 @@ from ..physics.laws.base import Definition
 from ..physics.partners import space, wall
 from ..physics.partners.bodies import CENTRES
 from ..physics.partners.pair import LEVER
-from ..physics.partners.vectors import dot
+from ..physics.partners.vectors import dot, named
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
@@ -21,7 +21,7 @@ IMPULSE = sp.Symbol("impulse", real=True)
 # Flags of resting contact, named as in emitted code: the sign of the slip (0: it does not slide), and whether it rolls
 SLIDING, ROLLING = sp.symbols("sliding rolling", real=True)
 DRY_SLIP, HOLDING_FORCE, DRY_FORCE = sp.symbols("dry_slip holding_force dry_force", real=True)
-DRY_SLIPS = space.named("dry_slip")
+DRY_SLIPS = named("dry_slip")
 LEAST_DIRECTION = sp.Float("1e-150")  # no slip has no direction: below it an impulse has none
 COMPLIANCE, GRIP = sp.symbols("tangential_compliance grip", positive=True)
 
