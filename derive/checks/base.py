@@ -185,7 +185,7 @@ def _sampled(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign:
     return Sign(None, "no proof found, and no negative value on a grid either")
 
 
-def positive(expression: sp.Expr) -> bool | None:
+def positive(expression: sp.Expr) -> bool:
     """True if a quotient of polynomials in non-negative symbols has non-negative coefficients only."""
     top, bottom = sp.fraction(sp.together(sp.expand(expression)))
     return all(

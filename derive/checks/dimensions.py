@@ -6,23 +6,11 @@ from collections.abc import Mapping
 
 import sympy as sp
 
+from ..physics import mechanics
 from ..physics.forces import FILM, SHEAR, force_laws
 from ..physics.laws import LAWS, film, shear, strings
 from ..physics.laws.bridge import rupture_distance
 from ..physics.laws.glass import elastic_compliance, elastic_length
-from ..physics.mechanics import (
-    F_c,
-    F_n,
-    F_t,
-    F_w,
-    S_n,
-    S_t,
-    arm,
-    doublet_inertia,
-    equations_of_motion,
-    sphere_inertia,
-    string_forces,
-)
 from ..physics.scaling import dimension_matrix, group_definitions, nondimensional, start_values
 from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import (
@@ -45,11 +33,11 @@ Equations = dict[str, tuple[sp.Expr, Dimension]]
 
 def si_equations() -> dict[str, Equations]:
     """Every SI expression of the model by room and name, with its expected dimension."""
-    motion = equations_of_motion()
+    motion = mechanics.equations_of_motion()
     moment = MASS * LENGTH**2
-    mechanics: Equations = {
-        "inertia of a sphere": (sphere_inertia(), moment),
-        "inertia of the doublet": (doublet_inertia(), moment),
+    moving: Equations = {
+        "inertia of a sphere": (mechanics.sphere_inertia(), moment),
+        "inertia of the doublet": (mechanics.doublet_inertia(), moment),
         "kinetic energy": (motion.kinetic_energy, ENERGY),
         "du/dt": (motion.separation_acceleration, LENGTH / TIME**2),
         "domega/dt": (motion.orbital_acceleration, RATE / TIME),
@@ -68,12 +56,9 @@ def si_equations() -> dict[str, Equations]:
     pendulum: Equations = {}
     for name in LAWS["strings"]:
         potential = strings.potential(name == "small-angle")
-        normal, sideways = string_forces(potential, strings.r, q.beta)
-        pendulum |= {
-            f"U_s, {name}": (potential, ENERGY),
-            f"S_n, {name}": (normal, FORCE),
-            f"S_t, {name}": (sideways, FORCE),
-        }
+        normal, sideways = mechanics.string_forces(potential, strings.r, q.beta)
+        pendulum |= {f"U_s, {name}": (potential, ENERGY)}
+        pendulum |= {f"S_n, {name}": (normal, FORCE), f"S_t, {name}": (sideways, FORCE)}
     lengths: Equations = {
         "elastic compliance": (elastic_compliance(), ONE / PRESSURE),
         "elastic length": (elastic_length(), LENGTH),
@@ -81,11 +66,13 @@ def si_equations() -> dict[str, Equations]:
         "rupture distance without": (rupture_distance(bridge=False), LENGTH),
     }
     return {
-        "mechanics": mechanics,
+        "mechanics": moving,
         "lubrication": lubrication,
         "strings": pendulum,
         "elastic length and rupture": lengths,
-        "forces as the laws fill them": {s.name: (e, LENGTH if s == arm else FORCE) for s, e in force_laws().items()},
+        "forces as the laws fill them": {
+            s.name: (e, LENGTH if s == mechanics.arm else FORCE) for s, e in force_laws().items()
+        },
         "start": {symbol.name: (value, q.DIMENSIONS[symbol]) for symbol, value in start_values().items()},
         "groups": {symbol.name: (definition, ONE) for symbol, definition in group_definitions().items()},
     }
@@ -93,9 +80,11 @@ def si_equations() -> dict[str, Equations]:
 
 def symbol_dimensions() -> dict[sp.Basic, Dimension]:
     """Dimensions of the vocabulary and of further names in the SI equations."""
-    forces = dict.fromkeys((F_n, F_c, F_w, F_t, S_n, S_t), FORCE)
+    forces = dict.fromkeys(
+        (mechanics.F_n, mechanics.F_c, mechanics.F_w, mechanics.F_t, mechanics.S_n, mechanics.S_t), FORCE
+    )
     thicknesses = sp.symbols("h h_outer", positive=True)  # local, and the outer thickness of the tangential logarithm
-    lengths = dict.fromkeys((arm, strings.r, *thicknesses), LENGTH)
+    lengths = dict.fromkeys((mechanics.arm, strings.r, *thicknesses), LENGTH)
     return {**q.DIMENSIONS, **forces, **lengths, FILM: ONE, SHEAR: ONE}
 
 

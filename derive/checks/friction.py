@@ -122,24 +122,15 @@ def in_space() -> tuple[Check, ...]:
     slips = [dict(model.definitions)[each] for each in DRY_SLIPS]
     flat = dict(pair.definitions)[DRY_SLIP].subs(midgap)
     size, left = sp.sqrt(dot(DRY_SLIPS, DRY_SLIPS) + LEAST_DIRECTION**2), []
-    across = on_the_sphere(
-        dot(slips, q.normal).subs({TWIST: dot(SLIPS, q.normal), PARTNER_TWIST: dot(PARTNER_SLIPS, q.normal)}),
-        q.normal,
-        q.orbital_momenta,
-    )
+    twists = {TWIST: dot(SLIPS, q.normal), PARTNER_TWIST: dot(PARTNER_SLIPS, q.normal)}
+    across = on_the_sphere(dot(slips, q.normal).subs(twists), q.normal, q.orbital_momenta)
+    planes = {q.orbital_momentum: q.orbital_momenta, q.spin: q.spins, q.partner_spin: q.partner_spins}
     for k, slip in enumerate(slips):
-        of_plane = {
-            ORBITAL_RATE: SLIPS[k] + q.spins[k],
-            q.spin: q.spins[k],
-            q.partner_spin: SLIPS[k] + q.spins[k] - PARTNER_SLIPS[k],
-        }
+        rate = SLIPS[k] + q.spins[k]
+        of_plane = {ORBITAL_RATE: rate, q.spin: q.spins[k], q.partner_spin: rate - PARTNER_SLIPS[k]}
         there = sp.expand(flat.subs(of_plane, simultaneous=True) - midgap[LEVER] * twist[0] * q.normal[k])
         left.append((slip - there).subs(CENTRES, RADIUS + PARTNER_RADIUS))
-        for vector, state in (
-            (q.orbital_momenta, q.orbital_momentum),
-            (q.spins, q.spin),
-            (q.partner_spins, q.partner_spin),
-        ):
+        for state, vector in planes.items():
             change = (planar[state.name] - state) * DRY_SLIPS[k] / size
             left.append(jump[vector[k].name] - vector[k] - change)
     part = sp.factor(1 - dot(DRY_SLIPS, DRY_SLIPS) / size**2)

@@ -91,19 +91,14 @@ def friction_in_space_dissipates() -> Evidence:
         across[second] = space.PARTNER_SLIPS[each] - space.PARTNER_TWIST * q.normal[each]
         parts += form.subs(across, simultaneous=True)
     model = derive(_SPACE)
-    torque = {
-        symbol: value for symbol, value in model.definitions if symbol.name.startswith(("torque", "partner_torq"))
-    }
+    torque = {s: value for s, value in model.definitions if s.name.startswith(("torque", "partner_torq"))}
     lost = vectors.dot(space.TORQUES, space.SLIPS) + vectors.dot(space.PARTNER_TORQUES, space.PARTNER_SLIPS)
-    along = {space.ALONG: space.torques((space.TWIST, space.PARTNER_TWIST))[0]}
-    along[space.PARTNER_ALONG] = space.torques((space.TWIST, space.PARTNER_TWIST))[1]
-    twists = {
-        space.TWIST: vectors.dot(space.SLIPS, q.normal),
-        space.PARTNER_TWIST: vectors.dot(space.PARTNER_SLIPS, q.normal),
-    }
+    turned = (space.TWIST, space.PARTNER_TWIST)
+    along = dict(zip((space.ALONG, space.PARTNER_ALONG), space.torques(turned), strict=True))
+    slips = zip(turned, (space.SLIPS, space.PARTNER_SLIPS), strict=True)
+    twists = {twist: vectors.dot(slip, q.normal) for twist, slip in slips}
     left = lost.subs(torque).subs(along) - space.STRENGTH * parts
-    rest = _on_the_surface(sp.expand(left.subs(twists)))
-    yield rest
+    yield _on_the_surface(sp.expand(left.subs(twists)))
     yield positive, "not positive definite"
 
 
@@ -192,11 +187,8 @@ def plane_in_space() -> Evidence:
     turning = pair.expanded(pair["turning_rate"][q.beta.name], SIZES)
     expected = {state: filled(rate, _MIDGAP) for state, rate in pair.by_state("right_hand_side", SIZES).items()}
     moved = _components((q.normal, tuple(each.diff(q.beta) * turning for each in line)))
-    for vector, state in (
-        (q.orbital_momenta, q.orbital_momentum),
-        (q.spins, q.spin),
-        (q.partner_spins, q.partner_spin),
-    ):
+    turning_states = (q.orbital_momentum, q.spin, q.partner_spin)
+    for vector, state in zip((q.orbital_momenta, q.spins, q.partner_spins), turning_states, strict=True):
         moved |= _components((vector, upright(expected[state])))
     moved |= {state: expected[state] for state in (q.gap, q.normal_velocity)}
     rates = model.by_state("right_hand_side", SIZES)

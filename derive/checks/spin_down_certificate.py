@@ -143,9 +143,8 @@ def film_takes() -> tuple[Check, ...]:
     for law in LAWS["film"].values():
         if any(each.name == "stopping" for each in law.functions):
             left = [law["stopping"].result.diff(q.gap) + law["resistance"].result, worst - (1 + q.e_dry) * deeper]
-            checks.append(
-                vanishing(f"spin-down: film, {law.name}", "S' = -resistance; rebounds from deeper are slower", left)
-            )
+            statement = "S' = -resistance; rebounds from deeper are slower"
+            checks.append(vanishing(f"spin-down: film, {law.name}", statement, left))
     return tuple(checks)
 
 
@@ -173,16 +172,9 @@ def as_emitted() -> Evidence:
             named[spin_down.BEYOND] - (q.gap + sp.Min(1, spin_down.EDGE)) / 2,
         )
         emitted = model["spin_down_margins"].by_name
-        film = slot_call("film", "stopping", q.gap) - slot_call("film", "stopping", spin_down.BEYOND)
-        outward = sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity)
-        yield from (
-            emitted["stays"] - (q.stokes * outward + q.stokes * spin_down.impulse(structure) - film),
-            emitted["rate"] - spin_down.RATE,
-        )
-        opens = q.stokes * outward - slot_call("film", "stopping", q.gap)
-        closes = (
-            -q.stokes * q.normal_velocity
-            - slot_call("film", "stopping", spin_down.EDGE)
-            + slot_call("film", "stopping", q.gap)
-        )
-        yield from (emitted["apart"] - sp.Max(opens, closes), emitted["inside"] - (spin_down.EDGE - q.gap))
+        here, beyond, edge = (slot_call("film", "stopping", at) for at in (q.gap, spin_down.BEYOND, spin_down.EDGE))
+        opens = q.stokes * sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity) - here
+        closes = -q.stokes * q.normal_velocity - edge + here
+        yield emitted["stays"] - (opens + q.stokes * spin_down.impulse(structure) + beyond)
+        yield from (emitted["rate"] - spin_down.RATE, emitted["apart"] - sp.Max(opens, closes))
+        yield emitted["inside"] - (spin_down.EDGE - q.gap)

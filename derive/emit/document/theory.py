@@ -68,11 +68,7 @@ def _rate(symbol: sp.Symbol) -> str:
 
 def _motion(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, motion = "Motion", mechanics.equations_of_motion()
-    opened = (
-        motion.separation_acceleration
-        if "attraction" in laws
-        else motion.separation_acceleration.subs(mechanics.F_w, 0)
-    )
+    opened = motion.separation_acceleration.subs({} if "attraction" in laws else {mechanics.F_w: 0})
     radial = sp.collect(sp.expand(q.m * opened), q.omega**2, evaluate=False)
     balance = sp.Add(*(sp.factor(part) * power if power != 1 else part for power, part in radial.items()))
     lever = sp.expand(fill(force_laws()[mechanics.arm], laws))
@@ -82,12 +78,8 @@ def _motion(laws: Mapping[str, Law]) -> Iterator[Equation]:
     yield Equation(group, f"{latex(q.m)} {_rate(q.u)}", balance, "along the line of centres")
     momentum = rf"\frac{{d}}{{dt}} \left[ {latex(motion.orbital_momentum)} \right]"
     yield Equation(group, momentum, motion.orbital_momentum_rate, "across the line of centres")
-    yield Equation(
-        group,
-        f"{latex(mechanics.sphere_inertia())} {_rate(q.xi)}",
-        turning,
-        f"spin of each sphere ({laws['arm'].name} arm)",
-    )
+    spun = f"{latex(mechanics.sphere_inertia())} {_rate(q.xi)}"
+    yield Equation(group, spun, turning, f"spin of each sphere ({laws['arm'].name} arm)")
     scaled, square = sp.expand(mechanics.doublet_inertia() / (q.m * q.a**2)), (4 + q.x / q.a) ** 2  # as in the paper
     inertia = sp.Mul(q.m * q.a**2, square + sp.expand(scaled - square), evaluate=False)
     yield Equation(group, f"I({latex(q.x)})", inertia, "inertia in rigid rotation")
@@ -188,13 +180,8 @@ def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
         yield Equation(group, latex(q.x if each.contact else q.p_gt), limit, f"({number}) {each.name}", r"\leq")
         if limit.has(_COMPLIANCE):
             yield Equation(group, latex(_COMPLIANCE), elastic_compliance())
-    yield Equation(
-        group,
-        latex(q.u),
-        rebound((q.normal_velocity,))[q.normal_velocity].subs(q.normal_velocity, q.u),
-        "if any of these is met",
-        r"\to",
-    )
+    after = rebound((q.normal_velocity,))[q.normal_velocity].subs(q.normal_velocity, q.u)
+    yield Equation(group, latex(q.u), after, "if any of these is met", r"\to")
     yield Equation(group, "x_f", rupture_distance(bridge=True), f"rupture (${latex(q.x0)}$ without a bridge)")
 
 
@@ -214,7 +201,6 @@ def _friction(laws: Mapping[str, Law]) -> Iterator[Equation]:
 
 def _groups() -> Iterator[Equation]:
     definitions = group_definitions()
-    yield Equation("Groups", latex(q.stokes), definitions[q.stokes])
-    yield Equation("Groups", latex(q.capillary), definitions[q.capillary])
     rotating = sp.simplify(definitions[q.centrifugal] / initial_rate() ** 2) * q.omega0**2
-    yield Equation("Groups", latex(q.centrifugal), rotating)
+    for group in (q.stokes, q.capillary, q.centrifugal):
+        yield Equation("Groups", latex(group), rotating if group == q.centrifugal else definitions[group])

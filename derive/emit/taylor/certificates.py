@@ -10,7 +10,7 @@ from sympy.core.function import AppliedUndef
 from ...equations.certificates.approach import braking
 from ...equations.certificates.slow_manifold import admits, coefficients
 from ...equations.model import Model
-from ...physics.laws.base import Definition, is_slot_call, needed, slot_calls
+from ...physics.laws.base import Definition, needed, slot_calls
 from ...physics.scaling import DISTANCE
 from ...physics.slots import places
 from ...vocabulary.quantities import gap, stokes
@@ -61,12 +61,8 @@ class Margins:
     def _pendulum(self) -> list[str]:
         outputs = self.model["pendulum_margins"].by_name
         kept, _ = needed(list(outputs.values()), self.model.definitions)
-        called = {
-            node.func.__name__
-            for _, expression in (*kept, *outputs.items())
-            for node in sp.sympify(expression).atoms(AppliedUndef)
-            if is_slot_call(node) and tuple(node.func.__name__.split(".")) not in self.prepared
-        }
+        nodes = (node for _, expression in (*kept, *outputs.items()) for node in slot_calls(sp.sympify(expression)))
+        called = {name for node in nodes if tuple((name := node.func.__name__).split(".")) not in self.prepared}
         lines = []
         for name, (keys, doc) in PARTS.items():
             lines += self._function(name, doc, {key: outputs[key] for key in keys})
@@ -99,10 +95,8 @@ class Margins:
 
     def approach(self) -> list[str]:
         """The functions of the approach certificate; nothing for structures without it."""
-        lines = []
-        for name in ("approach_step", "approach_force"):
-            if name in self.model:
-                lines += self._function(name, self.model[name].doc, self.model[name].by_name)
+        each = [self.model[name] for name in ("approach_step", "approach_force") if name in self.model]
+        lines = [line for one in each for line in self._function(one.name, one.doc, one.by_name)]
         required = ["FILM_BRAKING", "GLASS_REACH", *self._falling()]
         return _compiled_with(required, "APPROACH_BOUNDS", self._arm(), lines) if lines else []
 
