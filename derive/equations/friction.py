@@ -83,12 +83,9 @@ def rubbed(structure: Structure, states: tuple[sp.Symbol, ...]) -> dict[sp.Symbo
         pushed = _along_the_slip(IMPULSE, LEAST_DIRECTION)
         return {state: state + pushed.get(state, _ZERO) for state in states}
     if structure.partner == "wall":
-        return {
-            **{state: state for state in states},
-            q.decay: _ZERO,
-            q.last_slide: q.slide + contact.changes[q.slide] * IMPULSE,
-            q.last_roll: q.roll + contact.changes[q.roll] * IMPULSE,
-        }
+        begun = {q.last_slide: q.slide, q.last_roll: q.roll}
+        moved = {last: state + contact.changes[state] * IMPULSE for last, state in begun.items()}
+        return {**{state: state for state in states}, q.decay: _ZERO, **moved}
     return {state: state + contact.changes.get(state, _ZERO) * IMPULSE for state in states}
 
 
@@ -119,13 +116,9 @@ def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
         pushed = _along_the_slip(SLIDING * GRIP, CREEP)
         return {**{s: rate + pushed.get(s, _ZERO) for s, rate in held.items()}, q.gap: _ZERO, q.normal_velocity: _ZERO}
     if structure.partner == "wall":  # since the rebound, `decay` is zero
-        return {
-            q.gap: _ZERO,
-            q.normal_velocity: _ZERO,
-            q.decay: _ZERO,
-            q.last_slide: held[q.slide] + contact.changes[q.slide] * DRY_FORCE,
-            q.last_roll: held[q.roll] + contact.changes[q.roll] * DRY_FORCE,
-        }
+        begun = {q.last_slide: q.slide, q.last_roll: q.roll}
+        moved = {last: held[state] + contact.changes[state] * DRY_FORCE for last, state in begun.items()}
+        return {q.gap: _ZERO, q.normal_velocity: _ZERO, q.decay: _ZERO, **moved}
     rubbing_rates = {state: rate + contact.changes.get(state, _ZERO) * DRY_FORCE for state, rate in held.items()}
     return {**rubbing_rates, q.gap: _ZERO, q.normal_velocity: _ZERO}
 

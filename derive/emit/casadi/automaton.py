@@ -22,19 +22,8 @@ _EVENT_FIELDS = {
 
 def automaton_digest() -> str:
     """Digest of the tables of the automaton."""
-    tables = (
-        "COMPONENTS",
-        "CRITERIA",
-        "WORDS",
-        "ACTIONS",
-        "EVENTS",
-        "RULES",
-        "OUTCOMES",
-        "STATUSES",
-        "PURPOSES",
-        "CONSTANTS",
-    )
-    return digest(*(row for table in tables for row in getattr(automaton, table)))
+    tables = "COMPONENTS CRITERIA WORDS ACTIONS EVENTS RULES OUTCOMES STATUSES PURPOSES CONSTANTS"
+    return digest(*(row for table in tables.split() for row in getattr(automaton, table)))
 
 
 def provenance() -> str:
@@ -44,7 +33,6 @@ def provenance() -> str:
 
 def automaton_module() -> str:
     """Text of `generated/automaton.py`."""
-    words = [word.word for word in automaton.WORDS]
     lines = [f"# {line}" for line in provenance().splitlines()]
     lines += [f'"""{_DOC}"""', "", "from __future__ import annotations", ""]
     lines += ["from enum import IntEnum", "from typing import NamedTuple", ""]
@@ -54,7 +42,7 @@ def automaton_module() -> str:
     lines.append(f"OUTCOMES = ({', '.join(each.name for each in automaton.OUTCOMES)})  # by number")
     lines += ["", *_numbers("EventKind", "Number of an event in a report; KINDS has its word.",
                             [(word.name, word.meaning) for word in automaton.WORDS])]  # fmt: skip
-    lines += ["", *_tuple("KINDS", words)]
+    lines += ["", "KINDS = (", *(f"    {_text(word.word)}," for word in automaton.WORDS), ")"]
     lines += _criteria()
     lines += _numbers("Status", "Status returned by the kernel; up to LAST_ANSWER the outcome is valid.",
                       [(each.name, each.meaning) for each in automaton.STATUSES])  # fmt: skip
@@ -109,10 +97,6 @@ def _events() -> list[str]:
     for event in automaton.EVENTS:
         lines += ["    Event(", *_members(event, _EVENT_FIELDS), "    ),"]
     return [*lines, ")"]
-
-
-def _tuple(name: str, values: Sequence[str]) -> list[str]:
-    return [f"{name} = (", *(f"    {_text(value)}," for value in values), ")"]
 
 
 def _text(value: object) -> str:

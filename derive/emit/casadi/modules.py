@@ -29,12 +29,9 @@ def law_module(law: Law) -> str:
         body += docstring(f"{function.doc}\n\nTotal operations: {count}", INDENT)
         for symbol, expression in kept:
             body += assignment(symbol.name, expression, printer)
-        lines = assignment("result", function.result, printer)
-        body += (
-            [f"{INDENT}return {printer(function.result)}", ""]
-            if len(lines) == 1
-            else [*lines, f"{INDENT}return result", ""]
-        )
+        lines = [*assignment("result", function.result, printer), f"{INDENT}return result"]
+        body += [f"{INDENT}return {printer(function.result)}"] if len(lines) == 2 else lines
+        body.append("")
     doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
     falls = any(each.falls and each.name in ("force", "log_factor") for each in law.functions)  # with the gap
     body = [*_validity(law), *(["", "FALLS = True", ""] if falls else []), *body]
@@ -73,7 +70,7 @@ def structure_module(model: Model, own: Own | None = None, shared: Mapping[str, 
         ("FUNCTIONS", [f.name for f in model.functions]),
         ("REGIONAL", [f.name for f in model.functions if f.regional]),
     ):
-        body += _name_tuple(constant, names)
+        body += _listed(f"{constant} = {_tuple(names)}", f"{constant} =", [f'"{name}"' for name in names])
     body += [f'DIGEST = "{model_digest(model)}"', ""]
     elsewhere: dict[str, list[str]] = {}
     for function in model.functions:
@@ -85,28 +82,23 @@ def structure_module(model: Model, own: Own | None = None, shared: Mapping[str, 
             body += defined
             printer.imports |= trial.imports
     imports = ["from collections.abc import Mapping", "from typing import Any", "", *_casadi(printer)]
-    imports += [line for home in sorted(elsewhere) for line in _import(home, sorted(elsewhere[home]))]
+    for home, names in sorted(elsewhere.items()):
+        start = f"from .{home} import"
+        imports += _listed(f"{start} {', '.join(sorted(names))}", start, sorted(names))
     return module(header(model_digest(model)), describe(model, own or {}), imports, body)
 
 
-def _import(home: str, names: list[str]) -> list[str]:
-    line = f"from .{home} import {', '.join(names)}"
-    return [line] if len(line) <= WIDTH else [f"from .{home} import (", *_listed(names), ")"]
-
-
-def _listed(words: Sequence[str]) -> list[str]:
-    """Lines of a long list of words."""
-    return textwrap.wrap(", ".join(words) + ",", WIDTH, initial_indent=INDENT, subsequent_indent=INDENT)
+def _listed(line: str, start: str, words: Sequence[str]) -> list[str]:
+    """A line with a list of words, or `start` and the list over several lines in brackets."""
+    if len(line) <= WIDTH:
+        return [line]
+    inside = textwrap.wrap(", ".join(words) + ",", WIDTH, initial_indent=INDENT, subsequent_indent=INDENT)
+    return [f"{start} (", *inside, ")"]
 
 
 def _tuple(names: Sequence[str]) -> str:
     listed = ", ".join(f'"{name}"' for name in names)
     return f"({listed},)" if len(names) == 1 else f"({listed})"
-
-
-def _name_tuple(constant: str, names: list[str]) -> list[str]:
-    line = f"{constant} = {_tuple(names)}"
-    return [line] if len(line) <= WIDTH else [f"{constant} = (", *_listed([f'"{name}"' for name in names]), ")"]
 
 
 def function_lines(model: Model, name: str, printer: Printer) -> list[str]:

@@ -84,17 +84,12 @@ class Header:
 
     def _resting(self) -> Resting:
         """The motion in resting contact with friction."""
-        outputs = [
-            *self.model["resting_rates"].outputs,
-            ("slip", friction.DRY_SLIP),
-            *self.model["dry_forces"].outputs,
-            ("reaction", self.model["inward_force"]["inward_force"]),
-            *(self.model["turning_rate"].outputs if self.turning is not None else ()),
-        ]
+        turns = self.model["turning_rate"].outputs if self.turning is not None else ()
+        outputs = [*self.model["resting_rates"].outputs, ("slip", friction.DRY_SLIP), *self.model["dry_forces"].outputs]
+        outputs += [("reaction", self.model["inward_force"]["inward_force"]), *turns]
         program = Program.for_outputs(self.model.states, (value for _, value in outputs), self.model.definitions)
         result = {key: program.result(expression, f"rate_of_{key}") for key, expression in outputs}
-        turning = None if self.turning is None else result[self.model["turning_rate"].outputs[0][0]]
-        return Resting(self.model, program, self.constants, result, turning)
+        return Resting(self.model, program, self.constants, result, result[turns[0][0]] if turns else None)
 
     # ---- the complete header
 
@@ -138,9 +133,8 @@ class Header:
             "#define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)",
         ]
         if shape.partner == "space":
-            lines.append(
-                f"#define FIRST_VECTOR {normal[0].name.upper()} /* from here on vectors of three components */"
-            )
+            first = normal[0].name.upper()
+            lines.append(f"#define FIRST_VECTOR {first} /* from here on vectors of three components */")
         upper = ", ".join(state.upper() for state in states)
         lines += ["", f"enum {{ {upper}, MODEL_STATES }};"]
         lines += ["enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };"]
@@ -303,17 +297,13 @@ class Header:
         if "orbital_margins" in model and "surface" in model["orbital_margins"].by_name:
             lines.append("#define BY_ORBITAL_MOMENTUM LIBRARY_LAWS")
             lines.append("enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };")
-            lines += self._vector(
-                "orbital_margins",
-                "found",
-                {
-                    "slip": "found[SLIP_RATE]",
-                    "orbital_energy": "found[ORBITAL_ENERGY]",
-                    "surface": "found[SLIP_ENERGY]",
-                },
+            places = {"slip": "SLIP_RATE", "orbital_energy": "ORBITAL_ENERGY", "surface": "SLIP_ENERGY"}
+            doc = (
                 "Slip omega - xi at this gap, J^2/(2 r^2), and the slip energy (lever arm at the surface), over m v0^2 "
-                "(derive/equations/certificates/orbital_momentum.py).",
+                "(derive/equations/certificates/orbital_momentum.py)."
             )
+            targets = {key: f"found[{place}]" for key, place in places.items()}
+            lines += self._vector("orbital_margins", "found", targets, doc)
         if shape.partner == "space":
             lines += self._vector("resting_bound", "found", {"outward": "found[0]", "inward": "found[1]"})
             lines += self._scalar("wobble")

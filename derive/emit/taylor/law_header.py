@@ -10,13 +10,14 @@ from collections.abc import Set as AbstractSet
 import sympy as sp
 
 from ...equations.model import GROUPS
-from ...physics.laws.base import Law, LawFunction, needed
+from ...physics.laws.base import Definition, Law, LawFunction, needed
 from ..provenance import header, law_digest
 from .c_text import Constants, Recurrences, Text
 from .layout import comment, documented, function, struct
 from .program import Program, cheapest
 
-LIMIT = sp.Symbol("limit", positive=True)  # functions that an event compares with a limit, and that limit
+COMPARED = {("glass", "pressure")}  # slot functions that an event compares with a limit
+LIMIT = sp.Symbol("limit", positive=True)
 
 
 def moves(arguments: tuple[sp.Symbol, ...], groups: AbstractSet[sp.Symbol] = frozenset()) -> tuple[bool, ...]:
@@ -26,11 +27,6 @@ def moves(arguments: tuple[sp.Symbol, ...], groups: AbstractSet[sp.Symbol] = fro
         groups: those of a user's model, beside the library's.
     """
     return tuple(argument not in groups and argument not in GROUPS for argument in arguments)
-
-
-def compared() -> set[tuple[str, str]]:
-    """Slot functions that an event compares with a limit."""
-    return {("glass", "pressure")}
 
 
 def law_header(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
@@ -60,14 +56,13 @@ def _plain(name: str, each: LawFunction) -> list[str]:
 
 
 def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str]:
-    slot = law.slot
     moving = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if moved)
-    still = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if not moved)
-    name = f"{slot}_{each.name}"
+    still = tuple(argument for argument in each.arguments if argument not in moving)
+    name = f"{law.slot}_{each.name}"
     kept, _ = needed([each.result], each.definitions)
     if not moving:
         return _plain(name, each)
-    if (slot, each.name) in compared():
+    if (law.slot, each.name) in COMPARED:
         return _clearance(name, each, kept, moving, still)
     program, result = cheapest(each.result, kept, moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in still})
@@ -93,12 +88,7 @@ def _constants(name: str, constants: Constants, still: tuple[sp.Symbol, ...]) ->
 
 
 def _recurrences(
-    name: str,
-    doc: str,
-    program: Program,
-    result: str | sp.Expr,
-    constants: Constants,
-    moving: tuple[sp.Symbol, ...],
+    name: str, doc: str, program: Program, result: str | sp.Expr, constants: Constants, moving: tuple[sp.Symbol, ...]
 ) -> list[str]:
     made = Recurrences(program, constants, lambda series: series)
     value: str
@@ -128,12 +118,9 @@ def _recurrences(
 
 
 def _work(
-    law: Law,
-    each: LawFunction,
-    kept: list[tuple[sp.Symbol, sp.Expr]],
-    moving: tuple[sp.Symbol, ...],
-    constants: Constants,
+    law: Law, each: LawFunction, kept: list[Definition], moving: tuple[sp.Symbol, ...], constants: Constants
 ) -> sp.Expr | None:
+    """The antiderivative of a force, from the law's potential or by rules; None where there is none."""
     if each.name not in ("force", "resistance") or len(moving) != 1:
         return None
     for other in law.functions:
@@ -164,7 +151,7 @@ def work_lines(name: str, work: sp.Expr, constants: Constants, moving: sp.Symbol
 def _clearance(
     name: str,
     each: LawFunction,
-    kept: list[tuple[sp.Symbol, sp.Expr]],
+    kept: list[Definition],
     moving: tuple[sp.Symbol, ...],
     still: tuple[sp.Symbol, ...],
 ) -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from functools import cache
 
@@ -13,7 +13,7 @@ from ...physics.laws.base import Law, LawFunction, needed
 from ..provenance import header, law_digest
 from .c_text import Constants, Recurrences, Text
 from .chain_rule import Chain
-from .law_header import LIMIT, compared, moves
+from .law_header import COMPARED, LIMIT, moves
 from .layout import comment, documented, each_term, function, struct
 from .program import Program, cheapest
 
@@ -47,7 +47,7 @@ def slopes_header(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str
         name = f"{law.slot}_{each.name}"
         moved = moves(each.arguments, groups)
         moving = tuple(argument for argument, own in zip(each.arguments, moved, strict=True) if own)
-        if (law.slot, each.name) in compared():
+        if (law.slot, each.name) in COMPARED:
             lines += _clearance(name, each)
         elif moving:
             lines += _series(name, each, moving)
@@ -71,29 +71,25 @@ def _plain(name: str, each: LawFunction) -> list[str]:
     return lines
 
 
-def shortest(program: Program, expressions: Iterable[sp.Expr], name: str) -> str | sp.Expr:
-    """The first of the cheapest forms of an expression, compiled into `program`; the expression itself if constant."""
-    forms = list(dict.fromkeys(expressions))
-    if not program.moves(forms[0]):
-        return forms[0]
+def _cheapest(program: Program, forms: Iterable[sp.Expr]) -> sp.Expr:
+    """The first of the forms of an expression that cost least to continue a program with."""
 
     def cost(form: sp.Expr) -> float:
         trial = program.continued()
-        trial.series(form)
+        trial.result(form, "trial")
         return trial.cost
 
-    return program.series(min(forms, key=cost), name)
+    return min(dict.fromkeys(forms), key=cost)
+
+
+def shortest(program: Program, forms: Sequence[sp.Expr], name: str) -> str | sp.Expr:
+    """The series of the cheapest form of an expression in `program`; the expression itself if constant."""
+    return program.series(_cheapest(program, forms), name) if program.moves(forms[0]) else forms[0]
 
 
 def define_shortest(program: Program, symbol: sp.Symbol, expression: sp.Expr) -> None:
     """Define a symbol as the cheapest form of an expression."""
-
-    def cost(form: sp.Expr) -> float:
-        trial = program.continued()
-        trial.define(symbol, form)
-        return trial.cost
-
-    program.define(symbol, min(dict.fromkeys((expression, *factored(expression))), key=cost))
+    program.define(symbol, _cheapest(program, (expression, *factored(expression))))
 
 
 @cache
@@ -113,10 +109,8 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
     slopes = {argument: chain.by(each.result, argument) for argument in each.arguments}
     for symbol, expression in chain.named:
         program.define(symbol, expression)
-    found = {}
-    for argument, slope in slopes.items():
-        forms = (slope, sp.factor(slope))
-        found[argument] = shortest(program, forms, _by(argument))
+    forms = {argument: (slope, sp.factor(slope)) for argument, slope in slopes.items()}
+    found = {argument: shortest(program, each, _by(argument)) for argument, each in forms.items()}
     given = {symbol: f"v->{symbol.name}" for symbol in (*each.arguments, *value.named) if symbol not in moving}
     constants = Constants(given)
     made = Recurrences(program, constants, lambda series: f"of->{series}" if series in own else series)

@@ -25,6 +25,7 @@ from .layout import comment, compiled_if, documented, each_term, struct
 from .linear_flow import LinearFlow
 
 _IN = "    "
+_ALONG = "const constants *v, const vec *y, const vec *t, int group, "  # arguments of what is derived at a state
 
 
 class Tangent(LinearFlow):
@@ -90,11 +91,8 @@ class Tangent(LinearFlow):
         return [f"{slot}_{call}_slopes {name};" for name, (slot, call, _) in laws if self._law_place(name) == place]
 
     def _coefficients(self) -> list[str]:
-        body = [
-            *self._law_fields(""),
-            *self.recurrences.fields(local=True),
-            "(void)film; (void)shear; (void)c; (void)asked;",
-        ]
+        body = [*self._law_fields(""), *self.recurrences.fields(local=True)]
+        body.append("(void)film; (void)shear; (void)c; (void)asked;")
         for name, (slot, call, given) in self._laws().items():
             passed = "".join(f", {self.array(a)}" for a in given if isinstance(a, str))
             into = f"{self._law_place(name)}{name}"
@@ -103,12 +101,12 @@ class Tangent(LinearFlow):
         for (row, by), entry in self.sources.items():
             if not isinstance(entry, str):
                 body.append(each_term(f"s->{row}_by_{by}[k] = {self.constants.level(entry, 'slope')};"))
-        head = (
-            "OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, "
-            "const series *of, const constants *v, vec film, vec shear, unsigned asked)"
+        return documented(
+            "Derivatives of the rates by the states, and by the requested groups.",
+            "OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const series *of, "
+            "const constants *v, vec film, vec shear, unsigned asked)",
+            body,
         )
-        doc = "Derivatives of the rates by the states, and by the requested groups."
-        return documented(doc, head, body)
 
     def _guarded(self) -> list[str]:
         """C lines of the operations; those needed for some groups only are conditional on these."""
@@ -164,12 +162,12 @@ class Tangent(LinearFlow):
                 terms.append(f"source[{row.upper()}][k]")
             line = f"t[{row.upper()}][k + 1] = ({' + '.join(terms) or 'splat(0.0)'})*next;"
             body += compiled_if("TURNING_STATE", [line]) if row == "turned" else [line]
-        head = (
+        return documented(
+            "Coefficient k + 1 of a derivative of the states, with its source terms.",
             "INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, "
-            "const series *of, const constants *v, vec film, vec shear, const vec *const *source, int k)"
+            "const series *of, const constants *v, vec film, vec shear, const vec *const *source, int k)",
+            body,
         )
-        doc = "Coefficient k + 1 of a derivative of the states, with its source terms."
-        return documented(doc, head, body)
 
     def _sources(self) -> list[str]:
         body = ["(void)s; (void)of;", "switch (group) {"]
@@ -190,29 +188,20 @@ class Tangent(LinearFlow):
     def _values(self) -> list[str]:
         """Start, jump and outputs in a direction: derivatives of the states `t`, and explicit ones by each group."""
         states = {name: f"after[{name.upper()}]" for name in self.states}
-        lines = self._directed(
-            "start", "static inline void start_along(const constants *v, int group, vec *after)", states, False,
-            "Derivative of the initial state by a group.",
-        )  # fmt: skip
-        lines += self._directed(
-            "rebound",
-            "static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)",
-            states, True, "Derivative of the state just after a rebound.",
-        )  # fmt: skip
+        head = "static inline void start_along(const constants *v, int group, vec *after)"
+        lines = self._directed("start", head, states, False, "Derivative of the initial state by a group.")
+        head = f"static inline void rebound_along({_ALONG}vec *after)"
+        lines += self._directed("rebound", head, states, True, "Derivative of the state just after a rebound.")
         lines += self._friction(states) if self.model.structure.friction else []
-        shown = {key: f"shown[{place}]" for place, (key, _) in enumerate(self.model["outputs"].outputs)}
-        lines += self._directed(
-            "outputs",
-            "static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)",
-            shown, True, "Derivative of the results for a separated doublet.",
-        )  # fmt: skip
+        shown = {key: f"shown[{place}]" for place, key in enumerate(self.model["outputs"].by_name)}
+        head = f"static inline void outputs_along({_ALONG}vec *shown)"
+        lines += self._directed("outputs", head, shown, True, "Derivative of the results for a separated doublet.")
         if self.model.structure.oblique:
             lines += self._edge()
         return lines
 
     def _friction(self, states: dict[str, str]) -> list[str]:
         """The impulses of a rebound, and the state after one, in a direction; for either lever arm of the library."""
-        own = "const constants *v, const vec *y, const vec *t, int group, "
         impulses = {"sticking": "found[STICKING]", "most": "found[MOST]"}
         jumps = (
             ("dry_slip", "vec *found", impulses, "Derivatives of the impulses of a rebound.", ()),
@@ -221,7 +210,7 @@ class Tangent(LinearFlow):
         )  # fmt: skip
         lines = []
         for name, arguments, targets, doc, moved in jumps:
-            head = f"static inline void {name}_along({own}{arguments})"
+            head = f"static inline void {name}_along({_ALONG}{arguments})"
             if "arm" not in self.model.slots:
                 lines += self._directed(name, head, targets, True, doc, moved)
                 continue
