@@ -87,10 +87,8 @@ def angular_momentum(lever: Law) -> Check:
         if structure.oblique and not structure.strings and not structure.reduced:
             model = derive(structure)
             rates = model.by_state("right_hand_side")
-            left.append(
-                filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], {"arm": lever})
-                - model.expanded(lost)
-            )
+            change = filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], {"arm": lever})
+            left.append(change - model.expanded(lost))
     if conserves(lever):
         words = "; ".join(each.describe() for each in found(lever))
         return vanishing(
@@ -125,14 +123,11 @@ def shear_range(law: Law, lever: Law) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Exp
 def indefinite_shear(law: Law, lever: Law) -> Check:
     """The range and the largest rate at which shear gives energy, by name, for an arm that does not conserve L."""
     rate, low, high, least = shear_range(law, lever)
-    known = is_known(lever)
     name = f"shear dissipates: {law.name}, {lever.name} arm"
     statement = f"F_t (r omega - 2 arm xi) has a sign; for this arm it is {readable(rate)}"
-    figure = (
-        f"negative for xi/omega between {readable(low)} and {readable(high)}, "
-        f"at the least {readable(least)} half-way between"
-    )
-    if known:
+    ends = f"{readable(low)} and {readable(high)}"
+    figure = f"negative for xi/omega between {ends}, at the least {readable(least)} half-way between"
+    if is_known(lever):
         per_slip = filled(force_laws()[F_t], {"shear": law}).subs(SHEAR, 1).subs(q.xi, 0) / q.omega
         left = [least + per_slip * q.x**2 * q.omega**2 / (16 * q.a), high - 1 - q.x / (4 * q.a)]
         return vanishing(name, statement, left, f"{figure}: a known violation of the leading-order arm", holds=None)

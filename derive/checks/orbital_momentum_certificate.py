@@ -72,17 +72,15 @@ def midgap_takes() -> Check:
 def midgap_ends() -> Check:
     """Beyond the edge of the shear: the same exchange, zero once omega = xi at the edge, and positive before."""
     within = orbital.midgap_within(_FAR, _EDGE, _P**2, _Q**2)
-    left = [
-        _settled(_change("midgap", within) - _change("midgap", _midgap())),
-        _settled(within.subs(_P, _EDGE * _Q)),
-    ]
+    left = [_change("midgap", within) - _change("midgap", _midgap()), within.subs(_P, _EDGE * _Q)]
     # on the way to the edge J grows while xi > J/e^2, and each step transfers xi - J/d^2
     to_spin = 1 / orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
     slope = within.diff(_P) / (2 * _P) - to_spin * within.diff(_Q) / (2 * _Q)
     ahead = {_FAR: _EDGE + _BEYOND, _P: _EDGE * _Q / (1 + _CLOSER)}
     top, bottom = sp.fraction(sp.cancel(sp.together(-slope.subs(ahead))))
     falls = _no_negative(top) and _no_negative(bottom)
-    same = vanishing("exchange ends, midgap", "nothing is left once omega = xi at the edge of the shear", left)
+    statement = "nothing is left once omega = xi at the edge of the shear"
+    same = vanishing("exchange ends, midgap", statement, [_settled(each) for each in left])
     return replace(same, ok=same.ok and falls)
 
 
@@ -100,9 +98,8 @@ def transferable_bounds() -> tuple[Check, ...]:
     energy = (momentum - rigid) ** 2 * (1 / _FAR**2 + 1 / inertia) / 2
     left = [energy - orbital.midgap(_FAR, momentum, turning)]  # for every sign: no square roots
     margin = momentum**2 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + orbital.midgap(_FAR, momentum, turning)
-    change = margin.diff(turning) - orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR)) * margin.diff(
-        momentum
-    )
+    rate = orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
+    change = margin.diff(turning) - rate * margin.diff(momentum)
     ratio = _settled(change / (momentum / _NEAR**2 - turning))
     whole, excess = sp.symbols("whole excess", nonnegative=True)
     closer = 4 + _CLOSER
@@ -139,9 +136,8 @@ def surface_takes() -> Check:
     slope = (rest.diff(_P) / (2 * _P)).subs(_P, rho * _Q) / _Q**2
     left = sp.together(sp.cancel(rho / _FAR - slope)).subs(_FAR, rho + _REACH / (1 + _CLOSER)).subs(rho, 4 + _BEYOND)
     top, bottom = sp.fraction(sp.together(left))
-    ok = _no_negative(top * sp.sign(bottom.subs({_CLOSER: 1, _BEYOND: 1}))) and (
-        _no_negative(bottom) or _no_negative(-bottom)
-    )
+    signed = sp.sign(bottom.subs({_CLOSER: 1, _BEYOND: 1}))
+    ok = _no_negative(top * signed) and _no_negative(bottom * signed)
     rate = sp.fraction(_settled(_change("surface", _surface()) * _NEAR))
     quadratic = sp.degree(rate[0], _NEAR) == 2 and not rate[1].has(_NEAR)
     figure = f"-dJ/dxi = {orbital.lag()} a r; d - rho <= {_REACH} a"

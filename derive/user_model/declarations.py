@@ -155,21 +155,19 @@ class Declarations:
     events: dict[str, own_events.Proposed] = field(default_factory=dict)
 
 
-_here: ContextVar[Declarations | None] = ContextVar("declarations", default=None)
-_loose = Declarations()  # a model file that is run directly
+_here = ContextVar("declarations", default=Declarations())  # noqa: B039 -- of a model file that is run directly
 
 
 def _declarations() -> Declarations:
-    return _here.get() or _loose
+    return _here.get()
 
 
 @contextmanager
 def collecting() -> Iterator[Declarations]:
     """Collect the declarations made inside the block."""
-    fresh = Declarations()
-    token = _here.set(fresh)
+    token = _here.set(Declarations())
     try:
-        yield fresh
+        yield _here.get()
     finally:
         _here.reset(token)
 
@@ -204,11 +202,9 @@ def quantity(
     group = group or f"{name}_number"
     _check_name(f"{name}.group", group, there)
     try:
-        dimension = dimension_of_unit(unit)
+        dimension, limits = dimension_of_unit(unit), Bounds.read(bounds)
     except UnitError as error:
         raise ModelFileError(f"{name}.unit", unit, 'coherent SI, as "Pa", "N/m", "kg m^2/s", "1"', str(error)) from None
-    try:
-        limits = Bounds.read(bounds)
     except BoundsError:
         raise ModelFileError(f"{name}.bounds", bounds, '"> 0", ">= 0", "0 to 1", "> 0 and <= 5"') from None
     if over is not None and not isinstance(over, sp.Expr):
@@ -216,9 +212,8 @@ def quantity(
     sign = {"positive": True} if limits.positive else {"nonnegative": True} if limits.not_negative else {"real": True}
     symbol = sp.Symbol(name, **sign)
     upright = rf"\mathrm{{{name.replace('_', ' ')}}}".replace(" ", r"\ ")
-    there.quantities[name] = Declared(
-        symbol, latex or upright, unit, dimension, default, limits, meaning or name.replace("_", " "), over, group
-    )
+    printed, meaning = latex or upright, meaning or name.replace("_", " ")
+    there.quantities[name] = Declared(symbol, printed, unit, dimension, default, limits, meaning, over, group)
     return symbol
 
 
@@ -266,18 +261,16 @@ def law(
     if (slot, name) in there.laws:
         raise ModelFileError(f"law {slot}", name, "each name once", "is declared twice")
     known = functions_of(slot)
-    for given in functions:
-        if given not in known:
-            raise ModelFileError(label, given, "the functions " + ", ".join(known), "is no function of this slot")
+    for foreign in functions.keys() - known.keys():
+        raise ModelFileError(label, foreign, "the functions " + ", ".join(known), "is no function of this slot")
     for missing in (function for function, required in known.items() if required and function not in functions):
         raise ModelFileError(f"{label}.{missing}", None, f"{missing} = an expression", "is missing")
     _check_texts(label, source=source, bibtex=bibtex)
     if bibtex and not _BIBTEX.fullmatch(bibtex):
         raise ModelFileError(f"{label}.bibtex", bibtex, "an entry such as @article{key, author = {...}, ...}")
     expressions = tuple((f, _expression(f"{label}.{f}", functions[f])) for f in known if f in functions)
-    there.laws[slot, name] = Proposed(
-        slot, name, expressions, meaning or f"{name}, a user's law", source or "no source given", tuple(accept), bibtex
-    )
+    meaning, source = meaning or f"{name}, a user's law", source or "no source given"
+    there.laws[slot, name] = Proposed(slot, name, expressions, meaning, source, tuple(accept), bibtex)
 
 
 def event(
@@ -352,11 +345,11 @@ def event(
     if ends == "stick" and after:
         raise ModelFileError(f"{label}.jump", jump, 'no jump beside ends = "stick"', "would not be seen")
     mark = sp.Symbol(own_events.MARK + name, nonnegative=True)
+    released = _of_event(f"{label}.releases", releases, there, ENERGY)
+    meaning, source = meaning or f"{reported}, a user's event", source or "no source given"
     there.events[name] = own_events.Proposed(
-        name, reported, mark, tested, where, tuple(after), ends,
-        _of_event(f"{label}.releases", releases, there, ENERGY),
-        meaning or f"{reported}, a user's event", source or "no source given",
-    )  # fmt: skip
+        name, reported, mark, tested, where, tuple(after), ends, released, meaning, source
+    )
     return mark
 
 

@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -38,12 +39,8 @@ class Dimension:
         return (self.mass, self.length, self.time)
 
     def __str__(self) -> str:
-        parts = [
-            f"{base}^{power}" if power != 1 else base
-            for base, power in zip("MLT", self.exponents, strict=True)
-            if power
-        ]
-        return " ".join(parts) or "1"
+        powers = [(base, power) for base, power in zip("MLT", self.exponents, strict=True) if power]
+        return " ".join(base if power == 1 else f"{base}^{power}" for base, power in powers) or "1"
 
 
 ONE = Dimension()
@@ -85,24 +82,13 @@ def dimension_of(
         if isinstance(node, (sp.Add, sp.Max, sp.Min)):
             return _common(node, node.args)
         if isinstance(node, sp.Mul):
-            result = ONE
-            for factor in node.args:
-                part = walk(factor)
-                if part is None:
-                    return None
-                result = result * part
-            return result
+            parts = [walk(factor) for factor in node.args]
+            return None if None in parts else prod(parts, start=ONE)
         if isinstance(node, sp.Pow):
             return _power(node)
         if isinstance(node, sp.Derivative):
             top = walk(node.expr)
-            if top is None:
-                return None
-            for variable, count in node.variable_count:
-                bottom = walk(variable)
-                assert bottom is not None
-                top = top / bottom ** int(count)
-            return top
+            return top and prod((walk(each) ** -int(count) for each, count in node.variable_count), start=top)
         if isinstance(node, sp.Abs):
             return walk(node.args[0])
         if isinstance(node, sp.Piecewise):
@@ -119,18 +105,12 @@ def dimension_of(
         raise DimensionError(f"no dimension is known for {node} (a {type(node).__name__})")
 
     def _common(whole: sp.Basic, terms: list[sp.Basic] | tuple[sp.Basic, ...]) -> Dimension | None:
-        first: tuple[sp.Basic, Dimension] | None = None
-        for term in terms:
-            dimension = walk(term)
-            if dimension is None:
-                continue
-            if first is None:
-                first = (term, dimension)
-            elif dimension != first[1]:
-                raise DimensionError(
-                    f"term {term} has dimension {dimension} beside {first[0]} of dimension {first[1]} in {whole}"
-                )
-        return first[1] if first else None
+        known = [(term, dimension) for term in terms if (dimension := walk(term)) is not None]
+        for term, dimension in known[1:]:
+            if dimension != known[0][1]:
+                beside = f"{known[0][0]} of dimension {known[0][1]}"
+                raise DimensionError(f"term {term} has dimension {dimension} beside {beside} in {whole}")
+        return known[0][1] if known else None
 
     def _power(node: sp.Pow) -> Dimension | None:
         base = walk(node.base)
