@@ -187,10 +187,11 @@ def _sampled(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign:
 
 def positive(expression: sp.Expr) -> bool:
     """True if a quotient of polynomials in non-negative symbols has non-negative coefficients only."""
-    top, bottom = sp.fraction(sp.together(sp.expand(expression)))
-    return all(
-        all(coefficient >= 0 for coefficient in sp.Poly(part, *sorted(part.free_symbols, key=str)).coeffs())
-        if part.free_symbols
-        else part > 0
-        for part in (sp.expand(top), sp.expand(bottom))
-    )
+    return all(map(no_negative, sp.fraction(sp.together(sp.expand(expression)))))
+
+
+def no_negative(part: sp.Expr) -> bool:
+    """True for a positive number, or a polynomial without a negative coefficient."""
+    expanded = sp.expand(part)
+    symbols = sorted(expanded.free_symbols, key=str)
+    return all(c >= 0 for c in sp.Poly(expanded, *symbols).coeffs()) if symbols else bool(expanded > 0)

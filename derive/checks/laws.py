@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ..equations.intermediates import SHEAR_FORCE
 from ..equations.model import Model, derive
 from ..physics.forces import force_laws
 from ..physics.laws import LAWS, Law, attraction, fill, film
-from ..physics.laws.base import filled
+from ..physics.laws.base import filled, slot_calls
 from ..physics.laws.strings import offset_squared
 from ..physics.mechanics import F_c, F_n, F_t, S_n, S_t
 from ..physics.scaling import DISTANCE, generalised_centrifugal, group_definitions, initial_rate
@@ -37,11 +37,10 @@ def film_ends(films: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
     checks = []
     for law in films:
         left = filled(force_laws()[F_n], {"film": law}).subs(q.x, q.x0)
-        name, statement = f"film's rim: {law.name}", "x -> x0: no film force"
+        check = vanishing(f"film's rim: {law.name}", "x -> x0: no film force", [left])
         if law.name == "infinite":  # by definition this law has no rim in the pressure
-            checks.append(Check(name, statement, None, f"ends at {left}: known, the film has no rim"))
-        else:
-            checks.append(vanishing(name, statement, [left]))
+            check = replace(check, ok=None, figure=f"ends at {left}: known, the film has no rim")
+        checks.append(check)
     for law in shears:
         left = [law["log_factor"](law["edge"](q.aspect), q.aspect)]
         checks.append(vanishing(f"shear's edge: {law.name}", "no tangential force at its edge", left))
@@ -56,16 +55,11 @@ def long_strings_vanish(laws: Iterable[Law]) -> tuple[Check, ...]:
         left = []
         for force in (S_n, S_t):
             whole = force_laws()[force]
-            calls = {
-                node: node.func(node.args[0], swing)
-                for node in whole.atoms(AppliedUndef)
-                if node.func.__name__.startswith("strings.")
-            }
+            calls = {node: node.func(node.args[0], swing) for node in slot_calls(whole)}
             left.append(sp.limit(filled(whole.xreplace(calls), {"strings": law}), q.l_s, sp.oo))
         left.append(sp.limit(law["rise"](q.string_ratio, swing), q.string_ratio, sp.oo))
-        checks.append(
-            vanishing(f"infinite strings: {law.name}", "l -> oo: S_n, S_t, U_s -> 0 at fixed weight and swing", left)
-        )
+        statement = "l -> oo: S_n, S_t, U_s -> 0 at fixed weight and swing"
+        checks.append(vanishing(f"infinite strings: {law.name}", statement, left))
     return tuple(checks)
 
 
@@ -87,26 +81,24 @@ def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
     closing, film_flag, stokes = model.states[1], sp.Symbol("film", nonnegative=True), model.groups[0]
     checks = []
     for law in laws:
-        integral, integrated = film_integral(law)
+        integral = film_integral(law)
         speed = -(1 - integral / stokes)
         rate = filled(model.expanded(model["right_hand_side"]["normal_velocity"]), {"film": law})
         left = [speed * speed.diff(q.gap) - rate.subs({closing: speed, film_flag: 1}), speed.subs(q.gap, 1) + 1]
         left += [integral - each(q.gap) for each in law.functions if each.name == "stopping"]
         figure = f"Lf(s) = {integral}".replace("gap", "s")
-        if law.name == "finite" and integrated:
+        if law.name == "finite" and not integral.has(sp.Integral):
             left.append(sp.expand_log(integral - (sp.log(1 / q.gap) - sp.Rational(3, 2) + 2 * q.gap - q.gap**2 / 2)))
         checks.append(vanishing(f"head-on closed form: {law.name}", "-u/v0 = 1 - Lf(s)/St solves it", left, figure))
     return tuple(checks)
 
 
-def film_integral(law: Law) -> tuple[sp.Expr, bool]:
-    """Lf(s), the film's resistance integrated from the gap s to its rim, and whether it has a closed form."""
+def film_integral(law: Law) -> sp.Expr:
+    """Lf(s), the film's resistance integrated from the gap s to its rim; an Integral where it has no closed form."""
     inner = sp.Symbol("inner_gap", positive=True)
     resistance = sp.expand(law["resistance"](inner))
     integral = sp.integrate(resistance, (inner, q.gap, 1))
-    if integral.has(sp.Integral):
-        return sp.Integral(resistance, (inner, q.gap, 1)), False
-    return sp.expand(integral), True
+    return sp.Integral(resistance, (inner, q.gap, 1)) if integral.has(sp.Integral) else sp.expand(integral)
 
 
 _THICKNESS = sp.Symbol("h", positive=True)
@@ -163,13 +155,10 @@ def resistances() -> Check:
 def generalised_number() -> Evidence:
     """Ce_F is a constant times Ce for the constant bridge: Ce/(4 pi cos(phi))."""
     force = fill(force_laws()[F_c], {"bridge": LAWS["bridge"]["constant"]})
-    own = sp.simplify(generalised_centrifugal(force) / _centrifugal())
+    papers = sp.simplify(group_definitions()[q.centrifugal] / initial_rate() ** 2) * q.omega0**2
+    own = sp.simplify(generalised_centrifugal(force) / papers)
     yield own - 1 / (4 * sp.pi * sp.cos(q.contact_angle))
     yield f"Ce_F/Ce = {own}"
-
-
-def _centrifugal() -> sp.Expr:
-    return sp.simplify(group_definitions()[q.centrifugal] / initial_rate() ** 2) * q.omega0**2
 
 
 @check("stick certificate, attractions", "slope = d/dx [L^2/(2 I) + U_s + W_c + W_w] at fixed L")

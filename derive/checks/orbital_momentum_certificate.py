@@ -13,7 +13,7 @@ from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import aspect, gap, obliquity, orbital_momentum, spin
-from .base import Check, Evidence, check, checks, vanishing
+from .base import Check, Evidence, check, checks, no_negative, vanishing
 
 _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
 # square roots of momentum and spin, in which all expressions are rational
@@ -78,7 +78,7 @@ def midgap_ends() -> Check:
     slope = within.diff(_P) / (2 * _P) - to_spin * within.diff(_Q) / (2 * _Q)
     ahead = {_FAR: _EDGE + _BEYOND, _P: _EDGE * _Q / (1 + _CLOSER)}
     top, bottom = sp.fraction(sp.cancel(sp.together(-slope.subs(ahead))))
-    falls = _no_negative(top) and _no_negative(bottom)
+    falls = no_negative(top) and no_negative(bottom)
     statement = "nothing is left once omega = xi at the edge of the shear"
     same = vanishing("exchange ends, midgap", statement, [_settled(each) for each in left])
     return replace(same, ok=same.ok and falls)
@@ -106,7 +106,7 @@ def transferable_bounds() -> tuple[Check, ...]:
     share = orbital.rigid_momentum(sp.Symbol("r", positive=True), whole, sp.Integer(0))
     here, there = (share.subs(sp.Symbol("r", positive=True), d) for d in (closer, closer + _BEYOND))
     products = [(there + excess) * (there + excess - here), -excess * (-excess - here)]
-    fall = all(_no_negative(part) for value in products for part in sp.fraction(sp.cancel(sp.together(value))))
+    fall = all(no_negative(part) for value in products for part in sp.fraction(sp.cancel(sp.together(value))))
     same = vanishing("exchange takes, any sign", "d(margin) = -c (omega - xi) dxi for momenta of any sign", left)
     bounded = Check(
         "what can be transferred",
@@ -137,18 +137,11 @@ def surface_takes() -> Check:
     left = sp.together(sp.cancel(rho / _FAR - slope)).subs(_FAR, rho + _REACH / (1 + _CLOSER)).subs(rho, 4 + _BEYOND)
     top, bottom = sp.fraction(sp.together(left))
     signed = sp.sign(bottom.subs({_CLOSER: 1, _BEYOND: 1}))
-    ok = _no_negative(top * signed) and _no_negative(bottom * signed)
+    ok = no_negative(top * signed) and no_negative(bottom * signed)
     rate = sp.fraction(_settled(_change("surface", _surface()) * _NEAR))
     quadratic = sp.degree(rate[0], _NEAR) == 2 and not rate[1].has(_NEAR)
     figure = f"-dJ/dxi = {orbital.lag()} a r; d - rho <= {_REACH} a"
     return Check("exchange takes, surface", "d(margin)/dxi has the sign of -(omega - xi)", ok and quadratic, figure)
-
-
-def _no_negative(part: sp.Expr) -> bool:
-    expanded = sp.expand(part)
-    if not expanded.free_symbols:
-        return bool(expanded > 0)
-    return all(c >= 0 for c in sp.Poly(expanded, *sorted(expanded.free_symbols, key=str)).coeffs())
 
 
 @check("orbital: as emitted", "slip and slip energies over m v0^2")

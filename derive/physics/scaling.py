@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from itertools import chain
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -87,16 +88,12 @@ def impact_groups(partner: str = "") -> dict[sp.Symbol, sp.Expr]:
         return _vector_groups()
     scales = scale_definitions()
     scale = {"": scales[q.rate_scale], "pair": scales[q.rate_scale_pair], "wall": scales[q.rate_scale_wall]}[partner]
-    tangent = sp.tan(q.theta0)
-    if partner == "pair":
-        first, second = radii()
-        sideways = [tangent, first * sp.Abs(q.impact_spin) / q.v0, second * sp.Abs(q.impact_partner_spin) / q.v0]
-    else:
-        sideways = [tangent, (q.a if partner else q.R) * sp.Abs(q.impact_spin) / q.v0]
+    levers = {"": (q.R,), "pair": radii(), "wall": (q.a,)}[partner]
+    spins = zip(levers, (q.impact_spin, q.impact_partner_spin), strict=False)
     rates = first_rates(scale)
     if partner != "pair":
         del rates[q.initial_partner_spin]
-    return {q.obliquity: sp.Max(*sideways), **rates}
+    return {q.obliquity: sp.Max(sp.tan(q.theta0), *(lever * sp.Abs(each) / q.v0 for lever, each in spins)), **rates}
 
 
 def _vector_groups() -> dict[sp.Symbol, sp.Expr]:
@@ -108,10 +105,8 @@ def _vector_groups() -> dict[sp.Symbol, sp.Expr]:
     speeds = sp.Add(*(lever**2 * each**2 for lever, vector in zip(levers, rates, strict=True) for each in vector))
     unit = scale_definitions()[q.rate_scale_pair]
     groups = (q.initial_turnings, q.initial_spins, q.initial_partner_spins)
-    result = {q.obliquity: sp.sqrt(speeds) / q.v0}
-    for vector, group in zip(rates, groups, strict=True):
-        result |= {own: each / unit for own, each in zip(group, vector, strict=True)}
-    return result
+    each = zip(chain(*groups), chain(*rates), strict=True)
+    return {q.obliquity: sp.sqrt(speeds) / q.v0, **{group: rate / unit for group, rate in each}}
 
 
 def first_rates(scale: sp.Expr) -> dict[sp.Symbol, sp.Expr]:

@@ -86,12 +86,16 @@ def _events() -> list[str]:
     doc = "An event: its guard and its effect; `generated/automaton.md` explains them."
     lines = ["", *_named_tuple("Event", doc, _EVENT_FIELDS)]
     void = {each.name: each.void_without for each in automaton.COMPONENTS if each.void_without}
+    ignored = "# Component of the mode -> event; conditions on it are ignored in structures without that event."
     lines += [
         "",
         "",
-        "# Component of the mode -> event; conditions on it are ignored in structures without that event.",
+        ignored,
+        "VOID_WITHOUT = {",
+        *(f'    "{name}": "{event}",' for name, event in void.items()),
+        "}",
+        "",
     ]
-    lines += ["VOID_WITHOUT = {", *(f'    "{name}": "{event}",' for name, event in void.items()), "}", ""]
     lines += [f"ENDS = {_text(automaton.ENDS)}  # actions that end a collision", ""]
     lines += ["EVENTS = (  # in order of precedence among coincident ones"]
     for event in automaton.EVENTS:

@@ -109,10 +109,10 @@ def turning_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
     return rate.subs(ORBITAL_RATE, momentum / distance**2)
 
 
-def impulse_by_angle(turning: sp.Expr, pull: sp.Expr, distance: sp.Expr) -> sp.Expr:
-    """(centrifugal force - pull) over d beta/dt, for `turning`, which is J times the tangent of the impact angle."""
+def impulse_by_angle(turning: sp.Expr, pull: sp.Expr) -> sp.Expr:
+    """(centrifugal force - pull) over d beta/dt in contact; `turning` is J times the tangent of the impact angle."""
     momentum = turning / q.obliquity
-    result = (outward_at(momentum, distance) - PULL) / turning_at(momentum, distance)
+    result = (outward_at(momentum, NEAREST) - PULL) / turning_at(momentum, NEAREST)
     return sp.factor(result).subs(PULL, pull)  # a single quotient: -infinity, and no NaN, at the end of the rotation
 
 
@@ -138,30 +138,24 @@ def _stiffness() -> sp.Expr:
 def impulse_definitions() -> tuple[Definition, ...]:
     """Named intermediates of the impulse, in order."""
     level = (OUTWARD / WEIGHING - _pull_by_stiffness(sp.Integer(0)) / WEIGHING) / 8  # sin(beta/2)^2 where it vanishes
-    sine = sp.sqrt(sp.Max(0, sp.Min(1, level)))
+    each = zip(TURNINGS, ANGLES, strict=True)
     return (
         (OUTWARD, outward_at(LARGEST_MOMENTUM, NEAREST)),
         (PULL, pull_at(CONTACT, q.beta)),
         (WEIGHING, q.weight * _stiffness()),
         (TURNING, LARGEST_MOMENTUM * q.obliquity),
         (TAKEN, taken_by_cosine()),
-        (FINAL, sine),
+        (FINAL, sp.sqrt(sp.Max(0, sp.Min(1, level)))),
         (WIDTH, sp.Max(0, 2 * FINAL + (sp.pi - 2) * FINAL**3 - q.beta) / PANELS),  # arcsin z <= z + (pi/2 - 1) z^3
         *((angle, q.beta + k * WIDTH) for k, angle in enumerate(ANGLES)),
-        *(
-            (later, sp.sqrt(sp.Max(0, TURNING**2 - TAKEN * (sp.cos(q.beta) - sp.cos(angle)))))
-            for later, angle in zip(TURNINGS, ANGLES, strict=True)
-        ),
+        *((later, sp.sqrt(sp.Max(0, TURNING**2 - TAKEN * (sp.cos(q.beta) - sp.cos(angle))))) for later, angle in each),
     )
 
 
 def impulse() -> sp.Expr:
     """Bound of the outward impulse from now on, over m v0."""
-    parts = (
-        sp.Max(0, impulse_by_angle(later, _pull_by_stiffness(angle), NEAREST))
-        for later, angle in zip(TURNINGS, ANGLES, strict=True)
-    )
-    return WIDTH * sp.Add(*parts)
+    each = zip(TURNINGS, ANGLES, strict=True)
+    return WIDTH * sp.Add(*(sp.Max(0, impulse_by_angle(later, _pull_by_stiffness(angle))) for later, angle in each))
 
 
 def definitions(_structure: Structure = PENDULUM) -> tuple[Definition, ...]:
