@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 import sympy as sp
-from wetdoublet.derive.checks.base import run
 from wetdoublet.derive.checks.emitted import (
     events_are_the_definitions,
     inward_is_minus_the_acceleration,
@@ -16,7 +15,6 @@ from wetdoublet.derive.checks.emitted import (
     resting_is_held,
     tangential_force_is_the_published,
 )
-from wetdoublet.derive.checks.pendulum_certificate import CHECKS as MARGINS
 from wetdoublet.derive.checks.pendulum_certificate import margins_are_the_lemmas
 from wetdoublet.derive.checks.restitution import decomposition
 from wetdoublet.derive.equations import events, observables, rates
@@ -53,7 +51,7 @@ def test_a_recoil_of_a_tenth(mutate: Mutate, healthy: Healthy):
     """A rebound taken at a tenth of its speed: the film stops it where it would not."""
     wrong = _recoil_of(sp.Rational(1, 10))
     _emit(mutate, wrong)
-    caught(run(MARGINS), healthy, "margin of the stick proof: recoil")
+    caught(margins_are_the_lemmas(), healthy, "margin of the stick proof: recoil")
 
 
 def test_a_recoil_without_its_reach(mutate: Mutate, healthy: Healthy):
@@ -61,7 +59,7 @@ def test_a_recoil_without_its_reach(mutate: Mutate, healthy: Healthy):
     right = _margins()
     wrong = {**right, "recoil": right["recoil"].subs(pendulum.REACH, pendulum.CONTACT)}
     _emit(mutate, wrong)
-    caught(run(MARGINS), healthy, "margin of the stick proof: recoil")
+    caught(margins_are_the_lemmas(), healthy, "margin of the stick proof: recoil")
 
 
 @pytest.mark.parametrize(
@@ -89,7 +87,7 @@ def test_a_pull_at_first_touch(mutate: Mutate, healthy: Healthy):
     """The pull at x0 is larger than at contact: the inward force is taken for too large."""
     wrong = {**_margins(), "pull": pendulum.pull_at(sp.Integer(1), q.beta)}
     _emit(mutate, wrong)
-    caught(run(MARGINS), healthy, "margin of the stick proof: pull")
+    caught(margins_are_the_lemmas(), healthy, "margin of the stick proof: pull")
 
 
 def _with(right: Callable[..., Any], name: Any, change: Callable[[sp.Expr], sp.Expr]) -> Callable[..., Any]:
