@@ -20,7 +20,7 @@ from ..vocabulary import quantities as q
 from . import friction, observables
 from .certificates.table import CERTIFICATES
 from .events import events, rebound, rebound_loss, start
-from .intermediates import inward_force, rates, turning_rate
+from .intermediates import inward_force, rates, resting_rates, turning_rate
 
 Values = Mapping[str, sp.Expr]
 
@@ -74,8 +74,7 @@ def _by_state(states: tuple[sp.Symbol, ...], values: Mapping[sp.Symbol, sp.Expr]
 def _motion(structure: Structure, states: tuple[sp.Symbol, ...]) -> Emitted:
     yield "right_hand_side", "Rates of the states per v0/x0.", _by_state(states, rates(structure)), _REGIONAL
     if structure.oblique:
-        still = {q.gap: sp.Integer(0), q.normal_velocity: sp.Integer(0)}
-        held = friction.resting_rates(structure) if structure.friction else {**rates(structure), **still}
+        held = friction.resting_rates(structure) if structure.friction else resting_rates(structure)
         doc = "Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on."
         flags = (friction.SLIDING, friction.ROLLING) if structure.friction else ()
         yield "resting_rates", doc, _by_state(states, held), {**_REGIONAL, "given": flags}

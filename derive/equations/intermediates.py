@@ -152,6 +152,11 @@ def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     return rate
 
 
+def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
+    """Rates in resting contact: the gap is held, the rotation goes on."""
+    return {**rates(structure), q.gap: sp.Integer(0), q.normal_velocity: sp.Integer(0)}
+
+
 def turning_rate(structure: Structure | None = None) -> sp.Expr | None:
     """Angular velocity of the line of centres; None if it cannot turn."""
     if structure is not None and structure.partner:

@@ -17,7 +17,7 @@ from wetdoublet.derive.checks.emitted import (
 )
 from wetdoublet.derive.checks.pendulum_certificate import margins_are_the_lemmas
 from wetdoublet.derive.checks.restitution import decomposition
-from wetdoublet.derive.equations import events, observables, rates
+from wetdoublet.derive.equations import events, intermediates, observables
 from wetdoublet.derive.equations.certificates import pendulum
 from wetdoublet.derive.equations.events import rebound_loss
 from wetdoublet.derive.physics.laws import slot_call
@@ -103,8 +103,8 @@ def _with(right: Callable[..., Any], name: Any, change: Callable[[sp.Expr], sp.E
 @pytest.mark.parametrize(
     ("right", "name", "change", "check", "caught_by"),
     [
-        (rates.resting_rates, q.orbital_momentum, lambda e: -e, resting_is_held, "resting contact"),
-        (rates.resting_rates, q.normal_velocity, lambda e: e + 1, resting_is_held, "resting contact"),
+        (intermediates.resting_rates, q.orbital_momentum, lambda e: -e, resting_is_held, "resting contact"),
+        (intermediates.resting_rates, q.normal_velocity, lambda e: e + 1, resting_is_held, "resting contact"),
         (observables.outputs, "tangential_restitution", lambda e: 2 * e, outputs_are_the_definitions, "outputs"),
         (observables.outputs, "final_spin", lambda e: -e, outputs_are_the_definitions, "outputs"),
         (observables.outputs, "restitution", lambda e: -e, outputs_are_the_definitions, "outputs"),
@@ -134,7 +134,7 @@ def test_one_value_of_a_function(mutate: Mutate, healthy: Healthy, right, name, 
 
 def test_an_inward_force_that_pushes(mutate: Mutate, healthy: Healthy):
     """The sign of what holds a doublet in contact: it would rest where it should be thrown off."""
-    right = rates.inward_force
+    right = intermediates.inward_force
     mutate(right, lambda structure: -right(structure))
     caught(inward_is_minus_the_acceleration(), healthy, "inward force")
 
