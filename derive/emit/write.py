@@ -30,7 +30,6 @@ from .taylor.law_slopes import slopes_header
 from .taylor.tangent import tangent_header
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
-_IGNORED = ("__pycache__",)
 
 
 def _package(doc: str) -> str:
@@ -103,16 +102,10 @@ def check(folder: Path = GENERATED) -> list[str]:
         if not path.is_file():
             lines.append(f"missing: {name}")
         elif (result := path.read_bytes()) != text.encode():
-            shown = result.decode(errors="replace")
-            lines.append(f"differs: {name}")
-            lines += difflib.unified_diff(
-                shown.splitlines(), text.splitlines(), f"generated/{name}", f"derived/{name}", lineterm=""
-            )
-    present = {
-        path.relative_to(folder).as_posix()
-        for path in folder.rglob("*")
-        if path.is_file() and not any(part in _IGNORED for part in path.parts)
-    }
+            shown, titles = result.decode(errors="replace").splitlines(), (f"generated/{name}", f"derived/{name}")
+            lines += [f"differs: {name}", *difflib.unified_diff(shown, text.splitlines(), *titles, lineterm="")]
+    files = (path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts)
+    present = {path.relative_to(folder).as_posix() for path in files}
     lines += [f"extra: {name}" for name in sorted(present - expected.keys())]
     return lines
 
@@ -142,13 +135,11 @@ def with_shared_functions(headers: Mapping[str, str], provenance: str) -> dict[s
     users: dict[str, list[str]] = {}
     for path, text in headers.items():
         for block in text.rstrip("\n").split("\n\n"):
-            if block.count("\n") + 1 >= _LEAST and _C_FUNCTION.fullmatch(block):
+            if block.count("\n") + 1 >= _LEAST:
                 users.setdefault(block, []).append(path)
     files = dict(headers)
     for block, paths in users.items():
-        if len(paths) > 1:
-            function = _C_FUNCTION.fullmatch(block)
-            assert function is not None
+        if len(paths) > 1 and (function := _C_FUNCTION.fullmatch(block)):
             name = f"shared/{function[1]}_{PurePosixPath(paths[0]).stem}.h"
             files[f"taylor/{name}"] = f"{provenance}{block}\n"
             for path in paths:

@@ -166,9 +166,8 @@ def conserved_momentum(
         NoInvariantError: it is not; the message gives the invariants found and dL/dt.
     """
     result = invariants(system, laws)
-    for each in result:
-        if each.is_angular_momentum:
-            return each
+    if momentum := next((each for each in result if each.is_angular_momentum), None):
+        return momentum
     conserved = "; ".join(each.describe() for each in result) or "nothing linear in the momenta"
     chosen = ", ".join(f"{slot} {law.name}" for slot, law in (laws or {}).items()) or "any law"
     raise NoInvariantError(

@@ -123,8 +123,11 @@ def equations_of_motion() -> EquationsOfMotion:
         return expression.subs(plain).subs({q["x"]: x})
 
     motion = lagrange(kinetic_energy(), q, generalised_forces())
+    opened, turned, spun = (sp.expand(settle(sp.factor(acceleration))) for acceleration, _, _ in motion.values())
     return EquationsOfMotion(
-        *(sp.expand(settle(sp.factor(acceleration))) for acceleration, _, _ in motion.values()),
+        separation_acceleration=opened,
+        orbital_acceleration=turned,
+        spin_acceleration=spun,
         orbital_momentum=sp.factor(settle(motion["beta"][1])),
         orbital_momentum_rate=sp.factor(settle(motion["beta"][2])),
         spin_momentum=sp.factor(settle(motion["spin_angle"][1])),

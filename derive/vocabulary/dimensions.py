@@ -83,12 +83,13 @@ def dimension_of(
             return _common(node, node.args)
         if isinstance(node, sp.Mul):
             parts = [walk(factor) for factor in node.args]
-            return None if None in parts else prod(parts, start=ONE)
+            known = [part for part in parts if part is not None]
+            return prod(known, start=ONE) if len(known) == len(parts) else None
         if isinstance(node, sp.Pow):
             return _power(node)
         if isinstance(node, sp.Derivative):
-            top = walk(node.expr)
-            return top and prod((walk(each) ** -int(count) for each, count in node.variable_count), start=top)
+            top, below = walk(node.expr), [(walk(each) or ONE, int(count)) for each, count in node.variable_count]
+            return top and prod((bottom**-count for bottom, count in below), start=top)
         if isinstance(node, sp.Abs):
             return walk(node.args[0])
         if isinstance(node, sp.Piecewise):

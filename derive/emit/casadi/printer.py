@@ -45,8 +45,10 @@ class Printer:
             return node.name, _ATOM
         if isinstance(node, sp.Integer):
             return str(int(node)), _ATOM if node >= 0 else _UNARY
-        if isinstance(node, sp.Rational):
-            return self._rational(node)
+        if isinstance(node, sp.Rational):  # a finite decimal, or p/q: both give the nearest double
+            if (decimal := _decimal(node)) is None:
+                return f"{int(node.p)}/{int(node.q)}", _MUL
+            return decimal, _ATOM if node >= 0 else _UNARY
         if isinstance(node, sp.Float):
             return self._float(node)
         if node is sp.pi:
@@ -86,14 +88,6 @@ class Printer:
         if sp.Float(value, 50) != sp.Float(node, 50):
             raise EmissionError(f"number {node} does not round-trip through a double")
         return repr(value), _ATOM if value >= 0 else _UNARY
-
-    @staticmethod
-    def _rational(node: sp.Rational) -> tuple[str, int]:
-        """A finite decimal as a decimal literal, other rationals as p/q: both give the nearest double."""
-        decimal = _decimal(node)
-        if decimal is not None:
-            return decimal, _ATOM if node >= 0 else _UNARY
-        return f"{int(node.p)}/{int(node.q)}", _MUL
 
     def _sum(self, node: sp.Add) -> str:
         text = ""
@@ -155,10 +149,8 @@ class Printer:
         for _, condition in node.args[:-1]:
             known = type(condition) in _RELATIONS and isinstance(condition.lhs, sp.Symbol)
             if not known or condition.rhs.has(condition.lhs):
-                raise EmissionError(
-                    f"Piecewise condition {condition} is not of the form symbol < bound, "
-                    "so its branches cannot be guarded"
-                )
+                form = "is not of the form symbol < bound, so its branches cannot be guarded"
+                raise EmissionError(f"Piecewise condition {condition} {form}")
             names.add(condition.lhs.name)
         if len(names) > 1:
             both = ", ".join(sorted(names))
@@ -182,9 +174,8 @@ class Printer:
         point = _inside(variable, facts)
         for probe in (value.subs(variable, point), value.diff(variable).subs(variable, point)):
             if probe.is_number and not (probe.is_finite and probe.is_real):
-                raise EmissionError(
-                    f"branch {value} of {node} is not regular at {variable} = {point}, so it cannot be guarded"
-                )
+                where = f"is not regular at {variable} = {point}, so it cannot be guarded"
+                raise EmissionError(f"branch {value} of {node} {where}")
         guard, held = self._print(variable)[0], self._print(point)[0]
         for condition, holds in facts:
             test = self._print(condition)[0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from html import escape
 
 from ...equations import automaton
@@ -58,8 +59,9 @@ def _arrows() -> dict[tuple[Mode | str, Mode | str], list[str]]:
         for source in _sources(event):
             target = _target(event, source)
             if target != source:
-                by_motion = event.chosen_by == "motion" and not isinstance(source, str)
-                words = [event.words[dict(source)["motion"] == OPENING]] if by_motion else event.words
+                words: Sequence[str] = event.words
+                if event.chosen_by == "motion" and not isinstance(source, str):
+                    words = [event.words[dict(source)["motion"] == OPENING]]
                 result.setdefault((source, target), []).extend(words)
     (rest,) = (rule for rule in automaton.RULES if rule.name == "rest")
     result[_mode(1, CLOSING), _mode(1, OPENING, 1)] = [f"a criterion, {rest.words[0]} (beyond the film too)"]

@@ -21,6 +21,7 @@ from .layout import comment, documented, struct
 from .linear_flow import LinearFlow
 from .program import Operation
 
+_UNUSED = "(void)bar; (void)d; (void)c; (void)film; (void)shear; (void)moving;"
 # Cost of a transposed recurrence in products of series; a call costs one for each series that it is given.
 TRANSPOSED = {"product": 2.0, "square": 1.0, "quotient": 2.0, "sine": 1.0, "cosine": 1.0}
 
@@ -73,10 +74,9 @@ class Adjoint:
             expand.append(f"{slot}_{call}_slopes_of(&s->{name}, &c->{name}, &of->{name}, &v->{name}{passed});")
         constants = [f"{slot}_{call}_slope_constants {name};" for name, slot, call, _ in calls]
         slopes = [f"{slot}_{call}_slopes {name};" for name, slot, call, _ in calls]
-        none = ["char none[0];"]
         return [
-            *struct("slope_constants", constants or none),
-            *struct("slopes", slopes or none),
+            *struct("slope_constants", constants or ["char none[0];"]),
+            *struct("slopes", slopes or ["char none[0];"]),
             *documented(
                 "Constants of the laws' derivatives, computed once per collision.",
                 "static inline void prepare_slopes(slope_constants *c, const constants *v)",
@@ -203,11 +203,7 @@ class Adjoint:
             f"the states, then by coefficient k; `of_sum` those by their sums. Products of series: {self.cost:g}.",
             "INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec power, const series *of, "
             "const slopes *d, const constants *c, vec film, vec shear, mask moving, int k)",
-            [
-                "double next = 1.0/(k + 1);",
-                "(void)bar; (void)d; (void)c; (void)film; (void)shear; (void)moving;",
-                *self._steps,
-            ],
+            ["double next = 1.0/(k + 1);", _UNUSED, *self._steps],
         )
 
     def _along_constants(self) -> list[str]:

@@ -88,5 +88,6 @@ def equations_of_motion() -> PairMotion:
         return sp.factor(expression.subs(plain).subs({q["x"]: x, **sizes}))
 
     motion = lagrange(energy, q, work)
-    parts = ({name: settle(of_each[part]) for name, of_each in motion.items()} for part in range(3))
-    return PairMotion(*parts, kinetic_energy=settle(energy))
+    settled = {name: [settle(part) for part in parts] for name, parts in motion.items()}
+    accelerations, momenta, rates = ({name: parts[k] for name, parts in settled.items()} for k in range(3))
+    return PairMotion(accelerations, momenta, rates, settle(energy))
