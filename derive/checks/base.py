@@ -17,7 +17,7 @@ from ..physics.laws.base import slot_calls
 from ..vocabulary import quantities as q
 
 P = ParamSpec("P")
-C = TypeVar("C")
+C = TypeVar("C", bound="Check | Iterable[Check]")
 Evidence = Iterator[sp.Expr | tuple[bool | None, str] | str]
 """What a check yields: expressions that must vanish, claims (truth, figure if false), and the figure to show."""
 
@@ -32,7 +32,7 @@ class Check:
     figure: str
 
 
-Several = Callable[[], Check | Iterable[Check]]
+Several = Callable[..., Check | Iterable[Check]]
 _REGISTERED: dict[str, list[Several]] = defaultdict(list)
 
 

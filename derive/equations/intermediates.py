@@ -46,20 +46,16 @@ def intermediates(structure: Structure, conserved: Sequence[Conserved] = ()) -> 
         definitions = list(rotation(structure).definitions)
     elif structure.oblique:
         definitions += _rotation(conserved[0] if conserved else None)
-        slip_form = _scaled(laws[F_t], TANGENTIAL)
+        slip_form = nondimensional(laws[F_t] / TANGENTIAL)
         definitions.append((SHEAR_FORCE, sp.factor(by_orbital_rate(slip_form)).subs(ORBITAL_RATE - q.spin, SLIP)))
         definitions.append((CENTRIFUGAL_FORCE, by_orbital_rate(nondimensional(q.m * q.r * q.omega**2 / INERTIA))))
-    definitions.append((FILM_FORCE, _scaled(laws[F_n], INERTIA)))
-    if structure.bridge:
-        definitions.append((BRIDGE_FORCE, _scaled(laws[F_c], INERTIA)))
-    if structure.attraction:
-        definitions.append((ATTRACTION_FORCE, _scaled(laws[F_w], INERTIA)))
+    acting = [(FILM_FORCE, F_n, True), (BRIDGE_FORCE, F_c, structure.bridge)]
+    acting.append((ATTRACTION_FORCE, F_w, structure.attraction))
+    definitions += [(name, nondimensional(laws[force] / INERTIA)) for name, force, acts in acting if acts]
     if structure.strings:
         pull, sideways, swing = scaled_strings(structure.oblique)
-        definitions.append((offset_squared, swing))
-        definitions.append((STRING_PULL, pull))
-        if structure.oblique:
-            definitions.append((STRING_SIDEWAYS, sideways))
+        definitions += [(offset_squared, swing), (STRING_PULL, pull)]
+        definitions += [(STRING_SIDEWAYS, sideways)] if structure.oblique else []
     if structure.oblique and not structure.reduced and not structure.partner:
         definitions.append((LEVER, slot_call("arm", "lever", DISTANCE)))
     return tuple(definitions)
@@ -110,38 +106,27 @@ def attractions(structure: Structure, at: sp.Expr) -> sp.Expr:
     return sp.Add(*(named[force].subs(q.gap, at) for force in (BRIDGE_FORCE, ATTRACTION_FORCE) if force in named))
 
 
-def _scaled(force: sp.Expr, scale: sp.Expr) -> sp.Expr:
-    return nondimensional(force / scale)
-
-
 @cache
 def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """Time derivatives of the states per v0/x0, from the equations of motion."""
     motion = equations_of_motion()
-    named = {
-        F_n: FILM_FORCE,
-        F_c: BRIDGE_FORCE if structure.bridge else 0,
-        F_w: ATTRACTION_FORCE if structure.attraction else 0,
-        S_n: STRING_PULL if structure.strings else 0,
-    }
-    named_tangential = {F_t: SHEAR_FORCE, S_t: STRING_SIDEWAYS if structure.strings else 0}
+    strings = int(structure.strings)
+    named = {F_n: FILM_FORCE, F_c: BRIDGE_FORCE * int(structure.bridge), S_n: STRING_PULL * strings}
+    named |= {F_w: ATTRACTION_FORCE * int(structure.attraction)}
     normal = {force: INERTIA * value for force, value in named.items()}
-    tangential = {force: TANGENTIAL * value for force, value in named_tangential.items()}
+    tangential = {F_t: TANGENTIAL * SHEAR_FORCE, S_t: TANGENTIAL * STRING_SIDEWAYS * strings}
     rate: dict[sp.Symbol, sp.Expr] = {q.gap: nondimensional(q.u / q.v0)}
     acceleration = motion.separation_acceleration.subs(normal)
+    pushed = sp.expand(nondimensional(acceleration.subs(q.omega, 0) * q.x0 / q.v0**2))
     if not structure.oblique:
-        rate[q.normal_velocity] = sp.expand(nondimensional(acceleration.subs(q.omega, 0) * q.x0 / q.v0**2))
-        return rate
+        return rate | {q.normal_velocity: pushed}
     if structure.partner:
         beside = rotation(structure)
-        forces = sp.expand(nondimensional(acceleration.subs(q.omega, 0) * q.x0 / q.v0**2))
-        return rate | {q.normal_velocity: beside.centrifugal + forces} | dict(beside.rates)
+        return rate | {q.normal_velocity: beside.centrifugal + pushed} | dict(beside.rates)
     # the centrifugal term has a name of its own: the remainder is minus the forces
     centrifugal = sp.expand(acceleration - acceleration.subs(q.omega, 0))
     assert sp.expand(centrifugal - q.r * q.omega**2) == 0
-    rate[q.normal_velocity] = CENTRIFUGAL_FORCE + sp.expand(
-        nondimensional(acceleration.subs(q.omega, 0) * q.x0 / q.v0**2)
-    )
+    rate[q.normal_velocity] = CENTRIFUGAL_FORCE + pushed
     pull_round = motion.orbital_momentum_rate.subs(tangential) / (q.m * q.a**2 * q.rate_scale) * q.x0 / q.v0
     rate[q.orbital_momentum] = nondimensional(pull_round)
     if not structure.reduced:

@@ -107,12 +107,9 @@ class Header:
     def _enumerations(self) -> list[str]:
         shape = self.model.structure
         states = [state.name for state in self.model.states]
-        flags = {
-            "OBLIQUE": shape.oblique, "BRIDGE": shape.bridge, "STRINGS": shape.strings, "REDUCED": shape.reduced,
-            "ATTRACTION": shape.attraction, "SPREAD": shape.spread, "WALL": shape.partner == "wall",
-            "SPACE": shape.partner == "space",
-        }  # fmt: skip
-        lines = [f"#define {name} {int(value)}" for name, value in flags.items()]
+        names = ("oblique", "bridge", "strings", "reduced", "attraction", "spread")
+        lines = [f"#define {name.upper()} {int(getattr(shape, name))}" for name in names]
+        lines += [f"#define {name.upper()} {int(shape.partner == name)}" for name in ("wall", "space")]
         if shape.friction:
             lines += ["#define FRICTION 1", f"#define FRICTION_ON_GLASS {int(shape.friction == 'all')}"]
         if self.work_rate is not None:
@@ -128,10 +125,8 @@ class Header:
             lines.append("#define CAPILLARY_STATE 0")
         lines.append(f"#define TURNING_STATE (WITH_ROTATION && {int(self.turning is not None)})")
         lines += self.ledger.enumerations()
-        lines += [
-            "/* Index of coefficient k of a series used in sums only; the cases listed also read past coefficients. */",
-            "#define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)",
-        ]
+        doc = "Index of coefficient k of a series used in sums only; the cases listed also read past coefficients."
+        lines += [f"/* {doc} */", "#define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)"]
         if shape.partner == "space":
             first = normal[0].name.upper()
             lines.append(f"#define FIRST_VECTOR {first} /* from here on vectors of three components */")

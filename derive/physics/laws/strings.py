@@ -56,10 +56,8 @@ def rise(small_angle: bool) -> sp.Expr:
 @cache
 def potential(small_angle: bool) -> sp.Expr:
     """U_s(r, beta) in SI: two spheres, each of mass 2m, lifted by `rise`."""
-    scaled = height(small_angle).subs(
-        {offset_squared: swing_squared() / a**2, string_ratio: l_s / a}, simultaneous=True
-    )
-    return 4 * m * g * a * scaled
+    swung = {offset_squared: swing_squared() / a**2, string_ratio: l_s / a}
+    return 4 * m * g * a * height(small_angle).subs(swung, simultaneous=True)
 
 
 def _law(name: str, small_angle: bool, meaning: str) -> Law:
