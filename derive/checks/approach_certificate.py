@@ -103,10 +103,11 @@ def as_emitted() -> Evidence:
         work = LARGEST_FORCE * (gap - DEEPER)
         gain = work / sp.Max(rest, sp.sqrt(work / 2))
         wanted = {"deeper_gap": DEEPER, "slowed": sp.Max(rest, 0) + gain, "fastest": gain - normal_velocity}
-        result = model["approach_step"].by_name
-        for symbol in (GAIN, LEFT, PATH):
-            result = {name: value.subs(symbol, named[symbol]) for name, value in result.items()}
-        yield from [result[name] - value for name, value in wanted.items()]
+        for name, value in wanted.items():
+            result = model["approach_step"][name]
+            for symbol in (GAIN, LEFT, PATH):
+                result = result.subs(symbol, named[symbol])
+            yield result - value
         if structure.strings:
             continue
         outward = model.expanded(model["approach_force"]["outward"], SIZES)

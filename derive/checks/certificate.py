@@ -19,12 +19,10 @@ def least_energy() -> Evidence:
         model = derive(structure)
         if "effective_potential" not in model:
             continue
-        outputs = model["effective_potential"].by_name
-        value, slope = model.expanded(outputs["energy"]), model.expanded(outputs["slope"])
+        value, slope = model.results("effective_potential").values()
         momentum = sp.Symbol("L", real=True)  # over m a^2 Omega
         inertia = (4 + q.aspect * q.gap) ** 2 + sp.Rational(32, 5)
-        expected: sp.Expr = sp.Integer(0)
-        change: sp.Expr = sp.Integer(0)
+        expected = change = sp.Integer(0)
         if structure.oblique:
             turning, spun = (q.initial_turning, q.initial_spin) if structure.reduced else (q.orbital_momentum, q.spin)
             own = ((4 + q.aspect) ** 2 if structure.reduced else 1) * turning + sp.Rational(32, 5) * spun

@@ -73,11 +73,5 @@ def energy_balance(structure: Structure) -> sp.Expr:
 @checks
 def energy(among: Iterable[Structure] = _FULL) -> tuple[Check, ...]:
     """Film, shear and bridge are the only forces that change the mechanical energy; strings are conservative."""
-    return tuple(
-        vanishing(
-            f"energy: {structure.name}",
-            "d(kinetic + strings)/dt = -(film + shear + bridge power), for all laws and both arms",
-            [energy_balance(structure)],
-        )
-        for structure in among
-    )
+    statement = "d(kinetic + strings)/dt = -(film + shear + bridge power), for all laws and both arms"
+    return tuple(vanishing(f"energy: {each.name}", statement, [energy_balance(each)]) for each in among)

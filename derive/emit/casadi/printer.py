@@ -6,6 +6,8 @@ another meaning (`and`).
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -90,12 +92,7 @@ class Printer:
         return repr(value), _ATOM if value >= 0 else _UNARY
 
     def _sum(self, node: sp.Add) -> str:
-        text = ""
-        for term in _positive_first(node.as_ordered_terms()):
-            negative = term.could_extract_minus_sign()
-            body = self._above(-term if negative else term, _ADD)
-            text += (f" - {body}" if negative else f" + {body}") if text else (f"-{body}" if negative else body)
-        return text
+        return signed_sum(_positive_first(node.as_ordered_terms()), lambda term: self._above(term, _ADD))
 
     def _product(self, node: sp.Mul) -> tuple[str, int]:
         if node.could_extract_minus_sign():
@@ -211,6 +208,16 @@ def _decimal(value: sp.Rational) -> str | None:
         return None
     sign, digits = ("-" if numerator < 0 else ""), str(abs(numerator)).rjust(places + 1, "0")
     return f"{sign}{digits[:-places]}.{digits[-places:]}" if places else f"{sign}{digits}"
+
+
+def signed_sum(terms: Iterable[sp.Expr], text: Callable[[sp.Expr], str]) -> str:
+    """A sum in this order, its negative terms subtracted."""
+    result = ""
+    for term in terms:
+        negative = term.could_extract_minus_sign()
+        body = text(-term if negative else term)
+        result += (f" - {body}" if negative else f" + {body}") if result else (f"-{body}" if negative else body)
+    return result
 
 
 def _positive_first(terms: list[sp.Expr]) -> list[sp.Expr]:

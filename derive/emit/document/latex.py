@@ -13,7 +13,7 @@ import sympy as sp
 
 from ...physics.mechanics import F_c, F_n, F_t, F_w, S_n, S_t
 from ...vocabulary.quantities import A_H, VOCABULARY, a, beta, e_dry, g, m, mu, r, sigma, v0
-from ..casadi.printer import EmissionError
+from ..casadi.printer import EmissionError, signed_sum
 
 NAMES: dict[str, str] = {
     **{name: quantity.latex for name, quantity in VOCABULARY.items()},
@@ -95,13 +95,7 @@ def _condition(node: sp.Basic) -> str:
 
 
 def _sum(node: sp.Add) -> str:
-    terms = sorted(node.args, key=_place_in_sum)
-    text = ""
-    for term in terms:
-        negative = term.could_extract_minus_sign()
-        body = _print(-term if negative else term)
-        text += (f" - {body}" if negative else f" + {body}") if text else (f"-{body}" if negative else body)
-    return text
+    return signed_sum(sorted(node.args, key=_place_in_sum), _print)
 
 
 def _place_in_sum(term: sp.Expr) -> tuple[bool, int, tuple[int, ...]]:

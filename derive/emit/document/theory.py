@@ -101,19 +101,14 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     for call in shear.atoms(sp.log):
         shear = shear.subs(-call, sp.log(1 / call.args[0]))  # ln(x0/x) instead of -ln(x/x0)
     edge = sp.simplify(q.x0 * laws["shear"]["edge"](q.x0 / q.a))
-    yield Equation("Lubrication", latex(mechanics.F_n), normal, _where(law))
+    sustains = all(function.name != "suction" for function in law.functions)
+    where = _inside(q.x0) + ("; the same on the way in and out" if sustains else "; 0 on the way out")
+    where = where if rim is None else "at any gap, the same on the way in and out"
+    yield Equation("Lubrication", latex(mechanics.F_n), normal, where)
     if rim is not None:
         squared = sp.expand((rim**2).subs(arguments, simultaneous=True) * q.x0**2)
         yield Equation("Lubrication", latex(_RIM), sp.sqrt(squared), "rim of the disc that holds the bridge's volume")
     yield Equation("Lubrication", latex(mechanics.F_t), shear, _inside(edge))
-
-
-def _where(law: Law) -> str:
-    """The condition under which a film force acts: region and direction of motion."""
-    functions = {function.name for function in law.functions}
-    if _rim(law) is not None:
-        return "at any gap, the same on the way in and out"
-    return _inside(q.x0) + ("; 0 on the way out" if "suction" in functions else "; the same on the way in and out")
 
 
 def _rim(law: Law) -> sp.Expr | None:

@@ -9,7 +9,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ...physics.laws.base import is_slot_call
-from ..casadi.printer import EmissionError
+from ..casadi.printer import EmissionError, signed_sum
 from .program import Operation, Program
 
 _FUNCTIONS = {
@@ -69,14 +69,8 @@ class Text:
         return text if own >= strength else f"({text})"
 
     def _sum(self, node: sp.Add) -> str:
-        text = ""
-        terms = node.as_ordered_terms()
-        terms.sort(key=lambda term: term.could_extract_minus_sign())
-        for term in terms:
-            negative = term.could_extract_minus_sign()
-            body = self._at_least(-term if negative else term, _MUL)
-            text += (f" - {body}" if negative else f" + {body}") if text else (f"-{body}" if negative else body)
-        return text
+        terms = sorted(node.as_ordered_terms(), key=lambda term: term.could_extract_minus_sign())
+        return signed_sum(terms, lambda term: self._at_least(term, _MUL))
 
     def _product(self, node: sp.Mul) -> str:
         over: list[str] = []
