@@ -19,76 +19,12 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 
 import sympy as sp
-from sympy import (
-    Abs,
-    Max,
-    Min,
-    Piecewise,
-    Rational,
-    acos,
-    asin,
-    atan,
-    cos,
-    cosh,
-    exp,
-    log,
-    pi,
-    sin,
-    sinh,
-    sqrt,
-    tan,
-    tanh,
-)
 
 from ..physics.laws import LAWS
-from ..physics.laws.arm import distance
-from ..physics.laws.bridge import h
-from ..physics.laws.glass import approach
-from ..physics.laws.strings import offset_squared
 from ..vocabulary.allowed_values import Bounds, BoundsError
 from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, UnitError, dimension_of, dimension_of_unit
-from ..vocabulary.quantities import (  # fmt: skip
-    DIMENSIONS,
-    VOCABULARY,
-    E,
-    R,
-    a,
-    aspect,
-    e_dry,
-    g,
-    gap,
-    glass_number,
-    l_s,
-    m,
-    mu,
-    normal_velocity,
-    nu,
-    omega,
-    omega0,
-    p_gt,
-    r,
-    rho,
-    sigma,
-    string_ratio,
-    u,
-    v0,
-    x,
-    x0,
-    x_b,
-    xi,
-)
-from ..vocabulary.quantities import contact_angle as phi
-from ..vocabulary.quantities import normal_velocity as opening  # its name in older model files
-from ..vocabulary.quantities import volume as V
+from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, omega, u, x, xi
 from . import own_events
-
-__all__ = [
-    "Abs", "E", "Max", "Min", "Piecewise", "R", "Rational", "V", "a", "acos", "approach", "asin", "aspect", "atan",
-    "cos", "cosh", "distance", "e_dry", "event", "exp", "g", "gap", "glass_number", "h", "l_s", "law", "let", "log",
-    "m", "mu",
-    "normal_velocity", "nu", "offset_squared", "omega", "omega0", "opening", "p_gt", "phi", "pi", "quantity", "r",
-    "rho", "sigma", "sin", "sinh", "sp", "sqrt", "string_ratio", "tan", "tanh", "u", "v0", "x", "x0", "x_b", "xi",
-]  # fmt: skip
 
 _LAW_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _BIBTEX = re.compile(r"\s*@\w+\s*\{[^{},]+,.*\}\s*", re.S)
@@ -408,7 +344,7 @@ def _expression(label: str, value: object) -> sp.Expr:
         raise ModelFileError(label, value, "a sympy expression") from None
     if not isinstance(result, sp.Expr) or isinstance(value, str):
         raise ModelFileError(label, value, "a sympy expression")
-    return result.xreplace({number: Rational(str(float(number))) for number in result.atoms(sp.Float)})
+    return result.xreplace({number: sp.Rational(str(float(number))) for number in result.atoms(sp.Float)})
 
 
 def latex_names(there: Declarations, groups: Mapping[str, str]) -> dict[str, str]:
