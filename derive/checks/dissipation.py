@@ -63,11 +63,11 @@ def torque(lever: Law) -> sp.Expr:
 @cache
 def conserves(lever: Law) -> bool:
     """True if angular momentum is among the invariants found for the free doublet with this arm."""
-    return any(each.is_angular_momentum for each in found(lever))
+    return any(each.is_angular_momentum for each in conserved(lever))
 
 
 @cache
-def found(lever: Law, structure: Structure = _OBLIQUE) -> tuple[Invariant, ...]:
+def conserved(lever: Law, structure: Structure = _OBLIQUE) -> tuple[Invariant, ...]:
     """The invariants of a structure with this arm, for any other laws."""
     return invariants(derive(structure), {"arm": lever})
 
@@ -90,7 +90,7 @@ def angular_momentum(lever: Law) -> Check:
             change = filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], {"arm": lever})
             left.append(change - model.expanded(lost))
     if conserves(lever):
-        words = "; ".join(each.describe() for each in found(lever))
+        words = "; ".join(each.describe() for each in conserved(lever))
         return vanishing(
             name, "dL/dt = 0 without strings, for every tangential and bridge law", left, f"found: {words}"
         )

@@ -183,10 +183,10 @@ def conserved_components(system: OpenSystem) -> tuple[Invariant, ...]:
     Raises:
         NoInvariantError: one of them is not.
     """
-    found = invariants(open_rates(system), coordinates=(*_COORDINATES, *normal), degree=0)
-    each = [[one for one in found if one.coefficients[0][0] == momentum] for momentum in orbital_momenta]
+    result = invariants(open_rates(system), coordinates=(*_COORDINATES, *normal), degree=0)
+    each = [[one for one in result if one.coefficients[0][0] == momentum] for momentum in orbital_momenta]
     if any(len(own) != 1 for own in each):
-        raise NoInvariantError(f"angular momentum is not conserved in space: {[one.describe() for one in found]}")
+        raise NoInvariantError(f"angular momentum is not conserved in space: {[one.describe() for one in result]}")
     return tuple(own[0] for own in each)
 
 

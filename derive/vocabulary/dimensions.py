@@ -140,11 +140,11 @@ def demand_dimension(
 ) -> None:
     """Raise DimensionError, naming the equation, unless `expression` has dimension `expected`."""
     try:
-        found = dimension_of(expression, of, slots)
+        result = dimension_of(expression, of, slots)
     except DimensionError as error:
         raise DimensionError(f"{name}: {error}") from None
-    if found not in (None, expected):
-        raise DimensionError(f"{name}: {expression} has dimension {found}, expected {expected}")
+    if result not in (None, expected):
+        raise DimensionError(f"{name}: {expression} has dimension {result}, expected {expected}")
 
 
 UNITS: dict[str, Dimension] = {

@@ -185,16 +185,16 @@ def slow_manifold_functions(model: Model, constants: Constants, prepared: dict[t
             program.define(sp.Symbol(name), expression)
             result[name] = program.series(sp.Symbol(name))
         falling |= {f"{call.func.__name__.replace('.', '_').upper()}_FALLS" for call in slot_calls(expression)}
-    made = Recurrences(program, constants, lambda series: f"s->{series}")
+    recurrences = Recurrences(program, constants, lambda series: f"s->{series}")
     lines: list[str] = []
-    fields = ["vec gap[TERMS];", *made.fields()]
+    fields = ["vec gap[TERMS];", *recurrences.fields()]
     own = {operation.name for operation in program.operations}
     for name, value in result.items():
         if value == name and name in own:
             continue
         fields.append(f"vec {name}[TERMS];")
         if isinstance(value, str):
-            lines.append(f"s->{name}[k] = {made.coefficient(value)};")
+            lines.append(f"s->{name}[k] = {recurrences.coefficient(value)};")
         else:
             lines.append(f"s->{name}[k] = k == 0 ? splat({constants.factor(value, name)}) : splat(0.0);")
     meanings = "; ".join(f"`{name}` {meaning}" for name, meaning in MEANINGS.items())
@@ -207,7 +207,7 @@ def slow_manifold_functions(model: Model, constants: Constants, prepared: dict[t
         *struct("slow_series", fields),
         *function(
             "INLINE void slow_coefficients(slow_series *s, const constants *c, int k)",
-            ["(void)c;", *made.lines(), *lines],
+            ["(void)c;", *recurrences.lines(), *lines],
         ),
         "",
         "#if defined(FILM_BRAKING)",

@@ -90,15 +90,15 @@ def _constants(name: str, constants: Constants, still: tuple[sp.Symbol, ...]) ->
 def _recurrences(
     name: str, doc: str, program: Program, result: str | sp.Expr, constants: Constants, moving: tuple[sp.Symbol, ...]
 ) -> list[str]:
-    made = Recurrences(program, constants, lambda series: series)
+    recurrences = Recurrences(program, constants, lambda series: series)
     value: str
     if not isinstance(result, str):
         ending, value = [f"s->result[k] = {constants.level(result, 'level')};"], constants.vector(result, "level")
     elif result == "result" and program.operations and program.operations[-1].name == "result":
         ending, value = [], result
     else:
-        ending, value = [f"s->result[k] = {made.array(result)}[k];"], result
-    fields = made.fields() + (["vec result[TERMS];"] if ending else [])
+        ending, value = [f"s->result[k] = {recurrences.array(result)}[k];"], result
+    fields = recurrences.fields() + (["vec result[TERMS];"] if ending else [])
     series = "".join(f", const vec *{argument.name}" for argument in moving)
     values = "".join(f", vec {argument.name}" for argument in moving)
     unused = "".join(f"(void){argument.name}; " for argument in moving) + "(void)c;"
@@ -107,12 +107,12 @@ def _recurrences(
         *documented(
             f"{doc} Coefficient k of its series; products of series: {program.cost:g}.",
             f"INLINE void {name}_next({name}_series *s, const {name}_constants *c{series}, int k)",
-            [unused, *made.lines(), *ending],
+            [unused, *recurrences.lines(), *ending],
         ),
         *documented(
             doc,
             f"static inline vec {name}_value(const {name}_constants *c{values})",
-            [unused, *made.values([value]), f"return {value};"],
+            [unused, *recurrences.values([value]), f"return {value};"],
         ),
     ]
 

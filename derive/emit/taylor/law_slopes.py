@@ -113,13 +113,13 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
     found = {argument: shortest(program, each, _by(argument)) for argument, each in forms.items()}
     given = {symbol: f"v->{symbol.name}" for symbol in (*each.arguments, *value.named) if symbol not in moving}
     constants = Constants(given)
-    made = Recurrences(program, constants, lambda series: f"of->{series}" if series in own else series)
-    ending, fields = [], made.fields()
+    recurrences = Recurrences(program, constants, lambda series: f"of->{series}" if series in own else series)
+    ending, fields = [], recurrences.fields()
     for argument, result in found.items():
         target = _by(argument)
         if isinstance(result, str):
             if result != target:
-                ending.append(each_term(f"s->{target}[k] = {made.array(result)}[k];"))
+                ending.append(each_term(f"s->{target}[k] = {recurrences.array(result)}[k];"))
         else:
             ending.append(each_term(f"s->{target}[k] = {constants.level(result, f'level_{target}')};"))
         if not isinstance(result, str) or result != target:
@@ -141,7 +141,7 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
             f"Derivatives of {name} by its arguments; products of series: {program.cost:g}.",
             f"INLINE void {name}_slopes_of({name}_slopes *restrict s, const {name}_slope_constants *c, "
             f"const {name}_series *of, const {name}_constants *v{inputs})",
-            [unused, *map(each_term, made.lines()), *ending],
+            [unused, *map(each_term, recurrences.lines()), *ending],
         ),
     ]
 
