@@ -31,7 +31,7 @@ class ModelFunction:
 
     Arguments:
         regional: it depends on the flags of film and shear.
-        given: further arguments.
+        further: its arguments beside states, groups, laws and flags.
         for_proof: margins of a stick certificate.
     """
 
@@ -39,7 +39,7 @@ class ModelFunction:
     doc: str
     outputs: tuple[tuple[str, sp.Expr], ...]
     regional: bool = False
-    given: tuple[sp.Symbol, ...] = ()
+    further: tuple[sp.Symbol, ...] = ()
     for_proof: bool = False
 
     @cached_property
@@ -77,7 +77,7 @@ def _motion(structure: Structure, states: tuple[sp.Symbol, ...]) -> Emitted:
         held = friction.resting_rates(structure) if structure.friction else resting_rates(structure)
         doc = "Rates of the states per v0/x0 in resting contact: the gap is held, the rotation goes on."
         flags = (friction.SLIDING, friction.ROLLING) if structure.friction else ()
-        yield "resting_rates", doc, _by_state(states, held), {**_REGIONAL, "given": flags}
+        yield "resting_rates", doc, _by_state(states, held), {**_REGIONAL, "further": flags}
         if (turning := turning_rate(structure)) is not None:
             doc = "Angular velocity of the line of centres, rad per x0/v0 (without strings, the angle is no state)."
             yield "turning_rate", doc, {q.beta.name: turning}
@@ -100,11 +100,11 @@ def _changes(structure: Structure, states: tuple[sp.Symbol, ...]) -> Emitted:
             "stick, and the largest impulse, with which they slide, also where the doublet comes to rest."
         )
         yield "dry_slip", doc, friction.at_rebound(structure)
-        given = {"given": (friction.IMPULSE,)}
+        further = {"further": (friction.IMPULSE,)}
         after = _by_state(states, friction.rubbed(structure, states))
-        yield "rubbed", "State just after a tangential impulse.", after, given
+        yield "rubbed", "State just after a tangential impulse.", after, further
         doc = "Energy that a tangential impulse takes from this state, over m v0^2."
-        yield "friction_loss", doc, {"dry_friction": friction.loss(structure)}, given
+        yield "friction_loss", doc, {"dry_friction": friction.loss(structure)}, further
         if structure.partner != "space":
             doc = (
                 "Forces of resting contact, over the unit of the tangential impulse per x0/v0: Coulomb's limit, and "
@@ -119,7 +119,7 @@ def _ledger(structure: Structure) -> Emitted:
     yield "energies", "Energies of the state over m v0^2.", observables.energies(structure)
     doc = "Energy taken from the motion per x0/v0 by film, attractions and shear, over m v0^2."
     sliding = (friction.SLIDING,) if structure.friction else ()
-    yield "energy_rates", doc, observables.energy_rates(structure), {**_REGIONAL, "given": sliding}
+    yield "energy_rates", doc, observables.energy_rates(structure), {**_REGIONAL, "further": sliding}
     doc = "Energy lost in a rebound that starts from this state, over m v0^2."
     yield "rebound_loss", doc, {"dry_contact": rebound_loss()}
     momentum = observables.angular_momentum(structure) if structure.oblique and not structure.reduced else None

@@ -81,8 +81,8 @@ def derive(structure: Structure) -> Model:
     each = functions(structure, states)
     definitions = _definitions(structure)
     used = needed([expression for function in each for _, expression in function.outputs], definitions)[1]
-    given = {symbol for function in each for symbol in function.given}
-    unlisted = used - {*states, *GROUPS, FILM, SHEAR, *given, *(symbol for symbol, _ in definitions)}
+    further = {symbol for function in each for symbol in function.further}
+    unlisted = used - {*states, *GROUPS, FILM, SHEAR, *further, *(symbol for symbol, _ in definitions)}
     if unlisted:
         names = ", ".join(sorted(map(str, unlisted)))
         raise ValueError(f"{structure.name} uses {names}: neither a state nor an intermediate, nor among GROUPS")

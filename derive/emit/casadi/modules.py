@@ -107,7 +107,7 @@ def function_lines(model: Model, name: str, printer: Printer) -> list[str]:
     kept, used = needed([expression for _, expression in function.outputs], model.definitions)
     region = [flag.name for flag in (FILM, SHEAR)] if function.regional else []
     flags = "".join(f", {flag}: int = 1" for flag in region)
-    flags += "".join(f", {symbol.name}: Any = 0" for symbol in function.given)
+    flags += "".join(f", {symbol.name}: Any = 0" for symbol in function.further)
     lines = ["", f"def {name}(state: Values, groups: Values, laws: Any{flags}) -> dict[str, Any]:"]
     count = operations([*(e for _, e in function.outputs), *(e for _, e in kept)])
     doc = function.doc

@@ -68,8 +68,8 @@ class Adjoint:
     def _law_slopes(self) -> list[str]:
         calls = [(each.name, *each.call) for each in self._operations if each.kind == "call"]
         prepare, expand = ["(void)c; (void)v;"], ["(void)s; (void)c; (void)of; (void)v;"]
-        for name, slot, call, given in calls:
-            passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
+        for name, slot, call, arguments in calls:
+            passed = "".join(f", {self._array(a)}" for a in arguments if isinstance(a, str))
             prepare.append(f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});")
             expand.append(f"{slot}_{call}_slopes_of(&s->{name}, &c->{name}, &of->{name}, &v->{name}{passed});")
         constants = [f"{slot}_{call}_slope_constants {name};" for name, slot, call, _ in calls]
@@ -183,10 +183,10 @@ class Adjoint:
         return lines + self._accumulate(operation.factors[0], f"{self._array(first)}[k]*{first}_by_{name}")
 
     def _call(self, operation: Operation) -> list[str]:
-        slot, call, given = operation.call
+        slot, call, arguments = operation.call
         own, lines = f"bar->{operation.name}", []
-        names = self._tangent.law_arguments(slot, call, len(given))
-        for argument, value in zip(names, given, strict=True):
+        names = self._tangent.law_arguments(slot, call, len(arguments))
+        for argument, value in zip(names, arguments, strict=True):
             slope = f"d->{operation.name}.by_{argument.removeprefix(UNUSED)}"
             if isinstance(value, str):
                 lines.append(f"vec {operation.name}_{argument} = correlated({slope}, {own}, k);")

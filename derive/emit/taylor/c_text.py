@@ -148,8 +148,8 @@ def split_flags(expression: sp.Expr, flags: Iterable[sp.Symbol]) -> tuple[list[s
 class Constants:
     """Quantities computed once per collision: given and named values, and factors hoisted out of the recurrences."""
 
-    def __init__(self, given: Mapping[sp.Symbol, str], flags: tuple[sp.Symbol, ...] = (), place: str = "c->") -> None:
-        self._given = dict(given)
+    def __init__(self, places: Mapping[sp.Symbol, str], flags: tuple[sp.Symbol, ...] = (), place: str = "c->") -> None:
+        self._places = dict(places)
         self._flags = flags
         self._place = place
         self.prepared: dict[str, sp.Expr] = {}
@@ -159,7 +159,7 @@ class Constants:
 
     def beside(self, place: str) -> Constants:
         """Constants stored in another C struct that can use the present ones."""
-        more = Constants(self._given | self._defined, self._flags, place)
+        more = Constants(self._places | self._defined, self._flags, place)
         more._hoisted = dict(self._hoisted)
         return more
 
@@ -167,7 +167,7 @@ class Constants:
         """C name of a constant symbol."""
         if symbol in self._flags:
             return symbol.name
-        result = self._given.get(symbol) or self._defined.get(symbol)
+        result = self._places.get(symbol) or self._defined.get(symbol)
         if result is None:
             raise EmissionError(f"{symbol} is neither given nor defined")
         return result

@@ -172,14 +172,14 @@ def slow_manifold_functions(model: Model, constants: Constants, prepared: dict[t
         constants: of the structure; factors that do not vary are added to them.
         prepared: by slot and function, the name of the law's constants in those of the structure.
     """
-    given = coefficients(model) if admits(model.structure) else None
-    if given is None:
+    terms = coefficients(model) if admits(model.structure) else None
+    if terms is None:
         return ["#define SLOW_MANIFOLD 0", ""]
     program = Program((gap,))
     program.define(DISTANCE, dict(model.definitions)[DISTANCE])
     result: dict[str, str | sp.Expr] = {"distance": DISTANCE.name}
     falling = set()
-    for name, expression in given.items():
+    for name, expression in terms.items():
         result[name] = expression
         if program.moves(expression):
             program.define(sp.Symbol(name), expression)

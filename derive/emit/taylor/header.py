@@ -244,13 +244,13 @@ class Header:
         targets: Mapping[str, str],
         doc: str,
         constants: Constants | None = None,
-        given: tuple[sp.Symbol, ...] = (),
+        further: tuple[sp.Symbol, ...] = (),
     ) -> list[str]:
         """A C function of outputs; its targets are C text, or "return" for the value itself."""
         constants = constants or self.constants
         values = (expression for _, expression in outputs)
-        program = Program.for_outputs((*self.model.states, *given), values, self.model.definitions)
-        arguments = {symbol.name for symbol in given}
+        program = Program.for_outputs((*self.model.states, *further), values, self.model.definitions)
+        arguments = {symbol.name for symbol in further}
         found = {key: program.result(expression, key) for key, expression in outputs}
 
         def where(series: str) -> str:
@@ -343,7 +343,7 @@ class Header:
             source = model[name]
             head = f"static inline {kind} {name}(const constants *c, const vec *y, vec impulse{result})"
             targets = {key: f"after[{key.upper()}]" if result else "return" for key in source.by_name}
-            lines += self._valued(source.outputs, head, targets, source.doc, given=source.given)
+            lines += self._valued(source.outputs, head, targets, source.doc, further=source.further)
         return lines
 
 

@@ -111,8 +111,8 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
         program.define(symbol, expression)
     forms = {argument: (slope, sp.factor(slope)) for argument, slope in slopes.items()}
     found = {argument: shortest(program, each, _by(argument)) for argument, each in forms.items()}
-    given = {symbol: f"v->{symbol.name}" for symbol in (*each.arguments, *value.named) if symbol not in moving}
-    constants = Constants(given)
+    places = {symbol: f"v->{symbol.name}" for symbol in (*each.arguments, *value.named) if symbol not in moving}
+    constants = Constants(places)
     recurrences = Recurrences(program, constants, lambda series: f"of->{series}" if series in own else series)
     ending, fields = [], recurrences.fields()
     for argument, result in found.items():

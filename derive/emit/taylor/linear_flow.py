@@ -38,9 +38,9 @@ class LinearFlow:
         self.matrix: dict[tuple[str, str], Entry] = {}
         self.sources: dict[tuple[str, str], Entry] = {}
         self._differentiate()
-        given = {group: f"v->{group.name}" for group in model.groups}
-        given |= {symbol: f"v->{symbol.name}" for symbol in flow.named}
-        self.constants = Constants(given, (FILM, SHEAR))
+        places = {group: f"v->{group.name}" for group in model.groups}
+        places |= {symbol: f"v->{symbol.name}" for symbol in flow.named}
+        self.constants = Constants(places, (FILM, SHEAR))
         self._kept = {entry for entry in (*self.matrix.values(), *self.sources.values()) if isinstance(entry, str)}
         self.recurrences = Recurrences(self.program, self.constants, self._where, lambda name: name not in self._kept)
 

@@ -93,8 +93,8 @@ class Tangent(LinearFlow):
     def _coefficients(self) -> list[str]:
         body = [*self._law_fields(""), *self.recurrences.fields(local=True)]
         body.append("(void)film; (void)shear; (void)c; (void)asked;")
-        for name, (slot, call, given) in self._laws().items():
-            passed = "".join(f", {self.array(a)}" for a in given if isinstance(a, str))
+        for name, (slot, call, arguments) in self._laws().items():
+            passed = "".join(f", {self.array(a)}" for a in arguments if isinstance(a, str))
             into = f"{self._law_place(name)}{name}"
             body.append(f"{slot}_{call}_slopes_of(&{into}, &c->{name}, &of->{name}, &v->{name}{passed});")
         body += self._guarded()
