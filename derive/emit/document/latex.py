@@ -124,7 +124,8 @@ def _product(node: sp.Expr) -> str:
     if all(factor.is_number for factor in under):  # 16/5 m a^2, but x/2
         inside = [factor for factor in over if factor.is_number] or over
     else:
-        inside = [factor for factor in over if not isinstance(factor.as_base_exp()[0], (sp.Add, sp.Function))] or over
+        bases = [(factor, factor.base if isinstance(factor, sp.Pow) else factor) for factor in over]
+        inside = [factor for factor, base in bases if not isinstance(base, (sp.Add, sp.Function))] or over
     rest = [factor for factor in over if factor not in inside]
     # a denominator consisting of one sum needs no brackets
     below = _print(under[0]) if len(under) == 1 else _factors(under)
