@@ -26,7 +26,7 @@ ENTRY = [  # a quantity of the vocabulary, an entry of a scene that is it, and i
     (
         QUANTITIES,
         "e_dry = ",
-        'w = _quantity("waviness", "w", LENGTH, "m", "height of the waves", nonnegative=True)\n{}',
+        'w = _quantity("waviness", "w", LENGTH, "height of the waves", nonnegative=True)\n{}',
     ),
     (
         "solvers/scene/schema.py",
@@ -39,7 +39,7 @@ GROUP = [  # its name and formula
     (
         QUANTITIES,
         "rupture_gap = ",
-        'wavy_gap = _quantity("wavy_gap", "w/x_0", ONE, "x0", "waviness over x0", nonnegative=True)\n{}',
+        'wavy_gap = _group("wavy_gap", "w/x_0", "waviness over x0", unit="x0", nonnegative=True)\n{}',
     ),
     (SCALING, "        q.rough_gap: q.x_b / q.x0,\n", "{}        q.wavy_gap: q.w / q.x0,\n"),
 ]
@@ -53,10 +53,9 @@ CRITERION = [  # a row of the automaton
 LAW = [  # an entry of BRIDGES, and its name among the scene's
     (
         "derive/physics/laws/bridge.py",
-        "def _rabinovich() -> Law:",
-        'def _halved() -> Law:\n    return _law("halved", "half as much", LAMBERT, sp.cos(phi), falls=True)\n\n\n{}',
+        "    _willett(),\n",
+        '{}    _law("halved", "half as much", LAMBERT, sp.cos(phi)),\n',
     ),
-    ("derive/physics/laws/bridge.py", "_rabinovich()", "{}, _halved()"),
     ("solvers/scene/schema.py", '    "constant",\n', '{}    "halved",\n'),
 ]
 RESULT = [  # its row, and its expression

@@ -6,52 +6,31 @@ that passes holds for all values. `symbolic_checks` runs them all.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
-from types import ModuleType
+from importlib import import_module
 
 from ..physics.laws import LAWS, Law
 from ..vocabulary.quantities import gap
-from . import (
-    approach_certificate,
-    attraction_certificate,
-    attractions,
-    conservation,
-    dimensions,
-    dissipation,
-    emitted,
-    floating,
-    friction,
-    groups,
-    limits,
-    mechanics,
-    mirror,
-    orbital_momentum_certificate,
-    partners,
-    pendulum_certificate,
-    restitution,
-    slow_manifold,
-    space,
-    spin_down_certificate,
-)
-from . import certificate as energy_certificate
+from . import conservation, dissipation
 from . import laws as law_limits
 from .admission import Admission, certificate, certificates
 from .attraction_certificate import force_falls
-from .base import Check, run
+from .base import Check, Several, checks_of, run
 
 __all__ = ["Admission", "Check", "certificate", "symbolic_checks"]
 
 
 @cache
-def _once(check: Callable[[], Check | Iterable[Check]]) -> tuple[Check, ...]:
+def _once(check: Several) -> tuple[Check, ...]:
     """A check that does not depend on laws: the same for every scene, computed once per process."""
     return run([check])
 
 
-def _of(*modules: ModuleType) -> Iterator[Check]:
-    for module in modules:
-        for check in module.CHECKS:
+def _of(*modules: str) -> Iterator[Check]:
+    for name in modules:
+        module = import_module(f".{name}", __package__)
+        for check in checks_of(module.__name__):
             yield from _once(check)
 
 
@@ -64,20 +43,19 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     """
     chosen = {slot: [law] for slot, law in (laws or {}).items()}
     film, shear, arm, strings = (chosen.get(s) or list(LAWS[s].values()) for s in ("film", "shear", "arm", "strings"))
-    # these structures do not have a rim that depends on the gap; `attractions` covers it
+    # these structures do not have a rim that depends on the gap; `laws.resistances` covers it
     rimmed = [law for law in film if law["resistance"].arguments == (gap,)]
-    yield from _of(dimensions, mechanics)
-    yield from mechanics.strings_are_conservative(strings)
-    yield from _of(conservation, emitted)
+    yield from conservation.strings_are_conservative(strings)
+    yield from _of("dimensions", "conservation", "emitted")
     yield from dissipation.arms(arm, shear)
     yield from map(dissipation.film_dissipates, rimmed)
-    yield from _of(dissipation, friction, limits)
+    yield from _of("dissipation", "friction", "limits")
     yield from law_limits.head_on_closed_form(rimmed)
     yield from law_limits.film_ends(rimmed, shear)
     yield from law_limits.long_strings_vanish(strings)
-    yield from _of(law_limits, restitution, mirror, energy_certificate, pendulum_certificate, attraction_certificate)
-    yield from _of(orbital_momentum_certificate, slow_manifold)
+    yield from _of("laws", "restitution", "certificate", "pendulum_certificate", "attraction_certificate")
+    yield from _of("orbital_momentum_certificate", "slow_manifold")
     yield from force_falls([*film, *shear], last=1)  # inside the film
-    yield from _of(approach_certificate, spin_down_certificate, floating)
+    yield from _of("approach_certificate", "spin_down_certificate")
     yield from certificates(laws)
-    yield from _of(groups, attractions, partners, space)
+    yield from _of("partners", "space")

@@ -11,18 +11,9 @@ from ..equations.model import derive
 from ..physics.laws import LAWS, Law
 from ..physics.structure import Structure, structures
 from ..vocabulary.quantities import gap
+from . import dissipation
 from .base import Check, readable
-from .dissipation import (
-    bridge_does_work,
-    conserves,
-    film_dissipates,
-    found,
-    rebound_dissipates,
-    shear_dissipates,
-    shear_range,
-    torque,
-)
-from .mechanics import strings_are_conservative
+from .conservation import strings_are_conservative
 from .pendulum_certificate import pendulum_certificate
 
 _DEFAULTS = {"film": "finite", "shear": "immersed", "arm": "midgap", "strings": "exact"}
@@ -59,9 +50,9 @@ def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> 
     if there is any, is among the invariants found; and the potential has a barrier.
     """
     chosen = {slot: LAWS[slot][name] for slot, name in _DEFAULTS.items()} | dict(laws or {})
-    checks = [film_dissipates(chosen["film"]), rebound_dissipates()[1]]
+    checks = [dissipation.film_dissipates(chosen["film"]), dissipation.rebound_dissipates()[1]]
     if structure.bridge:
-        checks.append(bridge_does_work())
+        checks.append(dissipation.bridge_does_work())
     if structure.strings:
         checks += strings_are_conservative([chosen["strings"]])
     held: list[str] = []
@@ -80,28 +71,22 @@ def _rotation(
 ) -> None:
     """Preconditions of the rotation: angular momentum is conserved and the shear dissipates."""
     lever, shear = laws["arm"], laws["shear"]
-    conserved = [each.describe() for each in found(lever, structure) if each.is_angular_momentum]
+    conserved = [each.describe() for each in dissipation.conserved(lever, structure) if each.is_angular_momentum]
     held += [f"conserved: {text}" for text in conserved]
-    if structure.strings:
-        _on_strings(structure, laws, checks, against)
-    if conserves(lever):
-        checks.append(shear_dissipates(shear, lever))
+    if structure.strings:  # whose torque rules out the energy argument; without a bridge the margins apply
+        torque = "strings exert a torque, dL/dt = -r S_t"
+        if structure.bridge:
+            against.append(f"{torque}: no least energy at fixed L, and beside a bridge no other")
+        elif laws["film"] is not LAWS["film"]["finite"]:
+            against.append(f"{torque}, and the proof without energy is of the finite film")
+        else:
+            checks += pendulum_certificate()
+    if dissipation.conserves(lever):
+        checks.append(dissipation.shear_dissipates(shear, lever))
     else:
-        against.append(f"{lever.name} arm: L not conserved, dL/dt = {readable(torque(lever))}")
-        _, low, high, _ = shear_range(shear, lever)
+        against.append(f"{lever.name} arm: L not conserved, dL/dt = {readable(dissipation.torque(lever))}")
+        _, low, high, _ = dissipation.shear_range(shear, lever)
         against.append(f"D_t indefinite: negative for xi/omega between {readable(low)} and {readable(high)}")
-
-
-def _on_strings(structure: Structure, laws: Mapping[str, Law], checks: list[Check], against: list[str]) -> None:
-    """The certificate on strings, whose torque rules out the energy argument; without a bridge the margins apply."""
-    if structure.bridge:
-        against.append(
-            "strings exert a torque, dL/dt = -r S_t: no least energy at fixed L, and beside a bridge no other"
-        )
-    elif laws["film"] is not LAWS["film"]["finite"]:
-        against.append("strings exert a torque, dL/dt = -r S_t, and the proof without energy is of the finite film")
-    else:
-        checks += pendulum_certificate()
 
 
 def _has_barrier(structure: Structure) -> bool:
@@ -134,9 +119,7 @@ def certificates(laws: Mapping[str, Law] | None = None) -> tuple[Check, ...]:
         levers: Iterable[Law] = own or (LAWS["arm"].values() if decides else [LAWS["arm"]["midgap"]])
         for lever in levers:
             proof = certificate(structure, {**(laws or {}), "arm": lever})
-            suffix = f", {lever.name} arm" if decides else ""
+            name = f"certificate: {structure.name}" + (f", {lever.name} arm" if decides else "")
             statement = "; ".join(proof.held) or "which proof of a stick the model admits"
-            checks.append(
-                Check(f"certificate: {structure.name}{suffix}", statement, proof.admitted or None, proof.describe())
-            )
+            checks.append(Check(name, statement, proof.admitted or None, proof.describe()))
     return tuple(checks)

@@ -17,8 +17,7 @@ from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import aspect, beta, gap, normal_velocity, obliquity, orbital_momentum, stokes
-from .base import Check, Evidence, check, vanishing
-from .closed import SIZES
+from .base import SIZES, Check, Evidence, check, checks, vanishing
 
 _BRIDGE = Structure(oblique=True, bridge=True, strings=False)
 _ATTRACTED = (
@@ -29,6 +28,7 @@ _STRINGS = Structure(oblique=True, bridge=False, strings=True)
 _PULL, _DEPTH, _LEFT = sp.symbols("pull depth left", positive=True)
 
 
+@checks
 def braking_is_the_films() -> tuple[Check, ...]:
     """What a film takes from an approach is the integral of its resistance from x0."""
     checks = []
@@ -103,10 +103,11 @@ def as_emitted() -> Evidence:
         work = LARGEST_FORCE * (gap - DEEPER)
         gain = work / sp.Max(rest, sp.sqrt(work / 2))
         wanted = {"deeper_gap": DEEPER, "slowed": sp.Max(rest, 0) + gain, "fastest": gain - normal_velocity}
-        result = model["approach_step"].by_name
-        for symbol in (GAIN, LEFT, PATH):
-            result = {name: value.subs(symbol, named[symbol]) for name, value in result.items()}
-        yield from [result[name] - value for name, value in wanted.items()]
+        for name, value in wanted.items():
+            result = model["approach_step"][name]
+            for symbol in (GAIN, LEFT, PATH):
+                result = result.subs(symbol, named[symbol])
+            yield result - value
         if structure.strings:
             continue
         outward = model.expanded(model["approach_force"]["outward"], SIZES)
@@ -118,6 +119,3 @@ def as_emitted() -> Evidence:
             thrown = 2 * aspect * (kinetic - normal_velocity**2 / 2) * distance**2 / near**3
         inner = outward.args[1] if outward.args[0] == 0 else outward.args[0]
         yield filled(inner - (thrown - model.expanded(attractions(structure, gap), SIZES)), {})
-
-
-CHECKS = (braking_is_the_films, closing_speed, rotation_gains, as_emitted)

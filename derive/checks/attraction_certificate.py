@@ -15,7 +15,7 @@ from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check
+from .base import Check, Evidence, check, checks
 
 _COSINE = sp.Symbol("cosine", nonnegative=True)  # for a contact angle up to 90 deg
 
@@ -33,9 +33,8 @@ def force_falls(laws: Iterable[Law], last: sp.Expr = sp.oo) -> tuple[Check, ...]
                 slope = sp.factor(sp.simplify(sp.simplify(force).diff(first)))
                 if slope.is_nonpositive is None and last != sp.oo:
                     slope = sp.factor(slope.subs(first, last / (1 + first)))  # any gap below the last
-                checks.append(
-                    Check(f"force falls: {law.name}", "dF/dx <= 0", slope.is_nonpositive is True, f"dF/dh = {slope}")
-                )
+                falls = slope.is_nonpositive is True
+                checks.append(Check(f"force falls: {law.name}", "dF/dx <= 0", falls, f"dF/dh = {slope}"))
     return tuple(checks)
 
 
@@ -54,23 +53,16 @@ def margins_are_the_forces() -> Evidence:
         share = (4 + q.aspect * end) ** 2 / ((4 + q.aspect * end) ** 2 + sp.Rational(32, 5))
         momentum = q.orbital_momentum + sp.Rational(32, 5) * q.spin
         least, most = attraction.subs(q.gap, end), strings.subs({q.gap: end, q.beta: sp.pi}, simultaneous=True)
-        away = outward.subs(
-            {
-                q.gap: contact,
-                q.orbital_momentum: sp.Max(*(s * j for j in (q.orbital_momentum, momentum * share) for s in (1, -1))),
-            },
-            simultaneous=True,
-        )
+        largest = sp.Max(*(s * j for j in (q.orbital_momentum, momentum * share) for s in (1, -1)))
+        away = outward.subs({q.gap: contact, q.orbital_momentum: largest}, simultaneous=True)
         hold = least + strings.subs(q.gap, contact) - away
         result = model.results("attraction_margins")
-        yield from (
-            result["hold"] - hold,
-            result["escape"]
-            - (sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity) ** 2 / 2 - hold * (end - q.gap)),
-            result["rebound"] - (q.e_dry**2 * (least + most) - hold),
-        )
+        escape = sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity) ** 2 / 2 - hold * (end - q.gap)
+        yield from (result["hold"] - hold, result["escape"] - escape)
+        yield result["rebound"] - (q.e_dry**2 * (least + most) - hold)
 
 
+@checks
 def momentum_is_bounded() -> Check:
     """|J| falls where it exceeds |s L|, the largest in rigid rotation up to a gap, for L of either sign.
 
@@ -93,14 +85,11 @@ def momentum_is_bounded() -> Check:
         and grows.is_positive is True
         and sp.expand(above).is_nonnegative is True
     )
-    return Check(
-        "held: momentum", "d|J|/dt <= 0 where |J| >= s(x_f) |L|: dJ/dt = -k (J - s L), s rises", ok, f"k = {relaxation}"
-    )
+    statement = "d|J|/dt <= 0 where |J| >= s(x_f) |L|: dJ/dt = -k (J - s L), s rises"
+    return Check("held: momentum", statement, ok, f"k = {relaxation}")
 
 
+@checks
 def attractions_fall() -> tuple[Check, ...]:
     """`force_falls` for the attractions."""
     return force_falls(law for slot in ("bridge", "attraction") for law in LAWS[slot].values())
-
-
-CHECKS = (attractions_fall, momentum_is_bounded, margins_are_the_forces)

@@ -1,17 +1,23 @@
-"""Checks: a statement, and expressions that must vanish identically for it to hold."""
+"""Checks: a statement, and expressions that must vanish identically, or have a sign, for it to hold."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections import defaultdict
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import wraps
-from typing import ParamSpec
+from itertools import chain
+from typing import ParamSpec, TypeVar
 
 import sympy as sp
 
-from ..vocabulary.quantities import VOCABULARY
+from ..equations.model import Model
+from ..physics.laws import slot_call
+from ..physics.laws.base import slot_calls
+from ..vocabulary import quantities as q
 
 P = ParamSpec("P")
+C = TypeVar("C", bound="Check | Iterable[Check]")
 Evidence = Iterator[sp.Expr | tuple[bool | None, str] | str]
 """What a check yields: expressions that must vanish, claims (truth, figure if false), and the figure to show."""
 
@@ -24,6 +30,21 @@ class Check:
     statement: str
     ok: bool | None
     figure: str
+
+
+Several = Callable[..., Check | Iterable[Check]]
+_REGISTERED: dict[str, list[Several]] = defaultdict(list)
+
+
+def checks(function: Callable[P, C]) -> Callable[P, C]:
+    """Decorator: the function, which needs no argument, is among the checks of its module."""
+    _REGISTERED[function.__module__].append(function)
+    return function
+
+
+def checks_of(*modules: str) -> list[Several]:
+    """The checks of modules, in the order of their definition."""
+    return [each for module in modules for each in _REGISTERED[module]]
 
 
 def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callable[P, Check]]:
@@ -43,18 +64,15 @@ def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callab
             result = vanishing(name, statement, left, figure)
             return replace(result, ok=False, figure=false[0]) if false and result.ok else result
 
-        return run
+        return checks(run)
 
     return checked
 
 
-def run(checks: Iterable[Callable[[], Check | Iterable[Check]]]) -> tuple[Check, ...]:
+def run(several: Iterable[Several]) -> tuple[Check, ...]:
     """The results of checks; one function may give several."""
-    found: list[Check] = []
-    for each in checks:
-        result = each()
-        found += [result] if isinstance(result, Check) else result
-    return tuple(found)
+    results = (each() for each in several)
+    return tuple(chain.from_iterable([each] if isinstance(each, Check) else each for each in results))
 
 
 def vanishing(name: str, statement: str, left: list[sp.Expr], figure: str = "", *, holds: bool | None = True) -> Check:
@@ -81,7 +99,99 @@ def settled(expression: sp.Expr) -> sp.Expr:
 
 def readable(expression: sp.Expr) -> str:
     """The expression as text, with the literature's symbols for quantities."""
-    quantities = (each for each in VOCABULARY.values() if each.symbol in expression.free_symbols)
+    quantities = (each for each in q.VOCABULARY.values() if each.symbol in expression.free_symbols)
     latex = {each.symbol: each.latex for each in quantities if any(each.dimension.exponents)}
     without = str.maketrans("", "", "\\_{},")
     return str(expression.xreplace({symbol: sp.Symbol(text.translate(without)) for symbol, text in latex.items()}))
+
+
+SIZES = ("centres", "radius", "partner_radius", "spin_inertia", "partner_inertia")
+"""Intermediates of an unequal pair that are kept as symbols, so that results hold for any sizes."""
+
+
+def special_case(
+    special: Model, names: Iterable[str], general: Model, rule: Callable[[sp.Expr], sp.Expr], keep: Collection[str] = ()
+) -> Iterator[sp.Expr]:
+    """What functions of a general model are, under a rule, in excess of those of a special one: zero if they agree."""
+    for name in names:
+        whole = general.results(name, keep)
+        for key, value in special.results(name, keep).items():
+            yield rule(whole[key]) - value
+
+
+def slope_along(energy: sp.Expr, variable: sp.Symbol) -> sp.Expr:
+    """Derivative of an energy, with d rise/d offset_squared = stiffness/2 (checked by strings_are_conservative)."""
+    heights = {node: sp.Dummy("height") for node in slot_calls(energy)}
+    flat = energy.xreplace(heights)
+    slope = flat.diff(variable)
+    for node, height in heights.items():
+        slope += flat.diff(height) * slot_call("strings", "stiffness", *node.args) / 2 * node.args[1].diff(variable)
+    return slope
+
+
+_BEYOND = sp.Symbol("y", nonnegative=True)
+
+
+@dataclass(frozen=True)
+class Sign:
+    """The result of a proof about the sign of an expression on a region.
+
+    Arguments:
+        proved: True if the expression is never negative, False if it is negative at `shown`, None if undecided.
+        shown: the product that proves it, or the point that refutes it.
+    """
+
+    proved: bool | None
+    shown: str
+
+
+def nonnegative(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign:
+    """Proof that `expression` is >= 0 for 0 < variable <= edge, other symbols by their own assumptions.
+
+    The proof uses the expression as given, or with variable = edge/(1 + y) or edge exp(-y), y >= 0, which is the same
+    region: a product of even powers, exponentials and nonnegative symbols, or a quotient of sums of such. If that fails
+    it is evaluated on a grid, where a negative value refutes it.
+    """
+    ways = (("", variable), (f"{edge}/(1 + y)", edge / (1 + _BEYOND)), (f"{edge} exp(-y)", edge * sp.exp(-_BEYOND)))
+    for text, value in ways:
+        form = sp.factor(sp.expand_log(sp.simplify(expression.subs(variable, value))))
+        if _known(form):
+            where = f" with {variable} = {text}, y >= 0" if text else ""
+            return Sign(True, f"{form}{where}")
+    return _sampled(expression, variable, edge)
+
+
+def _known(form: sp.Expr) -> bool:
+    """True if sympy knows the sign of each factor, or of each term of numerator and denominator when expanded."""
+    if form.is_nonnegative:
+        return True
+    top, bottom = sp.fraction(sp.together(form))
+    return all(factor.is_nonnegative or sp.expand(factor).is_nonnegative for factor in (top, bottom))
+
+
+def _sampled(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign:
+    others = sorted(expression.free_symbols - {variable}, key=str)
+    for base in (sp.Rational(1, 3), sp.Rational(7, 5), sp.Rational(-2, 3)):
+        values = [base + sp.sign(base) * sp.Rational(index, 7) for index in range(len(others))]
+        fixed = {s: abs(value) if s.is_nonnegative else value for s, value in zip(others, values, strict=True)}
+        rim = sp.sympify(edge).subs(fixed)
+        for k in range(1, 40):
+            at = rim * sp.Rational(k, 40)
+            value = sp.N(expression.subs(fixed).subs(variable, at))
+            if not value.is_real or value < 0:
+                places = {variable: sp.N(at, 3), **fixed}
+                point = ", ".join(f"{symbol} = {number}" for symbol, number in places.items())
+                return Sign(False, f"{sp.N(value, 3)} at {point}")
+    return Sign(None, "no proof found, and no negative value on a grid either")
+
+
+def positive(expression: sp.Expr) -> bool:
+    """True if a quotient of polynomials in non-negative symbols has non-negative coefficients only."""
+    return all(map(no_negative, sp.fraction(sp.together(sp.expand(expression)))))
+
+
+def no_negative(part: sp.Expr) -> bool:
+    """True for a positive number, or a polynomial without a negative coefficient."""
+    expanded = sp.expand(part)
+    symbols = sorted(expanded.free_symbols, key=str)
+    return all(c >= 0 for c in sp.Poly(expanded, *symbols).coeffs()) if symbols else bool(expanded > 0)

@@ -9,8 +9,7 @@ from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.structure import structures
 from ..vocabulary import quantities as q
-from .base import Evidence, check
-from .closed import slope_along
+from .base import Evidence, check, slope_along
 
 
 @check("stick certificate", "slope = d/dx [L^2/(2 I(x)) + U_s(x) + W_c(x)] at fixed L")
@@ -20,12 +19,10 @@ def least_energy() -> Evidence:
         model = derive(structure)
         if "effective_potential" not in model:
             continue
-        outputs = model["effective_potential"].by_name
-        value, slope = model.expanded(outputs["energy"]), model.expanded(outputs["slope"])
+        value, slope = model.results("effective_potential").values()
         momentum = sp.Symbol("L", real=True)  # over m a^2 Omega
         inertia = (4 + q.aspect * q.gap) ** 2 + sp.Rational(32, 5)
-        expected: sp.Expr = sp.Integer(0)
-        change: sp.Expr = sp.Integer(0)
+        expected = change = sp.Integer(0)
         if structure.oblique:
             turning, spun = (q.initial_turning, q.initial_spin) if structure.reduced else (q.orbital_momentum, q.spin)
             own = ((4 + q.aspect) ** 2 if structure.reduced else 1) * turning + sp.Rational(32, 5) * spun
@@ -74,6 +71,3 @@ def least_energy_is_a_minimum() -> Evidence:
         convex &= all(minor.is_positive for minor in minors)
     yield convex, "the Hessian is not positive definite"
     yield "gradient zero, Hessian positive definite, value as emitted"
-
-
-CHECKS = (least_energy, least_energy_is_a_minimum)

@@ -1,4 +1,4 @@
-"""Conservation: energy along the emitted equations for all laws, and the rate of angular momentum for a given arm."""
+"""Mechanics and conservation: inertia, potentials, energy along the emitted equations, the rate of angular momentum."""
 
 from __future__ import annotations
 
@@ -8,12 +8,48 @@ from functools import cache
 import sympy as sp
 
 from ..equations.model import derive
-from ..physics.laws import Law, strings
+from ..physics.forces import force_laws
+from ..physics.laws import LAWS, Law, strings
 from ..physics.laws.base import filled
+from ..physics.mechanics import S_n, S_t, doublet_inertia, equations_of_motion, string_forces
 from ..physics.structure import Structure, structures
-from ..vocabulary.quantities import orbital_momentum, spin
-from .base import Check, vanishing
-from .closed import slope_along
+from ..vocabulary import quantities as q
+from .base import Check, Evidence, check, checks, slope_along, vanishing
+
+
+@check("inertia", "I(x) = 2 T(u = 0, xi = omega)/omega^2 = m a^2 [(4 + x/a)^2 + 32/5]")
+def inertia_is_rigid_rotation() -> Evidence:
+    """I(x) from the parallel-axis theorem gives the kinetic energy of a doublet in rigid rotation."""
+    rigid = equations_of_motion().kinetic_energy.subs({q.u: 0, q.xi: q.omega})
+    left = sp.expand(2 * rigid / q.omega**2 - doublet_inertia())
+    left_paper = sp.expand(doublet_inertia() - q.m * q.a**2 * ((4 + q.x / q.a) ** 2 + sp.Rational(32, 5)))
+    yield from (left, left_paper)
+
+
+def strings_are_conservative(laws: Iterable[Law]) -> tuple[Check, ...]:
+    """The string forces are minus the gradient of their potential, and `stiffness` is twice the slope of `rise`."""
+    return tuple(map(_conservative, laws))
+
+
+@cache
+def _conservative(law: Law) -> Check:
+    """The potential is 4 m g a `rise` for both spheres; for the library's laws also the one they were derived from."""
+    swing = strings.swing_squared() / q.a**2
+    rise, stiffness = law["rise"], law["stiffness"]
+    potentials = [4 * q.m * q.g * q.a * rise(q.l_s / q.a, swing)]
+    if LAWS["strings"].get(law.name) is law:
+        potentials.append(strings.potential(law.name == "small-angle"))
+    left = []
+    for potential in potentials:
+        normal, sideways = string_forces(potential, strings.r, q.beta)
+        left += [
+            sp.simplify(filled(force_laws()[force], {"strings": law}) - expected.subs(strings.r, q.r))
+            for force, expected in ((S_n, normal), (S_t, sideways))
+        ]
+    arguments = rise.arguments
+    left.append(sp.simplify(2 * rise(*arguments).diff(arguments[1]) - stiffness(*arguments)))
+    return vanishing(f"strings: {law.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", left)
+
 
 _FULL = tuple(structure for structure in structures() if not structure.reduced)
 
@@ -21,7 +57,7 @@ _FULL = tuple(structure for structure in structures() if not structure.reduced)
 def momentum_rate(structure: Structure, laws: Mapping[str, Law]) -> sp.Expr:
     """d/dtau of orbital_momentum + (32/5) spin, L over m a^2 omega0, along the emitted right-hand side."""
     rates = derive(structure).by_state("right_hand_side")
-    return sp.factor(sp.expand(filled(rates[orbital_momentum] + sp.Rational(32, 5) * rates[spin], laws)))
+    return sp.factor(sp.expand(filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], laws)))
 
 
 @cache
@@ -34,16 +70,8 @@ def energy_balance(structure: Structure) -> sp.Expr:
     return sp.factor(sp.expand(strings.half_angles(total + lost)))
 
 
+@checks
 def energy(among: Iterable[Structure] = _FULL) -> tuple[Check, ...]:
     """Film, shear and bridge are the only forces that change the mechanical energy; strings are conservative."""
-    return tuple(
-        vanishing(
-            f"energy: {structure.name}",
-            "d(kinetic + strings)/dt = -(film + shear + bridge power), for all laws and both arms",
-            [energy_balance(structure)],
-        )
-        for structure in among
-    )
-
-
-CHECKS = (energy,)
+    statement = "d(kinetic + strings)/dt = -(film + shear + bridge power), for all laws and both arms"
+    return tuple(vanishing(f"energy: {each.name}", statement, [energy_balance(each)]) for each in among)

@@ -1,4 +1,4 @@
-"""Dimensions: every SI equation of the model is homogeneous and has the expected dimension."""
+"""Dimensions of every SI equation, the number of dimensionless groups, and the paper's groups."""
 
 from __future__ import annotations
 
@@ -6,25 +6,13 @@ from collections.abc import Mapping
 
 import sympy as sp
 
+from ..physics import mechanics
 from ..physics.forces import FILM, SHEAR, force_laws
 from ..physics.laws import LAWS, film, shear, strings
-from ..physics.laws.elastic_length import elastic_compliance, elastic_length
-from ..physics.laws.rupture import rupture_distance
-from ..physics.laws.start import start_values
-from ..physics.mechanics import (
-    F_c,
-    F_n,
-    F_t,
-    F_w,
-    S_n,
-    S_t,
-    arm,
-    doublet_inertia,
-    equations_of_motion,
-    sphere_inertia,
-    string_forces,
-)
-from ..physics.scaling import group_definitions
+from ..physics.laws.bridge import rupture_distance
+from ..physics.laws.glass import elastic_compliance, elastic_length
+from ..physics.scaling import dimension_matrix, group_definitions, nondimensional, start_values
+from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import (
     ENERGY,
     FORCE,
@@ -38,19 +26,18 @@ from ..vocabulary.dimensions import (
     DimensionError,
     demand_dimension,
 )
-from ..vocabulary.quantities import DIMENSIONS, beta
-from .base import Check
+from .base import Check, Evidence, check, checks, readable, vanishing
 
 Equations = dict[str, tuple[sp.Expr, Dimension]]
 
 
 def si_equations() -> dict[str, Equations]:
     """Every SI expression of the model by room and name, with its expected dimension."""
-    motion = equations_of_motion()
+    motion = mechanics.equations_of_motion()
     moment = MASS * LENGTH**2
-    mechanics: Equations = {
-        "inertia of a sphere": (sphere_inertia(), moment),
-        "inertia of the doublet": (doublet_inertia(), moment),
+    moving: Equations = {
+        "inertia of a sphere": (mechanics.sphere_inertia(), moment),
+        "inertia of the doublet": (mechanics.doublet_inertia(), moment),
         "kinetic energy": (motion.kinetic_energy, ENERGY),
         "du/dt": (motion.separation_acceleration, LENGTH / TIME**2),
         "domega/dt": (motion.orbital_acceleration, RATE / TIME),
@@ -69,12 +56,9 @@ def si_equations() -> dict[str, Equations]:
     pendulum: Equations = {}
     for name in LAWS["strings"]:
         potential = strings.potential(name == "small-angle")
-        normal, sideways = string_forces(potential, strings.r, beta)
-        pendulum |= {
-            f"U_s, {name}": (potential, ENERGY),
-            f"S_n, {name}": (normal, FORCE),
-            f"S_t, {name}": (sideways, FORCE),
-        }
+        normal, sideways = mechanics.string_forces(potential, strings.r, q.beta)
+        pendulum |= {f"U_s, {name}": (potential, ENERGY)}
+        pendulum |= {f"S_n, {name}": (normal, FORCE), f"S_t, {name}": (sideways, FORCE)}
     lengths: Equations = {
         "elastic compliance": (elastic_compliance(), ONE / PRESSURE),
         "elastic length": (elastic_length(), LENGTH),
@@ -82,24 +66,29 @@ def si_equations() -> dict[str, Equations]:
         "rupture distance without": (rupture_distance(bridge=False), LENGTH),
     }
     return {
-        "mechanics": mechanics,
+        "mechanics": moving,
         "lubrication": lubrication,
         "strings": pendulum,
         "elastic length and rupture": lengths,
-        "forces as the laws fill them": {s.name: (e, LENGTH if s == arm else FORCE) for s, e in force_laws().items()},
-        "start": {symbol.name: (value, DIMENSIONS[symbol]) for symbol, value in start_values().items()},
+        "forces as the laws fill them": {
+            s.name: (e, LENGTH if s == mechanics.arm else FORCE) for s, e in force_laws().items()
+        },
+        "start": {symbol.name: (value, q.DIMENSIONS[symbol]) for symbol, value in start_values().items()},
         "groups": {symbol.name: (definition, ONE) for symbol, definition in group_definitions().items()},
     }
 
 
 def symbol_dimensions() -> dict[sp.Basic, Dimension]:
     """Dimensions of the vocabulary and of further names in the SI equations."""
-    forces = dict.fromkeys((F_n, F_c, F_w, F_t, S_n, S_t), FORCE)
+    forces = dict.fromkeys(
+        (mechanics.F_n, mechanics.F_c, mechanics.F_w, mechanics.F_t, mechanics.S_n, mechanics.S_t), FORCE
+    )
     thicknesses = sp.symbols("h h_outer", positive=True)  # local, and the outer thickness of the tangential logarithm
-    lengths = dict.fromkeys((arm, strings.r, *thicknesses), LENGTH)
-    return {**DIMENSIONS, **forces, **lengths, FILM: ONE, SHEAR: ONE}
+    lengths = dict.fromkeys((mechanics.arm, strings.r, *thicknesses), LENGTH)
+    return {**q.DIMENSIONS, **forces, **lengths, FILM: ONE, SHEAR: ONE}
 
 
+@checks
 def dimension_checks(rooms: Mapping[str, Equations] | None = None) -> tuple[Check, ...]:
     """One check per room of `si_equations`: each equation is homogeneous and has the expected dimension."""
     dimensions = symbol_dimensions()
@@ -117,4 +106,61 @@ def dimension_checks(rooms: Mapping[str, Equations] | None = None) -> tuple[Chec
     return tuple(checks)
 
 
-CHECKS = (dimension_checks,)
+def _dimensional(symbols: set[sp.Basic]) -> list[sp.Symbol]:
+    """Those of the symbols that have a dimension, in the order of the vocabulary."""
+    return [s for s, dimension in q.DIMENSIONS.items() if s in symbols and any(dimension.exponents)]
+
+
+@check("centrifugal number", "Ce = (pi/8) (x0/a) tan^2(theta0) St Ca")
+def centrifugal_number() -> Evidence:
+    """Ce is a function of the other groups if the angle is counted among them."""
+    by_groups = nondimensional(group_definitions()[q.centrifugal].subs(sp.tan(q.theta0), q.obliquity))
+    yield by_groups - sp.pi / 8 * q.aspect * q.obliquity**2 * q.stokes * q.capillary
+    yield f"Ce = {by_groups}"
+
+
+@check("paper's normalisation", "m r omega^2/(a sigma) = Ce (4 + x/a) (omega/omega0)^2")
+def normalisation_of_the_paper() -> Evidence:
+    """The centrifugal term over a sigma is Ce times a function of the state alone."""
+    term = (q.m * q.r * q.omega**2 / (q.a * q.sigma)).subs(q.m, q.centrifugal * q.sigma / q.omega0**2)
+    yield term - q.centrifugal * (4 + q.x / q.a) * (q.omega / q.omega0) ** 2
+
+
+@check("number of groups", "groups = dimensional quantities - rank of their dimension matrix (density included)")
+def number_of_groups() -> Evidence:
+    """Buckingham: as many independent groups as quantities minus the rank of their dimension matrix."""
+    groups = group_definitions().values()
+    used = set().union(*(group.free_symbols for group in groups))
+    quantities = _dimensional(used - {q.t, q.x, q.u, q.omega, q.xi, q.omega0})
+    dimensions = dimension_matrix(quantities)
+    # exponent of a quantity in a group: d ln(group)/d ln(quantity)
+    powers = sp.Matrix([[sp.simplify(group.diff(s) * s / group) for s in quantities] for group in groups])
+    independent, rank = powers.rank(), dimensions.rank()
+    yield sp.Integer(independent - (len(quantities) - rank))
+    yield from dimensions * powers.T
+    yield f"{independent} = {len(quantities)} - {rank}"
+
+
+@checks
+def groups_span_the_nullspace() -> Check:
+    """St, Ca and Ce are combinations of the dimensionless monomials of their quantities (nullspace)."""
+    left, shown = [], []
+    for group, label in ((q.stokes, "St"), (q.capillary, "Ca"), (q.centrifugal, "Ce")):
+        definition = group_definitions()[group]
+        used = _dimensional(definition.free_symbols)
+        powers = sp.Matrix([sp.simplify(definition.diff(s) * s / definition) for s in used])
+        basis = dimension_matrix(used).nullspace()
+        left.append(sp.Integer(sp.Matrix.hstack(*basis, powers).rank() - len(basis)))
+        shown.append(f"{label} = {readable(definition)}")
+    return vanishing("St, Ca, Ce", "each in the span of the nullspace of its dimension matrix", left, "; ".join(shown))
+
+
+@check("paper's groups", "St = m v0/(6 pi mu a^2), Ca = 3 mu a v0/(sigma x0), Ce = m omega0^2/sigma")
+def groups_are_the_papers() -> Evidence:
+    """St, Ca and Ce as ratios of terms are the paper's numbers, Ce with omega0 = v0 tan(theta0)/(4a)."""
+    expected = {
+        q.stokes: q.m * q.v0 / (6 * sp.pi * q.mu * q.a**2),
+        q.capillary: 3 * q.mu * q.a * q.v0 / (q.sigma * q.x0),
+        q.centrifugal: q.m * (q.v0 * sp.tan(q.theta0) / (4 * q.a)) ** 2 / q.sigma,
+    }
+    yield from [group_definitions()[group] - value for group, value in expected.items()]

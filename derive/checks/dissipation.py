@@ -24,8 +24,7 @@ from ..physics.mechanics import F_t, S_t, arm, equations_of_motion, sphere_inert
 from ..physics.scaling import DISTANCE, nondimensional
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
-from .base import Check, readable, settled, vanishing
-from .signs import nonnegative
+from .base import Check, checks, nonnegative, readable, settled, vanishing
 
 _OBLIQUE = Structure(oblique=True, bridge=False, strings=False)
 
@@ -64,11 +63,11 @@ def torque(lever: Law) -> sp.Expr:
 @cache
 def conserves(lever: Law) -> bool:
     """True if angular momentum is among the invariants found for the free doublet with this arm."""
-    return any(each.is_angular_momentum for each in found(lever))
+    return any(each.is_angular_momentum for each in conserved(lever))
 
 
 @cache
-def found(lever: Law, structure: Structure = _OBLIQUE) -> tuple[Invariant, ...]:
+def conserved(lever: Law, structure: Structure = _OBLIQUE) -> tuple[Invariant, ...]:
     """The invariants of a structure with this arm, for any other laws."""
     return invariants(derive(structure), {"arm": lever})
 
@@ -88,12 +87,10 @@ def angular_momentum(lever: Law) -> Check:
         if structure.oblique and not structure.strings and not structure.reduced:
             model = derive(structure)
             rates = model.by_state("right_hand_side")
-            left.append(
-                filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], {"arm": lever})
-                - model.expanded(lost)
-            )
+            change = filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], {"arm": lever})
+            left.append(change - model.expanded(lost))
     if conserves(lever):
-        words = "; ".join(each.describe() for each in found(lever))
+        words = "; ".join(each.describe() for each in conserved(lever))
         return vanishing(
             name, "dL/dt = 0 without strings, for every tangential and bridge law", left, f"found: {words}"
         )
@@ -126,14 +123,11 @@ def shear_range(law: Law, lever: Law) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Exp
 def indefinite_shear(law: Law, lever: Law) -> Check:
     """The range and the largest rate at which shear gives energy, by name, for an arm that does not conserve L."""
     rate, low, high, least = shear_range(law, lever)
-    known = is_known(lever)
     name = f"shear dissipates: {law.name}, {lever.name} arm"
     statement = f"F_t (r omega - 2 arm xi) has a sign; for this arm it is {readable(rate)}"
-    figure = (
-        f"negative for xi/omega between {readable(low)} and {readable(high)}, "
-        f"at the least {readable(least)} half-way between"
-    )
-    if known:
+    ends = f"{readable(low)} and {readable(high)}"
+    figure = f"negative for xi/omega between {ends}, at the least {readable(least)} half-way between"
+    if is_known(lever):
         per_slip = filled(force_laws()[F_t], {"shear": law}).subs(SHEAR, 1).subs(q.xi, 0) / q.omega
         left = [least + per_slip * q.x**2 * q.omega**2 / (16 * q.a), high - 1 - q.x / (4 * q.a)]
         return vanishing(name, statement, left, f"{figure}: a known violation of the leading-order arm", holds=None)
@@ -150,6 +144,7 @@ def arms(levers: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
     return tuple(checks)
 
 
+@checks
 @cache
 def bridge_does_work() -> Check:
     """The bridge force depends on the gap only, so it has a potential W_c(x), the same while closing and opening."""
@@ -164,6 +159,7 @@ def bridge_does_work() -> Check:
     return vanishing("bridge does work only", "F_c = F_c(x): its work W_c(x) is a potential, for any bridge law", left)
 
 
+@checks
 @cache
 def rebound_dissipates() -> tuple[Check, ...]:
     """A rebound loses exactly the kinetic energy of `rebound_loss`, which is not negative for 0 <= e_dry <= 1."""
@@ -179,6 +175,3 @@ def rebound_dissipates() -> tuple[Check, ...]:
         vanishing("rebound's energy", "kinetic energy before - after = (1 - e_dry^2) u^2/2, all else continuous", left),
         Check("rebound dissipates", "(1 - e_dry^2) u^2/2 >= 0 for 0 < e_dry <= 1", sign.proved, sign.shown),
     )
-
-
-CHECKS = (bridge_does_work, rebound_dissipates)

@@ -64,9 +64,8 @@ def momentum_is_the_bodies() -> Evidence:
 
 def _per_unit(momentum: sp.Expr) -> sp.Expr:
     """An angular momentum over m a^2 Omega; spins at initial contact in their scale."""
-    return nondimensional(
-        sp.expand(momentum.subs(q.impact_spin, q.rate_scale * q.initial_spin) / (q.m * q.a**2 * q.rate_scale))
-    )
+    scaled = momentum.subs(q.impact_spin, q.rate_scale * q.initial_spin)
+    return nondimensional(sp.expand(scaled / (q.m * q.a**2 * q.rate_scale)))
 
 
 @check("outputs", "e_n = u/v0, e_t = r omega/(r0 omega0), rates over Omega")
@@ -89,10 +88,8 @@ def _si_events() -> dict[str, sp.Expr]:
     compliance = 2 * (1 - q.nu**2) / (sp.pi * q.E)
     elastic = (3 * sp.pi * compliance * q.mu * sp.sqrt(q.a) ** 3 * q.v0 / sp.sqrt(2)) ** sp.Rational(2, 5)
     definitions = group_definitions()
-    by_group = {
-        word: q.x / q.x0 - definitions[limit] for word, limit in CONTACT_GAPS.items()
-    }  # without a published form
-    return by_group | {
+    by_group = {word: q.x / q.x0 - definitions[limit] for word, limit in CONTACT_GAPS.items()}
+    return by_group | {  # of those with a published form, that
         "glass": (q.p_gt - 3 * q.mu * q.a * (-q.u) / q.x**2) * q.x0**2 / (3 * q.mu * q.a * q.v0),
         "elastic": (q.x - elastic) / q.x0,
         "rough": (q.x - q.x_b) / q.x0,
@@ -132,9 +129,3 @@ def tangential_force_is_the_published() -> Evidence:
     factor = nondimensional(spun / ((q.omega - q.xi) / q.rate_scale) / sp.log(2 * q.a / q.x))
     logarithm = sp.log(2 * q.a / q.x).subs(q.x, q.gap * q.x0).subs(q.x0, q.a * q.aspect)
     yield from (sp.expand_log(force - published, force=True), emitted - model.expanded(slip * factor) * logarithm)
-
-
-CHECKS = (
-    resting_is_held, inward_is_minus_the_acceleration, momentum_is_the_bodies, outputs_are_the_definitions,
-    events_are_the_definitions, tangential_force_is_the_published,
-)  # fmt: skip

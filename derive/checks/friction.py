@@ -20,8 +20,7 @@ from ..physics.partners.space import PARTNER_SLIPS, PARTNER_TWIST, SLIPS, TWIST
 from ..physics.partners.vectors import dot, on_the_sphere
 from ..physics.structure import Partner, Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, vanishing
-from .signs import nonnegative
+from .base import Check, Evidence, check, checks, nonnegative, vanishing
 
 _PARTNERS: tuple[Partner, ...] = ("", "pair", "wall")
 _TURNING: tuple[Partner, ...] = ("", "pair", "space")  # partners beside which the line of centres turns
@@ -65,6 +64,7 @@ def energy_is_booked() -> Evidence:
         yield kinetic - _after(model, kinetic) - lost
 
 
+@checks
 def never_gains() -> Check:
     """An impulse of at most the one that sticks dissipates, for 0 <= beta_0 <= 1."""
     model = derive(_FREE[0])
@@ -75,6 +75,7 @@ def never_gains() -> Check:
     return Check("friction dissipates", statement, sign.proved, sign.shown)
 
 
+@checks
 def angular_momentum() -> tuple[Check, ...]:
     """L is kept with the lever arm at mid-gap; on the surface it changes by minus the gap times the impulse."""
     kept, moved = [], []
@@ -89,6 +90,7 @@ def angular_momentum() -> tuple[Check, ...]:
     )
 
 
+@checks
 def resting_contact() -> tuple[Check, ...]:
     """In resting contact sliding takes what the ledger books, and rolling keeps the slip."""
     booked, held = [], []
@@ -126,6 +128,7 @@ def reaction_is_never_exhausted() -> Evidence:
         yield from (share.diff(s) for s in model.states)
 
 
+@checks
 def in_space() -> tuple[Check, ...]:
     """The slip lies across n, and the impulse along it, within the cone, with the plane's answer in each component.
 
@@ -138,24 +141,15 @@ def in_space() -> tuple[Check, ...]:
     slips = [dict(model.definitions)[each] for each in DRY_SLIPS]
     flat = dict(pair.definitions)[DRY_SLIP].subs(midgap)
     size, left = sp.sqrt(dot(DRY_SLIPS, DRY_SLIPS) + LEAST_DIRECTION**2), []
-    across = on_the_sphere(
-        dot(slips, q.normal).subs({TWIST: dot(SLIPS, q.normal), PARTNER_TWIST: dot(PARTNER_SLIPS, q.normal)}),
-        q.normal,
-        q.orbital_momenta,
-    )
+    twists = {TWIST: dot(SLIPS, q.normal), PARTNER_TWIST: dot(PARTNER_SLIPS, q.normal)}
+    across = on_the_sphere(dot(slips, q.normal).subs(twists), q.normal, q.orbital_momenta)
+    planes = {q.orbital_momentum: q.orbital_momenta, q.spin: q.spins, q.partner_spin: q.partner_spins}
     for k, slip in enumerate(slips):
-        of_plane = {
-            ORBITAL_RATE: SLIPS[k] + q.spins[k],
-            q.spin: q.spins[k],
-            q.partner_spin: SLIPS[k] + q.spins[k] - PARTNER_SLIPS[k],
-        }
+        rate = SLIPS[k] + q.spins[k]
+        of_plane = {ORBITAL_RATE: rate, q.spin: q.spins[k], q.partner_spin: rate - PARTNER_SLIPS[k]}
         there = sp.expand(flat.subs(of_plane, simultaneous=True) - midgap[LEVER] * twist[0] * q.normal[k])
         left.append((slip - there).subs(CENTRES, RADIUS + PARTNER_RADIUS))
-        for vector, state in (
-            (q.orbital_momenta, q.orbital_momentum),
-            (q.spins, q.spin),
-            (q.partner_spins, q.partner_spin),
-        ):
+        for state, vector in planes.items():
             change = (planar[state.name] - state) * DRY_SLIPS[k] / size
             left.append(jump[vector[k].name] - vector[k] - change)
     part = sp.factor(1 - dot(DRY_SLIPS, DRY_SLIPS) / size**2)
@@ -164,9 +158,3 @@ def in_space() -> tuple[Check, ...]:
         vanishing("friction in space: answer", "each component of slip and impulse is the plane's", left),
         Check("friction in space: cone", "|impulse| <= Coulomb's limit", part.is_nonnegative, str(part)),
     )
-
-
-CHECKS = (
-    effective_mass, sticking_reverses_the_slip, energy_is_booked, never_gains, angular_momentum, resting_contact,
-    reaction_is_never_exhausted, in_space,
-)  # fmt: skip

@@ -1,18 +1,19 @@
-"""Limits: reduced and head-on equations as special cases of the full oblique equations."""
+"""Special cases and symmetries of the full equations: reduced, head-on, reflected, beyond the reach of the shear."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from operator import methodcaller
 
 import sympy as sp
 
 from ..equations.model import derive
+from ..physics.forces import FILM, SHEAR
 from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.structure import Structure, structures
-from ..vocabulary.quantities import aspect, beta, initial_spin, initial_turning, orbital_momentum, spin
-from .base import Evidence, check
-from .closed import special_case
+from ..vocabulary import quantities as q
+from .base import SIZES, Evidence, check, special_case
 
 
 @check("reduced form", "full equations with xi = (L - m r^2 omega)/((32/5) m a^2) are the reduced ones")
@@ -23,14 +24,16 @@ def reduced_is_full() -> Evidence:
         if not structure.reduced:
             continue
         reduced, full = derive(structure), derive(Structure(True, structure.bridge, False))
-        initial = (4 + aspect) ** 2 * initial_turning + sp.Rational(32, 5) * initial_spin  # L/(m a^2 Omega) at first
-        eliminated = {spin: (initial - orbital_momentum) * sp.Rational(5, 32)}
+        initial = (4 + q.aspect) ** 2 * q.initial_turning + sp.Rational(
+            32, 5
+        ) * q.initial_spin  # L/(m a^2 Omega) at first
+        eliminated = {q.spin: (initial - q.orbital_momentum) * sp.Rational(5, 32)}
         rates, full_rates = (each.by_state("right_hand_side") for each in (reduced, full))
 
         yield from (filled(full_rates[s], midgap).subs(eliminated) - rate for s, rate in rates.items())
         # the eliminated spin has the rate of the full equations
-        turned = eliminated[spin].diff(orbital_momentum) * rates[orbital_momentum]
-        yield turned - filled(full_rates[spin], midgap).subs(eliminated)
+        turned = eliminated[q.spin].diff(q.orbital_momentum) * rates[q.orbital_momentum]
+        yield turned - filled(full_rates[q.spin], midgap).subs(eliminated)
         names = ("events", "energies", "outputs", "effective_potential", "inward_force", "turning_rate", "start")
         yield from special_case(reduced, names, full, methodcaller("subs", eliminated))
 
@@ -38,7 +41,7 @@ def reduced_is_full() -> Evidence:
 @check("head-on limit", "oblique equations at zero rotation are the head-on ones")
 def head_on_is_oblique_at_rest() -> Evidence:
     """An oblique doublet without rotation follows the head-on equations, and does not start to rotate."""
-    still = {orbital_momentum: 0, spin: 0, beta: 0}
+    still = {q.orbital_momentum: 0, q.spin: 0, q.beta: 0}
     for head_on in structures():
         if head_on.oblique:
             continue
@@ -50,4 +53,46 @@ def head_on_is_oblique_at_rest() -> Evidence:
         yield from special_case(narrow, names, wide, methodcaller("subs", still))
 
 
-CHECKS = (reduced_is_full, head_on_is_oblique_at_rest)
+_TURNING = (q.orbital_momentum, q.spin, q.partner_spin)
+_EVEN = ("inward_force", "events", "energies", "energy_rates", "approach_force")
+_ATTRACTED = Structure(oblique=True, bridge=True, strings=False, attraction=True)
+
+
+@check("reflection", "J, xi -> -J, -xi reverses their rates and leaves all else")
+def mirror() -> Evidence:
+    """With every rotation reversed, rates of rotations are reversed, and gap, forces, energies and margins the same."""
+    for structure in (_ATTRACTED, replace(_ATTRACTED, partner="pair")):
+        model = derive(structure)
+        reversed_ = {state: -state for state in model.states if state in _TURNING}
+        names = {each.name for each in model.functions}
+        for name in ("right_hand_side", *(each for each in _EVEN if each in names)):
+            for key, value in model[name].outputs:
+                result = model.expanded(value, SIZES)
+                sign = -1 if name == "right_hand_side" and key in {state.name for state in reversed_} else 1
+                yield result - sign * result.subs(reversed_, simultaneous=True)
+
+
+_EQUAL = Structure(oblique=True, bridge=True, strings=False)
+_COVERED = tuple(
+    replace(_EQUAL, bridge=not attraction, attraction=attraction, partner=partner)
+    for attraction in (False, True)
+    for partner in (_EQUAL.partner, "pair")
+)
+
+
+@check("floating", "beyond the shear: dJ/dt = 0, du/dt = -inward(x, J) - drag(x) u/St")
+def floating_doublets() -> Evidence:
+    """Without shear J is constant, and what remains of the motion is a fixed potential and a drag proportional to u.
+
+    So u^2/2 and the work against the inward force, of gap and J alone, only decrease.
+    """
+    laws_of_gap = True
+    for structure in _COVERED:
+        model = derive(structure)
+        rates = {state: rate.subs(SHEAR, 0) for state, rate in model.by_state("right_hand_side", SIZES).items()}
+        inward = model.expanded(model["inward_force"]["inward_force"], SIZES)
+        drag = -(rates[q.normal_velocity] + inward)
+        yield from (rates[q.gap] - q.normal_velocity, rates[q.orbital_momentum], drag.subs(FILM, 0))
+        yield from ((drag / (FILM * q.normal_velocity)).diff(q.normal_velocity), drag.diff(q.stokes) * q.stokes + drag)
+        laws_of_gap &= not inward.free_symbols & (set(model.states) - {q.gap, q.orbital_momentum})
+    yield laws_of_gap, "inward depends on another state"

@@ -13,7 +13,7 @@ from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary.quantities import aspect, gap, obliquity, orbital_momentum, spin
-from .base import Check, Evidence, check, vanishing
+from .base import Check, Evidence, check, checks, no_negative, vanishing
 
 _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
 # square roots of momentum and spin, in which all expressions are rational
@@ -60,6 +60,7 @@ def _change(lever: str, energy: sp.Expr) -> sp.Expr:
     return margin.diff(_Q) / (2 * _Q) - rate * margin.diff(_P) / (2 * _P)
 
 
+@checks
 def midgap_takes() -> Check:
     """Lever arm at mid-gap: d(margin)/dxi = -(32/5)(omega - xi) a^2, so that F_t never increases the margin."""
     ratio = _settled(_change("midgap", _midgap()) / (_P**2 / _NEAR**2 - _Q**2))
@@ -67,23 +68,23 @@ def midgap_takes() -> Check:
     return Check("exchange takes, midgap", "d(margin) = -c (omega - xi) dxi, dxi ~ omega - xi", ok, f"c = {-ratio}")
 
 
+@checks
 def midgap_ends() -> Check:
     """Beyond the edge of the shear: the same exchange, zero once omega = xi at the edge, and positive before."""
     within = orbital.midgap_within(_FAR, _EDGE, _P**2, _Q**2)
-    left = [
-        _settled(_change("midgap", within) - _change("midgap", _midgap())),
-        _settled(within.subs(_P, _EDGE * _Q)),
-    ]
+    left = [_change("midgap", within) - _change("midgap", _midgap()), within.subs(_P, _EDGE * _Q)]
     # on the way to the edge J grows while xi > J/e^2, and each step transfers xi - J/d^2
     to_spin = 1 / orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
     slope = within.diff(_P) / (2 * _P) - to_spin * within.diff(_Q) / (2 * _Q)
     ahead = {_FAR: _EDGE + _BEYOND, _P: _EDGE * _Q / (1 + _CLOSER)}
     top, bottom = sp.fraction(sp.cancel(sp.together(-slope.subs(ahead))))
-    falls = _no_negative(top) and _no_negative(bottom)
-    same = vanishing("exchange ends, midgap", "nothing is left once omega = xi at the edge of the shear", left)
+    falls = no_negative(top) and no_negative(bottom)
+    statement = "nothing is left once omega = xi at the edge of the shear"
+    same = vanishing("exchange ends, midgap", statement, [_settled(each) for each in left])
     return replace(same, ok=same.ok and falls)
 
 
+@checks
 def transferable_bounds() -> tuple[Check, ...]:
     """What can be transferred, for momenta of any sign: where |J| falls G falls, elsewhere the sum with slip energy.
 
@@ -97,16 +98,15 @@ def transferable_bounds() -> tuple[Check, ...]:
     energy = (momentum - rigid) ** 2 * (1 / _FAR**2 + 1 / inertia) / 2
     left = [energy - orbital.midgap(_FAR, momentum, turning)]  # for every sign: no square roots
     margin = momentum**2 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + orbital.midgap(_FAR, momentum, turning)
-    change = margin.diff(turning) - orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR)) * margin.diff(
-        momentum
-    )
+    rate = orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
+    change = margin.diff(turning) - rate * margin.diff(momentum)
     ratio = _settled(change / (momentum / _NEAR**2 - turning))
     whole, excess = sp.symbols("whole excess", nonnegative=True)
     closer = 4 + _CLOSER
     share = orbital.rigid_momentum(sp.Symbol("r", positive=True), whole, sp.Integer(0))
     here, there = (share.subs(sp.Symbol("r", positive=True), d) for d in (closer, closer + _BEYOND))
     products = [(there + excess) * (there + excess - here), -excess * (-excess - here)]
-    fall = all(_no_negative(part) for value in products for part in sp.fraction(sp.cancel(sp.together(value))))
+    fall = all(no_negative(part) for value in products for part in sp.fraction(sp.cancel(sp.together(value))))
     same = vanishing("exchange takes, any sign", "d(margin) = -c (omega - xi) dxi for momenta of any sign", left)
     bounded = Check(
         "what can be transferred",
@@ -124,6 +124,7 @@ def _clamped(value: sp.Expr) -> sp.Expr:
     )
 
 
+@checks
 def surface_takes() -> Check:
     """Lever arm at the surface: the same sign at every distance r <= d, for rho between 4 and d, d - rho <= 4.
 
@@ -135,20 +136,12 @@ def surface_takes() -> Check:
     slope = (rest.diff(_P) / (2 * _P)).subs(_P, rho * _Q) / _Q**2
     left = sp.together(sp.cancel(rho / _FAR - slope)).subs(_FAR, rho + _REACH / (1 + _CLOSER)).subs(rho, 4 + _BEYOND)
     top, bottom = sp.fraction(sp.together(left))
-    ok = _no_negative(top * sp.sign(bottom.subs({_CLOSER: 1, _BEYOND: 1}))) and (
-        _no_negative(bottom) or _no_negative(-bottom)
-    )
+    signed = sp.sign(bottom.subs({_CLOSER: 1, _BEYOND: 1}))
+    ok = no_negative(top * signed) and no_negative(bottom * signed)
     rate = sp.fraction(_settled(_change("surface", _surface()) * _NEAR))
     quadratic = sp.degree(rate[0], _NEAR) == 2 and not rate[1].has(_NEAR)
     figure = f"-dJ/dxi = {orbital.lag()} a r; d - rho <= {_REACH} a"
     return Check("exchange takes, surface", "d(margin)/dxi has the sign of -(omega - xi)", ok and quadratic, figure)
-
-
-def _no_negative(part: sp.Expr) -> bool:
-    expanded = sp.expand(part)
-    if not expanded.free_symbols:
-        return bool(expanded > 0)
-    return all(c >= 0 for c in sp.Poly(expanded, *sorted(expanded.free_symbols, key=str)).coeffs())
 
 
 @check("orbital: as emitted", "slip and slip energies over m v0^2")
@@ -166,6 +159,3 @@ def as_emitted() -> Evidence:
         if "surface" in emitted:
             own = orbital.surface(here, orbital_momentum, turning, orbital.rigid_share(orbital_momentum, turning))
             yield emitted["surface"] - unit * own
-
-
-CHECKS = (exchange, stationary, midgap_takes, midgap_ends, transferable_bounds, surface_takes, as_emitted)

@@ -12,8 +12,7 @@ from ..physics.laws.base import filled
 from ..physics.partners import bodies, rolling, wall
 from ..physics.structure import Partner, Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check
-from .closed import SIZES, special_case
+from .base import SIZES, Check, Evidence, check, checks, special_case
 
 _PARTNERS: tuple[Partner, ...] = ("pair", "wall")
 _MIDGAP = {"arm": LAWS["arm"]["midgap"]}
@@ -30,23 +29,21 @@ def conserved_momenta() -> list[dict[str, sp.Expr]]:
     rates = {name: sp.expand(sp.simplify(rate.subs(balance))) for name, rate in motion.rates.items()}
     terms = sorted({term for rate in rates.values() for term in rate.as_coefficients_dict()}, key=str)
     matrix = sp.Matrix([[rate.as_coefficients_dict()[term] for rate in rates.values()] for term in terms if term != 0])
-    return [
-        {name: weight for name, weight in zip(rates, vector, strict=True) if weight != 0}
-        for vector in matrix.nullspace()
-    ]
+    vectors = (zip(rates, vector, strict=True) for vector in matrix.nullspace())
+    return [{name: weight for name, weight in vector if weight != 0} for vector in vectors]
 
 
+@checks
 def momenta_are_found() -> Check:
     """Linear momentum and total angular momentum are the only invariants linear in the momenta."""
     result = conserved_momenta()
     expected = [{"X": 1}, {"Y": 1}, {"beta": 1, "alpha_1": 1, "alpha_2": 1}]
-    missing = [each for each in expected if each not in result] + [each for each in result if each not in expected]
-    return Check(
-        "pair: conserved momenta",
-        "two unequal spheres that act on each other only keep P_X, P_Y and L = m r^2 omega + I_1 xi_1 + I_2 xi_2",
-        not missing,
-        "; ".join(" + ".join(f"p_{name}" for name in each) for each in result),
+    missing = len(result) != len(expected) or any(each not in result for each in expected)
+    statement = (
+        "two unequal spheres that act on each other only keep P_X, P_Y and L = m r^2 omega + I_1 xi_1 + I_2 xi_2"
     )
+    figure = "; ".join(" + ".join(f"p_{name}" for name in each) for each in result)
+    return Check("pair: conserved momenta", statement, not missing, figure)
 
 
 @check("pair: angular momentum", "dL/dt = 0 along the emitted equations (midgap arm, any law)")
@@ -65,9 +62,8 @@ def energy_is_accounted_for() -> Evidence:
     for structure in (_PAIR, _WALL):
         model = derive(structure)
         stored = model.expanded(model["energies"]["kinetic"], SIZES)
-        change = sp.Add(
-            *(stored.diff(state) * rate for state, rate in model.by_state("right_hand_side", SIZES).items())
-        )
+        rates = model.by_state("right_hand_side", SIZES)
+        change = sum(stored.diff(state) * rate for state, rate in rates.items())
         yield change + sum(model.results("energy_rates", SIZES).values())
 
 
@@ -183,9 +179,3 @@ def wall_friction_decays() -> Evidence:
     shares = [known[s].subs(unspun).subs(wall.SLOW_MODE, wall.FAST_MODE + slower) for s in (q.slide, q.roll)]
     positive = sp.simplify(ratio) > 1 and all(sp.expand(share).is_positive for share in shares)
     yield positive, f"not positive: {shares}"
-
-
-CHECKS = (
-    momenta_are_found, angular_momentum_is_kept, energy_is_accounted_for, friction_dissipates, published_logarithms,
-    equal_is_the_doublet, slip_energy_adds, wall_is_head_on, wall_friction_decays,
-)  # fmt: skip

@@ -1,7 +1,6 @@
 """Checks of the pendulum certificate: each of its steps, on the emitted equations.
 
-`equations/certificates/pendulum.py` combines the steps; `margins` checks that the emitted margins are these bounds in
-the worst case.
+`equations/certificates/pendulum.py` combines the steps. The emitted margins are these bounds in the worst case.
 """
 
 from __future__ import annotations
@@ -10,78 +9,68 @@ from functools import cache
 
 import sympy as sp
 
-from ..equations.certificates.pendulum import outward_at, pull_at, rigid_momentum
-from ..equations.intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE
+from ..equations.certificates import pendulum
+from ..equations.certificates.pendulum import PENDULUM, outward_at, pull_at, rigid_momentum
+from ..equations.events import contact_gap
+from ..equations.intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE, STRING_PULL, rates
 from ..equations.model import Model, derive
-from ..equations.rates import rates
-from ..physics.forces import SHEAR
+from ..physics.forces import FILM, SHEAR
 from ..physics.laws import LAWS
-from ..physics.laws.base import filled
+from ..physics.laws.base import filled, slot_call, slot_calls
 from ..physics.laws.strings import offset_squared
 from ..physics.scaling import DISTANCE
-from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from . import impulse, margins
-from .base import Check, Evidence, check, run, vanishing
-from .signs import positive
+from .base import Check, Evidence, check, checks, checks_of, positive, readable, run, vanishing
 
-_PENDULUM = Structure(oblique=True, bridge=False, strings=True)
+_HERE = 4 + q.aspect * q.gap
 _HALF = sp.Symbol("half_angle_sine", nonnegative=True)  # sin(beta/2), which grows with beta up to half a turn
 _BEYOND = sp.Symbol("beyond", nonnegative=True)  # a quantity minus its least value
 
 
 def _model() -> Model:
-    return derive(_PENDULUM)
+    return derive(PENDULUM)
 
 
 def _midgap(expression: sp.Expr) -> sp.Expr:
     return filled(expression, {"arm": LAWS["arm"]["midgap"]})
 
 
+def _by_shear() -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr]]:
+    """What the shear adds to dJ/dt, over its logarithm, and all rates without shear."""
+    log_factor = sp.Function("shear.log_factor", real=True)(q.gap, q.aspect)
+    rates = _model().by_state("right_hand_side")
+    without = {state: rate.subs(log_factor, 0) for state, rate in rates.items()}
+    return (rates[q.orbital_momentum] - without[q.orbital_momentum]) / (SHEAR * log_factor), without
+
+
+@checks
 def momentum_falls() -> Check:
     """dL/dt = -r S_t, and S_t has the sign of sin(beta); only the strings exert a torque on the doublet."""
     result = _model().by_state("right_hand_side")
     total = _midgap(result[q.orbital_momentum] + sp.Rational(32, 5) * result[q.spin])
-    lever = sp.sin(q.beta) * sp.Function("strings.stiffness", real=True)(q.string_ratio, _swing())
+    swing = dict(_model().definitions)[offset_squared].subs(DISTANCE, _HERE)
+    lever = sp.sin(q.beta) * slot_call("strings", "stiffness", q.string_ratio, swing)
     share = sp.simplify(total / lever)
-    ok = bool(positive(-share))
-    return Check(
-        "strings only take from L", "dL/dt = -r S_t <= 0 while 0 <= beta <= pi", ok, f"dL/dt ~ {share} sin(beta)"
-    )
+    statement, figure = "dL/dt = -r S_t <= 0 while 0 <= beta <= pi", f"dL/dt ~ {share} sin(beta)"
+    return Check("strings only take from L", statement, positive(-share), figure)
 
 
-def _swing() -> sp.Expr:
-    return dict(_model().definitions)[offset_squared].subs(DISTANCE, 4 + q.aspect * q.gap)
-
-
+@checks
 def orbital_momentum_is_bounded() -> Check:
     """J decreases where it exceeds its share of L in rigid rotation, and that share grows with the gap and with L."""
-    model = _model()
-    momentum = q.orbital_momentum + sp.Rational(32, 5) * q.spin
-    share = rigid_momentum(momentum, DISTANCE)
-    slip = model.expanded(q.orbital_momentum / DISTANCE**2 - q.spin).subs(DISTANCE, 4 + q.aspect * q.gap)
-    inverse = (1 / DISTANCE**2 + sp.Rational(5, 32)).subs(DISTANCE, 4 + q.aspect * q.gap)
-    identity = slip - (q.orbital_momentum - share.subs(DISTANCE, 4 + q.aspect * q.gap)) * inverse
-    # dJ/dt contains only the shear, with the sign of the slip, and the strings
-    log_factor = sp.Function("shear.log_factor", real=True)(q.gap, q.aspect)
-    without = model.by_state("right_hand_side")[q.orbital_momentum].subs(log_factor, 0)
-    shear = sp.simplify((model.by_state("right_hand_side")[q.orbital_momentum] - without) / (SHEAR * log_factor * slip))
-    level = sp.Symbol("momentum", positive=True)
-    slope = sp.together(rigid_momentum(level, DISTANCE).diff(DISTANCE))
-    rest = vanishing("", "", [identity])
-    ok = (
-        rest.ok and bool(positive(-shear)) and bool(positive(slope)) and bool(positive(rigid_momentum(level, DISTANCE)))
-    )
-    return Check(
-        "J stays below J_max",
-        "dJ/dt <= 0 where J > L r^2/(r^2 + (32/5) a^2), a share that grows with r and with L",
-        ok,
-        f"omega - xi = (J - J_rigid) ({sp.simplify(1 / DISTANCE**2 + sp.Rational(5, 32))})"
-        if ok
-        else f"left over: {rest.figure}",
-    )
+    share = rigid_momentum(q.orbital_momentum + sp.Rational(32, 5) * q.spin, DISTANCE)
+    slip = _model().expanded(q.orbital_momentum / DISTANCE**2 - q.spin).subs(DISTANCE, _HERE)
+    inverse = 1 / DISTANCE**2 + sp.Rational(5, 32)
+    rest = vanishing("", "", [slip - ((q.orbital_momentum - share) * inverse).subs(DISTANCE, _HERE)])
+    shear = sp.simplify(_by_shear()[0] / slip)  # dJ/dt contains only this, with the sign of the slip, and the strings
+    rigid = rigid_momentum(sp.Symbol("momentum", positive=True), DISTANCE)
+    ok = rest.ok and all(map(positive, (-shear, sp.together(rigid.diff(DISTANCE)), rigid)))
+    figure = f"omega - xi = (J - J_rigid) ({sp.simplify(inverse)})" if ok else f"left over: {rest.figure}"
+    statement = "dJ/dt <= 0 where J > L r^2/(r^2 + (32/5) a^2), a share that grows with r and with L"
+    return Check("J stays below J_max", statement, ok, figure)
 
 
+@checks
 def pull_grows() -> tuple[Check, ...]:
     """S_n grows with the gap and with the angle, for both string laws."""
     checks = []
@@ -91,72 +80,213 @@ def pull_grows() -> tuple[Check, ...]:
         stiffness = law["stiffness"].result
         hanging = sp.Symbol("hanging", positive=True)  # vertical extent squared, string_ratio^2 - offset_squared
         steeper = stiffness.diff(offset_squared).subs(offset_squared, q.string_ratio**2 - hanging)
-        swing = (q.aspect * q.gap) ** 2 / 4 + (4 + q.aspect * q.gap) * 4 * _HALF**2
+        swing = (q.aspect * q.gap) ** 2 / 4 + _HERE * 4 * _HALF**2
         across = sp.simplify(pull / stiffness.subs(offset_squared, swing))
-        grows = [positive(across.diff(each)) and positive(swing.diff(each)) for each in (q.gap, _HALF)]
-        ok = all(grows) and bool(positive(across)) and sp.simplify(steeper).is_nonnegative is True
-        checks.append(
-            Check(
-                f"S_n grows, {name} strings",
-                "dS_n/dr >= 0 and dS_n/dbeta >= 0 up to beta = pi",
-                ok,
-                f"S_n ~ ({sp.factor(across / q.weight)}) stiffness",
-            )
-        )
+        grows = [positive(each) for by in (q.gap, _HALF) for each in (across.diff(by), swing.diff(by))]
+        ok = all(grows) and positive(across) and sp.simplify(steeper).is_nonnegative is True
+        statement, figure = "dS_n/dr >= 0 and dS_n/dbeta >= 0 up to beta = pi", sp.factor(across / q.weight)
+        checks.append(Check(f"S_n grows, {name} strings", statement, ok, f"S_n ~ ({figure}) stiffness"))
     return tuple(checks)
 
 
+@checks
 def centrifugal_falls() -> Check:
     """At a given J the centrifugal force decreases with the distance."""
-    level = sp.Symbol("momentum", positive=True)
-    slope = outward_at(level, DISTANCE).diff(DISTANCE)
-    return Check("J^2/r^3 falls", "d(J^2/r^3)/dr < 0 at fixed J", bool(positive(-slope)), f"{sp.factor(slope)}")
+    slope = outward_at(sp.Symbol("momentum", positive=True), DISTANCE).diff(DISTANCE)
+    return Check("J^2/r^3 falls", "d(J^2/r^3)/dr < 0 at fixed J", positive(-slope), f"{sp.factor(slope)}")
 
 
 @check("the film stops", "d(u St/v0)/dx = -resistance - St (inward)/u <= -resistance")
 def film_stops() -> Evidence:
     """While opening against an inward force, u - stopping(gap)/St never grows."""
-    law = LAWS["film"]["finite"]
-    yield from (
-        law["stopping"].result.diff(q.gap) + law["resistance"].result,
-        law["stopping"].result.subs(q.gap, 1),
-        rates(_PENDULUM)[q.normal_velocity].coeff(FILM_FORCE) + 1,
-        rates(_PENDULUM)[q.normal_velocity].coeff(CENTRIFUGAL_FORCE) - 1,
-        rates(_PENDULUM)[q.normal_velocity].diff(BRIDGE_FORCE),
-        dict(_model().definitions)[FILM_FORCE].diff(q.normal_velocity) * q.stokes / sp.Symbol("film", nonnegative=True)
-        - sp.Function("film.resistance", real=True)(q.gap),
-    )
+    stopping, resistance = (LAWS["film"]["finite"][name].result for name in ("stopping", "resistance"))
+    opened = rates(PENDULUM)[q.normal_velocity]
+    yield from (stopping.diff(q.gap) + resistance, stopping.subs(q.gap, 1), opened.diff(BRIDGE_FORCE))
+    yield from (opened.coeff(FILM_FORCE) + 1, opened.coeff(CENTRIFUGAL_FORCE) - 1)
+    film = dict(_model().definitions)[FILM_FORCE].diff(q.normal_velocity) * q.stokes / FILM
+    yield film - slot_call("film", "resistance", q.gap)
 
 
+@checks
 def criterion_reach() -> tuple[Check, ...]:
     """`reach` is the largest gap at which the glass criterion is met for a given speed, and grows with the speed."""
-    checks = []
-    speed = sp.Symbol("approach", positive=True)
+    checks, speed = [], sp.Symbol("approach", positive=True)
     for name, law in LAWS["glass"].items():
-        pressure, reach = law["pressure"], law["reach"]
-        at = reach(speed, q.glass_number)
-        left = sp.simplify(pressure(at, speed) - q.glass_number)
-        falls = sp.simplify(-pressure(q.gap, speed).diff(q.gap))
-        grows = sp.simplify(at.diff(speed))
-        ok = left == 0 and falls.is_positive is True and grows.is_positive is True
-        checks.append(
-            Check(
-                f"reach of the glass criterion, {name}",
-                "pressure(reach(u), u) = p_gt; larger for a larger u",
-                ok,
-                str(at),
-            )
-        )
+        pressure, at = law["pressure"], law["reach"](speed, q.glass_number)
+        signs = [
+            sp.simplify(each).is_positive is True for each in (-pressure(q.gap, speed).diff(q.gap), at.diff(speed))
+        ]
+        ok = sp.simplify(pressure(at, speed) - q.glass_number) == 0 and all(signs)
+        statement = "pressure(reach(u), u) = p_gt; larger for a larger u"
+        checks.append(Check(f"reach of the glass criterion, {name}", statement, ok, str(at)))
     return tuple(checks)
-
-
-CHECKS = (
-    momentum_falls, orbital_momentum_is_bounded, pull_grows, centrifugal_falls, film_stops, criterion_reach,
-    *margins.CHECKS, *impulse.CHECKS,
-)  # fmt: skip
 
 
 @cache
 def pendulum_certificate() -> tuple[Check, ...]:
     """Every step of the pendulum certificate."""
-    return run(CHECKS)
+    return run(checks_of(__name__))
+
+
+# ---- the emitted margins
+
+
+def _bounds() -> dict[str, tuple[sp.Expr, str]]:
+    """Each margin with its lemma at the gap, angle and speed of the worst case, and a description."""
+    rigid = rigid_momentum(q.orbital_momentum + sp.Rational(32, 5) * q.spin, 4 + q.aspect)
+    most = 2 * pull_at(sp.Integer(1), sp.pi)
+    fastest = sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + most)
+    reach = sp.Max(contact_gap, slot_call("glass", "reach", fastest, q.glass_number))
+
+    def left(velocity: sp.Expr, at: sp.Expr = q.gap) -> sp.Expr:
+        return q.stokes * velocity - slot_call("film", "stopping", at)
+
+    speed = -q.normal_velocity
+    outward = outward_at(sp.Max(q.orbital_momentum, rigid), 4 + q.aspect * contact_gap)
+    return {
+        "outward": (outward, "J_max^2/r^3, J_max of r_f, r in contact"),
+        "pull": (pull_at(contact_gap, q.beta), "S_n in contact at the present beta"),
+        "film": (left(q.normal_velocity), "u St/v0 - Lf(x)"),
+        "recoil": (
+            left(q.e_dry * fastest, reach),
+            "e_dry u_max St/v0 - Lf(x_R), u_max^2 = min(u, 0)^2 + 2 S_n(x0, pi) x0/m, x_R = max(contact, reach(u_max))",
+        ),
+        "rebound": (left(q.e_dry * speed), "e_dry |u| St/v0 - Lf(x)"),
+        "beneath": (
+            left(q.e_dry * (speed + sp.sqrt(most * q.gap))),
+            "the same with |u| + sqrt(2 S_n(x0, pi) x/m), the most that closing from x adds",
+        ),
+    }
+
+
+@checks
+def margins_are_the_lemmas() -> tuple[Check, ...]:
+    """The emitted margins are the lemmas' bounds: at contact, at initial contact and half a turn, and at present.
+
+    `impulse` has its own check, `impulse_as_emitted`.
+    """
+    checks = []
+    for name, (bound, words) in _bounds().items():
+        emitted = _model().expanded(_model()["pendulum_margins"][name])
+        same = sp.expand(emitted - _model().expanded(bound)) == 0  # same Max and calls: no need to simplify
+        figure = "identity" if same else f"emitted is {readable(emitted)}"
+        checks.append(Check(f"margin of the stick proof: {name}", f"{name} = {words}", same, figure))
+    return tuple(checks)
+
+
+@check("closing gains the pull", "d(u^2/2)/dx = -S_n/m + what slows: u_max^2 - u^2 <= 2 S x0/m")
+def closing_gains_the_pull() -> Evidence:
+    """u_max: while closing, only the strings increase the speed, by their pull over a gap of at most x0."""
+    yield from (
+        rates(PENDULUM)[q.normal_velocity].coeff(STRING_PULL) + 1,  # du/dt = u du/dx, over v0^2/x0
+        _model().expanded(STRING_PULL) - pull_at(q.gap, q.beta),  # the bound of the lemmas is the emitted one
+        _model().expanded(CENTRIFUGAL_FORCE) - outward_at(q.orbital_momentum, _HERE),
+    )
+
+
+@checks
+def stopping_falls() -> Check:
+    """Lf decreases with the gap, so a velocity stopped by the film from x_R is stopped from any smaller gap."""
+    slope = sp.factor(LAWS["film"]["finite"]["stopping"].result.diff(q.gap))
+    falls = sp.factor(-slope).is_nonnegative is True
+    return Check("stopping falls", "dLf/dx <= 0: the furthest rebound is the worst", falls, f"dLf/dx = {slope}")
+
+
+# ---- the bound of the impulse
+
+
+_MOMENTUM, _PULL, _RISE = sp.symbols("momentum pull rise", positive=True)
+
+
+def _share(distance: sp.Expr) -> sp.Expr:
+    return distance**2 / (distance**2 + sp.Rational(32, 5))
+
+
+def _integrand(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
+    return (pendulum.outward_at(momentum, distance) - _PULL) / pendulum.turning_at(momentum, distance)
+
+
+@checks
+def strings_take() -> Check:
+    """On the level J = J_max - s D, F_t and the strings reduce J by more than s times what the strings take.
+
+    There J >= s L, with s the largest share: F_t reduces J, and the strings take the whole of what they take from L.
+    """
+    shear, alone = _by_shear()
+    torque = _model().expanded(pendulum.torque_at(q.gap, q.beta))
+    turned = alone[q.beta] - pendulum.turning_at(q.orbital_momentum, _HERE)
+    rest = vanishing("", "", [sp.expand(alone[q.orbital_momentum]) + torque, alone[q.spin], turned])
+    reduces = sp.simplify(-sp.simplify(shear) / (q.orbital_momentum / _HERE**2 - q.spin))
+    grows, below = _share(DISTANCE).diff(DISTANCE), 1 - _share(DISTANCE)
+    ok = rest.ok and all(map(positive, (reduces, sp.together(grows), sp.together(below))))
+    figure = f"dJ/dt = -r S_t - ({reduces}) (omega - xi)" if ok else rest.figure
+    return Check("J falls with the strings' torque", "J <= J_max - s D, dD/dt = r S_t, s < 1 grows with r", ok, figure)
+
+
+@checks
+def torque_is_least_in_contact() -> Check:
+    """r^3 S_t grows with the gap and the stiffness, which grows with the swing: least in contact, at the first angle.
+
+    With J dD/dbeta >= S sin(beta), J^2 falls by `taken` (cos(beta_0) - cos(beta)) at least.
+    """
+    (stiffness,) = slot_calls(torque := pendulum.torque_at(q.gap, q.beta))
+    bare = sp.simplify(torque / pendulum.turning_at(sp.Integer(1), _HERE) / stiffness / sp.sin(q.beta))
+    named = dict(_model().definitions)
+    weighing = named[pendulum.WEIGHING] / q.weight
+    swing = weighing.args[1].subs(q.beta, 2 * sp.asin(_RISE))
+    in_contact = bare.subs(q.gap, contact_gap) * weighing.subs(named) * q.obliquity**2
+    bound = 2 * _share(pendulum.FARTHEST) * in_contact.subs(4 + q.aspect * contact_gap, pendulum.NEAREST)
+    rest = vanishing("", "", [_model().expanded(pendulum.TAKEN) - _model().expanded(bound)])
+    ok = rest.ok and all(map(positive, (bare, sp.together(bare.diff(q.gap)), sp.expand(swing.diff(_RISE)))))
+    return Check("least torque", "J^2 <= J_max^2 - 2 s r^3 S (cos(beta_0) - cos(beta))", ok, f"r^3 S_t ~ {bare}")
+
+
+@checks
+def integrand_is_largest_in_contact() -> Check:
+    """(J^2/r^3 - S_n)/(J/r^2) grows with J and falls with r and S_n, which grows with r and beta (`pull_grows`)."""
+    result = _integrand(_MOMENTUM, DISTANCE)
+    slopes = (result.diff(_MOMENTUM), -result.diff(DISTANCE), -result.diff(_PULL))
+    statement, ok = (
+        "grows with J, falls with r and S_n: largest in contact",
+        all(map(positive, map(sp.together, slopes))),
+    )
+    return Check("impulse by angle", statement, ok, str(sp.factor(result)))
+
+
+@check("arcsine", "arcsin(z) <= z + (pi/2 - 1) z^3, equal at z = 1")
+def angle_is_beyond() -> Evidence:
+    """arcsin(z) <= z + (pi/2 - 1) z^3 up to z = 1, where both are equal: (arcsin(z) - z)/z^3 has positive terms."""
+    z, n = sp.Symbol("z"), sp.Symbol("n", integer=True, positive=True)
+    yield sp.asin(1) - 1 - (sp.pi / 2 - 1)
+    first = sp.series(sp.asin(z), z, 0, 12).removeO()
+    coefficient = sp.binomial(2 * n, n) / (4**n * (2 * n + 1))
+    yield from [first.coeff(z, 2 * k + 1) - coefficient.subs(n, k) for k in range(1, 6)]
+
+
+@check("impulse: as emitted", "left sums of the falling integrand, up to where it has vanished")
+def impulse_as_emitted() -> Evidence:
+    """The emitted impulse sums the integrand at the start of equal panels up to the angle at which it has vanished."""
+    model = _model()
+    named = dict(model.definitions)
+    risen = q.aspect * contact_gap + 8 * sp.sin(q.beta / 2) ** 2
+    yield model.expanded(pendulum.WEIGHING) * risen - model.expanded(pendulum.pull_at(contact_gap, q.beta))
+    yield named[pendulum.TURNING] - q.obliquity * pendulum.LARGEST_MOMENTUM
+    # at sin(beta/2) = final the pull, with the present stiffness, equals the centrifugal force of J_max
+    level = named[pendulum.FINAL].args[0]
+    (zero,) = (part for part in next(iter(level.atoms(sp.Min))).args if part != 1)
+    yield model.expanded(pendulum.WEIGHING * (q.aspect * contact_gap + 8 * zero) - pendulum.OUTWARD)
+    ahead = 2 * pendulum.FINAL + (sp.pi - 2) * pendulum.FINAL**3 - q.beta
+    yield named[pendulum.WIDTH] * pendulum.PANELS - sp.Max(0, ahead)
+    total = sp.Integer(0)
+    for k, (angle, later) in enumerate(zip(pendulum.ANGLES, pendulum.TURNINGS, strict=True)):
+        yield named[angle] - q.beta - k * pendulum.WIDTH
+        yield named[later] ** 2 - sp.Max(0, pendulum.TURNING**2 - pendulum.TAKEN * (sp.cos(q.beta) - sp.cos(angle)))
+        pull = pendulum.WEIGHING * (q.aspect * contact_gap + 4 * (1 - sp.cos(angle)))
+        result = _integrand(later / q.obliquity, pendulum.NEAREST)
+        total += sp.Max(0, sp.factor(result).subs(_PULL, pull))
+    emitted = model["pendulum_margins"]["impulse"]
+    first = {symbol: value for symbol, value in model.definitions if symbol.name == "contact"}
+    parts = [sp.expand(part.subs(first)) for part in sp.Mul.make_args(emitted) if part != pendulum.WIDTH]
+    ours = sorted((sp.expand(each.args[1]) for each in total.args), key=str)
+    theirs = sorted((sp.expand(each.args[1]) for part in parts for each in sp.Add.make_args(part)), key=str)
+    yield from [a - b for a, b in zip(ours, theirs, strict=True)]

@@ -12,20 +12,17 @@ from ..physics.laws.base import slot_call
 from ..physics.scaling import DISTANCE
 from ..physics.structure import structures
 from ..vocabulary.quantities import aspect, gap, normal_velocity, orbital_momentum
-from .base import Check, Evidence, check, vanishing
+from .base import Check, Evidence, check, checks, vanishing
 
 _OPEN = sp.Symbol("beyond_touching", nonnegative=True)  # centre distance over a, above 4
 
 
 def _models() -> list[tuple[Model, dict[str, sp.Expr]]]:
-    result = []
-    for structure in structures():
-        given = coefficients(derive(structure)) if admits(structure) else None
-        if given is not None:
-            result.append((derive(structure), given))
-    return result
+    models = [derive(structure) for structure in structures() if admits(structure)]
+    return [(model, result) for model in models if (result := coefficients(model)) is not None]
 
 
+@checks
 def rates_have_the_form() -> Check:
     """du/dt = c J^2 - A - f u and dJ/dt = -s (J - J_r), with the coefficients that are emitted."""
     left = []
@@ -34,8 +31,7 @@ def rates_have_the_form() -> Check:
         push = result["centrifugal"] * orbital_momentum**2 - result["attractions"] - result["slowing"] * normal_velocity
         turn = -result["relaxation"] * (orbital_momentum - result["rigid"])
         for state, rate in ((normal_velocity, push), (orbital_momentum, turn)):
-            inside = rates[state].subs({FILM: 1, SHEAR: 1})
-            left.append(sp.simplify(inside - model.expanded(rate)))
+            left.append(sp.simplify(rates[state].subs({FILM: 1, SHEAR: 1}) - model.expanded(rate)))
     assert left
     return vanishing("slow manifold: rates", "du/dt = c J^2 - A - f u, dJ/dt = -s (J - J_r)", left)
 
@@ -57,6 +53,7 @@ def secants() -> Evidence:
     yield from (rise1 - rise2 - normal, turn1 - turn2 - tangential)
 
 
+@checks
 def coefficients_are_monotonic() -> Check:
     """C falls; s over the logarithm rises, but slower than the distance; |J_r|, a share of |L|, ever more slowly."""
     signs = []
@@ -64,16 +61,9 @@ def coefficients_are_monotonic() -> Check:
         lever = sp.cancel(result["relaxation"] / slot_call("shear", "log_factor", gap, aspect))
         share = sp.cancel(result["rigid"] / MOMENTUM)
         signs.append(not share.has(MOMENTUM))
-        slopes = (
-            -result["centrifugal"].diff(DISTANCE),
-            lever.diff(DISTANCE),
-            -(lever / DISTANCE).diff(DISTANCE),
-            share.diff(DISTANCE),
-            -share.diff(DISTANCE, 2),
-        )
-        for slope in slopes:
-            open_ = sp.factor(sp.together(model.expanded(slope).subs(DISTANCE, 4 + _OPEN)))
-            over, under = sp.fraction(open_)
+        rising = (-result["centrifugal"], lever, -lever / DISTANCE, share, -share.diff(DISTANCE))
+        for slope in (each.diff(DISTANCE) for each in rising):
+            over, under = sp.fraction(sp.factor(sp.together(model.expanded(slope).subs(DISTANCE, 4 + _OPEN))))
             signs.append(sp.expand(over).is_nonnegative is True and sp.expand(under).is_positive is True)
     return Check(
         "slow manifold: monotonic",
@@ -81,6 +71,3 @@ def coefficients_are_monotonic() -> Check:
         bool(signs) and all(signs),
         f"{sum(signs)} of {len(signs)} signs",
     )
-
-
-CHECKS = (rates_have_the_form, secants, coefficients_are_monotonic)

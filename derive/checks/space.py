@@ -7,9 +7,8 @@ from functools import cache
 
 import sympy as sp
 
-from ..equations.invariants import NoInvariantError, conserved_components
+from ..equations.invariants import NoInvariantError, conserved_components, quadratic_invariants
 from ..equations.model import derive
-from ..equations.quadratic_invariants import quadratic_invariants
 from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.partners import space, vectors
@@ -17,8 +16,7 @@ from ..physics.partners.pair import INERTIA_RATIO
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, vanishing
-from .closed import SIZES, special_case
+from .base import SIZES, Check, Evidence, check, checks, special_case, vanishing
 
 _SPACE = Structure(True, True, False, attraction=True, partner="space")
 _MIDGAP = {"arm": LAWS["arm"]["midgap"]}
@@ -43,6 +41,7 @@ def spin_turns_with_the_torque() -> Evidence:
     yield from vectors.spin_balance()
 
 
+@checks
 def momenta_in_space_are_found() -> Check:
     """The three components of the angular momentum are found among the invariants linear in the momenta."""
     name, statement = "space: angular momentum", "J + I_1 xi_1 + I_2 xi_2 is conserved, component by component"
@@ -56,6 +55,7 @@ def momenta_in_space_are_found() -> Check:
     return vanishing(name, statement, left)
 
 
+@checks
 def directions_are_found() -> Check:
     """|n|^2 and, where it is 1, J . n are the only invariants quadratic in n and J."""
     unit = quadratic_invariants(_rates(), q.normal)
@@ -91,19 +91,14 @@ def friction_in_space_dissipates() -> Evidence:
         across[second] = space.PARTNER_SLIPS[each] - space.PARTNER_TWIST * q.normal[each]
         parts += form.subs(across, simultaneous=True)
     model = derive(_SPACE)
-    torque = {
-        symbol: value for symbol, value in model.definitions if symbol.name.startswith(("torque", "partner_torq"))
-    }
+    torque = {s: value for s, value in model.definitions if s.name.startswith(("torque", "partner_torq"))}
     lost = vectors.dot(space.TORQUES, space.SLIPS) + vectors.dot(space.PARTNER_TORQUES, space.PARTNER_SLIPS)
-    along = {space.ALONG: space.torques((space.TWIST, space.PARTNER_TWIST))[0]}
-    along[space.PARTNER_ALONG] = space.torques((space.TWIST, space.PARTNER_TWIST))[1]
-    twists = {
-        space.TWIST: vectors.dot(space.SLIPS, q.normal),
-        space.PARTNER_TWIST: vectors.dot(space.PARTNER_SLIPS, q.normal),
-    }
+    turned = (space.TWIST, space.PARTNER_TWIST)
+    along = dict(zip((space.ALONG, space.PARTNER_ALONG), space.torques(turned), strict=True))
+    slips = zip(turned, (space.SLIPS, space.PARTNER_SLIPS), strict=True)
+    twists = {twist: vectors.dot(slip, q.normal) for twist, slip in slips}
     left = lost.subs(torque).subs(along) - space.STRENGTH * parts
-    rest = _on_the_surface(sp.expand(left.subs(twists)))
-    yield rest
+    yield _on_the_surface(sp.expand(left.subs(twists)))
     yield positive, "not positive definite"
 
 
@@ -192,11 +187,8 @@ def plane_in_space() -> Evidence:
     turning = pair.expanded(pair["turning_rate"][q.beta.name], SIZES)
     expected = {state: filled(rate, _MIDGAP) for state, rate in pair.by_state("right_hand_side", SIZES).items()}
     moved = _components((q.normal, tuple(each.diff(q.beta) * turning for each in line)))
-    for vector, state in (
-        (q.orbital_momenta, q.orbital_momentum),
-        (q.spins, q.spin),
-        (q.partner_spins, q.partner_spin),
-    ):
+    turning_states = (q.orbital_momentum, q.spin, q.partner_spin)
+    for vector, state in zip((q.orbital_momenta, q.spins, q.partner_spins), turning_states, strict=True):
         moved |= _components((vector, upright(expected[state])))
     moved |= {state: expected[state] for state in (q.gap, q.normal_velocity)}
     rates = model.by_state("right_hand_side", SIZES)
@@ -209,10 +201,3 @@ def plane_in_space() -> Evidence:
 
 def _components(*pairs: tuple[q.Vector, tuple[sp.Expr, ...]]) -> dict[sp.Symbol, sp.Expr]:
     return {of: value for vector, values in pairs for of, value in zip(vector, values, strict=True)}
-
-
-CHECKS = (
-    spin_turns_with_the_torque, momenta_in_space_are_found, directions_are_found, energy_in_space,
-    friction_in_space_dissipates, least_energy_in_space, outward_at_smaller_gaps, rebounds_do_not_come_back,
-    reduced_in_space, plane_in_space,
-)  # fmt: skip

@@ -16,8 +16,7 @@ from ..physics.partners.rolling import R_1, R_2, torque_matrix
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, vanishing
-from .closed import SIZES
+from .base import SIZES, Check, Evidence, check, checks, vanishing
 
 _ALONE = Structure(oblique=True, bridge=False, strings=False)
 _COVERED = (_ALONE, replace(_ALONE, partner="pair"))
@@ -134,6 +133,7 @@ def rotation_falls() -> Evidence:
     yield squares, "the energy of the spins is no sum of squares"
 
 
+@checks
 def film_takes() -> tuple[Check, ...]:
     """S' = -resistance < 0, and a rebound counts most at the present gap."""
     checks = []
@@ -143,9 +143,8 @@ def film_takes() -> tuple[Check, ...]:
     for law in LAWS["film"].values():
         if any(each.name == "stopping" for each in law.functions):
             left = [law["stopping"].result.diff(q.gap) + law["resistance"].result, worst - (1 + q.e_dry) * deeper]
-            checks.append(
-                vanishing(f"spin-down: film, {law.name}", "S' = -resistance; rebounds from deeper are slower", left)
-            )
+            statement = "S' = -resistance; rebounds from deeper are slower"
+            checks.append(vanishing(f"spin-down: film, {law.name}", statement, left))
     return tuple(checks)
 
 
@@ -173,19 +172,9 @@ def as_emitted() -> Evidence:
             named[spin_down.BEYOND] - (q.gap + sp.Min(1, spin_down.EDGE)) / 2,
         )
         emitted = model["spin_down_margins"].by_name
-        film = slot_call("film", "stopping", q.gap) - slot_call("film", "stopping", spin_down.BEYOND)
-        outward = sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity)
-        yield from (
-            emitted["stays"] - (q.stokes * outward + q.stokes * spin_down.impulse(structure) - film),
-            emitted["rate"] - spin_down.RATE,
-        )
-        opens = q.stokes * outward - slot_call("film", "stopping", q.gap)
-        closes = (
-            -q.stokes * q.normal_velocity
-            - slot_call("film", "stopping", spin_down.EDGE)
-            + slot_call("film", "stopping", q.gap)
-        )
-        yield from (emitted["apart"] - sp.Max(opens, closes), emitted["inside"] - (spin_down.EDGE - q.gap))
-
-
-CHECKS = (slips_decay, mobility_is_monotonic, rotation_falls, film_takes, apart_from_shear, as_emitted)
+        here, beyond, edge = (slot_call("film", "stopping", at) for at in (q.gap, spin_down.BEYOND, spin_down.EDGE))
+        opens = q.stokes * sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity) - here
+        closes = -q.stokes * q.normal_velocity - edge + here
+        yield emitted["stays"] - (opens + q.stokes * spin_down.impulse(structure) + beyond)
+        yield from (emitted["rate"] - spin_down.RATE, emitted["apart"] - sp.Max(opens, closes))
+        yield emitted["inside"] - (spin_down.EDGE - q.gap)

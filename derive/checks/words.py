@@ -20,12 +20,13 @@ _ANGULAR_MOMENTUM = "angular momentum L = m [r^2 omega + (32/5) a^2 xi]"
 _FULL = Structure(True, True, False)  # oblique, with a bridge, without a torque from strings
 
 
+def _arm(model: UserModel) -> Law:
+    return next((law for law in model.laws if law.slot == "arm"), LAWS["arm"]["midgap"])
+
+
 def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
     """dL/dt without strings, scaled, with the model's own laws; other laws except the arm stay open."""
-    own = {slot: model.default(slot) for slot in model.slots}
-    arm = law or own.get("arm") or LAWS["arm"]["midgap"]
-    rate = momentum_rate(_FULL, {"arm": arm})
-    return sp.simplify(filled(rate, {}))
+    return sp.simplify(filled(momentum_rate(_FULL, {"arm": law or _arm(model)}), {}))
 
 
 def _of_event(event: OwnEvent) -> str:
@@ -49,8 +50,7 @@ def _of_event(event: OwnEvent) -> str:
 @cache
 def conserved(model: UserModel) -> tuple[str, ...]:
     """The conserved quantities without strings and rebounds, for any other laws."""
-    arm = model.default("arm") if "arm" in model.slots else LAWS["arm"]["midgap"]
-    result = invariants(replace(model, events=()).extended(derive(_FULL)), {"arm": arm})
+    result = invariants(replace(model, events=()).extended(derive(_FULL)), {"arm": _arm(model)})
     return tuple(_ANGULAR_MOMENTUM if each.is_angular_momentum else each.describe() for each in result)
 
 
@@ -67,13 +67,11 @@ def in_words(model: UserModel) -> tuple[str, ...]:
     known = ", ".join(symbol.name for symbol in groups if symbol not in own)
     lines.append(f"An oblique collision with a bridge is governed by the library's groups {known}.")
     for group in model.groups:
-        if group.symbol == group.quantity.symbol:
-            lines.append(f"New group: {group.symbol.name}, a plain number ({group.quantity.meaning}).")
-        else:
-            lines.append(
-                f"New group: {group.symbol.name} = {group.definition} ({group.quantity.meaning}, made dimensionless)."
-            )
-    if not model.groups:
-        lines.append("No new group.")
-    lines += [_of_event(event) for event in model.events]
-    return tuple(lines)
+        name, meaning = group.symbol.name, group.quantity.meaning
+        plain = group.symbol == group.quantity.symbol
+        as_group = (
+            f", a plain number ({meaning})" if plain else f" = {group.definition} ({meaning}, made dimensionless)"
+        )
+        lines.append(f"New group: {name}{as_group}.")
+    lines += [] if model.groups else ["No new group."]
+    return (*lines, *map(_of_event, model.events))

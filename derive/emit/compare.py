@@ -48,18 +48,13 @@ def equations(modules: Mapping[str, str]) -> Equations:
     return result
 
 
-def _untold(function: str, name: str, value: sp.Expr) -> bool:
-    """What a declared event leaves as it is, and the bookkeeping of whether it has happened."""
-    same = function.startswith("jump_") and str(value) == name
-    return same or name.startswith(MARK) or (function.startswith("release_") and value == 0)
-
-
 def _named(room: str, function: Read) -> Equations:
     prefix = f"{room}: " if room else ""
     named = {f"{prefix}{name}": value for name, value in function.definitions}
     for name, value in function.outputs:
-        if _untold(function.name, name, value):
-            continue
+        kept = (function.name.startswith("jump_") and str(value) == name) or name.startswith(MARK)
+        if kept or (function.name.startswith("release_") and value == 0):
+            continue  # what a declared event leaves as it is, and whether it has happened
         if function.name == "right_hand_side":
             named[f"{prefix}d {name}/dt"] = value
         else:
@@ -104,28 +99,21 @@ def same(one: sp.Expr, other: sp.Expr) -> bool:
 
 def _terms(name: str, before: sp.Expr, after: sp.Expr) -> Iterable[Change]:
     old, new = list(sp.Add.make_args(before)), list(sp.Add.make_args(after))
-    for term in list(old):
-        match = next((other for other in new if same(term, other)), None)
-        if match is not None:
-            old.remove(term)
-            new.remove(match)
-    for likeness in (_factors, _symbols):
+    # equal terms; those that differ in a numeric factor only; those of the same symbols
+    same_factors = lambda one, other: one.as_coeff_Mul()[1] == other.as_coeff_Mul()[1]  # noqa: E731
+    for alike in (same, same_factors, lambda one, other: _symbols(one) == _symbols(other)):
         for term in list(old):
-            match = next((other for other in new if likeness(term) == likeness(other)), None)
+            match = next((other for other in new if alike(term, other)), None)
             if match is not None:
                 old.remove(term)
                 new.remove(match)
-                yield Change(name, term, match)
+                if alike is not same:
+                    yield Change(name, term, match)
     if len(old) == len(new) == 1:
         yield Change(name, old[0], new[0])
         return
     yield from (Change(name, term, None) for term in old)
     yield from (Change(name, None, term) for term in new)
-
-
-def _factors(term: sp.Expr) -> sp.Expr:
-    """A term without its numeric factor; terms that differ only in that factor are one changed term."""
-    return term.as_coeff_Mul()[1]
 
 
 def _symbols(term: sp.Expr) -> frozenset[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,14 +19,20 @@ from .casadi import modules
 from .casadi.automaton import provenance
 from .casadi.printer import EmissionError
 from .taylor.automaton import automaton_header, effects_header
-from .taylor.header import Beside
-from .taylor.law_slopes import UNUSED
+from .taylor.header import Beside, structure_header
+from .taylor.law_header import law_header
+from .taylor.law_slopes import UNUSED, slopes_header
+from .taylor.tangent import tangent_header
 from .user import own_names
 
 
 def named(name: str) -> Structure:
     """The structure whose module has this name; KeyError if there is none."""
     return {each.name: each for each in known()}[name]
+
+
+def _model(source: str, name: str) -> UserModel:
+    return read(Path(f"{name}.py"), source, name)
 
 
 def structure_text(name: str) -> str:
@@ -35,41 +42,33 @@ def structure_text(name: str) -> str:
 
 def user_structure_text(source: str, model: str, name: str) -> str:
     """Text of a structure's module with the calls of a user's model, given as the text of the model file."""
-    result = read(Path(f"{model}.py"), source, model)
-    return modules.structure_module(result.extended(derive(named(name))), own_names(result))
+    own = _model(source, model)
+    return modules.structure_module(own.extended(derive(named(name))), own_names(own))
 
 
 def structure_header_text(name: str) -> str:
     """Text of a structure's C header for the kernel; `#error` and a sentence if it has none."""
-    try:
-        return modules.structure_kernel(derive(named(name)))
-    except EmissionError as error:
-        return _none(error)
+    return _or_error(lambda: structure_header(derive(named(name))))
 
 
 def structure_tangent_text(name: str) -> str:
     """Text of the C header of a structure's tangent; `#error` and a sentence if it has none."""
-    try:
-        return modules.structure_tangent(derive(named(name)))
-    except EmissionError as error:
-        return _none(error)
+    return _or_error(lambda: tangent_header(derive(named(name))))
 
 
 def user_structure_header_text(source: str, model: str, name: str, tangent: bool = False) -> str:
     """Text of the C header of a structure, or of its tangent, with the calls and groups of a user's model."""
-    result = read(Path(f"{model}.py"), source, model)
-    own = own_names(result)
-    meanings = {name: meaning for name, (_, meaning) in own.items()}
-    beside = Beside({group.symbol: group.definition for group in result.groups}, meanings, result.extra, result.events)
-    if tangent and result.events:
-        return _none(EmissionError("declared events have no derivatives in C"))
-    try:
-        extended = result.extended(derive(named(name)))
-        return (
-            modules.structure_tangent(extended, beside) if tangent else modules.structure_kernel(extended, own, beside)
-        )
-    except EmissionError as error:
-        return _none(error)
+    own = _model(source, model)
+    groups = {group.symbol: group.definition for group in own.groups}
+    beside = Beside(groups, own_names(own), own.extra, own.events)
+
+    def text() -> str:
+        if tangent and own.events:
+            raise EmissionError("declared events have no derivatives in C")
+        extended = own.extended(derive(named(name)))
+        return tangent_header(extended, beside) if tangent else structure_header(extended, beside)
+
+    return _or_error(text)
 
 
 def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: bool = False) -> str:
@@ -77,23 +76,19 @@ def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: 
 
     The law may be one of the model or of the library.
     """
-    result = read(Path(f"{model}.py"), source, model)
-    groups = {group.symbol for group in result.groups}
-    header = modules.law_slopes if slopes else modules.law_kernel
-    try:
-        for law in result.laws:
-            if (law.slot, law.name) == (slot, name):
-                return header(law, groups)
-        law, beside = _wide(LAWS[slot][name], result)
-        return header(law, groups | beside)
-    except EmissionError as error:
-        return _none(error, f"law {slot} {name}: ")
+    own, header = _model(source, model), slopes_header if slopes else law_header
+    groups = {group.symbol for group in own.groups}
+    law = next((each for each in own.laws if (each.slot, each.name) == (slot, name)), None)
+    if law is None:
+        law, beside = _wide(LAWS[slot][name], own)
+        groups |= beside
+    return _or_error(lambda: header(law, groups), f"law {slot} {name}: ")
 
 
 def user_automaton_texts(source: str, model: str) -> tuple[str, str]:
     """Texts of the C headers of the automaton with a user's events: enumerations, and the switch over effects."""
-    own = [event.proposed.row for event in read(Path(f"{model}.py"), source, model).events]
-    meanings = [event.proposed.meaning for event in read(Path(f"{model}.py"), source, model).events]
+    events = [event.proposed for event in _model(source, model).events]
+    own, meanings = [event.row for event in events], [event.meaning for event in events]
     return automaton_header(provenance(), own, meanings), effects_header(provenance(), own)
 
 
@@ -110,5 +105,8 @@ def _wide(law: Law, model: UserModel) -> tuple[Law, set[sp.Symbol]]:
     return replace(law, functions=tuple(functions)), still
 
 
-def _none(error: EmissionError, where: str = "") -> str:
-    return f"#error {where}{' '.join(str(error).split())}\n"
+def _or_error(text: Callable[[], str], where: str = "") -> str:
+    try:
+        return text()
+    except EmissionError as error:
+        return f"#error {where}{' '.join(str(error).split())}\n"

@@ -49,21 +49,6 @@ def operations(expressions: Iterable[sp.Expr]) -> int:
     return sum(int(sp.count_ops(expression)) for expression in expressions)
 
 
-def needed(
-    outputs: Sequence[sp.Expr], definitions: Sequence[tuple[sp.Symbol, sp.Expr]]
-) -> tuple[list[tuple[sp.Symbol, sp.Expr]], set[sp.Symbol]]:
-    """The definitions that the outputs depend on, in order, and every symbol that occurs in either."""
-    used: set[sp.Symbol] = set()
-    for expression in outputs:
-        used |= sp.sympify(expression).free_symbols
-    kept: list[tuple[sp.Symbol, sp.Expr]] = []
-    for symbol, expression in reversed(definitions):
-        if symbol in used:
-            kept.append((symbol, expression))
-            used |= expression.free_symbols
-    return kept[::-1], used
-
-
 def module(header: str, doc: str, imports: Sequence[str], body: Sequence[str]) -> str:
     """Text of a module."""
     lines = [f"# {line}" for line in header.splitlines()]

@@ -17,15 +17,8 @@ from ..physics.structure import Structure, structures
 from ..user_model.own_events import OwnEvent
 from ..user_model.structures import UserModel
 from ..vocabulary.quantities import VOCABULARY
-from .casadi.modules import (
-    Own,
-    digest,
-    groups_module,
-    law_digest,
-    law_module,
-    model_digest,
-    structure_module,
-)
+from .casadi.modules import groups_module, law_module, structure_module
+from .provenance import Own, digest, law_digest, model_digest
 from .write import sha256
 
 FORMAT = 1
@@ -67,36 +60,31 @@ def package(model: UserModel, source: str, library: str, origin: str = "") -> di
         scaling = digest(*(part for pair in definitions.items() for part in pair))
         files["scaling.py"] = groups_module(definitions, own, scaling, _DOC)
     manifest = {
-        "kind": "wetdoublet model",
-        "format": FORMAT,
-        "name": model.name,
-        "meaning": model.meaning,
-        "origin": origin,
-        "library": library,
-        "laws": laws,
+        "kind": "wetdoublet model", "format": FORMAT, "name": model.name, "meaning": model.meaning, "origin": origin,
+        "library": library, "laws": laws,
         **({"events": [_event(event) for event in model.events]} if model.events else {}),
-        "structures": digests,
-        "scaling": scaling,
+        "structures": digests, "scaling": scaling,
         "extra": {key: [symbol.name for symbol in extra] for key, extra in model.extra.items()},
         "quantities": [_quantity(model, name) for name in model.declarations.quantities],
-        "conserves": list(conserved(model)),
-        "words": list(in_words(model)),
+        "conserves": list(conserved(model)), "words": list(in_words(model)),
         "files": {name: sha256(text) for name, text in sorted(files.items())},
-    }
+    }  # fmt: skip
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
     return dict(sorted(files.items()))
 
 
 def own_names(model: UserModel) -> Own:
     """(unit, meaning) of the vocabulary and of the model's declarations, by name."""
-    known = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()}
-    known |= {one.name: (one.unit, one.meaning) for one in model.declarations.quantities.values()}
-    for group in model.groups:
-        if group.symbol != group.quantity.symbol:
-            known[group.symbol.name] = ("1", f"{group.quantity.meaning}, over {group.over}")
-    for event in model.events:
-        known[event.mark.name] = ("1", f"1 before the event {event.proposed.word}, 0 after it")
-    return known
+    return {
+        **{name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()},
+        **{one.name: (one.unit, one.meaning) for one in model.declarations.quantities.values()},
+        **{
+            g.symbol.name: ("1", f"{g.quantity.meaning}, over {g.over}")
+            for g in model.groups
+            if g.definition != g.symbol
+        },
+        **{e.mark.name: ("1", f"1 before the event {e.proposed.word}, 0 after it") for e in model.events},
+    }
 
 
 def _event(event: OwnEvent) -> dict[str, object]:
@@ -104,31 +92,19 @@ def _event(event: OwnEvent) -> dict[str, object]:
     reach = event.reach(Structure(True, True, False))
     return {
         **asdict(event.proposed.row),
-        "mark": event.mark.name,
-        "meaning": event.proposed.meaning,
-        "source": event.proposed.source,
-        "takes": event.takes,
-        "harmless": event.harmless,
-        "rotates": event.rotates,
-        "turns": event.turns,
-        "spins": event.spins,
+        **{name: getattr(event, name) for name in ("takes", "harmless", "rotates", "turns", "spins")},
+        "mark": event.mark.name, "meaning": event.proposed.meaning, "source": event.proposed.source,
         "reach": asdict(reach) if reach.known else None,
-    }
+    }  # fmt: skip
 
 
 def _quantity(model: UserModel, name: str) -> dict[str, object]:
     one = model.declarations.quantities[name]
     group = next(group for group in model.groups if group.quantity.name == name)
     return {
-        "name": name,
-        "symbol": one.latex,
-        "unit": one.unit,
-        "default": one.default,
-        "bounds": one.bounds.to_json(),
-        "meaning": one.meaning,
-        "group": group.symbol.name,
-        "over": str(group.over),
-    }
+        "name": name, "symbol": one.latex, "unit": one.unit, "default": one.default, "bounds": one.bounds.to_json(),
+        "meaning": one.meaning, "group": group.symbol.name, "over": str(group.over),
+    }  # fmt: skip
 
 
 def earlier(folder: Path) -> set[str]:

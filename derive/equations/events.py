@@ -10,7 +10,7 @@ from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from . import friction
 from .automaton import CONTACTS
-from .rates import inward_force
+from .intermediates import inward_force
 
 CONTACT_GAPS = {each.word: q.VOCABULARY[each.limit].symbol for each in CONTACTS}
 contact_gap = sp.Max(*CONTACT_GAPS.values())  # gap at which the solids meet

@@ -9,20 +9,19 @@ from ..physics.laws.base import Definition
 from ..physics.partners import space, wall
 from ..physics.partners.bodies import CENTRES
 from ..physics.partners.pair import LEVER
-from ..physics.partners.vectors import dot
+from ..physics.partners.vectors import dot, named
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from .automaton import CREEP
-from .intermediates import ORBITAL_RATE
-from .rates import rates
+from .intermediates import ORBITAL_RATE, rates
 
 IMPULSE = sp.Symbol("impulse", real=True)
 """A tangential impulse, which an engine passes to the emitted functions: the smaller of the two of `at_rebound`."""
 # Flags of resting contact, named as in emitted code: the sign of the slip (0: it does not slide), and whether it rolls
 SLIDING, ROLLING = sp.symbols("sliding rolling", real=True)
 DRY_SLIP, HOLDING_FORCE, DRY_FORCE = sp.symbols("dry_slip holding_force dry_force", real=True)
-DRY_SLIPS = space.named("dry_slip")
+DRY_SLIPS = named("dry_slip")
 LEAST_DIRECTION = sp.Float("1e-150")  # no slip has no direction: below it an impulse has none
 COMPLIANCE, GRIP = sp.symbols("tangential_compliance grip", positive=True)
 
@@ -84,12 +83,9 @@ def rubbed(structure: Structure, states: tuple[sp.Symbol, ...]) -> dict[sp.Symbo
         pushed = _along_the_slip(IMPULSE, LEAST_DIRECTION)
         return {state: state + pushed.get(state, _ZERO) for state in states}
     if structure.partner == "wall":
-        return {
-            **{state: state for state in states},
-            q.decay: _ZERO,
-            q.last_slide: q.slide + contact.changes[q.slide] * IMPULSE,
-            q.last_roll: q.roll + contact.changes[q.roll] * IMPULSE,
-        }
+        begun = {q.last_slide: q.slide, q.last_roll: q.roll}
+        moved = {last: state + contact.changes[state] * IMPULSE for last, state in begun.items()}
+        return {**{state: state for state in states}, q.decay: _ZERO, **moved}
     return {state: state + contact.changes.get(state, _ZERO) * IMPULSE for state in states}
 
 
@@ -120,13 +116,9 @@ def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
         pushed = _along_the_slip(SLIDING * GRIP, CREEP)
         return {**{s: rate + pushed.get(s, _ZERO) for s, rate in held.items()}, q.gap: _ZERO, q.normal_velocity: _ZERO}
     if structure.partner == "wall":  # since the rebound, `decay` is zero
-        return {
-            q.gap: _ZERO,
-            q.normal_velocity: _ZERO,
-            q.decay: _ZERO,
-            q.last_slide: held[q.slide] + contact.changes[q.slide] * DRY_FORCE,
-            q.last_roll: held[q.roll] + contact.changes[q.roll] * DRY_FORCE,
-        }
+        begun = {q.last_slide: q.slide, q.last_roll: q.roll}
+        moved = {last: held[state] + contact.changes[state] * DRY_FORCE for last, state in begun.items()}
+        return {q.gap: _ZERO, q.normal_velocity: _ZERO, q.decay: _ZERO, **moved}
     rubbing_rates = {state: rate + contact.changes.get(state, _ZERO) * DRY_FORCE for state, rate in held.items()}
     return {**rubbing_rates, q.gap: _ZERO, q.normal_velocity: _ZERO}
 

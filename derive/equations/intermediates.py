@@ -1,9 +1,10 @@
-"""Named intermediates of a structure: forces, rates and momenta in states and groups, by their emitted names."""
+"""Named intermediates of a structure by their emitted names, and the rates of its states per v0/x0 in terms of them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 
 import sympy as sp
 
@@ -11,12 +12,12 @@ from ..physics.forces import TANGENTIAL, force_laws, scaled_strings
 from ..physics.laws import slot_call
 from ..physics.laws.base import Definition
 from ..physics.laws.strings import offset_squared
-from ..physics.mechanics import F_c, F_n, F_t, F_w, doublet_inertia, equations_of_motion
+from ..physics.mechanics import F_c, F_n, F_t, F_w, S_n, S_t, arm, doublet_inertia, equations_of_motion
 from ..physics.partners import rotation, space
 from ..physics.partners.pair import PARTNER_INERTIA, SPIN_INERTIA
 from ..physics.scaling import DISTANCE, INERTIA, nondimensional
 from ..physics.structure import Structure
-from ..vocabulary.quantities import a, aspect, gap, m, omega, orbital_momentum, partner_spins, r, rate_scale, spin
+from ..vocabulary import quantities as q
 from .invariants import Invariant
 
 ORBITAL_RATE, SLIP = sp.symbols("orbital_rate slip", real=True)
@@ -38,27 +39,23 @@ def intermediates(structure: Structure, conserved: Sequence[Conserved] = ()) -> 
             for each component.
     """
     laws = force_laws(structure.spread)
-    definitions: list[Definition] = [(DISTANCE, 4 + aspect * gap)]
+    definitions: list[Definition] = [(DISTANCE, 4 + q.aspect * q.gap)]
     if structure.partner == "space" and conserved:
         definitions = list(space.definitions(_eliminated(conserved)))
     elif structure.partner:
         definitions = list(rotation(structure).definitions)
     elif structure.oblique:
         definitions += _rotation(conserved[0] if conserved else None)
-        slip_form = _scaled(laws[F_t], TANGENTIAL)
-        definitions.append((SHEAR_FORCE, sp.factor(by_orbital_rate(slip_form)).subs(ORBITAL_RATE - spin, SLIP)))
-        definitions.append((CENTRIFUGAL_FORCE, by_orbital_rate(nondimensional(m * r * omega**2 / INERTIA))))
-    definitions.append((FILM_FORCE, _scaled(laws[F_n], INERTIA)))
-    if structure.bridge:
-        definitions.append((BRIDGE_FORCE, _scaled(laws[F_c], INERTIA)))
-    if structure.attraction:
-        definitions.append((ATTRACTION_FORCE, _scaled(laws[F_w], INERTIA)))
+        slip_form = nondimensional(laws[F_t] / TANGENTIAL)
+        definitions.append((SHEAR_FORCE, sp.factor(by_orbital_rate(slip_form)).subs(ORBITAL_RATE - q.spin, SLIP)))
+        definitions.append((CENTRIFUGAL_FORCE, by_orbital_rate(nondimensional(q.m * q.r * q.omega**2 / INERTIA))))
+    acting = [(FILM_FORCE, F_n, True), (BRIDGE_FORCE, F_c, structure.bridge)]
+    acting.append((ATTRACTION_FORCE, F_w, structure.attraction))
+    definitions += [(name, nondimensional(laws[force] / INERTIA)) for name, force, acts in acting if acts]
     if structure.strings:
         pull, sideways, swing = scaled_strings(structure.oblique)
-        definitions.append((offset_squared, swing))
-        definitions.append((STRING_PULL, pull))
-        if structure.oblique:
-            definitions.append((STRING_SIDEWAYS, sideways))
+        definitions += [(offset_squared, swing), (STRING_PULL, pull)]
+        definitions += [(STRING_SIDEWAYS, sideways)] if structure.oblique else []
     if structure.oblique and not structure.reduced and not structure.partner:
         definitions.append((LEVER, slot_call("arm", "lever", DISTANCE)))
     return tuple(definitions)
@@ -69,7 +66,7 @@ def _eliminated(conserved: Sequence[Conserved]) -> space.Eliminated:
     sizes = dict(space.sizes())
     names = {sp.factor(sizes[name]): name for name in (SPIN_INERTIA, PARTNER_INERTIA)}  # moments of inertia by name
     momenta, spun = [], []
-    for (invariant, value), momentum, partner_spin in zip(conserved, space.MOMENTA, partner_spins, strict=True):
+    for (invariant, value), momentum, partner_spin in zip(conserved, space.MOMENTA, q.partner_spins, strict=True):
         named = tuple((state, names.get(sp.factor(factor), factor)) for state, factor in invariant.coefficients)
         momenta.append((momentum, value))
         spun.append((partner_spin, sp.expand(Invariant(named).solved(partner_spin, momentum))))
@@ -78,21 +75,23 @@ def _eliminated(conserved: Sequence[Conserved]) -> space.Eliminated:
 
 def _rotation(conserved: Conserved | None) -> list[Definition]:
     """Orbital rate, angular momentum, the spin if eliminated, slip and inertia."""
-    definitions: list[Definition] = [(ORBITAL_RATE, nondimensional(omega / rate_scale))]
+    definitions: list[Definition] = [(ORBITAL_RATE, nondimensional(q.omega / q.rate_scale))]
     if conserved is not None:
         invariant, value = conserved
         definitions.append((MOMENTUM, value))
-        definitions.append((spin, invariant.solved(spin, MOMENTUM)))
+        definitions.append((q.spin, invariant.solved(q.spin, MOMENTUM)))
     else:
-        definitions.append((MOMENTUM, nondimensional(equations_of_motion().angular_momentum / (m * a**2 * rate_scale))))
-    definitions.append((SLIP, ORBITAL_RATE - spin))
-    definitions.append((INERTIA_RATIO, nondimensional(doublet_inertia() / (m * a**2))))
+        definitions.append(
+            (MOMENTUM, nondimensional(equations_of_motion().angular_momentum / (q.m * q.a**2 * q.rate_scale)))
+        )
+    definitions.append((SLIP, ORBITAL_RATE - q.spin))
+    definitions.append((INERTIA_RATIO, nondimensional(doublet_inertia() / (q.m * q.a**2))))
     return definitions
 
 
 def by_orbital_rate(expression: sp.Expr) -> sp.Expr:
     """The nondimensional `expression` with the orbital angular momentum replaced by the orbital rate."""
-    return expression.subs(orbital_momentum, ORBITAL_RATE * DISTANCE**2)
+    return expression.subs(q.orbital_momentum, ORBITAL_RATE * DISTANCE**2)
 
 
 def forces(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
@@ -104,8 +103,52 @@ def forces(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
 def attractions(structure: Structure, at: sp.Expr) -> sp.Expr:
     """The attractions at a gap, over m v0^2/x0."""
     named = forces(structure)
-    return sp.Add(*(named[force].subs(gap, at) for force in (BRIDGE_FORCE, ATTRACTION_FORCE) if force in named))
+    return sp.Add(*(named[force].subs(q.gap, at) for force in (BRIDGE_FORCE, ATTRACTION_FORCE) if force in named))
 
 
-def _scaled(force: sp.Expr, scale: sp.Expr) -> sp.Expr:
-    return nondimensional(force / scale)
+@cache
+def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
+    """Time derivatives of the states per v0/x0, from the equations of motion."""
+    motion = equations_of_motion()
+    strings = int(structure.strings)
+    named = {F_n: FILM_FORCE, F_c: BRIDGE_FORCE * int(structure.bridge), S_n: STRING_PULL * strings}
+    named |= {F_w: ATTRACTION_FORCE * int(structure.attraction)}
+    normal = {force: INERTIA * value for force, value in named.items()}
+    tangential = {F_t: TANGENTIAL * SHEAR_FORCE, S_t: TANGENTIAL * STRING_SIDEWAYS * strings}
+    rate: dict[sp.Symbol, sp.Expr] = {q.gap: nondimensional(q.u / q.v0)}
+    acceleration = motion.separation_acceleration.subs(normal)
+    pushed = sp.expand(nondimensional(acceleration.subs(q.omega, 0) * q.x0 / q.v0**2))
+    if not structure.oblique:
+        return rate | {q.normal_velocity: pushed}
+    if structure.partner:
+        beside = rotation(structure)
+        return rate | {q.normal_velocity: beside.centrifugal + pushed} | dict(beside.rates)
+    # the centrifugal term has a name of its own: the remainder is minus the forces
+    centrifugal = sp.expand(acceleration - acceleration.subs(q.omega, 0))
+    assert sp.expand(centrifugal - q.r * q.omega**2) == 0
+    rate[q.normal_velocity] = CENTRIFUGAL_FORCE + pushed
+    pull_round = motion.orbital_momentum_rate.subs(tangential) / (q.m * q.a**2 * q.rate_scale) * q.x0 / q.v0
+    rate[q.orbital_momentum] = nondimensional(pull_round)
+    if not structure.reduced:
+        spin_up = motion.spin_acceleration.subs(tangential).subs(arm, q.a * LEVER)
+        rate[q.spin] = nondimensional(spin_up * q.x0 / (q.v0 * q.rate_scale))
+    if structure.strings:
+        rate[q.beta] = turning_rate()
+    return rate
+
+
+def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
+    """Rates in resting contact: the gap is held, the rotation goes on."""
+    return {**rates(structure), q.gap: sp.Integer(0), q.normal_velocity: sp.Integer(0)}
+
+
+def turning_rate(structure: Structure | None = None) -> sp.Expr | None:
+    """Angular velocity of the line of centres; None if it cannot turn."""
+    if structure is not None and structure.partner:
+        return rotation(structure).turning
+    return by_orbital_rate(nondimensional(q.omega * q.x0 / q.v0))
+
+
+def inward_force(structure: Structure) -> sp.Expr:
+    """Sum of all normal forces except the film's, positive inward: positive if a doublet at rest stays in contact."""
+    return -(rates(structure)[q.normal_velocity].subs(FILM_FORCE, 0))

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import combinations_with_replacement
 from typing import Any, Protocol
 
 import sympy as sp
@@ -105,14 +106,12 @@ class Invariant:
         for momentum, factor in self.coefficients:
             plain = factor.is_Symbol or factor.is_Integer
             terms.append(momentum.name if factor == 1 else f"{factor if plain else f'({factor})'} {momentum.name}")
-        return f"{' + '.join(terms)}: {self._meaning()}"
-
-    def _meaning(self) -> str:
+        meaning = "a combination of momenta"
         if self.is_angular_momentum:
-            return "angular momentum L/(m a^2 Omega)"
-        if len(self.coefficients) == 1 and self.coefficients[0][0].name in VOCABULARY:
-            return VOCABULARY[self.coefficients[0][0].name].meaning
-        return "a combination of momenta"
+            meaning = "angular momentum L/(m a^2 Omega)"
+        elif len(terms) == 1 and self.coefficients[0][0].name in VOCABULARY:
+            meaning = VOCABULARY[self.coefficients[0][0].name].meaning
+        return f"{' + '.join(terms)}: {meaning}"
 
 
 @cache
@@ -147,7 +146,15 @@ def invariants(
         return ()
     field = DomainMatrix.from_Matrix(_conditions(rates, ansatz)).to_field()  # exact, over the field of the groups
     basis = field.nullspace().rref()[0].to_Matrix()
-    return tuple(_normalised(ansatz, basis.row(index)) for index in range(basis.rows))
+    result = []
+    for vector in (basis.row(index) for index in range(basis.rows)):
+        first = next(value for value in vector if value != 0)
+        total: dict[sp.Symbol, sp.Expr] = {}
+        for (momentum, power), value in zip(ansatz, vector, strict=True):
+            if value != 0:
+                total[momentum] = total.get(momentum, sp.Integer(0)) + sp.factor(value / first) * power
+        result.append(Invariant(tuple(total.items())))
+    return tuple(result)
 
 
 def conserved_momentum(
@@ -159,9 +166,8 @@ def conserved_momentum(
         NoInvariantError: it is not; the message gives the invariants found and dL/dt.
     """
     result = invariants(system, laws)
-    for each in result:
-        if each.is_angular_momentum:
-            return each
+    if momentum := next((each for each in result if each.is_angular_momentum), None):
+        return momentum
     conserved = "; ".join(each.describe() for each in result) or "nothing linear in the momenta"
     chosen = ", ".join(f"{slot} {law.name}" for slot, law in (laws or {}).items()) or "any law"
     raise NoInvariantError(
@@ -177,10 +183,10 @@ def conserved_components(system: OpenSystem) -> tuple[Invariant, ...]:
     Raises:
         NoInvariantError: one of them is not.
     """
-    found = invariants(open_rates(system), coordinates=(*_COORDINATES, *normal), degree=0)
-    each = [[one for one in found if one.coefficients[0][0] == momentum] for momentum in orbital_momenta]
+    result = invariants(open_rates(system), coordinates=(*_COORDINATES, *normal), degree=0)
+    each = [[one for one in result if one.coefficients[0][0] == momentum] for momentum in orbital_momenta]
     if any(len(own) != 1 for own in each):
-        raise NoInvariantError(f"angular momentum is not conserved in space: {[one.describe() for one in found]}")
+        raise NoInvariantError(f"angular momentum is not conserved in space: {[one.describe() for one in result]}")
     return tuple(own[0] for own in each)
 
 
@@ -216,10 +222,32 @@ def _rational(expression: sp.Expr, states: set[sp.Symbol], values: dict[sp.Expr,
     return values.setdefault(expression, sp.Dummy(f"value{len(values)}"))
 
 
-def _normalised(ansatz: list[tuple[sp.Symbol, sp.Expr]], vector: sp.Matrix) -> Invariant:
-    first = next(value for value in vector if value != 0)
-    total: dict[sp.Symbol, sp.Expr] = {}
-    for (momentum, power), value in zip(ansatz, vector, strict=True):
-        if value != 0:
-            total[momentum] = total.get(momentum, sp.Integer(0)) + sp.factor(value / first) * power
-    return Invariant(tuple(total.items()))
+def quadratic_invariants(
+    rates: Mapping[sp.Symbol, sp.Expr], among: Sequence[sp.Symbol], relation: sp.Expr | None = None
+) -> tuple[sp.Expr, ...]:
+    """A basis of the invariants that are quadratic forms, normalised to a first coefficient of 1.
+
+    Arguments:
+        rates: polynomials in the states and in what is left open; what divides them is constant.
+        among: the states of the forms.
+        relation: a polynomial that vanishes along every trajectory, monic in the square of its last symbol.
+    """
+    forms = [one * other for one, other in combinations_with_replacement(among, 2)]
+    unknown = sp.symbols(f"c:{len(forms)}", cls=sp.Dummy)
+    change = sp.Integer(0)
+    for factor, form in zip(unknown, forms, strict=True):
+        change += factor * sp.Add(*(form.diff(state) * rates[state] for state in form.free_symbols))
+    change = sp.expand(change)
+    if relation is not None:
+        last = max(relation.free_symbols, key=lambda symbol: str(symbol))
+        change = sp.rem(sp.Poly(change, last), sp.Poly(relation, last)).as_expr()
+    divided = [power.base for power in change.atoms(sp.Pow) if power.exp.is_negative]  # constants: sizes
+    constant = set(unknown).union(*(base.free_symbols for base in divided))
+    varying = sorted(change.free_symbols - constant, key=str)
+    equations = sp.Poly(sp.expand(change), *varying).coeffs()
+    matrix = sp.linear_eq_to_matrix(list(dict.fromkeys(equations)), list(unknown))[0]
+    result = []
+    for vector in matrix.nullspace():
+        first = next(value for value in vector if value != 0)
+        result.append(sp.Add(*(value / first * form for value, form in zip(vector, forms, strict=True))))
+    return tuple(result)

@@ -14,17 +14,16 @@ import sympy as sp
 
 from ..physics.forces import FILM, SHEAR
 from ..physics.laws import LAWS
-from ..physics.laws.base import Definition
+from ..physics.laws.base import Definition, needed
 from ..physics.partners import rotation
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from . import friction
-from .certificates import approach, attraction, orbital_momentum, pendulum, spin_down
+from .certificates.table import CERTIFICATES
 from .events import CONTACT_GAPS, start
 from .functions import ModelFunction, functions
-from .intermediates import intermediates
+from .intermediates import intermediates, inward_force
 from .invariants import Invariant, conserved_components, conserved_momentum
-from .rates import inward_force
 
 
 @dataclass(frozen=True)
@@ -81,9 +80,9 @@ def derive(structure: Structure) -> Model:
     states = _states(structure)
     each = functions(structure, states)
     definitions = _definitions(structure)
-    used = _closure(each, definitions)
-    given = {symbol for function in each for symbol in function.given}
-    unlisted = used - {*states, *GROUPS, FILM, SHEAR, *given, *(symbol for symbol, _ in definitions)}
+    used = needed([expression for function in each for _, expression in function.outputs], definitions)[1]
+    further = {symbol for function in each for symbol in function.further}
+    unlisted = used - {*states, *GROUPS, FILM, SHEAR, *further, *(symbol for symbol, _ in definitions)}
     if unlisted:
         names = ", ".join(sorted(map(str, unlisted)))
         raise ValueError(f"{structure.name} uses {names}: neither a state nor an intermediate, nor among GROUPS")
@@ -109,9 +108,7 @@ GROUPS = (
 def _definitions(structure: Structure) -> tuple[Definition, ...]:
     """The named intermediates of the equations, then those of the certificates and of friction."""
     definitions = intermediates(structure, _conserved(structure) if structure.reduced else ())
-    if pendulum.admits(structure):
-        definitions += pendulum.definitions()
-    for certificate in (attraction, approach, orbital_momentum, spin_down):
+    for certificate in CERTIFICATES:
         if certificate.admits(structure):
             definitions += certificate.definitions(structure)
     if structure.friction:
@@ -151,12 +148,3 @@ def _slots(structure: Structure) -> tuple[str, ...]:
         slots += ["shear"] + ([] if structure.reduced or structure.partner in ("wall", "space") else ["arm"])
     slots += [slot for slot in ("bridge", "strings", "attraction") if getattr(structure, slot)]
     return tuple(slots)
-
-
-def _closure(each: tuple[ModelFunction, ...], definitions: tuple[Definition, ...]) -> set[sp.Basic]:
-    """The symbols of the functions, and of the intermediates that they need."""
-    used = set().union(*(expression.free_symbols for function in each for _, expression in function.outputs))
-    for symbol, expression in reversed(definitions):
-        if symbol in used:
-            used |= expression.free_symbols
-    return used

@@ -44,13 +44,9 @@ def _kinetic(structure: Structure) -> sp.Expr:
         return q.normal_velocity**2 / 2 + rotation(structure).kinetic
     energy = sp.expand(equations_of_motion().kinetic_energy / (q.m * q.v0**2))
     if not structure.oblique:
-        energy = energy.subs({q.omega: 0, q.xi: 0})
+        return nondimensional(energy.subs({q.omega: 0, q.xi: 0}))
     orbital = sp.Rational(1, 2) * q.m * q.r**2 * q.omega**2 / (q.m * q.v0**2)
-    rest = sp.expand(energy - sp.expand(orbital)) if structure.oblique else energy
-    result = nondimensional(rest)
-    if structure.oblique:
-        result += by_orbital_rate(nondimensional(orbital))
-    return result
+    return nondimensional(sp.expand(energy - sp.expand(orbital))) + by_orbital_rate(nondimensional(orbital))
 
 
 def _lifted() -> sp.Expr:
@@ -120,10 +116,7 @@ def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
         energy += nondimensional(square / (2 * q.m * q.a**2 * INERTIA_RATIO) / (q.m * q.v0**2))
         body = (doublet_inertia() / (q.m * q.a**2)).diff(q.x) * q.x0  # d inertia_ratio / d gap
         slope += energy.diff(INERTIA_RATIO) * nondimensional(body)
-    if structure.bridge:
-        slope += BRIDGE_FORCE
-    if structure.attraction:
-        slope += ATTRACTION_FORCE
+    slope += BRIDGE_FORCE * int(structure.bridge) + ATTRACTION_FORCE * int(structure.attraction)
     if structure.strings:
         energy += _lifted()
         slope += STRING_PULL
@@ -144,11 +137,7 @@ def restitution_ceiling(structure: Structure) -> dict[str, sp.Expr]:
     It is twice the initial energy minus the least rotational energy at this gap for the initial L.
     """
     first = start(structure)
-    at_start = {
-        ORBITAL_RATE: first[q.orbital_momentum] / DISTANCE**2,
-        q.normal_velocity: first[q.normal_velocity],
-        q.spin: first[q.spin],
-    }
+    at_start = {ORBITAL_RATE: first[q.orbital_momentum] / DISTANCE**2, q.normal_velocity: -1, q.spin: first[q.spin]}
     initial = _kinetic(structure).subs(at_start).subs(DISTANCE, 4 + q.aspect)
     least = sp.Integer(0)
     if structure.oblique:

@@ -102,8 +102,7 @@ def _equal() -> Rubbing:
         turned = nondimensional(expression.subs(arm, q.a * LEVER))
         return sp.sympify(turned).subs(q.orbital_momentum, ORBITAL_RATE * DISTANCE**2)
 
-    answer = equal_spheres()
-    return _scaled(answer, scaled, {q.omega: q.orbital_momentum, q.xi: q.spin})
+    return _scaled(equal_spheres(), scaled, {q.omega: q.orbital_momentum, q.xi: q.spin})
 
 
 @cache
@@ -135,14 +134,12 @@ def _scaled(answer: Answer, scaled: Callable[[sp.Expr], sp.Expr], states: Mappin
 
 @cache
 def _beside_wall() -> Rubbing:
-    answer, sideways = beside_wall(), q.v0 * q.obliquity
+    answer = beside_wall()
+    along, spun = answer.rates[q.slide_rate] * q.m, answer.rates[q.xi] * q.m * q.a
     return Rubbing(
-        slip=sp.expand(wall.scaled(answer.slip / sideways)),
+        slip=sp.expand(wall.scaled(answer.slip / (q.v0 * q.obliquity))),
         compliance=wall.scaled(answer.compliance * q.m),
-        changes={
-            q.slide: wall.scaled(answer.rates[q.slide_rate] * q.m),
-            q.roll: wall.scaled(answer.rates[q.xi] * q.m * q.a),
-        },
+        changes={q.slide: wall.scaled(along), q.roll: wall.scaled(spun)},
         grip=1 / q.obliquity,
         energy=q.obliquity**2,
     )

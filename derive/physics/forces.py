@@ -34,18 +34,13 @@ def force_laws(spread: bool = False) -> dict[sp.Symbol, sp.Expr]:
     stiffness = slot_call("strings", "stiffness", q.l_s / q.a, offset)
     # S = dU/dr with U = 4 m g a rise(l/a, (d/a)^2) and stiffness = 2 d rise/d (d/a)^2
     lift = 4 * q.m * q.g * q.a * stiffness / 2
+    sliding = 8 * sp.pi * q.mu * q.a**2 * (q.omega - q.xi)
     film = (q.x / q.x0, q.x0 / q.a, q.volume) if spread else (q.x / q.x0,)
     return {
         F_n: FILM * 6 * sp.pi * q.mu * q.a**2 * q.u / q.x0 * slot_call("film", "resistance", *film),
         F_w: VAN_DER_WAALS * slot_call("attraction", "force", q.x / q.x0),
         F_c: sp.pi * q.R * q.sigma * slot_call("bridge", "force", q.x / q.R, q.volume, q.contact_angle),
-        F_t: SHEAR
-        * 8
-        * sp.pi
-        * q.mu
-        * q.a**2
-        * (q.omega - q.xi)
-        * slot_call("shear", "log_factor", q.x / q.x0, q.x0 / q.a),
+        F_t: SHEAR * sliding * slot_call("shear", "log_factor", q.x / q.x0, q.x0 / q.a),
         arm: q.a * slot_call("arm", "lever", q.r / q.a),
         S_n: lift * (swing_squared().diff(string_distance) / q.a**2).subs(string_distance, q.r),
         S_t: lift * (swing_squared().diff(q.beta) / string_distance / q.a**2).subs(string_distance, q.r),
@@ -61,9 +56,8 @@ def scaled_strings(oblique: bool) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     by_angle = sp.simplify(apart.diff(q.beta) / string_distance)
 
     def scaled(expression: sp.Expr) -> sp.Expr:
-        return expression.subs(q.beta, turn).subs(
-            {q.x: q.a * q.aspect * q.gap, string_distance: q.a * DISTANCE}, simultaneous=True
-        )
+        lengths = {q.x: q.a * q.aspect * q.gap, string_distance: q.a * DISTANCE}
+        return expression.subs(q.beta, turn).subs(lengths, simultaneous=True)
 
     stiffness = slot_call("strings", "stiffness", q.string_ratio, offset_squared)
     pull = nondimensional(4 * q.m * q.g / INERTIA) * stiffness / 2

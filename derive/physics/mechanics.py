@@ -6,6 +6,7 @@ about their own centres. Forces enter through their virtual work.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 
@@ -38,33 +39,25 @@ def doublet_inertia() -> sp.Expr:
     return sp.expand(2 * (sphere_inertia() + 2 * m * (r_of_x / 2) ** 2))
 
 
-@dataclass(frozen=True)
-class Coordinates:
-    """Generalised coordinates as functions of time."""
-
-    x: sp.Expr
-    beta: sp.Expr
-    spin_angle: sp.Expr
+@cache
+def coordinates() -> dict[str, sp.Expr]:
+    """Gap, angle of the line of centres, and rotation angle of each sphere about its centre, as functions of time."""
+    names = {"x": "x", "beta": "beta", "spin_angle": "alpha"}
+    return {coordinate: sp.Function(name, real=True)(time) for coordinate, name in names.items()}
 
 
-def coordinates() -> Coordinates:
-    """Gap, angle of the line of centres, and rotation angle of each sphere about its centre."""
-    functions = [sp.Function(name, real=True)(time) for name in ("x", "beta", "alpha")]
-    return Coordinates(*functions)
+def _line() -> sp.Matrix:
+    angle = coordinates()["beta"]
+    return sp.Matrix([sp.cos(angle), sp.sin(angle)])
 
 
 @cache
 def kinetic_energy() -> sp.Expr:
     """Kinetic energy relative to the centre of mass, from the positions of both centres and both spins."""
     q = coordinates()
-    half = (4 * a + q.x) / 2
-    position = sp.Matrix([half * sp.cos(q.beta), half * sp.sin(q.beta)])  # the other sphere moves in mirror image
-    velocity = position.diff(time)
-    per_sphere = (
-        sp.Rational(1, 2) * 2 * m * velocity.dot(velocity)
-        + sp.Rational(1, 2) * sphere_inertia() * q.spin_angle.diff(time) ** 2
-    )
-    return sp.factor(without_sines(2 * per_sphere, q.beta))
+    velocity = ((4 * a + q["x"]) / 2 * _line()).diff(time)  # the other sphere moves in mirror image
+    spinning = sp.Rational(1, 2) * sphere_inertia() * q["spin_angle"].diff(time) ** 2
+    return sp.factor(without_sines(2 * (m * velocity.dot(velocity) + spinning), q["beta"]))
 
 
 def without_sines(expression: sp.Expr, angle: sp.Expr) -> sp.Expr:
@@ -84,16 +77,23 @@ def generalised_forces() -> dict[str, sp.Expr]:
     the opposite. The tangential forces act at a distance `arm` from the centres, with the torque F_t arm on each
     sphere.
     """
-    q = coordinates()
-    n = sp.Matrix([sp.cos(q.beta), sp.sin(q.beta)])
-    across = sp.Matrix([-sp.sin(q.beta), sp.cos(q.beta)])
-    force = -(F_n + F_c + F_w + S_n) * n - (F_t + S_t) * across
-    position = (4 * a + q.x) / 2 * n
-    work = {}
-    for name, coordinate in (("x", q.x), ("beta", q.beta)):
-        work[name] = sp.factor(without_sines(2 * force.dot(position.diff(coordinate)), q.beta))
-    work["spin_angle"] = 2 * F_t * arm
-    return work
+    q, n = coordinates(), _line()
+    force = -(F_n + F_c + F_w + S_n) * n - (F_t + S_t) * n.diff(q["beta"])
+    position = (4 * a + q["x"]) / 2 * n
+    work = {name: sp.factor(without_sines(2 * force.dot(position.diff(q[name])), q["beta"])) for name in ("x", "beta")}
+    return work | {"spin_angle": 2 * F_t * arm}
+
+
+def lagrange(
+    energy: sp.Expr, coordinates: Mapping[str, sp.Expr], work: Mapping[str, sp.Expr]
+) -> dict[str, tuple[sp.Expr, sp.Expr, sp.Expr]]:
+    """Acceleration, momentum and the momentum's rate of each coordinate: d/dt dT/dq' = dT/dq + Q."""
+    result = {}
+    for name, coordinate in coordinates.items():
+        momentum, rate = energy.diff(coordinate.diff(time)), energy.diff(coordinate) + work[name]
+        balance, second = momentum.diff(time) - rate, coordinate.diff(time, 2)  # the balance is linear in it
+        result[name] = -balance.subs(second, 0) / balance.diff(second), momentum, rate
+    return result
 
 
 @dataclass(frozen=True)
@@ -115,37 +115,23 @@ class EquationsOfMotion:
 
 @cache
 def equations_of_motion() -> EquationsOfMotion:
-    """Lagrange's equations d/dt dT/dq' - dT/dq = Q, solved for the accelerations."""
+    """Lagrange's equations of the doublet, solved for the accelerations."""
     q = coordinates()
-    energy, forces = kinetic_energy(), generalised_forces()
-    plain = {
-        q.x.diff(time): u,
-        q.beta.diff(time): omega,
-        q.spin_angle.diff(time): xi,
-    }
+    plain = {coordinate.diff(time): rate for coordinate, rate in zip(q.values(), (u, omega, xi), strict=True)}
 
     def settle(expression: sp.Expr) -> sp.Expr:
-        return expression.subs(plain).subs({q.x: x})
+        return expression.subs(plain).subs({q["x"]: x})
 
-    acceleration: dict[str, sp.Expr] = {}
-    momentum: dict[str, sp.Expr] = {}
-    rate: dict[str, sp.Expr] = {}
-    for name, coordinate in (("x", q.x), ("beta", q.beta), ("spin_angle", q.spin_angle)):
-        conjugate = energy.diff(coordinate.diff(time))
-        balance = conjugate.diff(time) - energy.diff(coordinate) - forces[name]
-        second = coordinate.diff(time, 2)
-        alone = sp.factor(-balance.subs(second, 0) / balance.diff(second))  # the balance is linear in it
-        acceleration[name] = sp.expand(settle(alone))
-        momentum[name] = sp.expand(settle(conjugate))
-        rate[name] = settle(energy.diff(coordinate) + forces[name])
+    motion = lagrange(kinetic_energy(), q, generalised_forces())
+    opened, turned, spun = (sp.expand(settle(sp.factor(acceleration))) for acceleration, _, _ in motion.values())
     return EquationsOfMotion(
-        separation_acceleration=acceleration["x"],
-        orbital_acceleration=acceleration["beta"],
-        spin_acceleration=acceleration["spin_angle"],
-        orbital_momentum=sp.factor(momentum["beta"]),
-        orbital_momentum_rate=sp.factor(rate["beta"]),
-        spin_momentum=sp.factor(momentum["spin_angle"]),
-        kinetic_energy=settle(energy),
+        separation_acceleration=opened,
+        orbital_acceleration=turned,
+        spin_acceleration=spun,
+        orbital_momentum=sp.factor(settle(motion["beta"][1])),
+        orbital_momentum_rate=sp.factor(settle(motion["beta"][2])),
+        spin_momentum=sp.factor(settle(motion["spin_angle"][1])),
+        kinetic_energy=settle(kinetic_energy()),
     )
 
 

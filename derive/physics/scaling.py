@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from itertools import chain
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..vocabulary import quantities as q
 from .laws.attraction import van_der_waals_force
-from .laws.elastic_length import elastic_length
-from .laws.rupture import rupture_distance
-from .laws.start import initial_rate
+from .laws.bridge import rupture_distance
+from .laws.glass import elastic_length
 
 DISTANCE = sp.Symbol("distance", positive=True)  # r/a, named in emitted code
 
@@ -88,16 +88,12 @@ def impact_groups(partner: str = "") -> dict[sp.Symbol, sp.Expr]:
         return _vector_groups()
     scales = scale_definitions()
     scale = {"": scales[q.rate_scale], "pair": scales[q.rate_scale_pair], "wall": scales[q.rate_scale_wall]}[partner]
-    tangent = sp.tan(q.theta0)
-    if partner == "pair":
-        first, second = radii()
-        sideways = [tangent, first * sp.Abs(q.impact_spin) / q.v0, second * sp.Abs(q.impact_partner_spin) / q.v0]
-    else:
-        sideways = [tangent, (q.a if partner else q.R) * sp.Abs(q.impact_spin) / q.v0]
+    levers = {"": (q.R,), "pair": radii(), "wall": (q.a,)}[partner]
+    spins = zip(levers, (q.impact_spin, q.impact_partner_spin), strict=False)
     rates = first_rates(scale)
     if partner != "pair":
         del rates[q.initial_partner_spin]
-    return {q.obliquity: sp.Max(*sideways), **rates}
+    return {q.obliquity: sp.Max(sp.tan(q.theta0), *(lever * sp.Abs(each) / q.v0 for lever, each in spins)), **rates}
 
 
 def _vector_groups() -> dict[sp.Symbol, sp.Expr]:
@@ -109,10 +105,8 @@ def _vector_groups() -> dict[sp.Symbol, sp.Expr]:
     speeds = sp.Add(*(lever**2 * each**2 for lever, vector in zip(levers, rates, strict=True) for each in vector))
     unit = scale_definitions()[q.rate_scale_pair]
     groups = (q.initial_turnings, q.initial_spins, q.initial_partner_spins)
-    result = {q.obliquity: sp.sqrt(speeds) / q.v0}
-    for vector, group in zip(rates, groups, strict=True):
-        result |= {own: each / unit for own, each in zip(group, vector, strict=True)}
-    return result
+    each = zip(chain(*groups), chain(*rates), strict=True)
+    return {q.obliquity: sp.sqrt(speeds) / q.v0, **{group: rate / unit for group, rate in each}}
 
 
 def first_rates(scale: sp.Expr) -> dict[sp.Symbol, sp.Expr]:
@@ -182,9 +176,21 @@ def nondimensional(expression: sp.Expr, centres: sp.Expr = EQUAL) -> sp.Expr:
     calls = {node: _substituted(node, rules) for node in expression.atoms(AppliedUndef)}
     body = sp.sympify(expression).xreplace(calls)
     result = sp.simplify(_substituted(body, {**rules, q.x: q.a * (DISTANCE - centres)}))
-    left = sorted(s.name for s in result.free_symbols if s in q.DIMENSIONS and any(q.DIMENSIONS[s].exponents))
-    if left:
+    if left := dimensional(result):
         raise ScalingError(f"{', '.join(left)} did not cancel from {expression}")
+    return result
+
+
+def dimensional(expression: sp.Expr) -> list[str]:
+    """Names of the quantities with a dimension in an expression."""
+    return sorted(s.name for s in expression.free_symbols if s in q.DIMENSIONS and any(q.DIMENSIONS[s].exponents))
+
+
+def cancelled(label: str, by_term: sp.Expr, whole: sp.Expr) -> sp.Expr:
+    """An expression simplified by its terms, or as a whole if a quantity is left in one; ScalingError if it stays."""
+    result = sp.simplify(whole) if dimensional(by_term) else by_term
+    if left := dimensional(result):
+        raise ScalingError(f"{label}: {', '.join(left)} did not cancel from {result}")
     return result
 
 
@@ -194,3 +200,13 @@ def _substituted(expression: sp.Expr, rules: dict[sp.Symbol, sp.Expr]) -> sp.Exp
     if isinstance(expression, AppliedUndef):
         return expression.func(*(sp.simplify(argument) for argument in expression.args))
     return expression
+
+
+def initial_rate() -> sp.Expr:
+    """omega0: the tangential speed v0 tan(theta0) over the centre distance, taken as 4a as in the paper."""
+    return q.v0 * sp.tan(q.theta0) / (EQUAL * q.a)
+
+
+def start_values() -> dict[sp.Symbol, sp.Expr]:
+    """SI values of x, u, omega, xi and beta at initial contact: at x = x0 with v0 and theta0; spheres may spin."""
+    return {q.x: q.x0, q.u: -q.v0, q.omega: initial_rate(), q.xi: q.impact_spin, q.beta: sp.Integer(0)}

@@ -32,10 +32,6 @@ class Place:
     doc: str
 
     @property
-    def key(self) -> str:
-        return f"{self.slot}.{self.function}"
-
-    @property
     def dimension(self) -> Dimension:
         return dimension_of(self.scale, DIMENSIONS) or ONE
 
@@ -47,10 +43,12 @@ def places() -> dict[str, Place]:
     for slot, laws in LAWS.items():
         functions = {function.name: function for law in reversed(laws.values()) for function in law.functions}
         for function in functions.values():  # of the first law that has the function
-            at, scale = scaled.get(f"{slot}.{function.name}", ((), sp.Integer(1)))
-            place = Place(slot, function.name, function.arguments, at, scale, function.doc)
-            result[place.key] = place
+            key = f"{slot}.{function.name}"
+            result[key] = Place(slot, function.name, function.arguments, *scaled.get(key, _NO_SI_FORM), function.doc)
     return result
+
+
+_NO_SI_FORM = ((), sp.Integer(1))
 
 
 def _scaled() -> dict[str, tuple[tuple[sp.Expr, ...], sp.Expr]]:

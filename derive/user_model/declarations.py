@@ -19,77 +19,12 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 
 import sympy as sp
-from sympy import (
-    Abs,
-    Max,
-    Min,
-    Piecewise,
-    Rational,
-    acos,
-    asin,
-    atan,
-    cos,
-    cosh,
-    exp,
-    log,
-    pi,
-    sin,
-    sinh,
-    sqrt,
-    tan,
-    tanh,
-)
 
 from ..physics.laws import LAWS
-from ..physics.laws.arm import distance
-from ..physics.laws.bridge import h
-from ..physics.laws.glass import approach
-from ..physics.laws.strings import offset_squared
 from ..vocabulary.allowed_values import Bounds, BoundsError
-from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, dimension_of
-from ..vocabulary.quantities import (  # fmt: skip
-    DIMENSIONS,
-    VOCABULARY,
-    E,
-    R,
-    a,
-    aspect,
-    e_dry,
-    g,
-    gap,
-    glass_number,
-    l_s,
-    m,
-    mu,
-    normal_velocity,
-    nu,
-    omega,
-    omega0,
-    p_gt,
-    r,
-    rho,
-    sigma,
-    string_ratio,
-    u,
-    v0,
-    x,
-    x0,
-    x_b,
-    xi,
-)
-from ..vocabulary.quantities import contact_angle as phi
-from ..vocabulary.quantities import normal_velocity as opening  # its name in older model files
-from ..vocabulary.quantities import volume as V
-from ..vocabulary.unitnames import UnitError, dimension_of_unit
+from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, UnitError, dimension_of, dimension_of_unit
+from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, omega, u, x, xi
 from . import own_events
-
-__all__ = [
-    "Abs", "E", "Max", "Min", "Piecewise", "R", "Rational", "V", "a", "acos", "approach", "asin", "aspect", "atan",
-    "cos", "cosh", "distance", "e_dry", "event", "exp", "g", "gap", "glass_number", "h", "l_s", "law", "let", "log",
-    "m", "mu",
-    "normal_velocity", "nu", "offset_squared", "omega", "omega0", "opening", "p_gt", "phi", "pi", "quantity", "r",
-    "rho", "sigma", "sin", "sinh", "sp", "sqrt", "string_ratio", "tan", "tanh", "u", "v0", "x", "x0", "x_b", "xi",
-]  # fmt: skip
 
 _LAW_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _BIBTEX = re.compile(r"\s*@\w+\s*\{[^{},]+,.*\}\s*", re.S)
@@ -156,21 +91,19 @@ class Declarations:
     events: dict[str, own_events.Proposed] = field(default_factory=dict)
 
 
-_here: ContextVar[Declarations | None] = ContextVar("declarations", default=None)
-_loose = Declarations()  # a model file that is run directly
+_here = ContextVar("declarations", default=Declarations())  # noqa: B039 -- of a model file that is run directly
 
 
 def _declarations() -> Declarations:
-    return _here.get() or _loose
+    return _here.get()
 
 
 @contextmanager
 def collecting() -> Iterator[Declarations]:
     """Collect the declarations made inside the block."""
-    fresh = Declarations()
-    token = _here.set(fresh)
+    token = _here.set(Declarations())
     try:
-        yield fresh
+        yield _here.get()
     finally:
         _here.reset(token)
 
@@ -205,11 +138,9 @@ def quantity(
     group = group or f"{name}_number"
     _check_name(f"{name}.group", group, there)
     try:
-        dimension = dimension_of_unit(unit)
+        dimension, limits = dimension_of_unit(unit), Bounds.read(bounds)
     except UnitError as error:
         raise ModelFileError(f"{name}.unit", unit, 'coherent SI, as "Pa", "N/m", "kg m^2/s", "1"', str(error)) from None
-    try:
-        limits = Bounds.read(bounds)
     except BoundsError:
         raise ModelFileError(f"{name}.bounds", bounds, '"> 0", ">= 0", "0 to 1", "> 0 and <= 5"') from None
     if over is not None and not isinstance(over, sp.Expr):
@@ -217,9 +148,8 @@ def quantity(
     sign = {"positive": True} if limits.positive else {"nonnegative": True} if limits.not_negative else {"real": True}
     symbol = sp.Symbol(name, **sign)
     upright = rf"\mathrm{{{name.replace('_', ' ')}}}".replace(" ", r"\ ")
-    there.quantities[name] = Declared(
-        symbol, latex or upright, unit, dimension, default, limits, meaning or name.replace("_", " "), over, group
-    )
+    printed, meaning = latex or upright, meaning or name.replace("_", " ")
+    there.quantities[name] = Declared(symbol, printed, unit, dimension, default, limits, meaning, over, group)
     return symbol
 
 
@@ -267,20 +197,16 @@ def law(
     if (slot, name) in there.laws:
         raise ModelFileError(f"law {slot}", name, "each name once", "is declared twice")
     known = functions_of(slot)
-    for given in functions:
-        if given not in known:
-            raise ModelFileError(label, given, "the functions " + ", ".join(known), "is no function of this slot")
+    for foreign in functions.keys() - known.keys():
+        raise ModelFileError(label, foreign, "the functions " + ", ".join(known), "is no function of this slot")
     for missing in (function for function, required in known.items() if required and function not in functions):
         raise ModelFileError(f"{label}.{missing}", None, f"{missing} = an expression", "is missing")
-    for what, text in (("source", source), ("bibtex", bibtex)):
-        if not isinstance(text, str):
-            raise ModelFileError(f"{label}.{what}", text, "text")
+    _check_texts(label, source=source, bibtex=bibtex)
     if bibtex and not _BIBTEX.fullmatch(bibtex):
         raise ModelFileError(f"{label}.bibtex", bibtex, "an entry such as @article{key, author = {...}, ...}")
     expressions = tuple((f, _expression(f"{label}.{f}", functions[f])) for f in known if f in functions)
-    there.laws[slot, name] = Proposed(
-        slot, name, expressions, meaning or f"{name}, a user's law", source or "no source given", tuple(accept), bibtex
-    )
+    meaning, source = meaning or f"{name}, a user's law", source or "no source given"
+    there.laws[slot, name] = Proposed(slot, name, expressions, meaning, source, tuple(accept), bibtex)
 
 
 def event(
@@ -321,9 +247,9 @@ def event(
     reported = word or name.replace("_", " ") if isinstance(name, str) else word
     if not isinstance(reported, str) or not own_events.WORD.fullmatch(reported):
         raise ModelFileError(f"{label}.word", reported, "small letters, digits and single spaces")
-    if reported in own_events.TAKEN_WORDS or reported in [known.word for known in there.events.values()]:
-        taken = ", ".join(sorted({*own_events.TAKEN_WORDS, *(known.word for known in there.events.values())}))
-        raise ModelFileError(f"{label}.word", reported, f"any word but {taken}", "exists already")
+    taken = own_events.TAKEN_WORDS.union(known.word for known in there.events.values())
+    if reported in taken:
+        raise ModelFileError(f"{label}.word", reported, f"any word but {', '.join(sorted(taken))}", "exists already")
     if where not in own_events.PLACES:
         raise ModelFileError(f"{label}.where", where, ", ".join(own_events.PLACES))
     if ends not in own_events.ENDINGS:
@@ -331,9 +257,7 @@ def event(
     if ends == "separated" and not where.startswith("opening"):  # a restitution would be negative
         accepted = '"opening", "opening inside the film" or "opening beyond the film" with ends="separated"'
         raise ModelFileError(f"{label}.where", where, accepted, "may be on approach, where nothing separates")
-    for what, text in (("meaning", meaning), ("source", source)):
-        if not isinstance(text, str):
-            raise ModelFileError(f"{label}.{what}", text, "text")
+    _check_texts(label, meaning=meaning, source=source)
     tested = _of_event(f"{label}.guard", guard, there)
     if not unfolded(tested, there).free_symbols & set(own_events.MOVING):
         raise ModelFileError(f"{label}.guard", guard, "an expression of x, u, omega or xi", "never changes")
@@ -342,9 +266,8 @@ def event(
     after = []
     for target, value in (jump or {}).items():
         if target == x:
-            raise ModelFileError(
-                f"{label}.jump", "x", "u, omega, xi", "jumps, but surfaces move apart and together continuously: a gap"
-            )
+            problem = "jumps, but surfaces move apart and together continuously: a gap"
+            raise ModelFileError(f"{label}.jump", "x", "u, omega, xi", problem)
         if target not in own_events.JUMPS:
             raise ModelFileError(f"{label}.jump", target, "u, omega, xi", "is no velocity of the particles")
         new = _of_event(f"{label}.jump", value, there, own_events.JUMPS[target])
@@ -358,11 +281,11 @@ def event(
     if ends == "stick" and after:
         raise ModelFileError(f"{label}.jump", jump, 'no jump beside ends = "stick"', "would not be seen")
     mark = sp.Symbol(own_events.MARK + name, nonnegative=True)
+    released = _of_event(f"{label}.releases", releases, there, ENERGY)
+    meaning, source = meaning or f"{reported}, a user's event", source or "no source given"
     there.events[name] = own_events.Proposed(
-        name, reported, mark, tested, where, tuple(after), ends,
-        _of_event(f"{label}.releases", releases, there, ENERGY),
-        meaning or f"{reported}, a user's event", source or "no source given",
-    )  # fmt: skip
+        name, reported, mark, tested, where, tuple(after), ends, released, meaning, source
+    )
     return mark
 
 
@@ -398,6 +321,12 @@ def functions_of(slot: str) -> dict[str, bool]:
     return {name: all(name in [f.name for f in law.functions if not f.for_proof] for law in laws) for name in names}
 
 
+def _check_texts(label: str, **texts: object) -> None:
+    for what, text in texts.items():
+        if not isinstance(text, str):
+            raise ModelFileError(f"{label}.{what}", text, "text")
+
+
 def _check_name(what: str, name: object, there: Declarations) -> None:
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         raise ModelFileError(what, name, "a name of small letters, digits and underscores")
@@ -415,7 +344,7 @@ def _expression(label: str, value: object) -> sp.Expr:
         raise ModelFileError(label, value, "a sympy expression") from None
     if not isinstance(result, sp.Expr) or isinstance(value, str):
         raise ModelFileError(label, value, "a sympy expression")
-    return result.xreplace({number: Rational(str(float(number))) for number in result.atoms(sp.Float)})
+    return result.xreplace({number: sp.Rational(str(float(number))) for number in result.atoms(sp.Float)})
 
 
 def latex_names(there: Declarations, groups: Mapping[str, str]) -> dict[str, str]:

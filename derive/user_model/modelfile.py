@@ -9,6 +9,7 @@ from .declarations import Declarations, ModelFileError, collecting
 from .structures import UserModel, express
 
 _LARGEST = 1_000_000  # bytes
+_ACCEPTED = "a model file (see `wetdoublet generate --template`)"
 
 
 def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
@@ -26,14 +27,12 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
             where = f"{path}, line {_line(error, path)}: {error.field}"
             raise ModelFileError(where, error.value, error.accepted, error.problem) from None
         except SyntaxError as error:
-            problem = f"is not Python ({error.msg})"
-            raise ModelFileError(
-                f"{path}, line {error.lineno}", (error.text or "").strip(), "a model file", problem
-            ) from None
+            where, problem = f"{path}, line {error.lineno}", f"is not Python ({error.msg})"
+            raise ModelFileError(where, (error.text or "").strip(), "a model file", problem) from None
         except Exception as error:  # noqa: BLE001 # whatever a user's file does
             where = f"{path}, line {_line(error, path)}"
             reason = " ".join(f"{type(error).__name__}: {error}".split())
-            raise ModelFileError(where, None, "a model file (see `wetdoublet generate --template`)", reason) from None
+            raise ModelFileError(where, None, _ACCEPTED, reason) from None
     if not result.laws and not result.events:
         accepted = "law(SLOT, NAME, ...) or event(NAME, ...), at least once"
         raise ModelFileError(str(path), None, accepted, "declares no law and no event")
@@ -52,19 +51,18 @@ def read(path: Path, text: str | None = None, name: str = "") -> UserModel:
 
 
 def _text(path: Path) -> str:
-    accepted = "a model file (see `wetdoublet generate --template`)"
     try:
         if not path.is_file() and not path.is_dir():  # reading a pipe or a device may never end
-            raise ModelFileError(str(path), None, accepted, "is not a file" if path.exists() else "is not there")
+            raise ModelFileError(str(path), None, _ACCEPTED, "is not a file" if path.exists() else "is not there")
         with path.open("rb") as file:
             content = file.read(_LARGEST + 1)
         if len(content) > _LARGEST:
-            raise ModelFileError(str(path), None, accepted, "is larger than any model")
+            raise ModelFileError(str(path), None, _ACCEPTED, "is larger than any model")
         return content.decode("utf-8")
     except OSError as error:
-        raise ModelFileError(str(path), None, accepted, f"cannot be read ({error.strerror or error})") from None
+        raise ModelFileError(str(path), None, _ACCEPTED, f"cannot be read ({error.strerror or error})") from None
     except UnicodeDecodeError:
-        raise ModelFileError(str(path), None, accepted, "is not UTF-8 text") from None
+        raise ModelFileError(str(path), None, _ACCEPTED, "is not UTF-8 text") from None
 
 
 def _line(error: BaseException, path: Path) -> int:

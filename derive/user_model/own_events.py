@@ -19,7 +19,7 @@ from ..equations.functions import ModelFunction
 from ..equations.model import GROUPS, Model
 from ..physics.mechanics import equations_of_motion
 from ..physics.partners.bodies import CENTRES
-from ..physics.scaling import DISTANCE, EQUAL, ScalingError, to_groups
+from ..physics.scaling import DISTANCE, EQUAL, cancelled, to_groups
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import RATE, SPEED, Dimension
@@ -35,8 +35,6 @@ MOTIONS = {"closing": CLOSING, "opening": OPENING, "any": 0}
 REGIONS = {"": None, "inside the film": 1, "beyond the film": 0}
 PLACES = tuple(f"{motion} {region}".strip() for motion in MOTIONS for region in REGIONS)
 ENDINGS = {"": "go on", "separated": "part", "stick": "cut off"}
-_PROOFS = ("pendulum_margins", "attraction_margins", "approach_step", "approach_force", "orbital_margins",
-           "spin_down_margins")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -71,12 +69,10 @@ class Proposed:
     def row(self) -> Event:
         """Its row in the table of events, behind the library's."""
         motion, region = self.where.partition(" ")[::2]
-        where = [("resting", 0)]
-        where += [("motion", MOTIONS[motion])] if MOTIONS[motion] else []
-        inside = REGIONS[region]
-        where += [] if inside is None else [("film", inside)]
+        watched = {"resting": 0, "motion": MOTIONS[motion] or None, "film": REGIONS[region]}
+        where = tuple((component, value) for component, value in watched.items() if value is not None)
         actions = (f"jump {self.name}", ENDINGS[self.ends])
-        return Event(self.name, (self.name,), tuple(where), (self.word,), actions, dips=True)
+        return Event(self.name, (self.name,), where, (self.word,), actions, dips=True)
 
 
 @dataclass(frozen=True)
@@ -118,19 +114,18 @@ class OwnEvent:
         return self.proposed.name
 
     @property
-    def expressions(self) -> tuple[sp.Expr, ...]:
-        return (self.guard, self.releases, *(value for _, value in self.jump))
-
-    @property
     def mark(self) -> sp.Symbol:
         return self.proposed.mark
 
     @property
+    def symbols(self) -> set[sp.Symbol]:
+        """The symbols of guard, release and jump."""
+        return set().union(*(e.free_symbols for e in (self.guard, self.releases, *(value for _, value in self.jump))))
+
+    @property
     def rotates(self) -> bool:
         """The guard or the jump speaks of a rotation, which there is none of beside a wall."""
-        free = {symbol for part in self.expressions for symbol in part.free_symbols}
-        free |= {target for target, _ in self.jump}
-        return bool(free & {q.omega, q.xi, q.omega0})
+        return bool({*self.symbols, *(target for target, _ in self.jump)} & {q.omega, q.xi, q.omega0})
 
     @property
     def turns(self) -> bool:
@@ -158,9 +153,8 @@ class OwnEvent:
 
     def reach(self, of: Structure) -> Reach:
         """How its guard varies in a structure, by the signs of its derivatives for every positive group."""
-        guard = self.in_structure(of)[0]
+        guard, moving = self.in_structure(of)[0], {q.orbital_momentum, q.spin, q.partner_spin}
         speed, closer = sp.Symbol("speed", positive=True), sp.Symbol("gap", positive=True)
-        moving = {q.orbital_momentum, q.spin, q.partner_spin} & guard.free_symbols
 
         def sign(value: sp.Expr) -> int | None:
             value = sp.factor(sp.simplify(value))
@@ -175,7 +169,7 @@ class OwnEvent:
         by_gap = first if watched == OPENING else second if watched == CLOSING else first if first == second else None
         if by_gap is None or (watched != CLOSING and opening is None) or (watched != OPENING and closing is None):
             return Reach(False, None, None, None)
-        return Reach(not moving, by_gap, opening, closing)
+        return Reach(not moving & guard.free_symbols, by_gap, opening, closing)
 
     def there(self, structure: Structure) -> bool:
         """Whether a structure can have the event."""
@@ -208,16 +202,7 @@ def _settled(label: str, value: sp.Expr, structure: Structure) -> sp.Expr:
     rules = to_groups(CENTRES if structure.partner == "pair" else EQUAL)
     for _ in range(3):
         value = value.xreplace(rules)
-    result = sp.Add(*(sp.simplify(term) for term in sp.Add.make_args(sp.expand(value))))
-    if _dimensional(result):
-        result = sp.simplify(value)
-    if left := _dimensional(result):
-        raise ScalingError(f"{label}: {', '.join(left)} did not cancel from {result}")
-    return result
-
-
-def _dimensional(expression: sp.Expr) -> list[str]:
-    return sorted(s.name for s in expression.free_symbols if s in q.DIMENSIONS and any(q.DIMENSIONS[s].exponents))
+    return cancelled(label, sp.Add(*(sp.simplify(term) for term in sp.Add.make_args(sp.expand(value)))), value)
 
 
 def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
@@ -227,15 +212,14 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
         return model
     marks = tuple(each.mark for each in own)
     forms = {each.name: each.in_structure(model.structure) for each in own}
-    still = {mark: sp.Integer(0) for mark in marks}
-    same = {mark: mark for mark in marks}
+    still, same = dict.fromkeys(marks, sp.Integer(0)), {mark: mark for mark in marks}
     more: dict[str, Mapping[sp.Symbol, sp.Expr]] = {
         "right_hand_side": still, "resting_rates": still, "rebound": same, "rigid_rotation": same, "rubbed": same,
         "start": dict.fromkeys(marks, sp.Integer(1)),
     }  # fmt: skip
     functions = []
     for function in model.functions:
-        if function.name in _PROOFS:
+        if function.for_proof:
             continue
         outputs = function.outputs + tuple((mark.name, value) for mark, value in more.get(function.name, {}).items())
         if function.name == "events":
@@ -254,12 +238,10 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
 
 def groups_of(events: tuple[OwnEvent, ...], structure: Structure) -> set[sp.Basic]:
     """Symbols that the events bring into a structure."""
-    used: set[sp.Basic] = set()
-    for each in events:
-        if each.there(structure):
-            guard, jump, released = each.in_structure(structure)
-            used |= set().union(*(part.free_symbols for part in (guard, released, *jump.values())))
-    return used
+    forms = (each.in_structure(structure) for each in events if each.there(structure))
+    return {
+        s for guard, jump, released in forms for part in (guard, released, *jump.values()) for s in part.free_symbols
+    }
 
 
 def scale_of(dimension: Dimension) -> sp.Expr:

@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from ..equations.model import GROUPS, Model
 from ..physics.laws.base import Definition, Law, LawFunction, is_slot_call
-from ..physics.scaling import ScalingError, dimension_matrix, group_definitions, to_groups
+from ..physics.scaling import ScalingError, cancelled, dimension_matrix, dimensional, group_definitions, to_groups
 from ..physics.slots import MOTION, Place, places
 from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
@@ -112,7 +112,7 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     """
     all_places = places()
     groups = _groups(declared, all_places)
-    laws, printed = [], []
+    laws = []
     extra = _Extra(groups, tuple(one.mark for one in declared.events.values()))
     for proposed in declared.laws.values():
         functions = [
@@ -122,22 +122,22 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
         laws.append(Law(proposed.slot, proposed.name, proposed.meaning, proposed.source, tuple(functions)))
         extra.add(laws[-1], all_places)
     laws = [extra.widened(law) for law in laws]
-    printed = [_in_si(law, groups, all_places) for law in laws]
+    printed = tuple(_in_si(law, groups, all_places) for law in laws)
     called = {symbol for symbols in extra.found.values() for symbol in symbols}
     events = tuple(_event(one, declared, groups, called) for one in declared.events.values())
-    used = called | {s for one in events for part in one.expressions for s in part.free_symbols}
+    used = called.union(*(one.symbols for one in events))
     kept = tuple(group for group in groups.values() if group.symbol in used)
     unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
     if unused:
         raise ScalingError(f"{', '.join(unused)}: declared, but no law or event depends on it")
-    return UserModel(name, meaning, declared, tuple(laws), tuple(printed), kept, extra.found, events)
+    return UserModel(name, meaning, declared, tuple(laws), printed, kept, extra.found, events)
 
 
 def _event(
     one: own_events.Proposed, declared: Declarations, groups: Mapping[str, Group], called: set[sp.Symbol]
 ) -> OwnEvent:
     """A declared event with its quantities as groups."""
-    own = {g.quantity.symbol: g.symbol * g.over for g in groups.values() if g.quantity.dimension != ONE}
+    own = _as_groups(groups)
     of: dict[sp.Basic, Dimension] = {**DIMENSIONS, **{q.symbol: q.dimension for q in declared.quantities.values()}}
     of |= {known.mark: ONE for known in declared.events.values()}
 
@@ -147,6 +147,11 @@ def _event(
     scale = own_events.scale_of(dimension_of(unfolded(one.guard, declared), of) or ONE)
     jump = tuple((target, scaled(value, v0 if target == u else rate_scale)) for target, value in one.jump)
     return OwnEvent(one, scaled(one.guard, scale), jump, scaled(one.releases, m * v0**2), one.mark in called)
+
+
+def _as_groups(groups: Mapping[str, Group]) -> dict[sp.Symbol, sp.Expr]:
+    """Declared quantities with a dimension, by their groups."""
+    return {g.quantity.symbol: g.symbol * g.over for g in groups.values() if g.quantity.dimension != ONE}
 
 
 class _Extra:
@@ -168,8 +173,7 @@ class _Extra:
         functions = []
         for f in law.functions:
             more = self.found.get(f"{law.slot}.{f.name}", ())
-            own = tuple(s for s in f.arguments if s not in more)
-            functions.append(replace(f, arguments=(*own, *more)))
+            functions.append(replace(f, arguments=(*(s for s in f.arguments if s not in more), *more)))
         return replace(law, functions=tuple(functions))
 
 
@@ -184,29 +188,24 @@ def _groups(declared: Declarations, all_places: Mapping[str, Place]) -> dict[str
         dimension = dimension_of(over, DIMENSIONS)
         if dimension != one.dimension:
             raise DimensionError(f"{one.name}.over: {over} has dimension {dimension}, {one.name} has {one.dimension}")
-        result[one.name] = Group(sp.Symbol(one.group, **_sign(one)), one, over)
+        signs = [key for key in ("positive", "nonnegative", "real") if one.symbol.assumptions0.get(key)]
+        result[one.name] = Group(sp.Symbol(one.group, **dict.fromkeys(signs, True)), one, over)
     return result
-
-
-def _sign(one: Declared) -> dict[str, bool]:
-    assumed = one.symbol.assumptions0
-    return {key: True for key in ("positive", "nonnegative", "real") if assumed.get(key)}
 
 
 def _scale(one: Declared, declared: Declarations, all_places: Mapping[str, Place]) -> sp.Expr:
     """A monomial of a scene's quantities with the dimension of `one`; those of the related scale are preferred."""
+    functions = [
+        (expression, all_places[f"{law.slot}.{name}"].scale)
+        for law in declared.laws.values()
+        for name, expression in law.functions
+    ]
+    functions += [(each, sp.Integer(1)) for event in declared.events.values() for each in event.expressions]
     near: list[sp.Symbol] = []
-    for proposed in declared.laws.values():
-        for name, expression in proposed.functions:
-            full = unfolded(expression, declared)
-            if one.symbol in full.free_symbols:
-                near += _by_vocabulary(all_places[f"{proposed.slot}.{name}"].scale.free_symbols)
-                near += _by_vocabulary(full.free_symbols)
-    for happening in declared.events.values():
-        for expression in happening.expressions:
-            full = unfolded(expression, declared)
-            if one.symbol in full.free_symbols:
-                near += _by_vocabulary(full.free_symbols)
+    for expression, scale in functions:
+        full = unfolded(expression, declared)
+        if one.symbol in full.free_symbols:
+            near += _by_vocabulary(scale.free_symbols) + _by_vocabulary(full.free_symbols)
     candidates = [s for s in dict.fromkeys([*near, *_ALWAYS]) if s.name not in _MOVING and any(DIMENSIONS[s].exponents)]
     target = sp.Matrix([sp.Rational(power) for power in one.dimension.exponents])
     for count in (1, 2, 3):
@@ -220,8 +219,7 @@ def _scale(one: Declared, declared: Declarations, all_places: Mapping[str, Place
 
 
 def _by_vocabulary(symbols: Iterable[sp.Symbol]) -> list[sp.Symbol]:
-    here = {s.name for s in symbols}
-    return [VOCABULARY[name].symbol for name in VOCABULARY if name in here]
+    return [quantity.symbol for quantity in VOCABULARY.values() if quantity.symbol.name in {s.name for s in symbols}]
 
 
 def _function(
@@ -277,8 +275,8 @@ def _reached(expression: sp.Expr, declared: Declarations) -> set[sp.Basic]:
 
 def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str, Group]) -> sp.Expr:
     """A dimensionless SI expression in the slot's arguments, states and groups."""
-    own = {g.quantity.symbol: g.symbol * g.over for g in groups.values() if g.quantity.dimension != ONE}
-    if not _dimensional(expression) and not expression.free_symbols & set(own):
+    own = _as_groups(groups)
+    if not dimensional(expression) and not expression.free_symbols & set(own):
         return expression  # kept as written
     for argument, at in zip(place.arguments, place.at, strict=False):
         for moving in (x, u):
@@ -290,15 +288,8 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
     for _ in range(3):
         expression = expression.subs(rules, simultaneous=True)
     terms = sp.Add.make_args(expression)  # kept as written if no quantity remains to cancel
-    by_term = sp.Add(*(sp.simplify(term) if _dimensional(term) else term for term in terms))
-    result = by_term if not _dimensional(by_term) else sp.simplify(expression)
-    if left := _dimensional(result):
-        raise ScalingError(f"{label}: {', '.join(left)} did not cancel from {result}")
-    return result
-
-
-def _dimensional(expression: sp.Expr) -> list[str]:
-    return sorted(s.name for s in expression.free_symbols if s in DIMENSIONS and any(DIMENSIONS[s].exponents))
+    by_term = sp.Add(*(sp.simplify(term) if dimensional(term) else term for term in terms))
+    return cancelled(label, by_term, expression)
 
 
 def _in_si(law: Law, groups: Mapping[str, Group], all_places: Mapping[str, Place]) -> Law:

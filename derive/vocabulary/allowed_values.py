@@ -60,8 +60,6 @@ class Bounds:
         """The interval as written in a manifest: infinite ends are null."""
         return {
             "text": self.text,
-            "low": None if math.isinf(self.low) else self.low,
-            "high": None if math.isinf(self.high) else self.high,
-            "low_open": self.low_open,
-            "high_open": self.high_open,
-        }
+            "low": None if math.isinf(self.low) else self.low, "high": None if math.isinf(self.high) else self.high,
+            "low_open": self.low_open, "high_open": self.high_open,
+        }  # fmt: skip

@@ -1,13 +1,15 @@
-"""Dimensions, and a strict check of the dimensional homogeneity of expressions.
+"""Dimensions, coherent SI units as text, and a strict check of the dimensional homogeneity of expressions.
 
 sympy's own dimension system checks only the first term of a sum; this one checks every term and names the wrong one.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -37,12 +39,8 @@ class Dimension:
         return (self.mass, self.length, self.time)
 
     def __str__(self) -> str:
-        parts = [
-            f"{base}^{power}" if power != 1 else base
-            for base, power in zip("MLT", self.exponents, strict=True)
-            if power
-        ]
-        return " ".join(parts) or "1"
+        powers = [(base, power) for base, power in zip("MLT", self.exponents, strict=True) if power]
+        return " ".join(base if power == 1 else f"{base}^{power}" for base, power in powers) or "1"
 
 
 ONE = Dimension()
@@ -84,24 +82,14 @@ def dimension_of(
         if isinstance(node, (sp.Add, sp.Max, sp.Min)):
             return _common(node, node.args)
         if isinstance(node, sp.Mul):
-            result = ONE
-            for factor in node.args:
-                part = walk(factor)
-                if part is None:
-                    return None
-                result = result * part
-            return result
+            parts = [walk(factor) for factor in node.args]
+            known = [part for part in parts if part is not None]
+            return prod(known, start=ONE) if len(known) == len(parts) else None
         if isinstance(node, sp.Pow):
             return _power(node)
         if isinstance(node, sp.Derivative):
-            top = walk(node.expr)
-            if top is None:
-                return None
-            for variable, count in node.variable_count:
-                bottom = walk(variable)
-                assert bottom is not None
-                top = top / bottom ** int(count)
-            return top
+            top, below = walk(node.expr), [(walk(each) or ONE, int(count)) for each, count in node.variable_count]
+            return top and prod((bottom**-count for bottom, count in below), start=top)
         if isinstance(node, sp.Abs):
             return walk(node.args[0])
         if isinstance(node, sp.Piecewise):
@@ -118,18 +106,12 @@ def dimension_of(
         raise DimensionError(f"no dimension is known for {node} (a {type(node).__name__})")
 
     def _common(whole: sp.Basic, terms: list[sp.Basic] | tuple[sp.Basic, ...]) -> Dimension | None:
-        first: tuple[sp.Basic, Dimension] | None = None
-        for term in terms:
-            dimension = walk(term)
-            if dimension is None:
-                continue
-            if first is None:
-                first = (term, dimension)
-            elif dimension != first[1]:
-                raise DimensionError(
-                    f"term {term} has dimension {dimension} beside {first[0]} of dimension {first[1]} in {whole}"
-                )
-        return first[1] if first else None
+        known = [(term, dimension) for term in terms if (dimension := walk(term)) is not None]
+        for term, dimension in known[1:]:
+            if dimension != known[0][1]:
+                beside = f"{known[0][0]} of dimension {known[0][1]}"
+                raise DimensionError(f"term {term} has dimension {dimension} beside {beside} in {whole}")
+        return known[0][1] if known else None
 
     def _power(node: sp.Pow) -> Dimension | None:
         base = walk(node.base)
@@ -158,8 +140,37 @@ def demand_dimension(
 ) -> None:
     """Raise DimensionError, naming the equation, unless `expression` has dimension `expected`."""
     try:
-        found = dimension_of(expression, of, slots)
+        result = dimension_of(expression, of, slots)
     except DimensionError as error:
         raise DimensionError(f"{name}: {error}") from None
-    if found not in (None, expected):
-        raise DimensionError(f"{name}: {expression} has dimension {found}, expected {expected}")
+    if result not in (None, expected):
+        raise DimensionError(f"{name}: {expression} has dimension {result}, expected {expected}")
+
+
+UNITS: dict[str, Dimension] = {
+    "1": ONE, "rad": ONE, "m": LENGTH, "kg": MASS, "s": TIME, "N": FORCE, "Pa": PRESSURE, "J": ENERGY,
+    "W": ENERGY / TIME, "Hz": TIME**-1,
+}  # fmt: skip
+_FACTOR = re.compile(r"([A-Za-z1]+)(?:\^(-?\d{1,2}))?")
+
+
+class UnitError(ValueError):
+    """An unknown unit; the message names it."""
+
+
+def dimension_of_unit(text: str) -> Dimension:
+    """Dimension of a product or quotient of coherent SI units; UnitError names an unknown unit."""
+    if not isinstance(text, str) or not text.strip():
+        raise UnitError("is not a unit")
+    result = ONE
+    for place, part in enumerate(text.replace("**", "^").replace("*", " ").split("/")):
+        factors = part.split()
+        if not factors or (place and len(factors) > 1):
+            raise UnitError('is not a unit (one factor behind each "/")')
+        for factor in factors:
+            found = _FACTOR.fullmatch(factor)
+            if found is None or found[1] not in UNITS:
+                raise UnitError(f"has the unknown unit {factor!r}")
+            power = int(found[2] or 1) * (-1 if place else 1)
+            result = result * UNITS[found[1]] ** power
+    return result

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields
 
 from ...equations import automaton
-from .modules import PROVENANCE, digest
+from ..provenance import PROVENANCE, digest
 
 _DOC = "A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."
 _CRITERION_FIELDS = {
@@ -22,19 +22,8 @@ _EVENT_FIELDS = {
 
 def automaton_digest() -> str:
     """Digest of the tables of the automaton."""
-    tables = (
-        "COMPONENTS",
-        "CRITERIA",
-        "WORDS",
-        "ACTIONS",
-        "EVENTS",
-        "RULES",
-        "OUTCOMES",
-        "STATUSES",
-        "PURPOSES",
-        "CONSTANTS",
-    )
-    return digest(*(row for table in tables for row in getattr(automaton, table)))
+    tables = "COMPONENTS CRITERIA WORDS ACTIONS EVENTS RULES OUTCOMES STATUSES PURPOSES CONSTANTS"
+    return digest(*(row for table in tables.split() for row in getattr(automaton, table)))
 
 
 def provenance() -> str:
@@ -44,7 +33,6 @@ def provenance() -> str:
 
 def automaton_module() -> str:
     """Text of `generated/automaton.py`."""
-    words = [word.word for word in automaton.WORDS]
     lines = [f"# {line}" for line in provenance().splitlines()]
     lines += [f'"""{_DOC}"""', "", "from __future__ import annotations", ""]
     lines += ["from enum import IntEnum", "from typing import NamedTuple", ""]
@@ -54,7 +42,7 @@ def automaton_module() -> str:
     lines.append(f"OUTCOMES = ({', '.join(each.name for each in automaton.OUTCOMES)})  # by number")
     lines += ["", *_numbers("EventKind", "Number of an event in a report; KINDS has its word.",
                             [(word.name, word.meaning) for word in automaton.WORDS])]  # fmt: skip
-    lines += ["", *_tuple("KINDS", words)]
+    lines += ["", "KINDS = (", *(f"    {_text(word.word)}," for word in automaton.WORDS), ")"]
     lines += _criteria()
     lines += _numbers("Status", "Status returned by the kernel; up to LAST_ANSWER the outcome is valid.",
                       [(each.name, each.meaning) for each in automaton.STATUSES])  # fmt: skip
@@ -98,21 +86,21 @@ def _events() -> list[str]:
     doc = "An event: its guard and its effect; `generated/automaton.md` explains them."
     lines = ["", *_named_tuple("Event", doc, _EVENT_FIELDS)]
     void = {each.name: each.void_without for each in automaton.COMPONENTS if each.void_without}
+    ignored = "# Component of the mode -> event; conditions on it are ignored in structures without that event."
     lines += [
         "",
         "",
-        "# Component of the mode -> event; conditions on it are ignored in structures without that event.",
+        ignored,
+        "VOID_WITHOUT = {",
+        *(f'    "{name}": "{event}",' for name, event in void.items()),
+        "}",
+        "",
     ]
-    lines += ["VOID_WITHOUT = {", *(f'    "{name}": "{event}",' for name, event in void.items()), "}", ""]
     lines += [f"ENDS = {_text(automaton.ENDS)}  # actions that end a collision", ""]
     lines += ["EVENTS = (  # in order of precedence among coincident ones"]
     for event in automaton.EVENTS:
         lines += ["    Event(", *_members(event, _EVENT_FIELDS), "    ),"]
     return [*lines, ")"]
-
-
-def _tuple(name: str, values: Sequence[str]) -> list[str]:
-    return [f"{name} = (", *(f"    {_text(value)}," for value in values), ")"]
 
 
 def _text(value: object) -> str:

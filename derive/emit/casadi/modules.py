@@ -2,46 +2,19 @@
 
 from __future__ import annotations
 
-import hashlib
 import textwrap
 from collections.abc import Mapping, Sequence
-from collections.abc import Set as AbstractSet
-from functools import cache
 
 import sympy as sp
 
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
-from ...physics.laws.base import Law
+from ...physics.laws.base import Law, needed
 from ...physics.scaling import first_rates, group_definitions, impact_groups, scale_definitions
 from ...vocabulary.quantities import VOCABULARY, obliquity, obliquity_pair, obliquity_space, obliquity_wall, rate_scale
-from ..taylor.header import Beside, structure_header
-from ..taylor.law_header import law_header
-from ..taylor.law_slopes import slopes_header
-from ..taylor.tangent import tangent_header
-from ..text import INDENT, WIDTH, assignment, docstring, module, needed, operations
+from ..provenance import Own, describe, digest, header, law_digest, model_digest
+from ..text import INDENT, WIDTH, assignment, docstring, module, operations
 from .printer import Printer
-
-PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`."
-
-
-def digest(*parts: object) -> str:
-    """SHA-256 of the mathematics of a module (srepr, not source text)."""
-    text = "\n".join(sp.srepr(part) if isinstance(part, sp.Basic) else str(part) for part in parts)
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _header(source: str) -> str:
-    return f"{PROVENANCE}\nEquations sha256 {source}"
-
-
-def law_digest(law: Law) -> str:
-    """Digest of a law's mathematics."""
-    parts: list[object] = [law.slot, law.name]
-    for function in law.functions:
-        parts += [function.name, *function.arguments, function.result]
-        parts += [part for pair in function.definitions for part in pair]
-    return digest(*parts)
 
 
 def law_module(law: Law) -> str:
@@ -56,16 +29,13 @@ def law_module(law: Law) -> str:
         body += docstring(f"{function.doc}\n\nTotal operations: {count}", INDENT)
         for symbol, expression in kept:
             body += assignment(symbol.name, expression, printer)
-        lines = assignment("result", function.result, printer)
-        body += (
-            [f"{INDENT}return {printer(function.result)}", ""]
-            if len(lines) == 1
-            else [*lines, f"{INDENT}return result", ""]
-        )
+        lines = [*assignment("result", function.result, printer), f"{INDENT}return result"]
+        body += [f"{INDENT}return {printer(function.result)}"] if len(lines) == 2 else lines
+        body.append("")
     doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
     falls = any(each.falls and each.name in ("force", "log_factor") for each in law.functions)  # with the gap
     body = [*_validity(law), *(["", "FALLS = True", ""] if falls else []), *body]
-    return module(_header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
+    return module(header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
 
 
 def _validity(law: Law) -> list[str]:
@@ -84,48 +54,6 @@ def _casadi(printer: Printer) -> list[str]:
     return [f"from casadi import {', '.join(sorted(printer.imports))}"] if printer.imports else []
 
 
-@cache
-def model_digest(model: Model) -> str:
-    """Digest of a structure's mathematics."""
-    parts: list[object] = [model.structure.name, *model.states, *model.groups, *model.slots]
-    parts += [part for pair in model.definitions for part in pair]
-    for function in model.functions:
-        parts += [function.name, *(part for pair in function.outputs for part in pair)]
-    return digest(*parts)
-
-
-Own = Mapping[str, tuple[str, str]]
-"""Unit and meaning, by name, of groups that are not the vocabulary's."""
-
-
-def _described(name: str, own: Own) -> str:
-    unit, meaning = own[name] if name in own else (VOCABULARY[name].unit, VOCABULARY[name].meaning)
-    return f"- {name} [{unit}]: {meaning}"
-
-
-def _describe(model: Model, own: Own) -> str:
-    shape = model.structure
-    what = {
-        "": "Oblique" if shape.oblique else "Head-on",
-        "pair": "Oblique unequal",
-        "wall": "Oblique sphere-wall",
-        "space": "Spatial",
-    }
-    words = {"a liquid bridge": shape.bridge, "pendulum strings": shape.strings, "another attraction": shape.attraction}
-    extras = [word for word, there in words.items() if there]
-    title = f"{what[shape.partner]} doublet" + (f" with {' and '.join(extras)}" if extras else " with a film only")
-    if shape.spread:
-        title += ", a film whose rim follows the bridge's volume"
-    if shape.reduced:
-        title += ", spin eliminated through the conserved angular momentum"
-    lines = [f"{title}.", "", "Time in x0/v0. States (per unit):"]
-    lines += [_described(s.name, own) for s in model.states]
-    lines += ["", "Groups:"]
-    lines += [_described(s.name, own) for s in model.groups]
-    lines += ["", f"Law slots: {', '.join(model.slots)}."]
-    return "\n".join(lines)
-
-
 def structure_module(model: Model, own: Own | None = None, shared: Mapping[str, str] | None = None) -> str:
     """Text of a structure's module: states, groups, slots, and its functions.
 
@@ -142,7 +70,7 @@ def structure_module(model: Model, own: Own | None = None, shared: Mapping[str, 
         ("FUNCTIONS", [f.name for f in model.functions]),
         ("REGIONAL", [f.name for f in model.functions if f.regional]),
     ):
-        body += _name_tuple(constant, names)
+        body += _listed(f"{constant} = {_tuple(names)}", f"{constant} =", [f'"{name}"' for name in names])
     body += [f'DIGEST = "{model_digest(model)}"', ""]
     elsewhere: dict[str, list[str]] = {}
     for function in model.functions:
@@ -154,28 +82,23 @@ def structure_module(model: Model, own: Own | None = None, shared: Mapping[str, 
             body += defined
             printer.imports |= trial.imports
     imports = ["from collections.abc import Mapping", "from typing import Any", "", *_casadi(printer)]
-    imports += [line for home in sorted(elsewhere) for line in _import(home, sorted(elsewhere[home]))]
-    return module(_header(model_digest(model)), _describe(model, own or {}), imports, body)
+    for home, names in sorted(elsewhere.items()):
+        start = f"from .{home} import"
+        imports += _listed(f"{start} {', '.join(sorted(names))}", start, sorted(names))
+    return module(header(model_digest(model)), describe(model, own or {}), imports, body)
 
 
-def _import(home: str, names: list[str]) -> list[str]:
-    line = f"from .{home} import {', '.join(names)}"
-    return [line] if len(line) <= WIDTH else [f"from .{home} import (", *_listed(names), ")"]
-
-
-def _listed(words: Sequence[str]) -> list[str]:
-    """Lines of a long list of words."""
-    return textwrap.wrap(", ".join(words) + ",", WIDTH, initial_indent=INDENT, subsequent_indent=INDENT)
+def _listed(line: str, start: str, words: Sequence[str]) -> list[str]:
+    """A line with a list of words, or `start` and the list over several lines in brackets."""
+    if len(line) <= WIDTH:
+        return [line]
+    inside = textwrap.wrap(", ".join(words) + ",", WIDTH, initial_indent=INDENT, subsequent_indent=INDENT)
+    return [f"{start} (", *inside, ")"]
 
 
 def _tuple(names: Sequence[str]) -> str:
     listed = ", ".join(f'"{name}"' for name in names)
     return f"({listed},)" if len(names) == 1 else f"({listed})"
-
-
-def _name_tuple(constant: str, names: list[str]) -> list[str]:
-    line = f"{constant} = {_tuple(names)}"
-    return [line] if len(line) <= WIDTH else [f"{constant} = (", *_listed([f'"{name}"' for name in names]), ")"]
 
 
 def function_lines(model: Model, name: str, printer: Printer) -> list[str]:
@@ -184,7 +107,7 @@ def function_lines(model: Model, name: str, printer: Printer) -> list[str]:
     kept, used = needed([expression for _, expression in function.outputs], model.definitions)
     region = [flag.name for flag in (FILM, SHEAR)] if function.regional else []
     flags = "".join(f", {flag}: int = 1" for flag in region)
-    flags += "".join(f", {symbol.name}: Any = 0" for symbol in function.given)
+    flags += "".join(f", {symbol.name}: Any = 0" for symbol in function.further)
     lines = ["", f"def {name}(state: Values, groups: Values, laws: Any{flags}) -> dict[str, Any]:"]
     count = operations([*(e for _, e in function.outputs), *(e for _, e in kept)])
     doc = function.doc
@@ -199,26 +122,6 @@ def function_lines(model: Model, name: str, printer: Printer) -> list[str]:
     lines.append(f"{INDENT}return {{")
     lines += [f'{INDENT * 2}"{key}": {printer(expression)},' for key, expression in function.outputs]
     return [*lines, f"{INDENT}}}", ""]
-
-
-def law_kernel(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
-    """Text of a law's C header for the Taylor kernel; `groups` are a user's."""
-    return law_header(law, law_digest(law), PROVENANCE, groups)
-
-
-def structure_kernel(model: Model, own: Own | None = None, beside: Beside | None = None) -> str:
-    """Text of a structure's C header for the Taylor kernel; `own` and `beside` are a user's."""
-    return structure_header(model, model_digest(model), PROVENANCE, _describe(model, own or {}), beside)
-
-
-def law_slopes(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
-    """Text of the C header with the derivatives of a law; `groups` are a user's."""
-    return slopes_header(law, law_digest(law), PROVENANCE, groups)
-
-
-def structure_tangent(model: Model, beside: Beside | None = None) -> str:
-    """Text of the C header of a structure's tangent; `beside` is a user's."""
-    return tangent_header(model, model_digest(model), PROVENANCE, beside)
 
 
 def scaling_digest() -> str:
@@ -262,4 +165,4 @@ def groups_module(definitions: Mapping[sp.Symbol, sp.Expr], known: Own, source: 
         unit, meaning = known[group.name]
         body += docstring(f"{meaning} [{unit}].\n\n{units}", INDENT)
         body += [f"{INDENT}return {printer(expression)}", ""]
-    return module(_header(source), doc, ["from typing import Any", "", *_casadi(printer)], body)
+    return module(header(source), doc, ["from typing import Any", "", *_casadi(printer)], body)

@@ -6,6 +6,8 @@ another meaning (`and`).
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -45,8 +47,10 @@ class Printer:
             return node.name, _ATOM
         if isinstance(node, sp.Integer):
             return str(int(node)), _ATOM if node >= 0 else _UNARY
-        if isinstance(node, sp.Rational):
-            return self._rational(node)
+        if isinstance(node, sp.Rational):  # a finite decimal, or p/q: both give the nearest double
+            if (decimal := _decimal(node)) is None:
+                return f"{int(node.p)}/{int(node.q)}", _MUL
+            return decimal, _ATOM if node >= 0 else _UNARY
         if isinstance(node, sp.Float):
             return self._float(node)
         if node is sp.pi:
@@ -87,21 +91,8 @@ class Printer:
             raise EmissionError(f"number {node} does not round-trip through a double")
         return repr(value), _ATOM if value >= 0 else _UNARY
 
-    @staticmethod
-    def _rational(node: sp.Rational) -> tuple[str, int]:
-        """A finite decimal as a decimal literal, other rationals as p/q: both give the nearest double."""
-        decimal = _decimal(node)
-        if decimal is not None:
-            return decimal, _ATOM if node >= 0 else _UNARY
-        return f"{int(node.p)}/{int(node.q)}", _MUL
-
     def _sum(self, node: sp.Add) -> str:
-        text = ""
-        for term in _positive_first(node.as_ordered_terms()):
-            negative = term.could_extract_minus_sign()
-            body = self._above(-term if negative else term, _ADD)
-            text += (f" - {body}" if negative else f" + {body}") if text else (f"-{body}" if negative else body)
-        return text
+        return signed_sum(_positive_first(node.as_ordered_terms()), lambda term: self._above(term, _ADD))
 
     def _product(self, node: sp.Mul) -> tuple[str, int]:
         if node.could_extract_minus_sign():
@@ -155,10 +146,8 @@ class Printer:
         for _, condition in node.args[:-1]:
             known = type(condition) in _RELATIONS and isinstance(condition.lhs, sp.Symbol)
             if not known or condition.rhs.has(condition.lhs):
-                raise EmissionError(
-                    f"Piecewise condition {condition} is not of the form symbol < bound, "
-                    "so its branches cannot be guarded"
-                )
+                form = "is not of the form symbol < bound, so its branches cannot be guarded"
+                raise EmissionError(f"Piecewise condition {condition} {form}")
             names.add(condition.lhs.name)
         if len(names) > 1:
             both = ", ".join(sorted(names))
@@ -182,9 +171,8 @@ class Printer:
         point = _inside(variable, facts)
         for probe in (value.subs(variable, point), value.diff(variable).subs(variable, point)):
             if probe.is_number and not (probe.is_finite and probe.is_real):
-                raise EmissionError(
-                    f"branch {value} of {node} is not regular at {variable} = {point}, so it cannot be guarded"
-                )
+                where = f"is not regular at {variable} = {point}, so it cannot be guarded"
+                raise EmissionError(f"branch {value} of {node} {where}")
         guard, held = self._print(variable)[0], self._print(point)[0]
         for condition, holds in facts:
             test = self._print(condition)[0]
@@ -220,6 +208,16 @@ def _decimal(value: sp.Rational) -> str | None:
         return None
     sign, digits = ("-" if numerator < 0 else ""), str(abs(numerator)).rjust(places + 1, "0")
     return f"{sign}{digits[:-places]}.{digits[-places:]}" if places else f"{sign}{digits}"
+
+
+def signed_sum(terms: Iterable[sp.Expr], text: Callable[[sp.Expr], str]) -> str:
+    """A sum in this order, its negative terms subtracted."""
+    result = ""
+    for term in terms:
+        negative = term.could_extract_minus_sign()
+        body = text(-term if negative else term)
+        result += (f" - {body}" if negative else f" + {body}") if result else (f"-{body}" if negative else body)
+    return result
 
 
 def _positive_first(terms: list[sp.Expr]) -> list[sp.Expr]:

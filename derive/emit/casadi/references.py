@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ...physics.laws import LAWS
-from ...physics.laws.elastic_length import ELASTIC
+from ...physics.laws.bridge import COMMON
+from ...physics.laws.glass import ELASTIC
 from ...physics.laws.references import PAPER, WALTON, Reference
-from ...physics.laws.rupture import COMMON
 from ...physics.partners import PUBLISHED
-from .modules import PROVENANCE
+from ..provenance import PROVENANCE
 
 _DOC = "Where the equations and the laws are published."
 _FIELDS = {
@@ -35,14 +35,8 @@ def references_module() -> str:
     uses = cited()
     lines = [f"# {PROVENANCE}", f'"""{_DOC}"""', "", "from __future__ import annotations", ""]
     lines += ["from typing import NamedTuple", "", "", "class Reference(NamedTuple):"]
-    lines += [
-        '    """An article in a journal."""',
-        "",
-        *(f"    {name}: {kind}" for name, kind in _FIELDS.items()),
-        "",
-        "",
-    ]
-    lines += ["REFERENCES = {"]
+    lines += ['    """An article in a journal."""', "", *(f"    {name}: {kind}" for name, kind in _FIELDS.items())]
+    lines += ["", "", "REFERENCES = {"]
     for one in dict.fromkeys(each for those in uses.values() for each in those):
         lines += [f'    "{one.key}": Reference(', *(f"        {getattr(one, name)!r}," for name in _FIELDS), "    ),"]
     lines += ["}", "CITED: dict[str, tuple[str, ...]] = {"]

@@ -17,6 +17,11 @@ x0."""
 _VOID = """Structures without a film edge (no bridge, or a film whose rim follows the bridge volume) have no
 event at x0, and conditions on the film are ignored."""
 
+_REPORTED = """\
+If there are two words, the first is reported while closing and the second while opening; at a contact, the
+criterion with the largest positive gap is reported, or the last one if none is positive; where the slip
+vanishes, whether friction holds the surfaces."""
+
 
 def automaton_page(provenance: str) -> str:
     """Text of `generated/automaton.md`."""
@@ -26,8 +31,7 @@ def automaton_page(provenance: str) -> str:
         ("component", "values", "meaning"),
         [(each.name, ", ".join(name for _, name in each.values), each.meaning) for each in automaton.COMPONENTS],
     )
-    lines += ["", _VOID]
-    lines += ["", "## Events", ""]
+    lines += ["", _VOID, "", "## Events", ""]
     lines += _table(
         ("event", "guard falls through zero", "watched while", "reported as", "effect"),
         [
@@ -35,7 +39,7 @@ def automaton_page(provenance: str) -> str:
             for each in automaton.EVENTS
         ],
     )
-    lines += ["", *_reported_by(), "", "The actions of the effects:", ""]
+    lines += ["", _REPORTED, "", "The actions of the effects:", ""]
     lines += _table(("action", "meaning"), [(each.name, each.meaning) for each in automaton.ACTIONS])
     lines += ["", "## Words", ""]
     lines += _table(("reported as", "number", "meaning"),
@@ -45,10 +49,7 @@ def automaton_page(provenance: str) -> str:
         ("rule", "if", "then", "reported as"),
         [(each.name, each.condition, each.effect, _either(each.words)) for each in automaton.RULES],
     )
-    lines += [
-        "",
-        "A collision also ends where a certificate excludes separation; the stick is then `certified`.",
-    ]
+    lines += ["", "A collision also ends where a certificate excludes separation; the stick is then `certified`."]
     lines += ["", "## Outcomes", ""]
     outcomes = [(f"`{each.word}`", str(k), each.condition) for k, each in enumerate(automaton.OUTCOMES)]
     lines += _table(("outcome", "number", "condition"), outcomes)
@@ -65,14 +66,6 @@ def automaton_page(provenance: str) -> str:
         ("name", "value", "meaning"), [(f"`{c.name}`", f"{c.value:g}", c.meaning) for c in automaton.CONSTANTS]
     )
     return "\n".join(lines) + "\n"
-
-
-def _reported_by() -> list[str]:
-    return [
-        "If there are two words, the first is reported while closing and the second while opening; at a contact, the",
-        "criterion with the largest positive gap is reported, or the last one if none is positive; where the slip",
-        "vanishes, whether friction holds the surfaces.",
-    ]
 
 
 def _guard(event: Event) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from html import escape
 
 from ...equations import automaton
@@ -58,7 +59,10 @@ def _arrows() -> dict[tuple[Mode | str, Mode | str], list[str]]:
         for source in _sources(event):
             target = _target(event, source)
             if target != source:
-                result.setdefault((source, target), []).extend(_words(event, source))
+                words: Sequence[str] = event.words
+                if event.chosen_by == "motion" and not isinstance(source, str):
+                    words = [event.words[dict(source)["motion"] == OPENING]]
+                result.setdefault((source, target), []).extend(words)
     (rest,) = (rule for rule in automaton.RULES if rule.name == "rest")
     result[_mode(1, CLOSING), _mode(1, OPENING, 1)] = [f"a criterion, {rest.words[0]} (beyond the film too)"]
     return result
@@ -90,14 +94,7 @@ def _target(event: Event, source: Mode | str) -> Mode | str:
         "cross film edge": {"film": 1 - state["film"]},
         "open": {"motion": OPENING, "resting": 0},
     }.get(last, {})
-    changed = state | change
-    return _mode(changed["film"], changed["motion"], changed["resting"])
-
-
-def _words(event: Event, source: Mode | str) -> list[str]:
-    if event.chosen_by == "motion" and not isinstance(source, str):
-        return [event.words[dict(source)["motion"] == OPENING]]
-    return list(event.words)
+    return _mode(**(state | change))
 
 
 def _label(box: Mode | str) -> tuple[str, ...]:

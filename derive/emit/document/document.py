@@ -18,6 +18,13 @@ from .latex import latex, naming
 from .theory import Equation, theory
 
 _ABSENT = {"bridge": ("Capillary bridge", (F_c,)), "strings": ("Pendulum strings", (S_n, S_t))}
+_PREAMBLE = r"""% Emitted by wetdoublet from its derivation.
+\documentclass[a4paper,10pt]{article}
+\usepackage{amsmath}
+\usepackage[margin=2cm]{geometry}
+\usepackage{tabularx}
+\allowdisplaybreaks"""
+_QUANTITY_HEADS = ("quantity", "symbol", "unit", "default", "accepted", "meaning")
 _EVENT_HEADS = ("event", "watched while", "effect", "meaning", "source")
 _EFFECTS = {"": "goes on", "separated": "ends: separated", "stick": "cut off: a stick"}
 _DOLLAR = "$"
@@ -45,23 +52,13 @@ class Document:
             body += [rf"\section*{{{_tex(group)}}}", r"\begin{align*}", " \\\\\n".join(rows), r"\end{align*}"]
         body += [r"\section*{Laws}", *_tabular("lll", ("slot", "law", "source"), self.laws)]
         if self.quantities:
-            heads = ("quantity", "symbol", "unit", "default", "accepted", "meaning")
-            body += [r"\section*{Quantities of the model}", *_tabular("llllll", heads, self.quantities)]
+            body += [r"\section*{Quantities of the model}", *_tabular("llllll", _QUANTITY_HEADS, self.quantities)]
         if self.events:
             body += [r"\section*{Events of the model}", *_tabular("lllll", _EVENT_HEADS, self.events)]
-        head = [
-            "% Emitted by wetdoublet from its derivation.",
-            r"\documentclass[a4paper,10pt]{article}",
-            r"\usepackage{amsmath}",
-            r"\usepackage[margin=2cm]{geometry}",
-            r"\usepackage{tabularx}",
-            r"\allowdisplaybreaks",
-            rf"\title{{{_tex(self.title)}}}",
-            r"\date{}",
-            r"\begin{document}",
-            r"\maketitle",
-        ]
-        return "\n".join([*head, *body, r"\end{document}", ""])
+        title = rf"\title{{{_tex(self.title)}}}"
+        return "\n".join(
+            [_PREAMBLE, title, r"\date{}", r"\begin{document}", r"\maketitle", *body, r"\end{document}", ""]
+        )
 
     def markdown(self) -> str:
         """A page of Markdown, formulas between dollars."""
@@ -74,8 +71,7 @@ class Document:
             body.append("")
         body += ["## Laws", "", *_table(("slot", "law", "source"), self.laws), ""]
         if self.quantities:
-            heads = ("quantity", "symbol", "unit", "default", "accepted", "meaning")
-            body += ["## Quantities of the model", "", *_table(heads, self.quantities), ""]
+            body += ["## Quantities of the model", "", *_table(_QUANTITY_HEADS, self.quantities), ""]
         if self.events:
             body += ["## Events of the model", "", *_table(_EVENT_HEADS, self.events), ""]
         return "\n".join(body)
@@ -119,16 +115,10 @@ def _of_event(event: OwnEvent, own: UserModel | None) -> Iterator[Equation]:
 
 def _events(own: UserModel | None) -> tuple[tuple[str, ...], ...]:
     """Rows on the declared events, which come after the library's where they coincide."""
-    return tuple(
-        (
-            event.proposed.word,
-            watched(event.proposed.row),
-            _EFFECTS[event.proposed.ends] + ("; the motion jumps" if event.jump else ""),
-            event.proposed.meaning,
-            event.proposed.source,
-        )
-        for event in (own.events if own else ())
-    )
+    events = [event.proposed for event in (own.events if own else ())]
+    effects = [_EFFECTS[one.ends] + ("; the motion jumps" if one.jump else "") for one in events]
+    each = zip(events, effects, strict=True)
+    return tuple((one.word, watched(one.row), effect, one.meaning, one.source) for one, effect in each)
 
 
 def law_of(slot: str, name: str, own: UserModel | None) -> Law:
@@ -164,10 +154,8 @@ def _quantities(own: UserModel | None) -> tuple[tuple[str, ...], ...]:
 
 
 def _tabular(columns: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
-    shape = columns[:-1] + "X"
+    shape = "lXX" if len(columns) == 3 else columns[:-1] + "X"
     lines = [rf"\noindent\begin{{tabularx}}{{\linewidth}}{{{shape}}}", " & ".join(heads) + r" \\ \hline"]
-    if len(columns) == 3:
-        lines[0] = r"\noindent\begin{tabularx}{\linewidth}{lXX}"
     lines += [" & ".join(_tex(cell) for cell in row) + r" \\" for row in rows]
     return [*lines, r"\end{tabularx}"]
 

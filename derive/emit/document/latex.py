@@ -13,45 +13,19 @@ import sympy as sp
 
 from ...physics.mechanics import F_c, F_n, F_t, F_w, S_n, S_t
 from ...vocabulary.quantities import A_H, VOCABULARY, a, beta, e_dry, g, m, mu, r, sigma, v0
-from ..casadi.printer import EmissionError
+from ..casadi.printer import EmissionError, signed_sum
 
 NAMES: dict[str, str] = {
     **{name: quantity.latex for name, quantity in VOCABULARY.items()},
     # symbols outside the vocabulary: the paper's forces, and intermediates of laws
-    F_n.name: "F_{L,n}",
-    F_t.name: "F_{L,t}",
-    F_c.name: "F_c",
-    F_w.name: "F_w",
-    S_n.name: "F_{S,n}",
+    F_n.name: "F_{L,n}", F_t.name: "F_{L,t}", F_c.name: "F_c", F_w.name: "F_w", S_n.name: "F_{S,n}",
     S_t.name: "F_{S,t}",
-    "swing": "d",
-    "rim": "H",
-    "v_s": "v_s",
-    "m_t": "m_t",
-    "Q": "Q",
-    "compliance": r"\theta_e",
-    "decay": "A",
-    "offset": "B",
-    "tail": "C",
-    "log_volume": r"\Lambda",
-    "log_scaled_gap": r"\lambda",
-    "scaled_gap": "S",
-    "cylinder_reach": "s",
-    "half_filling_angle": r"\alpha",
-    **{f"f{k}": f"f_{k}" for k in range(1, 5)},
-}
-_FIRST = [  # order of the factors; the rest as in the vocabulary
-    "decay",
-    *(f"f{k}" for k in range(1, 5)),
-    m.name,
-    mu.name,
-    A_H.name,
-    g.name,
-    a.name,
-    sigma.name,
-    e_dry.name,
-    v0.name,
-]
+    "swing": "d", "rim": "H", "v_s": "v_s", "m_t": "m_t", "Q": "Q", "compliance": r"\theta_e", "decay": "A",
+    "offset": "B", "tail": "C", "log_volume": r"\Lambda", "log_scaled_gap": r"\lambda", "scaled_gap": "S",
+    "cylinder_reach": "s", "half_filling_angle": r"\alpha", **{f"f{k}": f"f_{k}" for k in range(1, 5)},
+}  # fmt: skip
+# order of the factors; the rest as in the vocabulary
+_FIRST = ["decay", *(f"f{k}" for k in range(1, 5)), *(s.name for s in (m, mu, A_H, g, a, sigma, e_dry, v0))]
 _ORDER = {name: place for place, name in enumerate(dict.fromkeys([*_FIRST, *NAMES]))}
 _FUNCTIONS: dict[type, str] = {
     sp.log: r"\ln", sp.sin: r"\sin", sp.cos: r"\cos", sp.tan: r"\tan", sp.exp: r"\exp", sp.asin: r"\arcsin",
@@ -101,7 +75,7 @@ def _print(node: sp.Basic) -> str:
     if isinstance(node, sp.Pow):
         return _power(node)
     if type(node) in _FUNCTIONS:
-        return _call(node)
+        return f"{_FUNCTIONS[type(node)]} {_argument(node)}"
     if isinstance(node, sp.Abs):
         return rf"\left| {_print(node.args[0])} \right|"
     if isinstance(node, (sp.Min, sp.Max)):
@@ -121,13 +95,7 @@ def _condition(node: sp.Basic) -> str:
 
 
 def _sum(node: sp.Add) -> str:
-    terms = sorted(node.args, key=_place_in_sum)
-    text = ""
-    for term in terms:
-        negative = term.could_extract_minus_sign()
-        body = _print(-term if negative else term)
-        text += (f" - {body}" if negative else f" + {body}") if text else (f"-{body}" if negative else body)
-    return text
+    return signed_sum(sorted(node.args, key=_place_in_sum), _print)
 
 
 def _place_in_sum(term: sp.Expr) -> tuple[bool, int, tuple[int, ...]]:
@@ -156,7 +124,8 @@ def _product(node: sp.Expr) -> str:
     if all(factor.is_number for factor in under):  # 16/5 m a^2, but x/2
         inside = [factor for factor in over if factor.is_number] or over
     else:
-        inside = [factor for factor in over if not _is_bracket(factor)] or over
+        bases = [(factor, factor.base if isinstance(factor, sp.Pow) else factor) for factor in over]
+        inside = [factor for factor, base in bases if not isinstance(base, (sp.Add, sp.Function))] or over
     rest = [factor for factor in over if factor not in inside]
     # a denominator consisting of one sum needs no brackets
     below = _print(under[0]) if len(under) == 1 else _factors(under)
@@ -180,11 +149,6 @@ def _place(factor: sp.Expr) -> tuple[int, int]:
     return (5 if isinstance(base, sp.Function) else 4), 0
 
 
-def _is_bracket(factor: sp.Expr) -> bool:
-    base = factor.base if isinstance(factor, sp.Pow) else factor
-    return isinstance(base, (sp.Add, sp.Function))
-
-
 def _factors(factors: list[sp.Expr]) -> str:
     printed = [_wrapped(factor) if isinstance(factor, sp.Add) else _print(factor) for factor in factors]
     spaced = [rf"\, {text}" if text.startswith(_OPERATORS) else text for text in printed]
@@ -204,10 +168,6 @@ def _power(node: sp.Pow) -> str:
         return rf"{_FUNCTIONS[type(base)]}^{{{exponent}}} {_argument(base)}"
     body = _print(base) if isinstance(base, (sp.Symbol, sp.Integer)) or base is sp.pi else _wrapped(base)
     return f"{body}^{{{exponent}}}"
-
-
-def _call(node: sp.Function) -> str:
-    return f"{_FUNCTIONS[type(node)]} {_argument(node)}"
 
 
 def _argument(node: sp.Function) -> str:

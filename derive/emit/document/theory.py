@@ -14,12 +14,11 @@ from ...physics.contact_friction import equal_spheres
 from ...physics.forces import FILM, SHEAR, force_laws
 from ...physics.laws import LAWS, Law, fill
 from ...physics.laws.base import slot_calls
-from ...physics.laws.elastic_length import elastic_compliance, elastic_length
-from ...physics.laws.rupture import rupture_distance
-from ...physics.laws.start import initial_rate, start_values
+from ...physics.laws.bridge import rupture_distance
+from ...physics.laws.glass import elastic_compliance, elastic_length
 from ...physics.laws.strings import r as string_distance
 from ...physics.laws.strings import swing_squared
-from ...physics.scaling import LUBRICATION_PRESSURE, group_definitions
+from ...physics.scaling import LUBRICATION_PRESSURE, group_definitions, initial_rate, start_values
 from ...vocabulary import quantities as q
 from .latex import latex
 
@@ -69,11 +68,7 @@ def _rate(symbol: sp.Symbol) -> str:
 
 def _motion(laws: Mapping[str, Law]) -> Iterator[Equation]:
     group, motion = "Motion", mechanics.equations_of_motion()
-    opened = (
-        motion.separation_acceleration
-        if "attraction" in laws
-        else motion.separation_acceleration.subs(mechanics.F_w, 0)
-    )
+    opened = motion.separation_acceleration.subs({} if "attraction" in laws else {mechanics.F_w: 0})
     radial = sp.collect(sp.expand(q.m * opened), q.omega**2, evaluate=False)
     balance = sp.Add(*(sp.factor(part) * power if power != 1 else part for power, part in radial.items()))
     lever = sp.expand(fill(force_laws()[mechanics.arm], laws))
@@ -83,12 +78,8 @@ def _motion(laws: Mapping[str, Law]) -> Iterator[Equation]:
     yield Equation(group, f"{latex(q.m)} {_rate(q.u)}", balance, "along the line of centres")
     momentum = rf"\frac{{d}}{{dt}} \left[ {latex(motion.orbital_momentum)} \right]"
     yield Equation(group, momentum, motion.orbital_momentum_rate, "across the line of centres")
-    yield Equation(
-        group,
-        f"{latex(mechanics.sphere_inertia())} {_rate(q.xi)}",
-        turning,
-        f"spin of each sphere ({laws['arm'].name} arm)",
-    )
+    spun = f"{latex(mechanics.sphere_inertia())} {_rate(q.xi)}"
+    yield Equation(group, spun, turning, f"spin of each sphere ({laws['arm'].name} arm)")
     scaled, square = sp.expand(mechanics.doublet_inertia() / (q.m * q.a**2)), (4 + q.x / q.a) ** 2  # as in the paper
     inertia = sp.Mul(q.m * q.a**2, square + sp.expand(scaled - square), evaluate=False)
     yield Equation(group, f"I({latex(q.x)})", inertia, "inertia in rigid rotation")
@@ -110,19 +101,14 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     for call in shear.atoms(sp.log):
         shear = shear.subs(-call, sp.log(1 / call.args[0]))  # ln(x0/x) instead of -ln(x/x0)
     edge = sp.simplify(q.x0 * laws["shear"]["edge"](q.x0 / q.a))
-    yield Equation("Lubrication", latex(mechanics.F_n), normal, _where(law))
+    sustains = all(function.name != "suction" for function in law.functions)
+    where = _inside(q.x0) + ("; the same on the way in and out" if sustains else "; 0 on the way out")
+    where = where if rim is None else "at any gap, the same on the way in and out"
+    yield Equation("Lubrication", latex(mechanics.F_n), normal, where)
     if rim is not None:
         squared = sp.expand((rim**2).subs(arguments, simultaneous=True) * q.x0**2)
         yield Equation("Lubrication", latex(_RIM), sp.sqrt(squared), "rim of the disc that holds the bridge's volume")
     yield Equation("Lubrication", latex(mechanics.F_t), shear, _inside(edge))
-
-
-def _where(law: Law) -> str:
-    """The condition under which a film force acts: region and direction of motion."""
-    functions = {function.name for function in law.functions}
-    if _rim(law) is not None:
-        return "at any gap, the same on the way in and out"
-    return _inside(q.x0) + ("; 0 on the way out" if "suction" in functions else "; the same on the way in and out")
 
 
 def _rim(law: Law) -> sp.Expr | None:
@@ -189,13 +175,8 @@ def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
         yield Equation(group, latex(q.x if each.contact else q.p_gt), limit, f"({number}) {each.name}", r"\leq")
         if limit.has(_COMPLIANCE):
             yield Equation(group, latex(_COMPLIANCE), elastic_compliance())
-    yield Equation(
-        group,
-        latex(q.u),
-        rebound((q.normal_velocity,))[q.normal_velocity].subs(q.normal_velocity, q.u),
-        "if any of these is met",
-        r"\to",
-    )
+    after = rebound((q.normal_velocity,))[q.normal_velocity].subs(q.normal_velocity, q.u)
+    yield Equation(group, latex(q.u), after, "if any of these is met", r"\to")
     yield Equation(group, "x_f", rupture_distance(bridge=True), f"rupture (${latex(q.x0)}$ without a bridge)")
 
 
@@ -215,7 +196,6 @@ def _friction(laws: Mapping[str, Law]) -> Iterator[Equation]:
 
 def _groups() -> Iterator[Equation]:
     definitions = group_definitions()
-    yield Equation("Groups", latex(q.stokes), definitions[q.stokes])
-    yield Equation("Groups", latex(q.capillary), definitions[q.capillary])
     rotating = sp.simplify(definitions[q.centrifugal] / initial_rate() ** 2) * q.omega0**2
-    yield Equation("Groups", latex(q.centrifugal), rotating)
+    for group in (q.stokes, q.capillary, q.centrifugal):
+        yield Equation("Groups", latex(group), rotating if group == q.centrifugal else definitions[group])

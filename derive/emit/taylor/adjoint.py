@@ -21,6 +21,7 @@ from .layout import comment, documented, struct
 from .linear_flow import LinearFlow
 from .program import Operation
 
+_UNUSED = "(void)bar; (void)d; (void)c; (void)film; (void)shear; (void)moving;"
 # Cost of a transposed recurrence in products of series; a call costs one for each series that it is given.
 TRANSPOSED = {"product": 2.0, "square": 1.0, "quotient": 2.0, "sine": 1.0, "cosine": 1.0}
 
@@ -46,7 +47,11 @@ class Adjoint:
 
     def lines(self) -> list[str]:
         """The emitted declarations and functions."""
-        return [*self._law_slopes(), *self._struct(), *self._function(), *self._along_constants()]
+        fields = ["vec constant[CONSTANTS];", *(f"vec {name}[TERMS];" for name in self._arrays)]
+        doc = "Derivatives of a result by the coefficients of the series of a step, and by the constants so far."
+        count = f"enum {{ CONSTANTS = {max(len(self._constants), 1)} }};"
+        own = [count, *comment(doc), *struct("adjoint", fields)]
+        return [*self._law_slopes(), *own, *self._function(), *self._along_constants()]
 
     def _contributing(self) -> list[Operation]:
         """Operations that the rates of the states depend on, in order."""
@@ -63,16 +68,15 @@ class Adjoint:
     def _law_slopes(self) -> list[str]:
         calls = [(each.name, *each.call) for each in self._operations if each.kind == "call"]
         prepare, expand = ["(void)c; (void)v;"], ["(void)s; (void)c; (void)of; (void)v;"]
-        for name, slot, call, given in calls:
-            passed = "".join(f", {self._array(a)}" for a in given if isinstance(a, str))
+        for name, slot, call, arguments in calls:
+            passed = "".join(f", {self._array(a)}" for a in arguments if isinstance(a, str))
             prepare.append(f"{slot}_{call}_slope_prepare(&c->{name}, &v->{name});")
             expand.append(f"{slot}_{call}_slopes_of(&s->{name}, &c->{name}, &of->{name}, &v->{name}{passed});")
         constants = [f"{slot}_{call}_slope_constants {name};" for name, slot, call, _ in calls]
         slopes = [f"{slot}_{call}_slopes {name};" for name, slot, call, _ in calls]
-        none = ["char none[0];"]
         return [
-            *struct("slope_constants", constants or none),
-            *struct("slopes", slopes or none),
+            *struct("slope_constants", constants or ["char none[0];"]),
+            *struct("slopes", slopes or ["char none[0];"]),
             *documented(
                 "Constants of the laws' derivatives, computed once per collision.",
                 "static inline void prepare_slopes(slope_constants *c, const constants *v)",
@@ -91,12 +95,6 @@ class Adjoint:
     def _array(self, name: str) -> str:
         return self._flow.array(name).replace("s->", "of->", 1)
 
-    def _in_groups(self, expression: sp.Expr) -> sp.Expr:
-        named = self._header.flow.named
-        while named.keys() & expression.free_symbols:
-            expression = expression.xreplace(named)
-        return expression
-
     def _accumulate(self, factor: sp.Expr, change: str, first: bool = False) -> list[str]:
         """C statement that adds a change to the derivative by a constant; none if that depends on no group.
 
@@ -104,8 +102,10 @@ class Adjoint:
             factor: the constant, with the flags of the region as factors.
             first: only for coefficient 0.
         """
-        flags, rest = split_flags(factor, (FILM, SHEAR))
-        whole = self._in_groups(rest)
+        flags, whole = split_flags(factor, (FILM, SHEAR))
+        named = self._header.flow.named
+        while named.keys() & whole.free_symbols:
+            whole = whole.xreplace(named)
         if not whole.free_symbols:
             return []
         place = f"bar->constant[{self._constants.setdefault(whole, len(self._constants))}]"
@@ -168,7 +168,7 @@ class Adjoint:
         lines = [f"vec {own} = {total};"]
         texts = self._flow.factors[operation.name]
         for part, factor, text in zip(operation.series, operation.factors, texts, strict=False):
-            self._pull(part, own if text == "1.0" else f"(-{own})" if text == "(-1.0)" else f"{text}*{own}")
+            self._pull(part, _scaled(text, own))
             lines += self._accumulate(factor, f"{self._array(part)}[k]*{own}")
         return lines + self._accumulate(operation.factors[-1], own, first=True)
 
@@ -179,15 +179,14 @@ class Adjoint:
         lines = []
         for part, other in ((first, second), (second, first)):
             lines.append(f"vec {part}_by_{name} = correlated({self._array(other)}, {own}, k);")
-            term = f"{part}_by_{name}"
-            self._pull(part, term if text == "1.0" else f"(-{term})" if text == "(-1.0)" else f"{text}*{term}")
+            self._pull(part, _scaled(text, f"{part}_by_{name}"))
         return lines + self._accumulate(operation.factors[0], f"{self._array(first)}[k]*{first}_by_{name}")
 
     def _call(self, operation: Operation) -> list[str]:
-        slot, call, given = operation.call
+        slot, call, arguments = operation.call
         own, lines = f"bar->{operation.name}", []
-        names = self._tangent.law_arguments(slot, call, len(given))
-        for argument, value in zip(names, given, strict=True):
+        names = self._tangent.law_arguments(slot, call, len(arguments))
+        for argument, value in zip(names, arguments, strict=True):
             slope = f"d->{operation.name}.by_{argument.removeprefix(UNUSED)}"
             if isinstance(value, str):
                 lines.append(f"vec {operation.name}_{argument} = correlated({slope}, {own}, k);")
@@ -198,23 +197,13 @@ class Adjoint:
 
     # ---- text
 
-    def _struct(self) -> list[str]:
-        fields = ["vec constant[CONSTANTS];", *(f"vec {name}[TERMS];" for name in self._arrays)]
-        doc = "Derivatives of a result by the coefficients of the series of a step, and by the constants so far."
-        count = max(len(self._constants), 1)
-        return [f"enum {{ CONSTANTS = {count} }};", *comment(doc), *struct("adjoint", fields)]
-
     def _function(self) -> list[str]:
         return documented(
             "Transposed recurrences of coefficient k. `w` holds the derivatives of a result by coefficient k + 1 of "
             f"the states, then by coefficient k; `of_sum` those by their sums. Products of series: {self.cost:g}.",
             "INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec power, const series *of, "
             "const slopes *d, const constants *c, vec film, vec shear, mask moving, int k)",
-            [
-                "double next = 1.0/(k + 1);",
-                "(void)bar; (void)d; (void)c; (void)film; (void)shear; (void)moving;",
-                *self._steps,
-            ],
+            ["double next = 1.0/(k + 1);", _UNUSED, *self._steps],
         )
 
     def _along_constants(self) -> list[str]:
@@ -238,9 +227,19 @@ class Adjoint:
         return documented(doc, head, body)
 
 
+def _scaled(factor: str, term: str) -> str:
+    return {"1.0": term, "(-1.0)": f"(-{term})"}.get(factor, f"{factor}*{term}")
+
+
 def contraction(tangent: LinearFlow) -> list[str]:
     """C text of the contraction rate: minus the trace of the matrix, from the leading coefficients of the series."""
-    slopes = [_diagonal(tangent, state) for state in tangent.model.states]
+    rates = dict(tangent.rates())
+    slopes = [tangent.chain.by(rates[state.name], state) for state in tangent.model.states]
+    named = dict(tangent.model.definitions) | dict(tangent.chain.named)
+    own = {symbol: value for symbol, value in named.items() if symbol.name not in tangent.flow}
+    for place, slope in enumerate(slopes):  # in series of the flow and constants
+        while own.keys() & slopes[place].free_symbols:
+            slopes[place] = slope = slope.xreplace(own)
     # the slope of a law that depends on a rate is only available in the tangent
     known = [slope for slope in slopes if not any(symbol.name in tangent.slopes for symbol in slope.free_symbols)]
     trace = sp.Add(*known)
@@ -258,13 +257,3 @@ def contraction(tangent: LinearFlow) -> list[str]:
     head = "static inline vec contraction(const series *of, const constants *v, vec film, vec shear)"
     doc = "Contraction rate of a volume of states at the start of a step, dominated by the fast modes."
     return documented(doc, head, body)
-
-
-def _diagonal(tangent: LinearFlow, state: sp.Symbol) -> sp.Expr:
-    """Derivative of a state's rate by the state itself, in series of the flow and constants."""
-    slope = tangent.chain.by(dict(tangent.rates())[state.name], state)
-    known = dict(tangent.model.definitions) | dict(tangent.chain.named)
-    own = {symbol: value for symbol, value in known.items() if symbol.name not in tangent.flow}
-    while own.keys() & slope.free_symbols:
-        slope = slope.xreplace(own)
-    return slope

@@ -9,7 +9,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ...physics.laws.base import is_slot_call
-from ..casadi.printer import EmissionError
+from ..casadi.printer import EmissionError, signed_sum
 from .program import Operation, Program
 
 _FUNCTIONS = {
@@ -69,14 +69,8 @@ class Text:
         return text if own >= strength else f"({text})"
 
     def _sum(self, node: sp.Add) -> str:
-        text = ""
-        terms = node.as_ordered_terms()
-        terms.sort(key=lambda term: term.could_extract_minus_sign())
-        for term in terms:
-            negative = term.could_extract_minus_sign()
-            body = self._at_least(-term if negative else term, _MUL)
-            text += (f" - {body}" if negative else f" + {body}") if text else (f"-{body}" if negative else body)
-        return text
+        terms = sorted(node.as_ordered_terms(), key=lambda term: term.could_extract_minus_sign())
+        return signed_sum(terms, lambda term: self._at_least(term, _MUL))
 
     def _product(self, node: sp.Mul) -> str:
         over: list[str] = []
@@ -154,8 +148,8 @@ def split_flags(expression: sp.Expr, flags: Iterable[sp.Symbol]) -> tuple[list[s
 class Constants:
     """Quantities computed once per collision: given and named values, and factors hoisted out of the recurrences."""
 
-    def __init__(self, given: Mapping[sp.Symbol, str], flags: tuple[sp.Symbol, ...] = (), place: str = "c->") -> None:
-        self._given = dict(given)
+    def __init__(self, places: Mapping[sp.Symbol, str], flags: tuple[sp.Symbol, ...] = (), place: str = "c->") -> None:
+        self._places = dict(places)
         self._flags = flags
         self._place = place
         self.prepared: dict[str, sp.Expr] = {}
@@ -165,7 +159,7 @@ class Constants:
 
     def beside(self, place: str) -> Constants:
         """Constants stored in another C struct that can use the present ones."""
-        more = Constants(self._given | self._defined, self._flags, place)
+        more = Constants(self._places | self._defined, self._flags, place)
         more._hoisted = dict(self._hoisted)
         return more
 
@@ -173,7 +167,7 @@ class Constants:
         """C name of a constant symbol."""
         if symbol in self._flags:
             return symbol.name
-        result = self._given.get(symbol) or self._defined.get(symbol)
+        result = self._places.get(symbol) or self._defined.get(symbol)
         if result is None:
             raise EmissionError(f"{symbol} is neither given nor defined")
         return result
@@ -306,7 +300,8 @@ class Recurrences:
                 return f"{target} = {terms};"
             return f"{target} = k == 0 ? {terms} + {offset} : {terms};"
         if kind == "product":
-            older, newer = (self.array(part) for part in sorted(operation.series, key=self._age))
+            ages = {each.name: age for age, each in enumerate(self.program.operations)}  # given series come first
+            older, newer = (self.array(part) for part in sorted(operation.series, key=lambda part: ages.get(part, -1)))
             return f"{target} = {_times(factors[0])}product({older}, {newer}, k);"
         if kind in _RECURRENCES:
             inner = f"{place}slope_of_{operation.series[0]}"
@@ -324,10 +319,6 @@ class Recurrences:
         slot, function, arguments = operation.call
         passed = "".join(f", {self.array(a)}" for a in arguments if isinstance(a, str))
         return f"{slot}_{function}_next(&s->{name}, &c->{name}{passed}, k);"
-
-    def _age(self, name: str) -> int:
-        """Position of a series in the program; given series come first."""
-        return next((k for k, operation in enumerate(self.program.operations) if operation.name == name), -1)
 
     def values(self, results: Iterable[object]) -> list[str]:
         """Declarations of local variables with the values at order zero; `where` of given series must be values too.

@@ -1,4 +1,4 @@
-"""Margins of the stick certificates in C, compiled for laws that have what a certificate uses."""
+"""Margins of the stick certificates, and the coefficients of the slow manifold, in C."""
 
 from __future__ import annotations
 
@@ -7,13 +7,17 @@ from collections.abc import Iterable, Mapping, Sequence
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ...equations.certificates.approach import braking
+from ...equations.certificates.slow_manifold import admits, coefficients
 from ...equations.model import Model
-from ...physics.laws.base import Definition, is_slot_call
+from ...physics.laws.base import Definition, needed, slot_calls
+from ...physics.scaling import DISTANCE
 from ...physics.slots import places
-from ..text import needed
-from .c_text import Constants, Text
+from ...vocabulary.quantities import gap, stokes
+from .c_text import Constants, Recurrences, Text
 from .law_header import moves
-from .layout import comment, function
+from .layout import comment, function, struct
+from .program import Program
 
 # the cheap and usually decisive margins in functions of their own
 PARTS = {
@@ -57,12 +61,8 @@ class Margins:
     def _pendulum(self) -> list[str]:
         outputs = self.model["pendulum_margins"].by_name
         kept, _ = needed(list(outputs.values()), self.model.definitions)
-        called = {
-            node.func.__name__
-            for _, expression in (*kept, *outputs.items())
-            for node in sp.sympify(expression).atoms(AppliedUndef)
-            if is_slot_call(node) and tuple(node.func.__name__.split(".")) not in self.prepared
-        }
+        nodes = (node for _, expression in (*kept, *outputs.items()) for node in slot_calls(sp.sympify(expression)))
+        called = {name for node in nodes if tuple((name := node.func.__name__).split(".")) not in self.prepared}
         lines = []
         for name, (keys, doc) in PARTS.items():
             lines += self._function(name, doc, {key: outputs[key] for key in keys})
@@ -95,10 +95,8 @@ class Margins:
 
     def approach(self) -> list[str]:
         """The functions of the approach certificate; nothing for structures without it."""
-        lines = []
-        for name in ("approach_step", "approach_force"):
-            if name in self.model:
-                lines += self._function(name, self.model[name].doc, self.model[name].by_name)
+        each = [self.model[name] for name in ("approach_step", "approach_force") if name in self.model]
+        lines = [line for one in each for line in self._function(one.name, one.doc, one.by_name)]
         required = ["FILM_BRAKING", "GLASS_REACH", *self._falling()]
         return _compiled_with(required, "APPROACH_BOUNDS", self._arm(), lines) if lines else []
 
@@ -155,3 +153,76 @@ def margin_function(
     pointers = ", ".join(f"vec *{result}" for result in results.values())
     head = f"static inline void {name}(const constants *c, const vec *y, {pointers})"
     return [*comment(doc), *function(head, body)]
+
+
+MEANINGS = {
+    "distance": "centre distance over a",
+    "slowing": "loss of normal velocity in the film per gap, over v0/x0: f",
+    "relaxation": "rate at which shear brings the orbital momentum to its rigid value, per x0/v0: s",
+    "rigid": "orbital momentum in rigid rotation: J_r",
+    "centrifugal": "centrifugal force over the square of the orbital momentum: c",
+    "attractions": "attractive forces: A",
+}
+
+
+def slow_manifold_functions(model: Model, constants: Constants, prepared: dict[tuple[str, str], str]) -> list[str]:
+    """The series of `coefficients` in the gap, compiled only for laws that fall with it; none where they are not given.
+
+    Arguments:
+        constants: of the structure; factors that do not vary are added to them.
+        prepared: by slot and function, the name of the law's constants in those of the structure.
+    """
+    terms = coefficients(model) if admits(model.structure) else None
+    if terms is None:
+        return ["#define SLOW_MANIFOLD 0", ""]
+    program = Program((gap,))
+    program.define(DISTANCE, dict(model.definitions)[DISTANCE])
+    result: dict[str, str | sp.Expr] = {"distance": DISTANCE.name}
+    falling = set()
+    for name, expression in terms.items():
+        result[name] = expression
+        if program.moves(expression):
+            program.define(sp.Symbol(name), expression)
+            result[name] = program.series(sp.Symbol(name))
+        falling |= {f"{call.func.__name__.replace('.', '_').upper()}_FALLS" for call in slot_calls(expression)}
+    recurrences = Recurrences(program, constants, lambda series: f"s->{series}")
+    lines: list[str] = []
+    fields = ["vec gap[TERMS];", *recurrences.fields()]
+    own = {operation.name for operation in program.operations}
+    for name, value in result.items():
+        if value == name and name in own:
+            continue
+        fields.append(f"vec {name}[TERMS];")
+        if isinstance(value, str):
+            lines.append(f"s->{name}[k] = {recurrences.coefficient(value)};")
+        else:
+            lines.append(f"s->{name}[k] = k == 0 ? splat({constants.factor(value, name)}) : splat(0.0);")
+    meanings = "; ".join(f"`{name}` {meaning}" for name, meaning in MEANINGS.items())
+    return [
+        f"#if {' && '.join(f'defined({name})' for name in sorted(falling))} && !defined(FILM_CAVITATES)",
+        "#define SLOW_MANIFOLD 1",
+        *comment(
+            f"Inside the film, as series in the gap (derive/equations/certificates/slow_manifold.py): {meanings}."
+        ),
+        *struct("slow_series", fields),
+        *function(
+            "INLINE void slow_coefficients(slow_series *s, const constants *c, int k)",
+            ["(void)c;", *recurrences.lines(), *lines],
+        ),
+        "",
+        "#if defined(FILM_BRAKING)",
+        *margin_function(
+            "film_taken",
+            "Velocity that the film takes from x0 to a gap, over v0.",
+            [],
+            {"taken": braking(model.structure, gap) / stokes},
+            {gap: "y[GAP]"},
+            constants,
+            prepared,
+        ),
+        "#endif",
+        "#else",
+        "#define SLOW_MANIFOLD 0",
+        "#endif",
+        "",
+    ]

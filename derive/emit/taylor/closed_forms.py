@@ -57,13 +57,12 @@ def momentum_functions(model: Model, constants: Constants, calls: Calls) -> list
     if call.has(normal_velocity):
         return ["#define FILM_MOMENTUM 0 /* its force is not proportional to the velocity */", ""]
     factor = constants.factor(sp.cancel(force / call / normal_velocity), "film_momentum_factor")
-    slowing = function(
-        "static inline vec film_slowing(const constants *c, vec gap)",
-        [f"return {factor}*film_resistance_value(&c->{name}, gap);"],
-    )
-    momentum = function(
-        "static inline vec film_momentum(const constants *c, vec gap)",
-        [f"return {factor}*film_resistance_work(&c->{name}, gap);"],
+    slowing, momentum = (
+        function(
+            f"static inline vec film_{what}(const constants *c, vec gap)",
+            [f"return {factor}*film_resistance_{of}(&c->{name}, gap);"],
+        )
+        for what, of in (("slowing", "value"), ("momentum", "work"))
     )
     doc = "Loss of normal velocity in the film up to a gap, over v0, from a fixed but arbitrary gap."
     return [

@@ -34,15 +34,12 @@ def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
         body += ["#if OWN_RUPTURE", f"c->rupture_gap = {text.vector(_OWN_RUPTURE)};", "#endif"]
     doc = "The groups of a collision from its quantities in SI."
     lines += documented(doc, "static inline void scale(constants *c, const vec *q)", body)
-    return lines + (_rate_scale(model, text) if q.obliquity in expressions else [])
-
-
-def _rate_scale(model: Model, text: Text) -> list[str]:
-    """What a unit of the angular velocities is in SI."""
+    if q.obliquity not in expressions:
+        return lines
     scales = {"": q.rate_scale, "wall": q.rate_scale_wall, "pair": q.rate_scale_pair, "space": q.rate_scale_pair}
     value = scale_definitions()[scales[model.structure.partner]]
     head = "static inline vec rate_scale(const constants *c, const vec *q)"
-    return documented("Omega, the unit of angular velocities, in rad/s.", head, [f"return {text(value)};"])
+    return lines + documented("Omega, the unit of angular velocities, in rad/s.", head, [f"return {text(value)};"])
 
 
 def _expressions(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
@@ -66,7 +63,7 @@ def _quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
 
 def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     """Derivatives of the groups by the quantities in SI, and the groups that each quantity affects; `own` as above."""
-    wanted = _expressions(model, own)
+    wanted, shape = _expressions(model, own), (q.volume, q.contact_angle)
     text = Text(_place("v", wanted))
     bits: dict[sp.Symbol, int] = dict.fromkeys(_quantities(wanted), 0)
     body = ["(void)v; (void)q;", "memset(slope, 0, sizeof(vec)*GROUPS);", "switch (quantity) {"]
@@ -78,7 +75,10 @@ def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
                 bits[symbol] |= 1 << place
                 line = f"    slope[BY_{group.name.upper()}] = {text.vector(slope)};"
                 if group == q.rupture_gap:
-                    own_line = f"    slope[BY_RUPTURE_GAP] = {text.vector(_own_rupture_slope(symbol))};"
+                    by_own = _power_slope(_PER_DISTANCE, symbol, q.rupture_gap)  # for the law's own distance
+                    if symbol in shape:
+                        by_own = _PER_DISTANCE * slot_call("bridge", f"rupture_distance_by_{symbol.name}", *shape)
+                    own_line = f"    slope[BY_RUPTURE_GAP] = {text.vector(by_own)};"
                     body += ["#if OWN_RUPTURE", own_line, "#else", line, "#endif"]
                 else:
                     body.append(line)
@@ -88,13 +88,6 @@ def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     moved = f"const unsigned moved_groups[QUANTITIES] = {{ {', '.join(map(str, bits.values()))} }};"
     lines = [*comment("The groups that each quantity in SI moves, as bits."), moved, ""]
     return lines + documented("How the groups change with a quantity in SI.", head, body)
-
-
-def _own_rupture_slope(symbol: sp.Symbol) -> sp.Expr:
-    """Derivative of the rupture gap for the law's own distance."""
-    if symbol in (q.volume, q.contact_angle):
-        return _PER_DISTANCE * slot_call("bridge", f"rupture_distance_by_{symbol.name}", q.volume, q.contact_angle)
-    return _power_slope(_PER_DISTANCE, symbol, q.rupture_gap)
 
 
 def _power_slope(expression: sp.Expr, symbol: sp.Symbol, group: sp.Symbol) -> sp.Expr:

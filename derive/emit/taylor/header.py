@@ -13,8 +13,9 @@ from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import slot_calls
 from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
+from ..provenance import Own, describe, header, model_digest
 from .c_text import Constants, Recurrences
-from .certificates import Margins
+from .certificates import Margins, slow_manifold_functions
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
 from .groups_from_si import scale_function
 from .layout import comment, compiled_if, documented, function, struct
@@ -23,7 +24,6 @@ from .own_events import own_event_functions
 from .program import Program
 from .resting import FLAGS as RUBBING
 from .resting import QUADRATURES, Resting
-from .slow_manifold import slow_manifold_functions
 
 if TYPE_CHECKING:
     from ...user_model.own_events import OwnEvent
@@ -37,13 +37,13 @@ class Beside:
 
     Arguments:
         definitions: its groups in SI quantities.
-        meanings: of groups and quantities, by name.
+        own: unit and meaning of groups and quantities, by name.
         extra: additional arguments of its calls, by slot function.
         events: its declared events.
     """
 
     definitions: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
-    meanings: Mapping[str, str] = field(default_factory=dict)
+    own: Own = field(default_factory=dict)
     extra: Mapping[str, tuple[sp.Symbol, ...]] = field(default_factory=dict)
     events: tuple[OwnEvent, ...] = ()
 
@@ -84,25 +84,21 @@ class Header:
 
     def _resting(self) -> Resting:
         """The motion in resting contact with friction."""
-        outputs = [
-            *self.model["resting_rates"].outputs,
-            ("slip", friction.DRY_SLIP),
-            *self.model["dry_forces"].outputs,
-            ("reaction", self.model["inward_force"]["inward_force"]),
-            *(self.model["turning_rate"].outputs if self.turning is not None else ()),
-        ]
+        turns = self.model["turning_rate"].outputs if self.turning is not None else ()
+        outputs = [*self.model["resting_rates"].outputs, ("slip", friction.DRY_SLIP), *self.model["dry_forces"].outputs]
+        outputs += [("reaction", self.model["inward_force"]["inward_force"]), *turns]
         program = Program.for_outputs(self.model.states, (value for _, value in outputs), self.model.definitions)
         result = {key: program.result(expression, f"rate_of_{key}") for key, expression in outputs}
-        turning = None if self.turning is None else result[self.model["turning_rate"].outputs[0][0]]
-        return Resting(self.model, program, self.constants, result, turning)
+        return Resting(self.model, program, self.constants, result, result[turns[0][0]] if turns else None)
 
     # ---- the complete header
 
-    def text(self, digest: str, provenance: str, doc: str) -> str:
+    def text(self) -> str:
         """The header."""
         functions = [*self._coefficients(), *self._values()]
         table, own = own_event_functions(self.model, self.beside.events, self.constants, self._valued)
-        lines = comment(f"{provenance}\nEquations sha256 {digest}")
+        lines = comment(header(model_digest(self.model)))
+        doc = describe(self.model, self.beside.own)
         lines += ["", *comment(f"{doc}\n\nProducts of series: {self.flow.cost:g} and those of the laws."), ""]
         lines += [*self._enumerations(), *table]
         lines += [*self._constants(), *self._series(), *functions, *own]
@@ -111,12 +107,9 @@ class Header:
     def _enumerations(self) -> list[str]:
         shape = self.model.structure
         states = [state.name for state in self.model.states]
-        flags = {
-            "OBLIQUE": shape.oblique, "BRIDGE": shape.bridge, "STRINGS": shape.strings, "REDUCED": shape.reduced,
-            "ATTRACTION": shape.attraction, "SPREAD": shape.spread, "WALL": shape.partner == "wall",
-            "SPACE": shape.partner == "space",
-        }  # fmt: skip
-        lines = [f"#define {name} {int(value)}" for name, value in flags.items()]
+        names = ("oblique", "bridge", "strings", "reduced", "attraction", "spread")
+        lines = [f"#define {name.upper()} {int(getattr(shape, name))}" for name in names]
+        lines += [f"#define {name.upper()} {int(shape.partner == name)}" for name in ("wall", "space")]
         if shape.friction:
             lines += ["#define FRICTION 1", f"#define FRICTION_ON_GLASS {int(shape.friction == 'all')}"]
         if self.work_rate is not None:
@@ -132,14 +125,11 @@ class Header:
             lines.append("#define CAPILLARY_STATE 0")
         lines.append(f"#define TURNING_STATE (WITH_ROTATION && {int(self.turning is not None)})")
         lines += self.ledger.enumerations()
-        lines += [
-            "/* Index of coefficient k of a series used in sums only; the cases listed also read past coefficients. */",
-            "#define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)",
-        ]
+        doc = "Index of coefficient k of a series used in sums only; the cases listed also read past coefficients."
+        lines += [f"/* {doc} */", "#define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)"]
         if shape.partner == "space":
-            lines.append(
-                f"#define FIRST_VECTOR {normal[0].name.upper()} /* from here on vectors of three components */"
-            )
+            first = normal[0].name.upper()
+            lines.append(f"#define FIRST_VECTOR {first} /* from here on vectors of three components */")
         upper = ", ".join(state.upper() for state in states)
         lines += ["", f"enum {{ {upper}, MODEL_STATES }};"]
         lines += ["enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };"]
@@ -160,13 +150,12 @@ class Header:
         fields += ["glass_pressure_clearance_constants glass;", *self.ledger.member()]
         body = constants.assignments()
         for name, (slot, call, arguments) in self.calls.items():
-            passed = "".join(
-                f", {self.constants.vector(argument, 'argument')}"
-                for argument in arguments
-                if not isinstance(argument, str)
-            )
+            still = [argument for argument in arguments if not isinstance(argument, str)]
+            passed = "".join(f", {constants.vector(argument, 'argument')}" for argument in still)
             body.append(f"{slot}_{call}_prepare(&c->{name}{passed});")
-        body.append(f"glass_pressure_clearance_prepare(&c->glass{self._glass_groups()}, c->glass_number);")
+        (call,) = slot_calls(self.model["events"]["glass"])
+        passed = "".join(f", {constants.vector(argument, 'argument')}" for argument in call.args[2:])  # a user's groups
+        body.append(f"glass_pressure_clearance_prepare(&c->glass{passed}, c->glass_number);")
         body += self.ledger.prepare()
         return [
             *self.ledger.constants_struct(),
@@ -180,12 +169,7 @@ class Header:
         ]
 
     def _meaning(self, group: sp.Symbol) -> str:
-        return self.beside.meanings.get(group.name) or VOCABULARY[group.name].meaning
-
-    def _glass_groups(self) -> str:
-        """Additional arguments of a user's glass law, as C text."""
-        (call,) = slot_calls(self.model["events"]["glass"])
-        return "".join(f", {self.constants.vector(argument, 'argument')}" for argument in call.args[2:])
+        return self.beside.own[group.name][1] if group.name in self.beside.own else VOCABULARY[group.name].meaning
 
     def _series(self) -> list[str]:
         fields = [f"vec {state.name}[TERMS]; /* {self._meaning(state)} */" for state in self.model.states]
@@ -260,13 +244,13 @@ class Header:
         targets: Mapping[str, str],
         doc: str,
         constants: Constants | None = None,
-        given: tuple[sp.Symbol, ...] = (),
+        further: tuple[sp.Symbol, ...] = (),
     ) -> list[str]:
         """A C function of outputs; its targets are C text, or "return" for the value itself."""
         constants = constants or self.constants
         values = (expression for _, expression in outputs)
-        program = Program.for_outputs((*self.model.states, *given), values, self.model.definitions)
-        arguments = {symbol.name for symbol in given}
+        program = Program.for_outputs((*self.model.states, *further), values, self.model.definitions)
+        arguments = {symbol.name for symbol in further}
         found = {key: program.result(expression, key) for key, expression in outputs}
 
         def where(series: str) -> str:
@@ -308,17 +292,13 @@ class Header:
         if "orbital_margins" in model and "surface" in model["orbital_margins"].by_name:
             lines.append("#define BY_ORBITAL_MOMENTUM LIBRARY_LAWS")
             lines.append("enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };")
-            lines += self._vector(
-                "orbital_margins",
-                "found",
-                {
-                    "slip": "found[SLIP_RATE]",
-                    "orbital_energy": "found[ORBITAL_ENERGY]",
-                    "surface": "found[SLIP_ENERGY]",
-                },
+            places = {"slip": "SLIP_RATE", "orbital_energy": "ORBITAL_ENERGY", "surface": "SLIP_ENERGY"}
+            doc = (
                 "Slip omega - xi at this gap, J^2/(2 r^2), and the slip energy (lever arm at the surface), over m v0^2 "
-                "(derive/equations/certificates/orbital_momentum.py).",
+                "(derive/equations/certificates/orbital_momentum.py)."
             )
+            targets = {key: f"found[{place}]" for key, place in places.items()}
+            lines += self._vector("orbital_margins", "found", targets, doc)
         if shape.partner == "space":
             lines += self._vector("resting_bound", "found", {"outward": "found[0]", "inward": "found[1]"})
             lines += self._scalar("wobble")
@@ -363,10 +343,10 @@ class Header:
             source = model[name]
             head = f"static inline {kind} {name}(const constants *c, const vec *y, vec impulse{result})"
             targets = {key: f"after[{key.upper()}]" if result else "return" for key in source.by_name}
-            lines += self._valued(source.outputs, head, targets, source.doc, given=source.given)
+            lines += self._valued(source.outputs, head, targets, source.doc, further=source.further)
         return lines
 
 
-def structure_header(model: Model, digest: str, provenance: str, doc: str, beside: Beside | None = None) -> str:
-    """The C header of a structure."""
-    return Header(model, beside or Beside()).text(digest, provenance, doc)
+def structure_header(model: Model, beside: Beside | None = None) -> str:
+    """The C header of a structure; `beside` is a user's."""
+    return Header(model, beside or Beside()).text()

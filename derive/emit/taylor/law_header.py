@@ -10,14 +10,14 @@ from collections.abc import Set as AbstractSet
 import sympy as sp
 
 from ...equations.model import GROUPS
-from ...physics.laws.base import Law, LawFunction
-from ..text import needed
-from .antiderivative import antiderivative
+from ...physics.laws.base import Definition, Law, LawFunction, needed
+from ..provenance import header, law_digest
 from .c_text import Constants, Recurrences, Text
 from .layout import comment, documented, function, struct
 from .program import Program, cheapest
 
-LIMIT = sp.Symbol("limit", positive=True)  # functions that an event compares with a limit, and that limit
+COMPARED = {("glass", "pressure")}  # slot functions that an event compares with a limit
+LIMIT = sp.Symbol("limit", positive=True)
 
 
 def moves(arguments: tuple[sp.Symbol, ...], groups: AbstractSet[sp.Symbol] = frozenset()) -> tuple[bool, ...]:
@@ -29,18 +29,9 @@ def moves(arguments: tuple[sp.Symbol, ...], groups: AbstractSet[sp.Symbol] = fro
     return tuple(argument not in groups and argument not in GROUPS for argument in arguments)
 
 
-def compared() -> set[tuple[str, str]]:
-    """Slot functions that an event compares with a limit."""
-    return {("glass", "pressure")}
-
-
-def law_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
-    """The C header of a law.
-
-    Arguments:
-        groups: those of a user's model, beside the library's.
-    """
-    lines = comment(f"{provenance}\nEquations sha256 {digest}")
+def law_header(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+    """The C header of a law; `groups` are a user's."""
+    lines = comment(header(law_digest(law)))
     lines += ["", *comment(f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."), ""]
     for each in law.functions:
         if each.name == "suction":
@@ -65,14 +56,13 @@ def _plain(name: str, each: LawFunction) -> list[str]:
 
 
 def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str]:
-    slot = law.slot
     moving = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if moved)
-    still = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if not moved)
-    name = f"{slot}_{each.name}"
+    still = tuple(argument for argument in each.arguments if argument not in moving)
+    name = f"{law.slot}_{each.name}"
     kept, _ = needed([each.result], each.definitions)
     if not moving:
         return _plain(name, each)
-    if (slot, each.name) in compared():
+    if (law.slot, each.name) in COMPARED:
         return _clearance(name, each, kept, moving, still)
     program, result = cheapest(each.result, kept, moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in still})
@@ -98,22 +88,17 @@ def _constants(name: str, constants: Constants, still: tuple[sp.Symbol, ...]) ->
 
 
 def _recurrences(
-    name: str,
-    doc: str,
-    program: Program,
-    result: str | sp.Expr,
-    constants: Constants,
-    moving: tuple[sp.Symbol, ...],
+    name: str, doc: str, program: Program, result: str | sp.Expr, constants: Constants, moving: tuple[sp.Symbol, ...]
 ) -> list[str]:
-    made = Recurrences(program, constants, lambda series: series)
+    recurrences = Recurrences(program, constants, lambda series: series)
     value: str
     if not isinstance(result, str):
         ending, value = [f"s->result[k] = {constants.level(result, 'level')};"], constants.vector(result, "level")
     elif result == "result" and program.operations and program.operations[-1].name == "result":
         ending, value = [], result
     else:
-        ending, value = [f"s->result[k] = {made.array(result)}[k];"], result
-    fields = made.fields() + (["vec result[TERMS];"] if ending else [])
+        ending, value = [f"s->result[k] = {recurrences.array(result)}[k];"], result
+    fields = recurrences.fields() + (["vec result[TERMS];"] if ending else [])
     series = "".join(f", const vec *{argument.name}" for argument in moving)
     values = "".join(f", vec {argument.name}" for argument in moving)
     unused = "".join(f"(void){argument.name}; " for argument in moving) + "(void)c;"
@@ -122,23 +107,20 @@ def _recurrences(
         *documented(
             f"{doc} Coefficient k of its series; products of series: {program.cost:g}.",
             f"INLINE void {name}_next({name}_series *s, const {name}_constants *c{series}, int k)",
-            [unused, *made.lines(), *ending],
+            [unused, *recurrences.lines(), *ending],
         ),
         *documented(
             doc,
             f"static inline vec {name}_value(const {name}_constants *c{values})",
-            [unused, *made.values([value]), f"return {value};"],
+            [unused, *recurrences.values([value]), f"return {value};"],
         ),
     ]
 
 
 def _work(
-    law: Law,
-    each: LawFunction,
-    kept: list[tuple[sp.Symbol, sp.Expr]],
-    moving: tuple[sp.Symbol, ...],
-    constants: Constants,
+    law: Law, each: LawFunction, kept: list[Definition], moving: tuple[sp.Symbol, ...], constants: Constants
 ) -> sp.Expr | None:
+    """The antiderivative of a force, from the law's potential or by rules; None where there is none."""
     if each.name not in ("force", "resistance") or len(moving) != 1:
         return None
     for other in law.functions:
@@ -169,7 +151,7 @@ def work_lines(name: str, work: sp.Expr, constants: Constants, moving: sp.Symbol
 def _clearance(
     name: str,
     each: LawFunction,
-    kept: list[tuple[sp.Symbol, sp.Expr]],
+    kept: list[Definition],
     moving: tuple[sp.Symbol, ...],
     still: tuple[sp.Symbol, ...],
 ) -> list[str]:
@@ -186,3 +168,40 @@ def _clearance(
     doc = f"Limit minus value{', times the positive denominator' if positive else ''}: the sign of the event function."
     lines = _recurrences(f"{name}_clearance", doc, program, found, constants, moving)
     return [*_constants(f"{name}_clearance", constants, (*still, LIMIT)), *lines]
+
+
+def antiderivative(force: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
+    """The antiderivative of `force` in `variable`, verified by differentiation; None if no rule applies to a term."""
+    total = sp.Integer(0)
+    for term in sp.Add.make_args(sp.expand(force, power_exp=False, power_base=False, log=False, trig=False)):
+        part = _of_term(term, variable)
+        if part is None:
+            return None
+        total += part
+    residue = sp.simplify(sp.expand(total.diff(variable) - force))
+    return total if residue == 0 else None
+
+
+def _of_term(term: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
+    still, moving = term.as_independent(variable, as_Add=False)
+    if moving == 1:
+        return still * variable
+    if moving.is_Pow and moving.base == variable and moving.exp != -1 and not moving.exp.has(variable):
+        return still * variable ** (moving.exp + 1) / (moving.exp + 1)
+    if moving == 1 / variable:
+        return still * sp.log(variable)
+    if moving == variable:
+        return still * variable**2 / 2
+    if isinstance(moving, sp.exp):
+        slope = moving.args[0].diff(variable)
+        return None if slope.has(variable) or slope == 0 else still * moving / slope
+    return _gap_over_root(still, moving, variable)
+
+
+def _gap_over_root(still: sp.Expr, moving: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
+    """The rule h/sqrt(q) -> 2 sqrt(q)/(q'/h), for q' proportional to h."""
+    roots = [part for part in sp.Mul.make_args(moving) if part.is_Pow and part.exp == -sp.Rational(1, 2)]
+    if len(roots) != 1 or sp.simplify(moving * sp.sqrt(roots[0].base)) != variable:
+        return None
+    share = sp.simplify(roots[0].base.diff(variable) / variable)
+    return None if share.has(variable) else still * 2 * sp.sqrt(roots[0].base) / share

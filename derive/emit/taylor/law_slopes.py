@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from functools import cache
 
 import sympy as sp
 
 from ...physics.laws import LAWS
-from ...physics.laws.base import Law, LawFunction
-from ..text import needed
+from ...physics.laws.base import Law, LawFunction, needed
+from ..provenance import header, law_digest
 from .c_text import Constants, Recurrences, Text
 from .chain_rule import Chain
-from .law_header import LIMIT, compared, moves
+from .law_header import COMPARED, LIMIT, moves
 from .layout import comment, documented, each_term, function, struct
 from .program import Program, cheapest
 
@@ -37,9 +37,9 @@ def _by(argument: sp.Symbol) -> str:
     return f"by_{argument.name.removeprefix(UNUSED)}"
 
 
-def slopes_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
+def slopes_header(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
     """The C header with the derivatives of a law; `groups` are a user's."""
-    lines = comment(f"{provenance}\nEquations sha256 {digest}")
+    lines = comment(header(law_digest(law)))
     lines += ["", *comment(f"Slopes of the {law.slot} law `{law.name}`."), ""]
     for each in law.functions:
         if each.for_proof or each.name in ("suction", "potential"):  # no force, nor the work of one
@@ -47,7 +47,7 @@ def slopes_header(law: Law, digest: str, provenance: str, groups: AbstractSet[sp
         name = f"{law.slot}_{each.name}"
         moved = moves(each.arguments, groups)
         moving = tuple(argument for argument, own in zip(each.arguments, moved, strict=True) if own)
-        if (law.slot, each.name) in compared():
+        if (law.slot, each.name) in COMPARED:
             lines += _clearance(name, each)
         elif moving:
             lines += _series(name, each, moving)
@@ -71,29 +71,25 @@ def _plain(name: str, each: LawFunction) -> list[str]:
     return lines
 
 
-def shortest(program: Program, expressions: Iterable[sp.Expr], name: str) -> str | sp.Expr:
-    """The first of the cheapest forms of an expression, compiled into `program`; the expression itself if constant."""
-    forms = list(dict.fromkeys(expressions))
-    if not program.moves(forms[0]):
-        return forms[0]
+def _cheapest(program: Program, forms: Iterable[sp.Expr]) -> sp.Expr:
+    """The first of the forms of an expression that cost least to continue a program with."""
 
     def cost(form: sp.Expr) -> float:
         trial = program.continued()
-        trial.series(form)
+        trial.result(form, "trial")
         return trial.cost
 
-    return program.series(min(forms, key=cost), name)
+    return min(dict.fromkeys(forms), key=cost)
+
+
+def shortest(program: Program, forms: Sequence[sp.Expr], name: str) -> str | sp.Expr:
+    """The series of the cheapest form of an expression in `program`; the expression itself if constant."""
+    return program.series(_cheapest(program, forms), name) if program.moves(forms[0]) else forms[0]
 
 
 def define_shortest(program: Program, symbol: sp.Symbol, expression: sp.Expr) -> None:
     """Define a symbol as the cheapest form of an expression."""
-
-    def cost(form: sp.Expr) -> float:
-        trial = program.continued()
-        trial.define(symbol, form)
-        return trial.cost
-
-    program.define(symbol, min(dict.fromkeys((expression, *factored(expression))), key=cost))
+    program.define(symbol, _cheapest(program, (expression, *factored(expression))))
 
 
 @cache
@@ -113,19 +109,17 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
     slopes = {argument: chain.by(each.result, argument) for argument in each.arguments}
     for symbol, expression in chain.named:
         program.define(symbol, expression)
-    found = {}
-    for argument, slope in slopes.items():
-        forms = (slope, sp.factor(slope))
-        found[argument] = shortest(program, forms, _by(argument))
-    given = {symbol: f"v->{symbol.name}" for symbol in (*each.arguments, *value.named) if symbol not in moving}
-    constants = Constants(given)
-    made = Recurrences(program, constants, lambda series: f"of->{series}" if series in own else series)
-    ending, fields = [], made.fields()
+    forms = {argument: (slope, sp.factor(slope)) for argument, slope in slopes.items()}
+    found = {argument: shortest(program, each, _by(argument)) for argument, each in forms.items()}
+    places = {symbol: f"v->{symbol.name}" for symbol in (*each.arguments, *value.named) if symbol not in moving}
+    constants = Constants(places)
+    recurrences = Recurrences(program, constants, lambda series: f"of->{series}" if series in own else series)
+    ending, fields = [], recurrences.fields()
     for argument, result in found.items():
         target = _by(argument)
         if isinstance(result, str):
             if result != target:
-                ending.append(each_term(f"s->{target}[k] = {made.array(result)}[k];"))
+                ending.append(each_term(f"s->{target}[k] = {recurrences.array(result)}[k];"))
         else:
             ending.append(each_term(f"s->{target}[k] = {constants.level(result, f'level_{target}')};"))
         if not isinstance(result, str) or result != target:
@@ -147,7 +141,7 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
             f"Derivatives of {name} by its arguments; products of series: {program.cost:g}.",
             f"INLINE void {name}_slopes_of({name}_slopes *restrict s, const {name}_slope_constants *c, "
             f"const {name}_series *of, const {name}_constants *v{inputs})",
-            [unused, *map(each_term, made.lines()), *ending],
+            [unused, *map(each_term, recurrences.lines()), *ending],
         ),
     ]
 

@@ -12,18 +12,16 @@ from typing import Protocol
 import sympy as sp
 
 from ...equations.model import Model
+from ...physics.laws.base import needed
 from ..casadi.printer import EmissionError
-from ..text import needed
 from .c_text import Constants, Recurrences
 from .layout import compiled_if, documented, struct
 from .program import Program
 
 # Terms of the ledger with a series of their own; the work against all attractions together is a state already.
 TERMS = {
-    "normal_lubrication": "normal_loss",
-    "tangential_lubrication": "tangential_loss",
-    "attraction": "attraction_work",
-}
+    "normal_lubrication": "normal_loss", "tangential_lubrication": "tangential_loss", "attraction": "attraction_work",
+}  # fmt: skip
 _MEANING = {
     "normal_loss": "energy dissipated by the normal force of the film, over m v0^2",
     "tangential_loss": "energy dissipated by the tangential force, over m v0^2",
@@ -73,13 +71,8 @@ class Ledger:
         """The number of states that the ledger adds."""
         if not self.there:
             return ["#define LEDGER_STATES 0"]
-        return [
-            "#if WITH_LEDGER",
-            f"#define LEDGER_STATES {len(self._rates)}",
-            "#else",
-            "#define LEDGER_STATES 0",
-            "#endif",
-        ]
+        count = f"#define LEDGER_STATES {len(self._rates)}"
+        return ["#if WITH_LEDGER", count, "#else", "#define LEDGER_STATES 0", "#endif"]
 
     def places(self) -> list[str]:
         """Positions of the ledger's states, after all others."""

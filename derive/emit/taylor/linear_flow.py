@@ -27,7 +27,7 @@ class LinearFlow:
             raise EmissionError("no slopes of a glass law with quantities of its own")
         self.model, self.beside = model, beside
         self.header = Header(model, beside)
-        self.header.text("", "", "")  # receives its constants and calls
+        self.header.text()  # receives its constants and calls
         self.states = [state.name for state in model.states]
         flow = self.header.flow
         self._flow = {operation.name for operation in flow.operations}
@@ -38,9 +38,9 @@ class LinearFlow:
         self.matrix: dict[tuple[str, str], Entry] = {}
         self.sources: dict[tuple[str, str], Entry] = {}
         self._differentiate()
-        given = {group: f"v->{group.name}" for group in model.groups}
-        given |= {symbol: f"v->{symbol.name}" for symbol in flow.named}
-        self.constants = Constants(given, (FILM, SHEAR))
+        places = {group: f"v->{group.name}" for group in model.groups}
+        places |= {symbol: f"v->{symbol.name}" for symbol in flow.named}
+        self.constants = Constants(places, (FILM, SHEAR))
         self._kept = {entry for entry in (*self.matrix.values(), *self.sources.values()) if isinstance(entry, str)}
         self.recurrences = Recurrences(self.program, self.constants, self._where, lambda name: name not in self._kept)
 

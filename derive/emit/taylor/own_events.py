@@ -37,12 +37,12 @@ def own_event_functions(
         raise EmissionError(f"{len(own)} declared events are more than the kernel has room for")
     guards = model["events"].by_name
     program = Program.for_outputs(model.states, (guards[each.name] for each in own), model.definitions)
-    found = {each.name: program.series(sp.sympify(guards[each.name]), f"guard_of_{each.name}") for each in own}
-    made = Recurrences(program, constants, lambda name: f"m->{name}")
-    body = ["(void)c; (void)m;", *made.lines()]
-    body += [f"s->guard[{k}][k] = {made.array(found[each.name])}[k];" for k, each in enumerate(own)]
+    result = {each.name: program.series(sp.sympify(guards[each.name]), f"guard_of_{each.name}") for each in own}
+    recurrences = Recurrences(program, constants, lambda name: f"m->{name}")
+    body = ["(void)c; (void)m;", *recurrences.lines()]
+    body += [f"s->guard[{k}][k] = {recurrences.array(result[each.name])}[k];" for k, each in enumerate(own)]
     lines = comment("Series of the guards of declared events.")
-    lines += struct("own_series", [*made.fields(), "vec guard[OWN_EVENTS][TERMS];"])
+    lines += struct("own_series", [*recurrences.fields(), "vec guard[OWN_EVENTS][TERMS];"])
     head = "static inline void own_coefficients(own_series *s, const series *m, const constants *c, int k)"
     lines += [*function(head, body), ""]
     lines += valued(

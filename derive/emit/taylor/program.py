@@ -13,9 +13,8 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ...physics.laws.base import Definition, is_slot_call
+from ...physics.laws.base import Definition, is_slot_call, needed
 from ..casadi.printer import EmissionError
-from ..text import needed
 
 # Cost of an operation in products of whole series; a square counts one half.
 COST = {
@@ -155,12 +154,9 @@ class Program:
         return name
 
     def _build(self, node: sp.Expr, name: str | None) -> str:
-        if isinstance(node, sp.Add):
-            return self._sum(node, name)
-        if isinstance(node, sp.Mul):
-            return self._product(node, name)
-        if isinstance(node, sp.Pow):
-            return self._power(node, name)
+        for kind, build in ((sp.Add, self._sum), (sp.Mul, self._product), (sp.Pow, self._power)):
+            if isinstance(node, kind):
+                return build(node, name)
         if isinstance(node, AppliedUndef) and is_slot_call(node):
             return self._call(node)
         if isinstance(node, (sp.exp, sp.log)):
@@ -235,9 +231,6 @@ class Program:
             inner = self.series(base)
             return self._add("sqrt", (inner,), name, f"root_of_{inner}")
         if exponent.is_Integer:
-            if exponent == 2:
-                inner = self.series(base)
-                return self._add("square", (inner,), name, f"{inner}_squared")
             half = self.series(sp.Pow(base, exponent // 2))
             squared = self._add("square", (half,), None if exponent % 2 else name, f"{half}_squared")
             if exponent % 2 == 0:
@@ -249,9 +242,8 @@ class Program:
 
     def _circular(self, node: sp.Expr, name: str | None) -> str:
         angle = node.args[0]
-        half = {angle: angle / 2}
         if isinstance(node, sp.sin) and sp.sin(angle / 2) in self._moving:  # sine and cosine share one operation
-            return self.series(2 * sp.sin(half[angle]) * sp.cos(half[angle]), name)
+            return self.series(2 * sp.sin(angle / 2) * sp.cos(angle / 2), name)
         inner = self.series(angle)
         sine = self._add("sine", (inner,), None, f"sine_of_{inner}")
         cosine = self._add("cosine", (inner,), None, f"cosine_of_{inner}")

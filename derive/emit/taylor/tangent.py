@@ -6,7 +6,7 @@ per step from those of the flow. A direction then costs as many products as the 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from itertools import groupby
 from types import MappingProxyType
 
@@ -16,6 +16,7 @@ from ...equations.friction import IMPULSE
 from ...equations.model import Model
 from ...physics.laws import LAWS
 from ...physics.laws.base import Law, filled, slot_calls
+from ..provenance import header, model_digest
 from .adjoint import Adjoint, contraction
 from .c_text import Text
 from .groups_from_si import scale_slopes
@@ -24,20 +25,22 @@ from .layout import comment, compiled_if, documented, each_term, struct
 from .linear_flow import LinearFlow
 
 _IN = "    "
+_ALONG = "const constants *v, const vec *y, const vec *t, int group, "  # arguments of what is derived at a state
 
 
 class Tangent(LinearFlow):
     """Text of one structure's tangent header."""
 
-    def text(self, digest: str, provenance: str) -> str:
+    def text(self) -> str:
         """The header."""
         coefficients, row, source = self._coefficients(), self._row(), self._sources()
         back = Adjoint(self)
+        levels = [f"vec {row}_by_{by}[TERMS];" for (row, by), e in self.sources.items() if not isinstance(e, str)]
         per_direction = sum(isinstance(entry, str) for (of, _), entry in self.matrix.items() if of != "turned")
         cost = f"Products of series: {self.program.cost:g} and those of the laws, then {per_direction} a direction; "
         cost += f"backwards {back.cost:g} and those of the laws' derivatives."
         name = self.model.structure.name
-        lines = comment(f"{provenance}\nEquations sha256 {digest}")
+        lines = comment(header(model_digest(self.model)))
         lines += ["", *comment(f"Tangent of {name}.h: derivatives of the states by the groups.\n\n{cost}"), ""]
         lines += self._enumerations()
         lines += [
@@ -45,7 +48,8 @@ class Tangent(LinearFlow):
             *back.lines(),
             "#else",
             *self._constants(),
-            *self._structs(),
+            *comment("Derivatives of the rates: entries of the matrix, and source terms of a direction."),
+            *struct("slopes", [*self._law_fields("s->"), *self.recurrences.fields(), *levels]),
             *coefficients,
             *row,
             *source,
@@ -82,36 +86,27 @@ class Tangent(LinearFlow):
         doc = "Constants of the derivatives, computed once per collision."
         return [*struct("slope_constants", fields), *documented(doc, head, body)]
 
-    def _structs(self) -> list[str]:
-        levels = [f"vec {row}_by_{by}[TERMS];" for (row, by), e in self.sources.items() if not isinstance(e, str)]
-        fields = [*self._law_fields("s->"), *self.recurrences.fields(), *levels]
-        doc = "Derivatives of the rates: entries of the matrix, and source terms of a direction."
-        return [*comment(doc), *struct("slopes", fields)]
-
     def _law_fields(self, place: str) -> list[str]:
         laws = self._laws().items()
         return [f"{slot}_{call}_slopes {name};" for name, (slot, call, _) in laws if self._law_place(name) == place]
 
     def _coefficients(self) -> list[str]:
-        body = [
-            *self._law_fields(""),
-            *self.recurrences.fields(local=True),
-            "(void)film; (void)shear; (void)c; (void)asked;",
-        ]
-        for name, (slot, call, given) in self._laws().items():
-            passed = "".join(f", {self.array(a)}" for a in given if isinstance(a, str))
+        body = [*self._law_fields(""), *self.recurrences.fields(local=True)]
+        body.append("(void)film; (void)shear; (void)c; (void)asked;")
+        for name, (slot, call, arguments) in self._laws().items():
+            passed = "".join(f", {self.array(a)}" for a in arguments if isinstance(a, str))
             into = f"{self._law_place(name)}{name}"
             body.append(f"{slot}_{call}_slopes_of(&{into}, &c->{name}, &of->{name}, &v->{name}{passed});")
         body += self._guarded()
         for (row, by), entry in self.sources.items():
             if not isinstance(entry, str):
                 body.append(each_term(f"s->{row}_by_{by}[k] = {self.constants.level(entry, 'slope')};"))
-        head = (
-            "OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, "
-            "const series *of, const constants *v, vec film, vec shear, unsigned asked)"
+        return documented(
+            "Derivatives of the rates by the states, and by the requested groups.",
+            "OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const series *of, "
+            "const constants *v, vec film, vec shear, unsigned asked)",
+            body,
         )
-        doc = "Derivatives of the rates by the states, and by the requested groups."
-        return documented(doc, head, body)
 
     def _guarded(self) -> list[str]:
         """C lines of the operations; those needed for some groups only are conditional on these."""
@@ -167,12 +162,12 @@ class Tangent(LinearFlow):
                 terms.append(f"source[{row.upper()}][k]")
             line = f"t[{row.upper()}][k + 1] = ({' + '.join(terms) or 'splat(0.0)'})*next;"
             body += compiled_if("TURNING_STATE", [line]) if row == "turned" else [line]
-        head = (
+        return documented(
+            "Coefficient k + 1 of a derivative of the states, with its source terms.",
             "INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, "
-            "const series *of, const constants *v, vec film, vec shear, const vec *const *source, int k)"
+            "const series *of, const constants *v, vec film, vec shear, const vec *const *source, int k)",
+            body,
         )
-        doc = "Coefficient k + 1 of a derivative of the states, with its source terms."
-        return documented(doc, head, body)
 
     def _sources(self) -> list[str]:
         body = ["(void)s; (void)of;", "switch (group) {"]
@@ -193,29 +188,20 @@ class Tangent(LinearFlow):
     def _values(self) -> list[str]:
         """Start, jump and outputs in a direction: derivatives of the states `t`, and explicit ones by each group."""
         states = {name: f"after[{name.upper()}]" for name in self.states}
-        lines = self._directed(
-            "start", "static inline void start_along(const constants *v, int group, vec *after)", states, False,
-            "Derivative of the initial state by a group.",
-        )  # fmt: skip
-        lines += self._directed(
-            "rebound",
-            "static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)",
-            states, True, "Derivative of the state just after a rebound.",
-        )  # fmt: skip
+        head = "static inline void start_along(const constants *v, int group, vec *after)"
+        lines = self._directed("start", head, states, False, "Derivative of the initial state by a group.")
+        head = f"static inline void rebound_along({_ALONG}vec *after)"
+        lines += self._directed("rebound", head, states, True, "Derivative of the state just after a rebound.")
         lines += self._friction(states) if self.model.structure.friction else []
-        shown = {key: f"shown[{place}]" for place, (key, _) in enumerate(self.model["outputs"].outputs)}
-        lines += self._directed(
-            "outputs",
-            "static inline void outputs_along(const constants *v, const vec *y, const vec *t, int group, vec *shown)",
-            shown, True, "Derivative of the results for a separated doublet.",
-        )  # fmt: skip
+        shown = {key: f"shown[{place}]" for place, key in enumerate(self.model["outputs"].by_name)}
+        head = f"static inline void outputs_along({_ALONG}vec *shown)"
+        lines += self._directed("outputs", head, shown, True, "Derivative of the results for a separated doublet.")
         if self.model.structure.oblique:
             lines += self._edge()
         return lines
 
     def _friction(self, states: dict[str, str]) -> list[str]:
         """The impulses of a rebound, and the state after one, in a direction; for either lever arm of the library."""
-        own = "const constants *v, const vec *y, const vec *t, int group, "
         impulses = {"sticking": "found[STICKING]", "most": "found[MOST]"}
         jumps = (
             ("dry_slip", "vec *found", impulses, "Derivatives of the impulses of a rebound.", ()),
@@ -224,7 +210,7 @@ class Tangent(LinearFlow):
         )  # fmt: skip
         lines = []
         for name, arguments, targets, doc, moved in jumps:
-            head = f"static inline void {name}_along({own}{arguments})"
+            head = f"static inline void {name}_along({_ALONG}{arguments})"
             if "arm" not in self.model.slots:
                 lines += self._directed(name, head, targets, True, doc, moved)
                 continue
@@ -250,7 +236,8 @@ class Tangent(LinearFlow):
             laws: that fill their slots.
         """
         outputs = {key: filled(self.model.expanded(sp.sympify(value)), laws) for key, value in self.model[name].outputs}
-        text = Text(lambda symbol: symbol.name if symbol in moved else self._plain_name(symbol))
+        names = {s: f"y[{s.name.upper()}]" for s in self.model.states} | {s: s.name for s in moved}
+        text = Text(lambda symbol: names.get(symbol, f"v->{symbol.name}"))
         body = ["(void)v;"] + (["(void)y;"] if moves else [])
         for key, target in targets.items():
             terms = [
@@ -260,14 +247,12 @@ class Tangent(LinearFlow):
             ]  # fmt: skip
             terms += [f"({text(outputs[key].diff(each))})*moved" for each in moved if outputs[key].diff(each) != 0]
             body.append(f"{target} = {' + '.join(terms) or 'splat(0.0)'};")
-        body += _switch(
-            (group.name, [(target, outputs[key].diff(group)) for key, target in targets.items()], text)
-            for group in self.model.groups
-        )
-        return documented(doc, head, body)
-
-    def _plain_name(self, symbol: sp.Symbol) -> str:
-        return f"y[{symbol.name.upper()}]" if symbol in self.model.states else f"v->{symbol.name}"
+        cases = []
+        for group in self.model.groups:
+            slopes = {target: outputs[key].diff(group) for key, target in targets.items()}
+            lines = [f"{_IN}{target} += {text(sp.factor(slope))};" for target, slope in slopes.items() if slope != 0]
+            cases += [f"case BY_{group.name.upper()}:", *lines, _IN + "break;"] if lines else []
+        return documented(doc, head, [*body, *(["switch (group) {", *cases, "}"] if cases else ["(void)group;"])])
 
     def _edge(self) -> list[str]:
         (call,) = slot_calls(self.model["events"]["tangential_edge"])
@@ -281,15 +266,6 @@ class Tangent(LinearFlow):
         return documented("Derivative of the gap beyond which there is no tangential force.", head, body)
 
 
-def _switch(rows: Iterable[tuple[str, list[tuple[str, sp.Expr]], Callable[[sp.Expr], str]]]) -> list[str]:
-    body = []
-    for group, slopes, text in rows:
-        lines = [f"{_IN}{target} += {text(sp.factor(slope))};" for target, slope in slopes if slope != 0]
-        if lines:
-            body += [f"case BY_{group.upper()}:", *lines, _IN + "break;"]
-    return ["switch (group) {", *body, "}"] if body else ["(void)group;"]
-
-
-def tangent_header(model: Model, digest: str, provenance: str, beside: Beside | None = None) -> str:
-    """The C header of a structure's tangent."""
-    return Tangent(model, beside or Beside()).text(digest, provenance)
+def tangent_header(model: Model, beside: Beside | None = None) -> str:
+    """The C header of a structure's tangent; `beside` is a user's."""
+    return Tangent(model, beside or Beside()).text()

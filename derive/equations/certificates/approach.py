@@ -27,7 +27,7 @@ import sympy as sp
 
 from ...physics.forces import FILM
 from ...physics.laws import slot_call
-from ...physics.laws.base import slot_calls
+from ...physics.laws.base import Definition, slot_calls
 from ...physics.scaling import DISTANCE
 from ...physics.structure import Structure
 from ...vocabulary.quantities import aspect, gap, normal_velocity, stokes
@@ -35,7 +35,7 @@ from ..automaton import APPROACH_PARTS, DEEPEST_PART
 from ..events import contact_gap
 from ..intermediates import FILM_FORCE, attractions, forces
 from ..observables import energies
-from .pendulum import LARGEST_PULL
+from .pendulum import LARGEST_PULL, Functions
 
 RATIO, DEEPER, LARGEST_FORCE, PATH, GAIN = sp.symbols("part_ratio deeper largest_force path gain", positive=True)
 LEFT = sp.Symbol("left", real=True)
@@ -55,8 +55,8 @@ def braking(structure: Structure, at: sp.Expr) -> sp.Expr:
     return slot_call("film", "braking", at, *call.args[1:])
 
 
-def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
-    """Named intermediates of `step`, in order."""
+def definitions(structure: Structure) -> tuple[Definition, ...]:
+    """Named intermediates of a part of the film, in order."""
     most = LARGEST_PULL if structure.strings else sp.Max(attractions(structure, DEEPER), 0)
     lost = (braking(structure, DEEPER) - braking(structure, gap)) / stokes
     return (
@@ -69,19 +69,20 @@ def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     )
 
 
-def step() -> dict[str, sp.Expr]:
-    """Bounds over the next part of the film, from a state with a gap and a bound of the closing speed there.
-
-    Its end, the largest speed at its end, and the largest speed within it; speeds over v0.
-    """
-    return {"deeper_gap": DEEPER, "slowed": sp.Max(LEFT, 0) + GAIN, "fastest": -normal_velocity + GAIN}
-
-
-def outward(structure: Structure) -> sp.Expr:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of the state."""
+def functions(structure: Structure) -> Functions:
+    """The bounds over the next part of the film, and of the outward force from a state on."""
+    doc = (
+        "Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal "
+        "velocity): the part's end, the largest speed there and within it."
+    )
+    step = {"deeper_gap": DEEPER, "slowed": sp.Max(LEFT, 0) + GAIN, "fastest": -normal_velocity + GAIN}
+    yield "approach_step", doc, step
+    if structure.strings:
+        return
     first = DISTANCE - aspect * gap
     rotating = energies(structure)["kinetic"] - normal_velocity**2 / 2
     thrown = sp.Integer(0)
     if structure.oblique and structure.partner != "wall":
         thrown = 2 * aspect * rotating * DISTANCE**2 / (first + aspect * contact_gap) ** 3
-    return sp.Max(thrown - attractions(structure, gap), 0)
+    doc = "Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state."
+    yield "approach_force", doc, {"outward": sp.Max(thrown - attractions(structure, gap), 0)}

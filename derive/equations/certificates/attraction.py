@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ...physics.laws.base import Definition
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..events import contact_gap
@@ -43,33 +44,31 @@ def _end(structure: Structure) -> sp.Expr:
     return q.rupture_gap if structure.bridge else sp.S.One
 
 
-def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
-    """Named intermediates of `margins`, in order."""
+def definitions(structure: Structure) -> tuple[Definition, ...]:
+    """Named intermediates of the margins, in order."""
     end = _end(structure)
     pull = pendulum.pull_at(pendulum.CONTACT, q.beta) if structure.strings else sp.Integer(0)
-    largest = pendulum.pull_at(end, sp.pi) if structure.strings else sp.Integer(0)
-    result = [
+    momenta = (q.orbital_momentum, pendulum.SPUN_UP)
+    result = (
         (pendulum.CONTACT, contact_gap),
         (pendulum.NEAREST, 4 + q.aspect * pendulum.CONTACT),
         (pendulum.FARTHEST, 4 + q.aspect * end),
         (pendulum.SPUN_UP, pendulum.rigid_momentum(MOMENTUM, pendulum.FARTHEST)),
-        (
-            pendulum.LARGEST_MOMENTUM,
-            sp.Max(q.orbital_momentum, -q.orbital_momentum, pendulum.SPUN_UP, -pendulum.SPUN_UP),
-        ),
+        (pendulum.LARGEST_MOMENTUM, sp.Max(*momenta, *(-each for each in momenta))),
         (LEAST, attractions(structure, end)),
         (HOLD, LEAST + pull - pendulum.outward_at(pendulum.LARGEST_MOMENTUM, pendulum.NEAREST)),
-    ]
-    return (*result, (pendulum.LARGEST_PULL, largest)) if structure.strings else tuple(result)
+    )
+    return (*result, (pendulum.LARGEST_PULL, pendulum.pull_at(end, sp.pi))) if structure.strings else result
 
 
-def margins(structure: Structure) -> dict[str, sp.Expr]:
-    """The margins: a stick is certain if `hold` > 0, `escape` < 0 and `rebound` < 0; over m v0^2/x0 and m v0^2."""
+def functions(structure: Structure) -> pendulum.Functions:
+    """The margins, over m v0^2/x0 and m v0^2."""
+    doc = (
+        "Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): "
+        "hold > 0, escape < 0 and rebound < 0 exclude separation."
+    )
     end = _end(structure)
     outward = sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity)
     pulled = LEAST + (pendulum.LARGEST_PULL if structure.strings else 0)
-    return {
-        "hold": HOLD,
-        "escape": outward**2 / 2 - HOLD * (end - q.gap),
-        "rebound": q.e_dry**2 * pulled - HOLD,
-    }
+    escape = outward**2 / 2 - HOLD * (end - q.gap)
+    yield "attraction_margins", doc, {"hold": HOLD, "escape": escape, "rebound": q.e_dry**2 * pulled - HOLD}

@@ -28,14 +28,14 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ...physics.laws.base import Definition
 from ...physics.mechanics import doublet_inertia
 from ...physics.scaling import DISTANCE, nondimensional
 from ...physics.structure import Structure
 from ...vocabulary.quantities import a, m, orbital_momentum, rate_scale, spin, v0, x
 from ..intermediates import SLIP
-from .attraction import admits
-
-__all__ = ["admits", "definitions", "margins"]  # it covers what the attraction certificate covers
+from .attraction import admits  # noqa: F401 -- it covers what the attraction certificate covers
+from .pendulum import Functions
 
 RIGID = sp.Symbol("rigid_share", nonnegative=True)  # 1/(rho/a + lag), with omega = xi at the distance rho
 UNIT = sp.Symbol("rotation_energy_unit", positive=True)  # m a^2 Omega^2 over m v0^2
@@ -110,22 +110,26 @@ def surface(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr, share: sp.Ex
     )
 
 
-def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
-    """Named intermediates of `margins`, in order."""
-    result: list[tuple[sp.Symbol, sp.Expr]] = [(UNIT, nondimensional(a**2 * rate_scale**2 / v0**2))]
-    return tuple(result if structure.reduced else [*result, (RIGID, rigid_share(orbital_momentum, spin))])
+def definitions(structure: Structure) -> tuple[Definition, ...]:
+    """Named intermediates of the margins, in order."""
+    unit = (UNIT, nondimensional(a**2 * rate_scale**2 / v0**2))
+    return (unit,) if structure.reduced else (unit, (RIGID, rigid_share(orbital_momentum, spin)))
 
 
-def margins(structure: Structure) -> dict[str, sp.Expr]:
-    """The margins at the state's gap, over m v0^2: omega - xi, J^2/(2 r^2), slip energy for either lever arm.
+def functions(structure: Structure) -> Functions:
+    """The margins at the state's gap.
 
     For `midgap` it is what can be transferred; for `surface` it is where xi > omega >= 0, which a reflection permits.
     """
+    doc = (
+        "Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the "
+        "slip energy for either lever arm; energies over m v0^2."
+    )
     result = {
         "slip": SLIP,
         "orbital_energy": UNIT * orbital_momentum**2 / (2 * DISTANCE**2),
         "midgap": UNIT * transferable(DISTANCE, orbital_momentum, spin),
     }
-    return (
-        result if structure.reduced else {**result, "surface": UNIT * surface(DISTANCE, orbital_momentum, spin, RIGID)}
-    )
+    if not structure.reduced:
+        result["surface"] = UNIT * surface(DISTANCE, orbital_momentum, spin, RIGID)
+    yield "orbital_margins", doc, result

@@ -29,19 +29,20 @@ xi, J and L are never negative.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+
 import sympy as sp
 
 from ...physics.forces import scaled_strings
 from ...physics.laws import slot_call
-from ...physics.laws.base import slot_calls
+from ...physics.laws.base import Definition, slot_calls
 from ...physics.laws.strings import offset_squared
 from ...physics.mechanics import doublet_inertia
 from ...physics.scaling import DISTANCE, INERTIA, nondimensional
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..events import contact_gap
-from ..intermediates import MOMENTUM, ORBITAL_RATE, STRING_SIDEWAYS
-from ..rates import rates, turning_rate
+from ..intermediates import MOMENTUM, ORBITAL_RATE, STRING_SIDEWAYS, rates, turning_rate
 
 CONTACT, FASTEST, REACH = sp.symbols("contact fastest reach", positive=True)
 NEAREST, FARTHEST = sp.symbols("nearest farthest", positive=True)  # smallest and largest centre distance over a
@@ -53,6 +54,11 @@ OUTWARD, PULL, WEIGHING, TURNING, TAKEN, FINAL, WIDTH = sp.symbols(
 )
 ANGLES = sp.symbols(f"angle_:{PANELS}", nonnegative=True)
 TURNINGS = sp.symbols(f"turning_:{PANELS}", nonnegative=True)
+
+
+Functions = Iterator[tuple[str, str, Mapping[str, sp.Expr]]]
+"""Name, docstring and outputs of the functions that a certificate emits."""
+PENDULUM = Structure(oblique=True, bridge=False, strings=True)
 
 
 def admits(structure: Structure) -> bool:
@@ -69,8 +75,12 @@ def rigid_momentum(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
 
 def pull_at(at: sp.Expr, angle: sp.Expr) -> sp.Expr:
     """Normal string force over m v0^2/x0 at this gap and angle."""
-    pull, _, swing = scaled_strings(oblique=True)
-    whole = pull.subs(offset_squared, swing).subs(DISTANCE, 4 + q.aspect * q.gap)
+    return _swung(scaled_strings(oblique=True)[0], at, angle)
+
+
+def _swung(force: sp.Expr, at: sp.Expr, angle: sp.Expr) -> sp.Expr:
+    swing = scaled_strings(oblique=True)[2]
+    whole = force.subs(offset_squared, swing).subs(DISTANCE, 4 + q.aspect * q.gap)
     return whole.subs({q.gap: at, q.beta: angle}, simultaneous=True)
 
 
@@ -82,11 +92,9 @@ def outward_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
 
 def torque_at(at: sp.Expr, angle: sp.Expr) -> sp.Expr:
     """What the strings take from J, over a^2 Omega v0/x0, at this gap and angle."""
-    _, sideways, swing = scaled_strings(oblique=True)
-    rate = rates(Structure(oblique=True, bridge=False, strings=True))[q.orbital_momentum]
-    torque = -sp.expand(rate).coeff(STRING_SIDEWAYS) * sideways
-    whole = torque.subs(offset_squared, swing).subs(DISTANCE, 4 + q.aspect * q.gap)
-    return whole.subs({q.gap: at, q.beta: angle}, simultaneous=True)
+    _, sideways, _ = scaled_strings(oblique=True)
+    rate = rates(PENDULUM)[q.orbital_momentum]
+    return _swung(-sp.expand(rate).coeff(STRING_SIDEWAYS) * sideways, at, angle)
 
 
 def share(distance: sp.Expr) -> sp.Expr:
@@ -101,10 +109,10 @@ def turning_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
     return rate.subs(ORBITAL_RATE, momentum / distance**2)
 
 
-def impulse_by_angle(turning: sp.Expr, pull: sp.Expr, distance: sp.Expr) -> sp.Expr:
-    """(centrifugal force - pull) over d beta/dt, for `turning`, which is J times the tangent of the impact angle."""
+def impulse_by_angle(turning: sp.Expr, pull: sp.Expr) -> sp.Expr:
+    """(centrifugal force - pull) over d beta/dt in contact; `turning` is J times the tangent of the impact angle."""
     momentum = turning / q.obliquity
-    result = (outward_at(momentum, distance) - PULL) / turning_at(momentum, distance)
+    result = (outward_at(momentum, NEAREST) - PULL) / turning_at(momentum, NEAREST)
     return sp.factor(result).subs(PULL, pull)  # a single quotient: -infinity, and no NaN, at the end of the rotation
 
 
@@ -127,37 +135,31 @@ def _stiffness() -> sp.Expr:
     return call
 
 
-def impulse_definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
+def impulse_definitions() -> tuple[Definition, ...]:
     """Named intermediates of the impulse, in order."""
     level = (OUTWARD / WEIGHING - _pull_by_stiffness(sp.Integer(0)) / WEIGHING) / 8  # sin(beta/2)^2 where it vanishes
-    sine = sp.sqrt(sp.Max(0, sp.Min(1, level)))
+    each = zip(TURNINGS, ANGLES, strict=True)
     return (
         (OUTWARD, outward_at(LARGEST_MOMENTUM, NEAREST)),
         (PULL, pull_at(CONTACT, q.beta)),
         (WEIGHING, q.weight * _stiffness()),
         (TURNING, LARGEST_MOMENTUM * q.obliquity),
         (TAKEN, taken_by_cosine()),
-        (FINAL, sine),
+        (FINAL, sp.sqrt(sp.Max(0, sp.Min(1, level)))),
         (WIDTH, sp.Max(0, 2 * FINAL + (sp.pi - 2) * FINAL**3 - q.beta) / PANELS),  # arcsin z <= z + (pi/2 - 1) z^3
         *((angle, q.beta + k * WIDTH) for k, angle in enumerate(ANGLES)),
-        *(
-            (later, sp.sqrt(sp.Max(0, TURNING**2 - TAKEN * (sp.cos(q.beta) - sp.cos(angle)))))
-            for later, angle in zip(TURNINGS, ANGLES, strict=True)
-        ),
+        *((later, sp.sqrt(sp.Max(0, TURNING**2 - TAKEN * (sp.cos(q.beta) - sp.cos(angle))))) for later, angle in each),
     )
 
 
 def impulse() -> sp.Expr:
     """Bound of the outward impulse from now on, over m v0."""
-    parts = (
-        sp.Max(0, impulse_by_angle(later, _pull_by_stiffness(angle), NEAREST))
-        for later, angle in zip(TURNINGS, ANGLES, strict=True)
-    )
-    return WIDTH * sp.Add(*parts)
+    each = zip(TURNINGS, ANGLES, strict=True)
+    return WIDTH * sp.Add(*(sp.Max(0, impulse_by_angle(later, _pull_by_stiffness(angle))) for later, angle in each))
 
 
-def definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
-    """Named intermediates of `margins`, in order."""
+def definitions(_structure: Structure = PENDULUM) -> tuple[Definition, ...]:
+    """Named intermediates of the margins, in order."""
     closing = sp.Min(q.normal_velocity, 0)
     return (
         (CONTACT, contact_gap),
@@ -172,18 +174,23 @@ def definitions() -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
     )
 
 
-def margins() -> dict[str, sp.Expr]:
-    """The margins: a stick is certain if `film` and `recoil` plus St times `impulse` are negative.
-
-    `impulse` counts as zero where `outward` < `pull`. `rebound` and `beneath` are of a gap and a closing speed there.
-    """
+def functions(_structure: Structure = PENDULUM) -> Functions:
+    """The margins."""
+    doc = (
+        "Margins of the pendulum certificate (lever arm at mid-gap): film < 0 and recoil < 0 exclude "
+        "separation, with St impulse added unless outward < pull; rebound, beneath: of a gap and speed."
+    )
     faster = -q.normal_velocity + sp.sqrt(2 * LARGEST_PULL * q.gap)
-    return {
-        "outward": OUTWARD,
-        "pull": PULL,
-        "impulse": impulse(),
-        "film": q.stokes * q.normal_velocity - slot_call("film", "stopping", q.gap),
-        "recoil": q.stokes * q.e_dry * FASTEST - slot_call("film", "stopping", REACH),
-        "rebound": -q.stokes * q.e_dry * q.normal_velocity - slot_call("film", "stopping", q.gap),
-        "beneath": q.stokes * q.e_dry * faster - slot_call("film", "stopping", q.gap),
-    }
+    yield (
+        "pendulum_margins",
+        doc,
+        {
+            "outward": OUTWARD,
+            "pull": PULL,
+            "impulse": impulse(),
+            "film": q.stokes * q.normal_velocity - slot_call("film", "stopping", q.gap),
+            "recoil": q.stokes * q.e_dry * FASTEST - slot_call("film", "stopping", REACH),
+            "rebound": -q.stokes * q.e_dry * q.normal_velocity - slot_call("film", "stopping", q.gap),
+            "beneath": q.stokes * q.e_dry * faster - slot_call("film", "stopping", q.gap),
+        },
+    )

@@ -53,8 +53,7 @@ def coefficients(model: Model) -> dict[str, sp.Expr] | None:
 
     Another form has, for instance, the film of a user's model whose resistance depends on the velocity.
     """
-    u, momentum = normal_velocity, orbital_momentum
-    keep = (DISTANCE.name, MOMENTUM.name)
+    u, momentum, keep = normal_velocity, orbital_momentum, (DISTANCE.name, MOMENTUM.name)
     rates = model.by_state("right_hand_side", keep)
     push, turn = (rates[state].subs({FILM: 1, SHEAR: 1}) for state in (u, momentum))
     rigid = model.by_state("rigid_rotation", keep)[momentum]
@@ -65,13 +64,7 @@ def coefficients(model: Model) -> dict[str, sp.Expr] | None:
     left = (push - (centrifugal * momentum**2 - attractions - film * u), turn + relaxation * (momentum - rigid))
     if any(sp.simplify(sp.expand(rest)) != 0 for rest in left):
         return None
-    result = {
-        "slowing": film,
-        "relaxation": sp.factor(relaxation),
-        "rigid": rigid,
-        "centrifugal": sp.factor(centrifugal),
-        "attractions": attractions,
-    }
-    if any(value.free_symbols & {u, momentum} for value in result.values()):
-        return None
-    return result
+    names = ("slowing", "relaxation", "rigid", "centrifugal", "attractions")
+    values = (film, sp.factor(relaxation), rigid, sp.factor(centrifugal), attractions)
+    closed = not any(value.free_symbols & {u, momentum} for value in values)
+    return dict(zip(names, values, strict=True)) if closed else None

@@ -35,14 +35,14 @@ import sympy as sp
 
 from ...physics.forces import SHEAR
 from ...physics.laws import LAWS, slot_call
-from ...physics.laws.base import filled, slot_calls
+from ...physics.laws.base import Definition, filled, slot_calls
 from ...physics.scaling import DISTANCE
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..events import contact_gap, start
-from ..intermediates import SLIP, intermediates
+from ..intermediates import SLIP, intermediates, rates
 from ..observables import energies
-from ..rates import rates
+from .pendulum import Functions
 
 BEYOND, NEAR, FAR = sp.symbols("beyond near far", positive=True)  # d, and the distances in contact and at d, over a
 RATE, LEAK, CONTACT, EDGE = sp.symbols("rate leak contact shear_end", positive=True)
@@ -61,8 +61,7 @@ def _full(structure: Structure) -> Structure:
 
 def slips(structure: Structure) -> tuple[sp.Symbol, ...]:
     """The slips of the spheres, omega - xi_i, by name."""
-    named = dict(intermediates(_full(structure)))
-    return tuple(symbol for symbol in named if symbol.name in (SLIP.name, "partner_slip"))
+    return tuple(s for s, _ in intermediates(_full(structure)) if s.name in (SLIP.name, "partner_slip"))
 
 
 def decay(structure: Structure, near: sp.Expr, far: sp.Expr, logarithm: sp.Expr) -> sp.Matrix:
@@ -95,17 +94,16 @@ def slowest(matrix: sp.Matrix) -> sp.Expr:
     return matrix[0, 0] if matrix.rows == 1 else sp.factor(matrix.det()) / sp.factor(matrix.trace())
 
 
-def definitions(structure: Structure) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
-    """Named intermediates of `margins`, in order."""
+def definitions(structure: Structure) -> tuple[Definition, ...]:
+    """Named intermediates of the margins, in order."""
     first = DISTANCE - q.aspect * q.gap
-    logarithm = slot_call("shear", "log_factor", BEYOND, q.aspect)
     return (
         (EDGE, slot_call("shear", "edge", q.aspect)),
         (BEYOND, (q.gap + sp.Min(1, EDGE)) / 2),
         (CONTACT, contact_gap),
         (NEAR, first + q.aspect * CONTACT),
         (FAR, first + q.aspect * BEYOND),
-        (LEAK, logarithm),
+        (LEAK, slot_call("shear", "log_factor", BEYOND, q.aspect)),
         (RATE, 2 * slowest(decay(structure, NEAR, FAR, LEAK))),
     )
 
@@ -116,20 +114,26 @@ def impulse(structure: Structure) -> sp.Expr:
     return 2 * q.aspect * rotating * DISTANCE**2 / (NEAR**3 * RATE)
 
 
-def margins(structure: Structure) -> dict[str, sp.Expr]:
-    """The margins: a stick is certain if `stays` is negative, `rate` positive and `momentum` zero.
-
-    It is as well if `apart` and `inside` are negative and J is zero.
-    """
+def functions(structure: Structure) -> Functions:
+    """The margins."""
+    doc = (
+        "Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): "
+        "stays < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. "
+        "So do apart < 0 and inside < 0 where J = 0."
+    )
     film = slot_call("film", "stopping", q.gap)
     outward = q.stokes * sp.Max(q.normal_velocity, -q.e_dry * q.normal_velocity)
-    return {
-        "stays": outward + q.stokes * impulse(structure) - film + slot_call("film", "stopping", BEYOND),
-        "rate": RATE,
-        "apart": sp.Max(outward - film, film - slot_call("film", "stopping", EDGE) - q.stokes * q.normal_velocity),
-        "inside": q.gap if structure.friction else EDGE - q.gap,
-        "momentum": first_momentum(structure),
-    }
+    yield (
+        "spin_down_margins",
+        doc,
+        {
+            "stays": outward + q.stokes * impulse(structure) - film + slot_call("film", "stopping", BEYOND),
+            "rate": RATE,
+            "apart": sp.Max(outward - film, film - slot_call("film", "stopping", EDGE) - q.stokes * q.normal_velocity),
+            "inside": q.gap if structure.friction else EDGE - q.gap,
+            "momentum": first_momentum(structure),
+        },
+    )
 
 
 def first_momentum(structure: Structure) -> sp.Expr:

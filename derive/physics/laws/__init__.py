@@ -15,17 +15,9 @@ from .glass import GLASSES
 from .shear import SHEARS
 from .strings import STRINGS
 
-LAWS: dict[str, dict[str, Law]] = {
-    slot: {law.name: law for law in laws}
-    for slot, laws in (
-        ("film", FILMS),
-        ("shear", SHEARS),
-        ("arm", ARMS),
-        ("glass", GLASSES),
-        ("bridge", BRIDGES),
-        ("strings", STRINGS),
-        ("attraction", ATTRACTIONS),
-    )
+LAWS: dict[str, dict[str, Law]] = {  # by slot and name
+    laws[0].slot: {law.name: law for law in laws}
+    for laws in (FILMS, SHEARS, ARMS, GLASSES, BRIDGES, STRINGS, ATTRACTIONS)
 }
 
 __all__ = ["LAWS", "Law", "LawFunction", "fill", "slot_call"]

@@ -9,20 +9,12 @@ from .references import PAPER
 
 distance = sp.Symbol("distance", positive=True)  # r/a
 
+_MIDGAP = "the tangential force acts at mid-gap, arm = r/2: conserves angular momentum identically"
+_SURFACE = "leading-order arm R = 2a: conserves angular momentum only to O(x/4a)"
+_AT_MIDGAP = LawFunction("lever", (distance,), distance / 2, "Arm over a, from the centre distance r/a.")
+_AT_SURFACE = LawFunction("lever", (distance,), sp.Integer(2), "Arm over a: the sphere radius.")
+
 ARMS = (
-    Law(
-        slot="arm",
-        name="midgap",
-        meaning="the tangential force acts at mid-gap, arm = r/2: conserves angular momentum identically",
-        source="torque balance of the film about the centre of mass",
-        functions=(LawFunction("lever", (distance,), distance / 2, "Arm over a, from the centre distance r/a."),),
-    ),
-    Law(
-        slot="arm",
-        name="surface",
-        meaning="leading-order arm R = 2a: conserves angular momentum only to O(x/4a)",
-        source=f"{PAPER.short}: leading order in the gap",
-        functions=(LawFunction("lever", (distance,), sp.Integer(2), "Arm over a: the sphere radius."),),
-        references=(PAPER,),
-    ),
+    Law("arm", "midgap", _MIDGAP, "torque balance of the film about the centre of mass", (_AT_MIDGAP,)),
+    Law("arm", "surface", _SURFACE, f"{PAPER.short}: leading order in the gap", (_AT_SURFACE,), references=(PAPER,)),
 )

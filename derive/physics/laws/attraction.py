@@ -43,27 +43,21 @@ def van_der_waals_potential() -> sp.Expr:
     return -sp.integrate(van_der_waals_force(), (x, x, sp.oo))
 
 
+def _in_gaps(expression: sp.Expr) -> sp.Expr:
+    return expression.subs(x, gap * x0)
+
+
+_FORCE = _in_gaps(van_der_waals_force() / van_der_waals_force().subs(x, x0))
+_POTENTIAL = _in_gaps(van_der_waals_potential() / (van_der_waals_force() * x**2 / x0))
 ATTRACTIONS = (
     Law(
-        slot="attraction",
-        name="van-der-waals",
-        meaning="van der Waals attraction of nearly touching spheres, neither retarded nor cut off",
-        source=f"{HAMAKER.short}; {DERJAGUIN.short}",
-        references=(HAMAKER, DERJAGUIN),
-        functions=(
-            LawFunction(
-                "force",
-                (gap,),
-                (van_der_waals_force() / van_der_waals_force().subs(x, x0)).subs(x, gap * x0),
-                "Attraction over A a/(6 x0^2).",
-                falls=True,
-            ),
-            LawFunction(
-                "potential",
-                (gap,),
-                (van_der_waals_potential() / (van_der_waals_force() * x**2 / x0)).subs(x, gap * x0),
-                "Potential energy over A a/(6 x0), zero far away.",
-            ),
+        "attraction", "van-der-waals",
+        "van der Waals attraction of nearly touching spheres, neither retarded nor cut off",
+        f"{HAMAKER.short}; {DERJAGUIN.short}",
+        (
+            LawFunction("force", (gap,), _FORCE, "Attraction over A a/(6 x0^2).", falls=True),
+            LawFunction("potential", (gap,), _POTENTIAL, "Potential energy over A a/(6 x0), zero far away."),
         ),
+        references=(HAMAKER, DERJAGUIN),
     ),
-)
+)  # fmt: skip

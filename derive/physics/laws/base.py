@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -36,11 +36,8 @@ class LawFunction:
     def __post_init__(self) -> None:
         known = set(self.arguments)
         for symbol, expression in (*self.definitions, (sp.Symbol(self.name), self.result)):
-            unknown = expression.free_symbols - known
-            if unknown:
-                raise ValueError(
-                    f"{self.name}: {symbol} uses {sorted(map(str, unknown))}, which no argument or definition gives"
-                )
+            if unknown := sorted(map(str, expression.free_symbols - known)):
+                raise ValueError(f"{self.name}: {symbol} uses {unknown}, which no argument or definition gives")
             known.add(symbol)
 
     def __call__(self, *values: sp.Expr) -> sp.Expr:
@@ -109,22 +106,30 @@ def slot_calls(expression: sp.Expr) -> list[AppliedUndef]:
 
 def fill(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
     """The expression with every slot call replaced by the chosen law's expression, inner calls first."""
-    while True:
-        calls = slot_calls(expression)
-        if not calls:
-            return expression
-        innermost = [node for node in calls if not any(slot_calls(part) for part in node.args)]
+    while calls := slot_calls(expression):
         replaced = {}
-        for node in innermost:
+        for node in (node for node in calls if not any(slot_calls(part) for part in node.args)):  # the innermost
             slot, function = node.func.__name__.split(".")
             replaced[node] = laws[slot][function](*node.args)
         expression = expression.xreplace(replaced)
+    return expression
 
 
 def filled(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
     """`fill` for the slots in `laws` only; the remaining calls stand for any law."""
-    kept: dict[sp.Basic, sp.Basic] = {}
-    for node in expression.atoms(AppliedUndef):
-        if is_slot_call(node) and node.func.__name__.split(".")[0] not in laws:
-            kept[node] = sp.Dummy(node.func.__name__.replace(".", "_"))
+    open_calls = (node for node in slot_calls(expression) if node.func.__name__.split(".")[0] not in laws)
+    kept = {node: sp.Dummy(node.func.__name__.replace(".", "_")) for node in open_calls}
     return fill(expression.xreplace(kept), laws).xreplace({dummy: node for node, dummy in kept.items()})
+
+
+def needed(outputs: Sequence[sp.Expr], definitions: Sequence[Definition]) -> tuple[list[Definition], set[sp.Symbol]]:
+    """The definitions that the outputs depend on, in order, and every symbol that occurs in either."""
+    used: set[sp.Symbol] = set()
+    for expression in outputs:
+        used |= sp.sympify(expression).free_symbols
+    kept: list[Definition] = []
+    for symbol, expression in reversed(definitions):
+        if symbol in used:
+            kept.append((symbol, expression))
+            used |= expression.free_symbols
+    return kept[::-1], used

@@ -86,89 +86,75 @@ def _resistance(force: sp.Expr) -> sp.Expr:
     return sp.factor((force / viscous_scale).xreplace({x: gap * x0, _rim: _rim * x0}))
 
 
-def _stopping(force: sp.Expr) -> LawFunction:
-    """Integral of a film's resistance from the gap to the rim: the opening velocity, times St, that it stops."""
+def _taken(force: sp.Expr, name: str) -> LawFunction:
+    """Integral of a film's resistance from the gap to the rim: the velocity, times St, that it takes on the way."""
     taken = sp.expand(sp.integrate(sp.expand(_resistance(force)), (gap, gap, 1)))
-    doc = "Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0."
-    return LawFunction("stopping", (gap,), taken, doc, for_proof=True)
+    return LawFunction(name, (gap,), taken, _TAKEN[name], for_proof=True)
 
 
-def _braking(force: sp.Expr) -> LawFunction:
-    """Integral of a film's resistance to an approach, from the gap to x0: the approach velocity, times St, it takes."""
-    taken = sp.expand(sp.integrate(sp.expand(_resistance(force)), (gap, gap, 1)))
-    return LawFunction("braking", (gap,), taken, _BRAKING, for_proof=True)
+_TAKEN = {
+    "stopping": "Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0.",
+    "braking": "Velocity, over v0/St, that the film takes from an approach from x0 to this gap.",
+}
 
 
 def _braking_of_constant_volume() -> LawFunction:
-    """The same for the film of constant volume; d rim/d gap = gap/rim, since rim^2 - gap^2 is constant."""
+    """`braking` of the film of constant volume; d rim/d gap = gap/rim, since rim^2 - gap^2 is constant."""
     taken = sp.log(gap) - 2 * sp.log(gap + _rim) + sp.log(_rim)
     slope = taken.diff(gap) + taken.diff(_rim) * gap / _rim
     if sp.simplify(slope - _resistance(constant_volume_force())) != 0:
         raise ArithmeticError("not an antiderivative of the resistance of a film of constant volume")
-    first = _scaled_rim().subs(gap, 1)
-    whole = taken.subs({gap: 1, _rim: first}, simultaneous=True) - taken
-    return LawFunction(
-        "braking", (gap, aspect, volume), whole, _BRAKING, definitions=((_rim, _scaled_rim()),), for_proof=True
-    )
+    whole = taken.subs({gap: 1, _rim: _scaled_rim().subs(gap, 1)}, simultaneous=True) - taken
+    arguments, definitions = (gap, aspect, volume), ((_rim, _scaled_rim()),)
+    return LawFunction("braking", arguments, whole, _TAKEN["braking"], definitions, for_proof=True)
 
 
-_BRAKING = "Velocity, over v0/St, that the film takes from an approach from x0 to this gap."
+_ANYWHERE = "Normal film force over 6 pi mu a^2 u/x0."
+_INSIDE = "Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1)."
+_CLOSING = "Normal film force over 6 pi mu a^2 u/x0 while closing, for a gap inside the film (gap < 1)."
 
-_DOC = "Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1)."
 
-
-def _function(force: sp.Expr, doc: str = _DOC, name: str = "resistance", falls: bool = True) -> LawFunction:
+def _function(force: sp.Expr, doc: str = _INSIDE, name: str = "resistance", falls: bool = True) -> LawFunction:
     return LawFunction(name, (gap,), _resistance(force), doc, falls=falls)
+
+
+def _uncavitated(force: sp.Expr) -> tuple[LawFunction, ...]:
+    """The functions of a film with the same force on approach and rebound."""
+    return _function(force), _taken(force, "stopping"), _taken(force, "braking")
 
 
 FILMS = (
     Law(
-        "film",
-        "finite",
-        "Reynolds film of finite thickness, the same on approach and rebound (no cavitation)",
-        f"{KANTAK.short}; derived: pressure integrated over the disc h < x0",
-        (_function(normal_force()), _stopping(normal_force()), _braking(normal_force())),
+        "film", "finite", "Reynolds film of finite thickness, the same on approach and rebound (no cavitation)",
+        f"{KANTAK.short}; derived: pressure integrated over the disc h < x0", _uncavitated(normal_force()),
         references=(KANTAK,),
     ),
     Law(
-        "film",
-        "infinite",
+        "film", "infinite",
         "no film correction: the pressure of an unbounded film, which ends where the surfaces leave it, x = x0",
-        f"{RAGER.short}; derived: the limit x0 -> infinity of `finite`",
-        (_function(unbounded_force()), _stopping(unbounded_force()), _braking(unbounded_force())),
+        f"{RAGER.short}; derived: the limit x0 -> infinity of `finite`", _uncavitated(unbounded_force()),
         references=(RAGER,),
     ),
     Law(
-        "film",
-        "cavitating",
+        "film", "cavitating",
         "`finite` on approach; on rebound the liquid sustains no suction and cavitates, which leaves no force",
         f"{BARNOCKY.short}; derived: the pressure cut off at ambient",
         (
-            _function(
-                normal_force(),
-                "Normal film force over 6 pi mu a^2 u/x0 while closing, for a gap inside the film (gap < 1).",
-            ),
+            _function(normal_force(), _CLOSING),
             _function(sustained_force(), "What of the resistance is left while opening.", "suction", falls=False),
-            _braking(normal_force()),
+            _taken(normal_force(), "braking"),
         ),
         references=(BARNOCKY,),
     ),
     Law(
-        "film",
-        "constant-volume",
+        "film", "constant-volume",
         "the rim follows the bridge's liquid, H = sqrt(x^2 + V_b/(pi a)) in place of x0, at any gap",
         f"{PITOIS.short}; derived: a disc of that volume",
         (
-            LawFunction(
-                "resistance",
-                (gap, aspect, volume),
-                _resistance(constant_volume_force()),
-                "Normal film force over 6 pi mu a^2 u/x0.",
-                ((_rim, _scaled_rim()),),
-                falls=True,
-            ),
+            LawFunction("resistance", (gap, aspect, volume), _resistance(constant_volume_force()), _ANYWHERE,
+                        ((_rim, _scaled_rim()),), falls=True),
             _braking_of_constant_volume(),
         ),
         references=(PITOIS,),
     ),
-)
+)  # fmt: skip

@@ -41,39 +41,17 @@ def log_factor(outer: sp.Expr) -> sp.Expr:
 
 def _law(name: str, outer: sp.Expr, meaning: str, source: str, references: tuple[Reference, ...] = ()) -> Law:
     edge = sp.simplify((outer / x0).subs(x0, aspect * a))
-    return Law(
-        slot="shear",
-        name=name,
-        meaning=meaning,
-        source=source,
-        references=references,
-        functions=(
-            LawFunction(
-                "log_factor",
-                (gap, aspect),
-                log_factor(outer),
-                "Tangential force over 8 pi mu a^2 (omega - xi), inside its edge.",
-                falls=True,
-            ),
-            LawFunction(
-                "edge", (aspect,), edge, "Gap (in film thicknesses) beyond which there is no tangential force."
-            ),
-        ),
+    doc = "Tangential force over 8 pi mu a^2 (omega - xi), inside its edge."
+    functions = (
+        LawFunction("log_factor", (gap, aspect), log_factor(outer), doc, falls=True),
+        LawFunction("edge", (aspect,), edge, "Gap (in film thicknesses) beyond which there is no tangential force."),
     )
+    return Law("shear", name, meaning, source, functions, references=references)
 
 
+_IMMERSED = "leading logarithm of nearly touching, fully immersed spheres: cut off at the sphere radius 2a"
+_FILM = "leading logarithm cut off at the rim of the film, x0"
 SHEARS = (
-    _law(
-        "immersed",
-        2 * a,
-        "leading logarithm of nearly touching, fully immersed spheres: cut off at the sphere radius 2a",
-        f"{ONEILL.short}, without its constant term",
-        (ONEILL,),
-    ),
-    _law(
-        "film",
-        x0,
-        "leading logarithm cut off at the rim of the film, x0",
-        "Couette shear integrated over the wetted disc",
-    ),
+    _law("immersed", 2 * a, _IMMERSED, f"{ONEILL.short}, without its constant term", (ONEILL,)),
+    _law("film", x0, _FILM, "Couette shear integrated over the wetted disc"),
 )

@@ -56,31 +56,22 @@ def rise(small_angle: bool) -> sp.Expr:
 @cache
 def potential(small_angle: bool) -> sp.Expr:
     """U_s(r, beta) in SI: two spheres, each of mass 2m, lifted by `rise`."""
-    scaled = height(small_angle).subs(
-        {offset_squared: swing_squared() / a**2, string_ratio: l_s / a}, simultaneous=True
-    )
-    return 4 * m * g * a * scaled
+    swung = {offset_squared: swing_squared() / a**2, string_ratio: l_s / a}
+    return 4 * m * g * a * height(small_angle).subs(swung, simultaneous=True)
 
 
 def _law(name: str, small_angle: bool, meaning: str) -> Law:
     stiffness = sp.simplify(2 * height(small_angle).diff(offset_squared))
-    arguments = (string_ratio, offset_squared)
-    return Law(
-        slot="strings",
-        name=name,
-        meaning=meaning,
-        references=(DOUBLETS,),
-        source=f"{DOUBLETS.short}: vertical tension balances the weight",
-        functions=(
-            LawFunction("rise", arguments, rise(small_angle), "Height gained by each sphere over a."),
-            LawFunction(
-                "stiffness",
-                arguments,
-                stiffness,
-                "Horizontal restoring force over weight and swing d/a: a/sqrt(l^2 - d^2).",
-            ),
-        ),
+    arguments, doc = (
+        (string_ratio, offset_squared),
+        "Horizontal restoring force over weight and swing d/a: a/sqrt(l^2 - d^2).",
     )
+    functions = (
+        LawFunction("rise", arguments, rise(small_angle), "Height gained by each sphere over a."),
+        LawFunction("stiffness", arguments, stiffness, doc),
+    )
+    source = f"{DOUBLETS.short}: vertical tension balances the weight"
+    return Law("strings", name, meaning, source, functions, references=(DOUBLETS,))
 
 
 STRINGS = (

@@ -12,7 +12,7 @@ import sympy as sp
 
 from ...vocabulary.quantities import a, m, mass_ratio, omega, partner_spin_rate, radius_ratio, u, x, xi
 from ...vocabulary.quantities import t as time
-from ..mechanics import sphere_inertia, without_sines
+from ..mechanics import lagrange, sphere_inertia, without_sines
 
 CENTRES = sp.Symbol("centres", positive=True)  # (R_1 + R_2)/a, named in emitted code
 F, F_t, T_1, T_2 = sp.symbols("F F_t T_1 T_2", real=True)  # along the line of centres, across it, torques
@@ -68,39 +68,26 @@ def equations_of_motion() -> PairMotion:
     mass_1, mass_2, inertia_1, inertia_2 = named = sp.symbols("M_1 M_2 I_1 I_2", positive=True)
     sizes = dict(zip(named, (*masses(), *inertias()), strict=True))
     line = sp.Matrix([sp.cos(q["beta"]), sp.sin(q["beta"])])
-    across = sp.Matrix([-sp.sin(q["beta"]), sp.cos(q["beta"])])
     centre = sp.Matrix([q["X"], q["Y"]])
     apart = (CENTRES * a + q["x"]) * line
     first = centre - mass_2 / (mass_1 + mass_2) * apart
     second = centre + mass_1 / (mass_1 + mass_2) * apart
-    half = sp.Rational(1, 2)
-
-    def squared(vector: sp.Matrix) -> sp.Expr:
-        return vector.dot(vector)
-
-    translation = half * mass_1 * squared(first.diff(time)) + half * mass_2 * squared(second.diff(time))
-    spinning = half * inertia_1 * q["alpha_1"].diff(time) ** 2 + half * inertia_2 * q["alpha_2"].diff(time) ** 2
+    speeds = [each.diff(time) for each in (first, second)]
+    translation = sum(mass * speed.dot(speed) for mass, speed in zip((mass_1, mass_2), speeds, strict=True)) / 2
+    spins = ((inertia_1, "alpha_1"), (inertia_2, "alpha_2"))
+    spinning = sp.Add(*(inertia * q[name].diff(time) ** 2 / 2 for inertia, name in spins))
     energy = without_sines(translation, q["beta"]) + spinning
-    force = -F * line - F_t * across
-    moved = second - first
-    work = {name: without_sines(force.dot(moved.diff(q[name])), q["beta"]) for name in ("X", "Y", "x", "beta")}
+    force = -F * line - F_t * line.diff(q["beta"])
+    places = ("X", "Y", "x", "beta")
+    work = {name: without_sines(force.dot((second - first).diff(q[name])), q["beta"]) for name in places}
     work |= {"alpha_1": T_1, "alpha_2": T_2}
-    plain = {
-        q["x"].diff(time): u,
-        q["beta"].diff(time): omega,
-        q["alpha_1"].diff(time): xi,
-        q["alpha_2"].diff(time): partner_spin_rate,
-    }
+    moving = {"x": u, "beta": omega, "alpha_1": xi, "alpha_2": partner_spin_rate}
+    plain = {q[name].diff(time): rate for name, rate in moving.items()}
 
     def settle(expression: sp.Expr) -> sp.Expr:
         return sp.factor(expression.subs(plain).subs({q["x"]: x, **sizes}))
 
-    accelerations, momenta, rates = {}, {}, {}
-    for name, coordinate in q.items():
-        conjugate = energy.diff(coordinate.diff(time))
-        balance = conjugate.diff(time) - energy.diff(coordinate) - work[name]
-        second = coordinate.diff(time, 2)  # the balance is linear in it
-        accelerations[name] = settle(-balance.subs(second, 0) / balance.diff(second))
-        momenta[name] = settle(conjugate)
-        rates[name] = settle(energy.diff(coordinate) + work[name])
+    motion = lagrange(energy, q, work)
+    settled = {name: [settle(part) for part in parts] for name, parts in motion.items()}
+    accelerations, momenta, rates = ({name: parts[k] for name, parts in settled.items()} for k in range(3))
     return PairMotion(accelerations, momenta, rates, settle(energy))

@@ -61,28 +61,18 @@ def _friction() -> list[Definition]:
 
 
 def _definitions() -> tuple[Definition, ...]:
-    (radius, partner_radius), (inertia, partner_inertia) = radii(), inertias()
+    named = (*(radius / q.a for radius in radii()), *(inertia / (q.m * q.a**2) for inertia in inertias()))
     return (
         (CENTRES, centres()),
         (DISTANCE, CENTRES + q.aspect * q.gap),
         (ORBITAL_RATE, scaled(q.omega / q.rate_scale)),
-        (RADIUS, sp.factor(radius / q.a)),
-        (PARTNER_RADIUS, sp.factor(partner_radius / q.a)),
-        (SPIN_INERTIA, sp.factor(inertia / (q.m * q.a**2))),
-        (PARTNER_INERTIA, sp.factor(partner_inertia / (q.m * q.a**2))),
+        *zip((RADIUS, PARTNER_RADIUS, SPIN_INERTIA, PARTNER_INERTIA), map(sp.factor, named), strict=True),
         (MOMENTUM, q.orbital_momentum + SPIN_INERTIA * q.spin + PARTNER_INERTIA * q.partner_spin),
         (INERTIA_RATIO, DISTANCE**2 + SPIN_INERTIA + PARTNER_INERTIA),
         (SLIP, ORBITAL_RATE - q.spin),
         (PARTNER_SLIP, ORBITAL_RATE - q.partner_spin),
         *_friction(),
     )
-
-
-def _kinetic() -> sp.Expr:
-    """Kinetic energy of the orbital motion and of both spins, over m v0^2; the centre of mass is at rest."""
-    orbital = _turned(q.m * r**2 * q.omega**2 / 2 / (q.m * q.v0**2))
-    turning = scaled(q.m * q.a**2 * q.rate_scale**2 / 2 / (q.m * q.v0**2))
-    return orbital + turning * SPIN_INERTIA * q.spin**2 + turning * PARTNER_INERTIA * q.partner_spin**2
 
 
 @cache
@@ -96,8 +86,10 @@ def rotation() -> Rotation:
         return scaled(motion.rates[coordinate].subs(named) * per_time)
 
     power = F_t * r * q.omega - T_1 * q.xi - T_2 * q.partner_spin_rate
-    rigid = MOMENTUM / INERTIA_RATIO
+    rigid, orbit = MOMENTUM / INERTIA_RATIO, (CENTRES + q.aspect) ** 2 * q.initial_turning
     least = scaled((q.m * q.a**2 * q.rate_scale * MOMENTUM) ** 2 / (2 * q.m * q.a**2 * INERTIA_RATIO) / (q.m * q.v0**2))
+    orbital = _turned(q.m * r**2 * q.omega**2 / 2 / (q.m * q.v0**2))  # the centre of mass is at rest
+    unit = scaled(q.m * q.a**2 * q.rate_scale**2 / 2 / (q.m * q.v0**2))
     opened = motion.accelerations["x"]
     centrifugal = sp.expand(opened - opened.subs(q.omega, 0))
     assert sp.expand(centrifugal - r * q.omega**2) == 0
@@ -111,15 +103,10 @@ def rotation() -> Rotation:
             q.partner_spin: rate("alpha_2") / PARTNER_INERTIA,
         },
         turning=_turned(q.omega * q.x0 / q.v0),
-        kinetic=_kinetic(),
+        kinetic=orbital + unit * SPIN_INERTIA * q.spin**2 + unit * PARTNER_INERTIA * q.partner_spin**2,
         power=_turned(power.subs(named) * q.x0 / q.v0 / (q.m * q.v0**2)),
         momentum=relative_change(
-            MOMENTUM,
-            (
-                (CENTRES + q.aspect) ** 2 * q.initial_turning,
-                SPIN_INERTIA * q.initial_spin,
-                PARTNER_INERTIA * q.initial_partner_spin,
-            ),
+            MOMENTUM, (orbit, SPIN_INERTIA * q.initial_spin, PARTNER_INERTIA * q.initial_partner_spin)
         ),
         outputs={
             "tangential_restitution": DISTANCE * ORBITAL_RATE / ((CENTRES + q.aspect) * q.initial_turning),
@@ -130,9 +117,5 @@ def rotation() -> Rotation:
         surface_slip=DISTANCE * ORBITAL_RATE - LEVER * (RADIUS * q.spin + PARTNER_RADIUS * q.partner_spin),
         least=(least, least.diff(INERTIA_RATIO) * 2 * DISTANCE * q.aspect),
         rigid={q.orbital_momentum: DISTANCE**2 * rigid, q.spin: rigid, q.partner_spin: rigid},
-        start={
-            q.orbital_momentum: (CENTRES + q.aspect) ** 2 * q.initial_turning,
-            q.spin: q.initial_spin,
-            q.partner_spin: q.initial_partner_spin,
-        },
+        start={q.orbital_momentum: orbit, q.spin: q.initial_spin, q.partner_spin: q.initial_partner_spin},
     )

@@ -10,8 +10,8 @@ form the partner's spin follows from the three components of the angular momentu
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import cache
+from itertools import chain
 
 import sympy as sp
 
@@ -24,14 +24,7 @@ from .base import Rotation
 from .bodies import CENTRES, centres, inertias, r, radii
 from .pair import DRAG, INERTIA_RATIO, PARTNER_INERTIA, PARTNER_RADIUS, RADIUS, SPIN_INERTIA, scaled
 from .rolling import R_1, R_2, torque_matrix
-from .vectors import APART, FORCE, LINE_RATE, cross, dot, motion, on_the_sphere
-
-
-def named(name: str) -> q.Vector:
-    """Symbols of a vector's components."""
-    first, second, third = (sp.Symbol(f"{name}_{axis}", real=True) for axis in q.AXES)
-    return first, second, third
-
+from .vectors import APART, FORCE, LINE_RATE, cross, dot, motion, named, on_the_sphere
 
 MOMENTA, RATES = named("momentum"), named("orbital_rate")
 SLIPS, PARTNER_SLIPS = named("slip"), named("partner_slip")
@@ -52,33 +45,22 @@ def torques(slips: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
 
 def start() -> dict[sp.Symbol, sp.Expr]:
     """State of the rotation at initial contact."""
-    return {
-        **dict(zip(q.normal, q.initial_normals, strict=True)),
-        **{
-            state: (CENTRES + q.aspect) ** 2 * rate
-            for state, rate in zip(q.orbital_momenta, q.initial_turnings, strict=True)
-        },
-        **dict(zip(q.spins, q.initial_spins, strict=True)),
-        **dict(zip(q.partner_spins, q.initial_partner_spins, strict=True)),
-    }
+    momenta = [(CENTRES + q.aspect) ** 2 * rate for rate in q.initial_turnings]
+    vectors = (q.normal, q.orbital_momenta, q.spins, q.partner_spins)
+    first = (q.initial_normals, momenta, q.initial_spins, q.initial_partner_spins)
+    return dict(zip(chain(*vectors), chain(*first), strict=True))
 
 
 def sizes() -> list[Definition]:
     """Centre distances, radii over a, and moments of inertia over m a^2."""
-    (radius, partner_radius), (inertia, partner_inertia) = radii(), inertias()
-    return [
-        (CENTRES, centres()),
-        (DISTANCE, CENTRES + q.aspect * q.gap),
-        (RADIUS, sp.factor(radius / q.a)),
-        (PARTNER_RADIUS, sp.factor(partner_radius / q.a)),
-        (SPIN_INERTIA, sp.factor(inertia / (q.m * q.a**2))),
-        (PARTNER_INERTIA, sp.factor(partner_inertia / (q.m * q.a**2))),
-    ]
+    named = (*(radius / q.a for radius in radii()), *(inertia / (q.m * q.a**2) for inertia in inertias()))
+    scaled_sizes = zip((RADIUS, PARTNER_RADIUS, SPIN_INERTIA, PARTNER_INERTIA), map(sp.factor, named), strict=True)
+    return [(CENTRES, centres()), (DISTANCE, CENTRES + q.aspect * q.gap), *scaled_sizes]
 
 
 def _momenta() -> list[Definition]:
     each = zip(MOMENTA, q.orbital_momenta, q.spins, q.partner_spins, strict=True)
-    return [(of, own + SPIN_INERTIA * first + PARTNER_INERTIA * second) for of, own, first, second in each]
+    return [(name, orbital + SPIN_INERTIA * one + PARTNER_INERTIA * other) for name, orbital, one, other in each]
 
 
 def _twists(eliminated: Eliminated) -> list[Definition]:
@@ -109,10 +91,8 @@ def definitions(eliminated: Eliminated = ()) -> tuple[Definition, ...]:
     result += list(zip((ALONG, PARTNER_ALONG), torques((TWIST, PARTNER_TWIST)), strict=True))
     across = [torques(both) for both in zip(SLIPS, PARTNER_SLIPS, strict=True)]
     for place, (symbols, along) in enumerate(((TORQUES, ALONG), (PARTNER_TORQUES, PARTNER_ALONG))):
-        result += [
-            (symbol, STRENGTH * (both[place] - along * line))
-            for symbol, both, line in zip(symbols, across, q.normal, strict=True)
-        ]
+        each = zip(symbols, across, q.normal, strict=True)
+        result += [(symbol, STRENGTH * (both[place] - along * line)) for symbol, both, line in each]
     return tuple(result)
 
 
@@ -124,18 +104,10 @@ def rates() -> dict[sp.Symbol, sp.Expr]:
     by_force = dict(zip(FORCE, force, strict=True))
     torque = [on_the_sphere(each.subs(by_force), q.normal, shear) for each in moved.orbital_momentum]
     assert list(torque) == [-APART * each for each in shear]
-    assert (
-        on_the_sphere(moved.opening.subs(by_force) - APART * dot(LINE_RATE, LINE_RATE) + pull / q.m, q.normal, shear)
-        == 0
-    )
-    turned = scaled(q.rate_scale * q.x0 / q.v0)
-    result = dict(
-        zip(
-            q.normal,
-            (turned * each for each in moved.normal.subs(dict(zip(LINE_RATE, RATES, strict=True)))),
-            strict=True,
-        )
-    )
+    opening = moved.opening.subs(by_force) - APART * dot(LINE_RATE, LINE_RATE) + pull / q.m
+    assert on_the_sphere(opening, q.normal, shear) == 0
+    turned = scaled(q.rate_scale * q.x0 / q.v0) * moved.normal.subs(dict(zip(LINE_RATE, RATES, strict=True)))
+    result = dict(zip(q.normal, turned, strict=True))
     assert scaled(TANGENTIAL * q.a * q.x0 / (q.v0 * q.m * q.a**2 * q.rate_scale)) == 1
     for place in range(3):
         result[q.orbital_momenta[place]] = -(TORQUES[place] + PARTNER_TORQUES[place])
@@ -212,25 +184,16 @@ def surface_slip() -> sp.Expr:
 def drift() -> sp.Expr:
     """1 + |L - L(0)| over the sum of its parts at initial contact."""
     first = start()
-    parts = [
-        (sp.Matrix(vector).subs(first, simultaneous=True), inertia)
-        for vector, inertia in ((q.orbital_momenta, 1), (q.spins, SPIN_INERTIA), (q.partner_spins, PARTNER_INERTIA))
-    ]
-    begun = [momentum.subs(first, simultaneous=True) for _, momentum in _momenta()]
-    apart = sp.Matrix(MOMENTA) - sp.Matrix(begun)
-    return 1 + sp.sqrt(dot(apart, apart)) / sum(inertia * sp.sqrt(dot(vector, vector)) for vector, inertia in parts)
+    vectors = [[first[each] for each in vector] for vector in (q.orbital_momenta, q.spins, q.partner_spins)]
+    apart = sp.Matrix([name - value.subs(first, simultaneous=True) for name, value in _momenta()])
+    weighted = zip(vectors, (1, SPIN_INERTIA, PARTNER_INERTIA), strict=True)
+    return 1 + sp.sqrt(dot(apart, apart)) / sum(inertia * sp.sqrt(dot(vector, vector)) for vector, inertia in weighted)
 
 
 def _outputs() -> dict[str, sp.Expr]:
-    result: dict[str, sp.Expr] = {}
-    for name, vector in (
-        ("final_normal", q.normal),
-        ("final_rotation_rate", RATES),
-        ("final_spin", q.spins),
-        ("final_spin_partner", q.partner_spins),
-    ):
-        result |= {f"{name}_{axis}": component for axis, component in zip(q.AXES, vector, strict=True)}
-    return result
+    names = ("final_normal", "final_rotation_rate", "final_spin", "final_spin_partner")
+    vectors = zip(names, (q.normal, RATES, q.spins, q.partner_spins), strict=True)
+    return {f"{name}_{axis}": each for name, vector in vectors for axis, each in zip(q.AXES, vector, strict=True)}
 
 
 @cache
@@ -240,7 +203,7 @@ def rotation(reduced: bool) -> Rotation:
     Arguments:
         reduced: without the partner's spin, which `definitions` then take from what is conserved.
     """
-    own: Mapping[sp.Symbol, sp.Expr] = rates()
+    each = rates()
     states = (*q.normal, *q.orbital_momenta, *q.spins, *(() if reduced else q.partner_spins))
     lost = dot(TORQUES, SLIPS) + dot(PARTNER_TORQUES, PARTNER_SLIPS)
     least = energy_unit() * MOMENTUM_SQUARE / (2 * INERTIA_RATIO)
@@ -248,7 +211,7 @@ def rotation(reduced: bool) -> Rotation:
         states=states,
         definitions=definitions(),
         centrifugal=centrifugal(RATE_SQUARE * DISTANCE**4),
-        rates={state: own[state] for state in states},
+        rates={state: each[state] for state in states},
         turning=None,
         kinetic=energy_unit() * energy(q.orbital_momenta, q.spins, q.partner_spins),
         power=scaled(TANGENTIAL * q.a * q.rate_scale * q.x0 / q.v0 / (q.m * q.v0**2)) * lost,

@@ -17,13 +17,13 @@ from ...vocabulary.quantities import normal as n
 from ...vocabulary.quantities import t as time
 
 
-def _symbols(name: str) -> Vector:
+def named(name: str) -> Vector:
+    """Symbols of a vector's components."""
     first, second, third = (sp.Symbol(f"{name}_{axis}", real=True) for axis in AXES)
     return first, second, third
 
 
-FORCE, TORQUE_1, TORQUE_2 = _symbols("F"), _symbols("T_1"), _symbols("T_2")
-LINE_RATE, RATE_1, RATE_2 = _symbols("omega"), _symbols("xi_1"), _symbols("xi_2")
+FORCE, LINE_RATE = named("F"), named("omega")
 APART = sp.Symbol("r", positive=True)
 
 
@@ -47,12 +47,11 @@ def on_the_sphere(expression: sp.Expr, normal: Vector = n, across: Vector = LINE
 
 @dataclass(frozen=True)
 class SpaceMotion:
-    """Rates in SI: du/dt, of n, of the orbital momentum m r^2 omega and of the spins, for FORCE and the torques."""
+    """Rates in SI: du/dt, of n and of the orbital momentum m r^2 omega, for FORCE; spins turn with their torques."""
 
     opening: sp.Expr
     normal: sp.Matrix
     orbital_momentum: sp.Matrix
-    spins: tuple[sp.Matrix, sp.Matrix]
 
 
 @cache
@@ -79,15 +78,12 @@ def spin_balance() -> sp.Matrix:
     """Lagrange's equations of a free sphere in Euler angles, as I dw/dt - T in the laboratory's axes; zero."""
     inertia = sp.Symbol("I", positive=True)
     turn, tilt, roll = (sp.Function(name)(time) for name in ("phi", "theta", "psi"))
-    rates = sp.Matrix(
-        [
-            sp.cos(turn) * tilt.diff(time) + sp.sin(turn) * sp.sin(tilt) * roll.diff(time),
-            sp.sin(turn) * tilt.diff(time) - sp.cos(turn) * sp.sin(tilt) * roll.diff(time),
-            turn.diff(time) + sp.cos(tilt) * roll.diff(time),
-        ]
-    )
-    energy = inertia * rates.dot(rates) / 2
     angles = (turn, tilt, roll)
+    turning, tilting, rolling = (angle.diff(time) for angle in angles)
+    along = sp.cos(turn) * tilting + sp.sin(turn) * sp.sin(tilt) * rolling
+    across = sp.sin(turn) * tilting - sp.cos(turn) * sp.sin(tilt) * rolling
+    rates = sp.Matrix([along, across, turning + sp.cos(tilt) * rolling])
+    energy = inertia * rates.dot(rates) / 2
     by_rates = rates.jacobian([angle.diff(time) for angle in angles])  # work of T: T . w
     lagrange = sp.Matrix([energy.diff(angle.diff(time)).diff(time) - energy.diff(angle) for angle in angles])
     torque = by_rates.T.LUsolve(lagrange)
@@ -112,7 +108,6 @@ def motion() -> SpaceMotion:
         opening=APART * dot(LINE_RATE, LINE_RATE) + dot(n, FORCE) / m,
         normal=cross(LINE_RATE, n),
         orbital_momentum=APART * cross(n, FORCE),
-        spins=(sp.Matrix(TORQUE_1), sp.Matrix(TORQUE_2)),
     )
     moved = u * sp.Matrix(n) + APART * cross(LINE_RATE, n)
     rules = [

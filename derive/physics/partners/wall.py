@@ -26,6 +26,7 @@ from ..scaling import nondimensional
 from .base import Rotation
 from .bodies import CENTRES, T_1, F_t, centres, equations_of_motion, inertias, r, radii
 from .rolling import R_1, R_2, torque_matrix
+from .vectors import dot
 
 SHEAR_FORCE, TORQUE = sp.symbols("shear_force torque", real=True)
 SLOW_MODE, FAST_MODE = sp.symbols("slow_mode fast_mode", positive=True)
@@ -60,9 +61,8 @@ def accelerations() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
 def scaled(expression: sp.Expr) -> sp.Expr:
     """A dimensionless SI expression in states and groups; v over v0 T, spin over v0 T/a."""
     sideways = q.v0 * q.obliquity
-    return nondimensional(
-        expression.subs({q.slide_rate: sideways * q.slide, q.xi: sideways / q.a * q.roll}, simultaneous=True)
-    )
+    moving = {q.slide_rate: sideways * q.slide, q.xi: sideways / q.a * q.roll}
+    return nondimensional(expression.subs(moving, simultaneous=True))
 
 
 @dataclass(frozen=True)
@@ -135,8 +135,7 @@ def rotation(impulses: bool = False) -> Rotation:
     begin = {q.slide: q.last_slide, q.roll: q.last_roll} if impulses else first
     last = {begin[state]: value for state, value in first.items()} if impulses else {}
     result = modes({state: rate.subs(dict(definitions)) for state, rate in rates.items()}, begin)
-    both = (SLOW_MODE, FAST_MODE)
-    unit = _force_unit()
+    both, unit = (SLOW_MODE, FAST_MODE), _force_unit()
     kinetic = (q.m * q.slide_rate**2 + limit(inertias()[0]) * q.xi**2) / 2
     power = (F_t * q.slide_rate - T_1 * q.xi).subs({F_t: unit * SHEAR_FORCE, T_1: unit * q.a * TORQUE})
     return Rotation(
@@ -144,8 +143,8 @@ def rotation(impulses: bool = False) -> Rotation:
         definitions=(
             (SLOW_MODE, sp.exp(-q.decay)),
             (FAST_MODE, sp.exp(-result.ratio * q.decay)),
-            (q.slide, sum(weight * mode for weight, mode in zip(result.slide, both, strict=True))),
-            (q.roll, sum(weight * mode for weight, mode in zip(result.roll, both, strict=True))),
+            (q.slide, dot(result.slide, both)),
+            (q.roll, dot(result.roll, both)),
             *definitions,
         ),
         centrifugal=sp.Integer(0),
@@ -161,6 +160,6 @@ def rotation(impulses: bool = False) -> Rotation:
         },
         surface_slip=q.slide - q.roll,
         least=(sp.Integer(0), sp.Integer(0)),
-        rigid={q.decay: q.decay, **{state: state for state in last}},
+        rigid={state: state for state in (q.decay, *last)},
         start={q.decay: sp.Integer(0), **last},
     )

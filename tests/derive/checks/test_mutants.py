@@ -11,18 +11,19 @@ import sympy as sp
 from wetdoublet.derive.checks import Check
 from wetdoublet.derive.checks.admission import certificate
 from wetdoublet.derive.checks.certificate import least_energy, least_energy_is_a_minimum
-from wetdoublet.derive.checks.conservation import energy
-from wetdoublet.derive.checks.dimensions import dimension_checks, si_equations
+from wetdoublet.derive.checks.conservation import energy, inertia_is_rigid_rotation, strings_are_conservative
+from wetdoublet.derive.checks.dimensions import (
+    centrifugal_number,
+    dimension_checks,
+    groups_are_the_papers,
+    groups_span_the_nullspace,
+    si_equations,
+)
 from wetdoublet.derive.checks.dissipation import (
     arms,
     bridge_does_work,
     film_dissipates,
     rebound_dissipates,
-)
-from wetdoublet.derive.checks.groups import (
-    centrifugal_number,
-    groups_are_the_papers,
-    groups_span_the_nullspace,
 )
 from wetdoublet.derive.checks.laws import (
     film_ends,
@@ -31,7 +32,6 @@ from wetdoublet.derive.checks.laws import (
     small_angle_is_linear,
 )
 from wetdoublet.derive.checks.limits import reduced_is_full
-from wetdoublet.derive.checks.mechanics import inertia_is_rigid_rotation, strings_are_conservative
 from wetdoublet.derive.checks.restitution import ceiling_is_the_published
 from wetdoublet.derive.equations import observables
 from wetdoublet.derive.equations.events import rebound, rebound_loss

@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 import sympy as sp
-from wetdoublet.derive.checks.base import run
 from wetdoublet.derive.checks.emitted import (
     events_are_the_definitions,
     inward_is_minus_the_acceleration,
@@ -16,10 +15,9 @@ from wetdoublet.derive.checks.emitted import (
     resting_is_held,
     tangential_force_is_the_published,
 )
-from wetdoublet.derive.checks.margins import CHECKS as MARGINS
-from wetdoublet.derive.checks.margins import margins_are_the_lemmas
+from wetdoublet.derive.checks.pendulum_certificate import margins_are_the_lemmas
 from wetdoublet.derive.checks.restitution import decomposition
-from wetdoublet.derive.equations import events, observables, rates
+from wetdoublet.derive.equations import events, intermediates, observables
 from wetdoublet.derive.equations.certificates import pendulum
 from wetdoublet.derive.equations.events import rebound_loss
 from wetdoublet.derive.physics.laws import slot_call
@@ -32,9 +30,18 @@ from .test_mutants import Healthy, Mutate, altered_force, caught
 pytestmark = pytest.mark.slow
 
 
+def _margins() -> dict[str, sp.Expr]:
+    ((_, _, margins),) = pendulum.functions()
+    return dict(margins)
+
+
+def _emit(mutate: Mutate, margins: dict[str, sp.Expr]) -> None:
+    mutate(pendulum.functions, lambda *_: [("pendulum_margins", "", margins)])
+
+
 def _recoil_of(share: sp.Expr) -> dict[str, sp.Expr]:
     """The margins with a recoil at a share of its speed."""
-    right = pendulum.margins()
+    right = _margins()
     slower = right["recoil"].subs(pendulum.FASTEST, share * pendulum.FASTEST)
     assert slower != right["recoil"]
     return {**right, "recoil": slower}
@@ -43,16 +50,16 @@ def _recoil_of(share: sp.Expr) -> dict[str, sp.Expr]:
 def test_a_recoil_of_a_tenth(mutate: Mutate, healthy: Healthy):
     """A rebound taken at a tenth of its speed: the film stops it where it would not."""
     wrong = _recoil_of(sp.Rational(1, 10))
-    mutate(pendulum.margins, lambda: wrong)
-    caught(run(MARGINS), healthy, "margin of the stick proof: recoil")
+    _emit(mutate, wrong)
+    caught(margins_are_the_lemmas(), healthy, "margin of the stick proof: recoil")
 
 
 def test_a_recoil_without_its_reach(mutate: Mutate, healthy: Healthy):
     """A rebound that starts in contact always, and never where the glass criterion is met."""
-    right = pendulum.margins()
+    right = _margins()
     wrong = {**right, "recoil": right["recoil"].subs(pendulum.REACH, pendulum.CONTACT)}
-    mutate(pendulum.margins, lambda: wrong)
-    caught(run(MARGINS), healthy, "margin of the stick proof: recoil")
+    _emit(mutate, wrong)
+    caught(margins_are_the_lemmas(), healthy, "margin of the stick proof: recoil")
 
 
 @pytest.mark.parametrize(
@@ -72,15 +79,15 @@ def test_a_bound_taken_elsewhere(mutate: Mutate, healthy: Healthy, name, wrong, 
     """Least and largest distance, orbit, contact, pull and speed taken where they are not the worst."""
     right = dict(pendulum.definitions())
     assert right[name] != wrong
-    mutate(pendulum.definitions, lambda: tuple({**right, name: wrong}.items()))
+    mutate(pendulum.definitions, lambda *_: tuple({**right, name: wrong}.items()))
     caught(margins_are_the_lemmas(), healthy, *(f"margin of the stick proof: {each}" for each in margin.split(", ")))
 
 
 def test_a_pull_at_first_touch(mutate: Mutate, healthy: Healthy):
     """The pull at x0 is larger than at contact: the inward force is taken for too large."""
-    wrong = {**pendulum.margins(), "pull": pendulum.pull_at(sp.Integer(1), q.beta)}
-    mutate(pendulum.margins, lambda: wrong)
-    caught(run(MARGINS), healthy, "margin of the stick proof: pull")
+    wrong = {**_margins(), "pull": pendulum.pull_at(sp.Integer(1), q.beta)}
+    _emit(mutate, wrong)
+    caught(margins_are_the_lemmas(), healthy, "margin of the stick proof: pull")
 
 
 def _with(right: Callable[..., Any], name: Any, change: Callable[[sp.Expr], sp.Expr]) -> Callable[..., Any]:
@@ -96,8 +103,8 @@ def _with(right: Callable[..., Any], name: Any, change: Callable[[sp.Expr], sp.E
 @pytest.mark.parametrize(
     ("right", "name", "change", "check", "caught_by"),
     [
-        (rates.resting_rates, q.orbital_momentum, lambda e: -e, resting_is_held, "resting contact"),
-        (rates.resting_rates, q.normal_velocity, lambda e: e + 1, resting_is_held, "resting contact"),
+        (intermediates.resting_rates, q.orbital_momentum, lambda e: -e, resting_is_held, "resting contact"),
+        (intermediates.resting_rates, q.normal_velocity, lambda e: e + 1, resting_is_held, "resting contact"),
         (observables.outputs, "tangential_restitution", lambda e: 2 * e, outputs_are_the_definitions, "outputs"),
         (observables.outputs, "final_spin", lambda e: -e, outputs_are_the_definitions, "outputs"),
         (observables.outputs, "restitution", lambda e: -e, outputs_are_the_definitions, "outputs"),
@@ -127,7 +134,7 @@ def test_one_value_of_a_function(mutate: Mutate, healthy: Healthy, right, name, 
 
 def test_an_inward_force_that_pushes(mutate: Mutate, healthy: Healthy):
     """The sign of what holds a doublet in contact: it would rest where it should be thrown off."""
-    right = rates.inward_force
+    right = intermediates.inward_force
     mutate(right, lambda structure: -right(structure))
     caught(inward_is_minus_the_acceleration(), healthy, "inward force")
 

@@ -88,4 +88,4 @@ def test_a_glass_law_with_quantities_of_its_own_has_no_slopes() -> None:
     model = derive(next(structure for structure in structures() if structure.name == "head_on"))
     beside = Beside(extra={"glass.pressure": (sp.Symbol("steepness"),)})
     with pytest.raises(EmissionError, match="no slopes of a glass law with quantities of its own"):
-        tangent_header(model, "0", "by a test", beside)
+        tangent_header(model, beside)

@@ -7,9 +7,8 @@ import re
 import pytest
 import sympy as sp
 from wetdoublet.derive.emit.casadi.printer import EmissionError
-from wetdoublet.derive.emit.taylor.antiderivative import antiderivative
 from wetdoublet.derive.emit.taylor.header import structure_header
-from wetdoublet.derive.emit.taylor.law_header import law_header, moves
+from wetdoublet.derive.emit.taylor.law_header import antiderivative, law_header, moves
 from wetdoublet.derive.emit.taylor.program import Program, cheapest
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.physics.laws import LAWS
@@ -95,7 +94,7 @@ def test_every_law_has_its_header():
     closed = set()
     for slot, laws in LAWS.items():
         for law in laws.values():
-            text = law_header(law, "0", "by a test")
+            text = law_header(law)
             assert f"{slot}_" in text
             if "_WORK 1" in text:
                 closed.add(law.name)
@@ -114,19 +113,19 @@ def test_arguments_that_move():
 def test_margins_of_what_attracts():
     """An attraction on strings, or without, has the margins of its own proof, for laws that fall with the gap alone."""
     for strings in (False, True):
-        text = structure_header(derive(Structure(oblique=True, strings=strings, bridge=True)), "0", "by a test", "")
+        text = structure_header(derive(Structure(oblique=True, strings=strings, bridge=True)))
         assert "#if defined(BRIDGE_FORCE_FALLS)\n#define ATTRACTION_MARGINS" in text
         assert "*hold_margin = hold;" in text
         assert not re.search(r"vec_(max|min)\(", text)
-    assert "BRIDGE_FORCE_FALLS" in law_header(LAWS["bridge"]["mikami"], "0", "by a test")
-    assert "BRIDGE_FORCE_FALLS" not in law_header(LAWS["bridge"]["rabinovich"], "0", "by a test")
+    assert "BRIDGE_FORCE_FALLS" in law_header(LAWS["bridge"]["mikami"])
+    assert "BRIDGE_FORCE_FALLS" not in law_header(LAWS["bridge"]["rabinovich"])
 
 
 def test_margins_of_the_stick_proof_hand_nan_on():
     """Rotating strings with a film alone have the proof's margins, by maxima that are NaN where either argument is."""
-    text = structure_header(derive(Structure(oblique=True, bridge=False, strings=True)), "0", "by a test", "")
+    text = structure_header(derive(Structure(oblique=True, bridge=False, strings=True)))
     assert "#if defined(FILM_STOPPING) && defined(GLASS_REACH)" in text
     assert "vec_larger(y[ORBITAL_MOMENTUM], spun_up)" in text
     assert not re.search(r"vec_(max|min)\(", text)
-    without = structure_header(derive(Structure(oblique=True, strings=True, bridge=True)), "0", "by a test", "")
+    without = structure_header(derive(Structure(oblique=True, strings=True, bridge=True)))
     assert "pendulum_margins" not in without

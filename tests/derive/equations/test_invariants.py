@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import sympy as sp
 from wetdoublet.derive.checks.admission import certificate
+from wetdoublet.derive.checks.base import nonnegative
 from wetdoublet.derive.checks.dissipation import shear_range
 from wetdoublet.derive.checks.restitution import ceiling
-from wetdoublet.derive.checks.signs import nonnegative
 from wetdoublet.derive.equations.invariants import NoInvariantError, conserved_momentum, invariants
 from wetdoublet.derive.physics.laws import LAWS
 from wetdoublet.derive.physics.structure import Structure

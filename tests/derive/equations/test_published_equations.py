@@ -10,9 +10,8 @@ from wetdoublet.derive.equations.model import Model
 from wetdoublet.derive.physics import scaling
 from wetdoublet.derive.physics.forces import FILM, SHEAR, force_laws
 from wetdoublet.derive.physics.laws import LAWS, fill, film, glass, shear, strings
-from wetdoublet.derive.physics.laws.elastic_length import elastic_compliance, elastic_length
-from wetdoublet.derive.physics.laws.rupture import rupture_distance
-from wetdoublet.derive.physics.laws.start import start_values
+from wetdoublet.derive.physics.laws.bridge import rupture_distance
+from wetdoublet.derive.physics.laws.glass import elastic_compliance, elastic_length
 from wetdoublet.derive.physics.mechanics import (
     F_c,
     F_n,
@@ -26,6 +25,7 @@ from wetdoublet.derive.physics.mechanics import (
     sphere_inertia,
     string_forces,
 )
+from wetdoublet.derive.physics.scaling import start_values
 from wetdoublet.derive.vocabulary import quantities as q
 
 a, m, x, u, omega, xi = q.a, q.m, q.x, q.u, q.omega, q.xi

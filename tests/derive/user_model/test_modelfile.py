@@ -17,8 +17,16 @@ from wetdoublet.derive.user_model.declarations import ModelFileError
 from wetdoublet.derive.user_model.modelfile import read
 from wetdoublet.derive.user_model.template import TEMPLATE
 from wetdoublet.derive.vocabulary.allowed_values import Bounds, BoundsError
-from wetdoublet.derive.vocabulary.dimensions import FORCE, LENGTH, MASS, ONE, PRESSURE, TIME
-from wetdoublet.derive.vocabulary.unitnames import UnitError, dimension_of_unit
+from wetdoublet.derive.vocabulary.dimensions import (
+    FORCE,
+    LENGTH,
+    MASS,
+    ONE,
+    PRESSURE,
+    TIME,
+    UnitError,
+    dimension_of_unit,
+)
 
 HEAD = "from wetdoublet.derive.user import *\n"
 
