@@ -9,11 +9,10 @@ from pathlib import Path
 from ..formatting.style import LETTERS
 from ..scene.scene import Scene
 from ..sensitivity.boundaries import moving
-from .desk import Desk, Line, outcomes
+from .desk import Desk, Line, outcomes, printed_pressure
 from .fig4a import centrifugal, near_printed
 from .parts import Comparison, Part, Table, degrees, number
 from .printed import PRINTED
-from .tune import printed_pressure
 from .variants import BRIDGED, described, variant
 
 DOUBLED = {
@@ -45,6 +44,7 @@ def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made
     factors = {
         arm: {key: [new / old for new, old in zip(found[arm, key], plain[arm])] for key in DOUBLED} for arm in arms
     }
+    over = {key: [value for ratios in factors.values() for value in ratios[key]] for key in DOUBLED}
     place = angles.index(_AT)
     [in_reach] = desk.lines(_doubled(variant(BRIDGED, {}), DOUBLED["factor_radius"]), (_AT,))
     through = ", ".join(LETTERS[outcome] for outcome in outcomes(in_reach))
@@ -53,7 +53,7 @@ def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made
             key,
             factors["midgap"][key][place],
             described(arms["midgap"]) + ", p_gt out of reach",
-            f"at {degrees(_AT)}. " + _range(key, factors),
+            f"at {degrees(_AT)}. Over the angles and arms below: {number(min(over[key]))} to {number(max(over[key]))}",
             beside=f"(surface arm: {number(factors['surface'][key][place])})",
         )
         for key in DOUBLED
@@ -81,11 +81,6 @@ def _base(arm: str) -> Scene:
 
 def _doubled(scene: Scene, entry: str) -> Scene:
     return scene.with_entries({entry: 2 * float(scene.entries[entry])})
-
-
-def _range(key: str, factors: dict[str, dict[str, list[float]]]) -> str:
-    everything = [value for found in factors.values() for value in found[key]]
-    return f"Over the angles and arms below: {number(min(everything))} to {number(max(everything))}"
 
 
 def _nearest(angles: Sequence[float], factors: dict[str, dict[str, list[float]]]) -> str:
