@@ -29,7 +29,7 @@ from wetdoublet.solvers.many.by_kernel import collide_by_kernel
 from wetdoublet.solvers.many.dataset import empty, fill
 from wetdoublet.solvers.many.results import Block
 
-from .kernel import table
+from .measured.digits import of_rows
 from .measured.tasks import Task
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -102,7 +102,7 @@ def measured(kind: str, scene: Scene) -> dict[str, Any]:
 def main() -> None:
     """Measure every kind."""
     rows = [measured(kind, scene) for kind, scene in scenes().items()]
-    text = f"{BEGIN}\n{table(rows)}\n{END}"
+    text = f"{BEGIN}\n{of_rows(rows)}\n{END}"
     print(text)  # noqa: T201 # a script
     if "--print" not in sys.argv:
         RECORD.write_text(json.dumps({"environment": environment(), "rtol": RTOL, "rows": rows}, indent=1) + "\n")

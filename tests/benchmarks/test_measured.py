@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import ComputationError, Scene, collide
 from wetdoublet.solvers.formatting.markdown import table
-from wetdoublet.solvers.verify.stress.answers import Answer, Impact
 
 from .measured import lines, needs
 from .measured import reference as references
+from .measured.answers import Answer, Impact
 from .measured.cold import COMMANDS
 from .measured.page import document
 from .measured.page.record import write

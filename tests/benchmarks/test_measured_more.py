@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.verify.stress.answers import Impact
 
 from .measured import cold, gradient_work, near, sharp
-from .measured.derivatives import gradient_table, gradients
+from .measured.answers import Impact
 from .measured.gradient_task import Gradients
 from .measured.gradient_work import Method
 from .measured.page import beside_heyoka, plots_more, targets
@@ -143,20 +142,3 @@ def test_targets_are_judged_at_equal_error() -> None:
     row = [cell.strip() for cell in beside_heyoka.three_ways(record).splitlines()[-1].split("|")]
     assert row[2:7] == ["24 (1e-09)", "18 (1e-09)", "2 (5e-09)", "1 (5e-09)", "1.5 (4e-09)"]
     assert row[7:9] == ["12.0", "9.0"]
-
-
-@pytest.mark.slow
-def test_cost_is_measured_for_every_method() -> None:
-    """Both engines, every method, errors against a more accurate gradient; no time is asserted."""
-    found = gradients("granulation", 1, [(0.14, 40.0)])
-    assert {row.engine for row in found} == {"rosenbrock", "cvodes"}
-    by = {(row.engine, row.method): row for row in found}
-    for engine in ("rosenbrock", "cvodes"):
-        adjoint, differences = by[engine, "adjoint"], by[engine, "central differences"]
-        assert adjoint.parameters == differences.parameters == 12
-        assert adjoint.error is not None
-        assert differences.error is not None
-        assert adjoint.error < 1e-7
-        assert adjoint.error < differences.error
-        assert by[engine, "collision"].ratio == 1.0
-    assert gradient_table(found).count("12 parameters") == 6
