@@ -62,7 +62,6 @@ def main() -> None:
     }
     if folder == USUAL:
         parts["orders"] = lambda: script("orders")
-        parts["kinds"] = lambda: script("kinds")
     parts["page"] = lambda: script("measured.page.document", str(folder))
     failed = []
     for name, measure in parts.items():
