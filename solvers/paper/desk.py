@@ -28,7 +28,7 @@ Span = tuple[float, float]  # range of St
 
 _STEEPEST = math.radians(89.0)  # the highest line of a map
 _AT_ONCE = 9  # collisions in each round of bracketing a criterion
-_PRESSURE = "liquid.glass_transition_pressure"
+PRESSURE = "liquid.glass_transition_pressure"
 _CLOSE = 1e-6  # relative tolerance in St of a pressure that is fitted
 
 
@@ -101,7 +101,7 @@ class Desk:
         """Text of the p_gt at which head-on collisions bounce from `stokes` on, or of the reason of failure."""
 
         def apart(pressure: float) -> float:
-            [line] = self.lines(scene.with_entries({_PRESSURE: pressure}), (0.0,))
+            [line] = self.lines(scene.with_entries({PRESSURE: pressure}), (0.0,))
             return math.log(change_at(line, "stick").stokes / stokes)
 
         before = math.log(printed_pressure(scene))
@@ -118,7 +118,7 @@ class Desk:
 
 def printed_pressure(scene: Scene) -> float:
     """p_gt of a preset of the paper in Pa."""
-    return float(scene.entries[_PRESSURE])
+    return float(scene.entries[PRESSURE])
 
 
 def outcomes(line: Line) -> tuple[str, ...]:

@@ -23,10 +23,8 @@ def draw(axes: Axes, whole: Atlas, linewidth: float = 1.2) -> None:
     labels = whole.region(*places)
     for label, outcome in enumerate(OUTCOMES):
         if (labels == label).any():
-            hatches = [HATCHES[outcome]] if HATCHES[outcome] else None
-            fill = axes.contourf(
-                stokes, degrees, labels == label, levels=[0.5, 1.5], colors=[FILLS[outcome]], hatches=hatches, zorder=1
-            )
+            style = {"colors": [FILLS[outcome]], "hatches": [HATCHES[outcome] or None]}
+            fill = axes.contourf(stokes, degrees, labels == label, levels=[0.5, 1.5], zorder=1, **style)
             fill.set_edgecolor(EDGES[outcome])
             fill.set_linewidth(0)
     for one in whole.curves:
