@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -23,7 +23,7 @@ def draw(axes: Axes, whole: Atlas, linewidth: float = 1.2) -> None:
     labels = whole.region(*places)
     for label, outcome in enumerate(OUTCOMES):
         if (labels == label).any():
-            style = {"colors": [FILLS[outcome]], "hatches": [HATCHES[outcome] or None]}
+            style: Any = {"colors": [FILLS[outcome]], "hatches": [HATCHES[outcome] or None]}
             fill = axes.contourf(stokes, degrees, labels == label, levels=[0.5, 1.5], zorder=1, **style)
             fill.set_edgecolor(EDGES[outcome])
             fill.set_linewidth(0)

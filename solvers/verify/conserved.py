@@ -27,10 +27,10 @@ _NUDGE, _WORST_CONDITION = 1e-5, 1e4
 
 def conserved(sample: Sample) -> Iterator[Finding]:
     """Findings on completed trajectories, ledger, drift and agreement of the engines, each with its worst case."""
-    figure = f"{len(sample.all)} of {len(sample.failures) + len(sample.all)} collisions"
+    completed = f"{len(sample.all)} of {len(sample.failures) + len(sample.all)} collisions"
     failures = tuple(f"  {text}" for text in sample.failures[:5])
     statement = "every collision of the sample is completed"
-    yield Finding("", "completed", statement, figure, "", not sample.failures, about=failures)
+    yield Finding("", "completed", statement, completed, "", not sample.failures, about=failures)
     if not sample.all:
         return
     figure, worst = _worst(

@@ -48,7 +48,7 @@ def convergence(
     collided = {engine for impact in sample.impacts for engine in impact}
     for engine in (engine for engine in ENGINES if engine in collided):
         own = [rtol for rtol in tolerances if engine != "taylor" or rtol <= LOOSEST]  # the kernel takes no looser one
-        judged = []
+        judged: list[tuple[float, bool, str, str, tuple[str, ...], Collision]] = []
         for k in dict.fromkeys((0, len(separating) - 1)):
             one = separating[k]
             try:

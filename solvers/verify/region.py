@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 import xarray
 
 from ..collision.collide import collide
 from ..engines.choice import collision_engine
+from ..many.collide_many import collide_many
+from ..many.results import FAILED
 from ..scene.scene import Scene
 from .budget import LOSSES, TERMS, budgeted, first_rotation
 from .conserved import RESIDUAL, agreement
-from .edges import Above, above_one
 from .report import Finding, bounded, note
 from .sample import WHOLE, Collide, Extent, place, stokes_of
 
@@ -23,6 +26,9 @@ _RTOL = 1e-10
 _BESIDE = 24  # points of the grid that CVODES collides as well
 _HEADS = ("released", "film", "shear", "bridge", "solids", "strings")
 _SHOWN = (30, 60, 75)  # angles of the table, deg; each with its first, middle and last separating St
+_FINER = 16  # scan steps per grid step with the kernel
+_PARTS = 32  # subdivisions of a bracket in a round
+_SHARP = 2e-5  # final relative width of a bracket; ends are shown with three digits
 
 
 def grid(scene: Scene, extent: Extent = WHOLE) -> xarray.Dataset:
@@ -118,6 +124,60 @@ def _region(scene: Scene, data: xarray.Dataset) -> Finding:
         lines.append(f"  {failed} collisions of the scan were not completed and count as e_n < 1")
     statement = f"where more energy of rotation is released than is lost, looked at for St {rim[0]:.3g}..{rim[1]:.3g}"
     return note("e_n > 1", statement, figure, about=(*lines, "", *table(data, (int(j), int(k)))))
+
+
+@dataclass(frozen=True)
+class Above:
+    """Where e_n > 1 at one angle.
+
+    Attributes:
+        spans: Stokes intervals, ascending; limited by the scan where e_n > 1 at its end.
+        most, at: largest e_n of the scan, and its Stokes number.
+        failed: number of collisions of the scan that failed.
+    """
+
+    angle: float
+    spans: tuple[tuple[float, float], ...]
+    most: float
+    at: float
+    failed: int
+
+
+def above_one(scene: Scene, angles: Sequence[float], stokes: np.ndarray, rtol: float) -> list[Above]:
+    """Stokes intervals with e_n > 1, with ends accurate to a relative 1e-5: a scan, and refinement of each crossing.
+
+    e_n may also jump across 1 where the outcome changes; the crossing is then that change.
+
+    Arguments:
+        angles: impact angles, rad.
+        stokes: Stokes numbers, ascending; intervals narrower than their steps (with a kernel, a sixteenth of these) may
+            be missed.
+    """
+
+    def restitution(angle: np.ndarray, stokes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """e_n over angles (rows) and Stokes numbers, and a mask of failures, where e_n is 0 as for a stick."""
+        data = collide_many(scene, stokes=stokes, angle=angle[:, None], rtol=rtol, engine="taylor")
+        failed = data["outcome"].values == FAILED
+        return np.where(failed, 0.0, data["restitution"].values), failed
+
+    steps = (stokes.size - 1) * (_FINER if collision_engine(scene) == "taylor" else 1)
+    scan = np.exp(np.interp(np.linspace(0, stokes.size - 1, steps + 1), np.arange(stokes.size), np.log(stokes)))
+    scan[0], scan[-1] = stokes[0], stokes[-1]
+    e_n, failed = restitution(np.asarray(angles), scan[None, :])
+    rows, columns = np.nonzero(np.diff(e_n > 1, axis=1))
+    low, high = scan[columns], scan[columns + 1]
+    while low.size and np.max(high / low - 1) > _SHARP:  # all crossings together
+        cuts = low[:, None] * (high / low)[:, None] ** np.linspace(0, 1, _PARTS + 1)
+        beyond = restitution(np.asarray(angles)[rows], cuts)[0] > 1
+        first = np.argmax(np.diff(beyond, axis=1), axis=1)  # exists, because the ends differ
+        low, high = cuts[np.arange(low.size), first], cuts[np.arange(low.size), first + 1]
+    ends, lines = np.sqrt(low * high), []
+    for j, angle in enumerate(angles):
+        inside, k = e_n[j] > 1, int(np.argmax(e_n[j]))
+        edges = [*scan[:1][inside[:1]], *ends[rows == j], *scan[-1:][inside[-1:]]]
+        spans = tuple((float(low), float(high)) for low, high in list(pairwise(edges))[::2])
+        lines.append(Above(float(angle), spans, float(e_n[j, k]), float(scan[k]), int(failed[j].sum())))
+    return lines
 
 
 def _name(one: Above, rim: tuple[float, float]) -> str:

@@ -5,19 +5,17 @@ from __future__ import annotations
 import os
 import re
 import sys
-import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any
 
-from ...engines.taylor.build import Variant, kernel
+from ...engines.taylor.build import Variant, compile_all
 from ...engines.taylor.call import variant
 from ...host.compiled import FLAGS
-from ...host.compiler import CannotCompile, compiler, key, library, stop
+from ...host.compiler import CannotCompile, compiler, key, library
 from ...host.cores import usable_cores
 from ...host.environment import environment
 from ...host.user_cache import kept, room
@@ -108,22 +106,9 @@ def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None
 
 
 def _prepared(count: int, seed: int) -> list[Case]:
-    """The sample, with its kernels compiled once each while boundaries are traced."""
-    threads: list[int] = []  # they suffice, as compilers are separate processes
-    compiling = ThreadPoolExecutor(usable_cores(), initializer=lambda: threads.append(threading.get_ident()))
-
-    def compile_for(cases: Sequence[Case]) -> None:
-        for wanted in dict.fromkeys(_kernel_of(case) for case in cases):
-            compiling.submit(kernel, wanted)
-
-    try:
-        cases = sample(count, seed, compile_for)
-        compile_for(cases)
-    except BaseException:
-        compiling.shutdown(wait=False, cancel_futures=True)
-        stop(threads)
-        raise
-    compiling.shutdown()
+    """The sample, with its kernels compiled once each."""
+    cases = sample(count, seed)
+    compile_all({_kernel_of(case) for case in cases})
     return cases
 
 

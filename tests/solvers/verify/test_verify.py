@@ -17,7 +17,6 @@ from wetdoublet.solvers.verify import (
     backward,
     closed,
     conserved,
-    edges,
     numeric,
     order,
     region,
@@ -107,7 +106,7 @@ def test_closed_forms_are_of_spheres_that_do_not_spin() -> None:
 def test_intervals_end_where_the_restitution_is_one() -> None:
     """e_n passes 1, or jumps over it where the outcome changes, within 1e-4 of an end, by another engine."""
     scene, angles = Scene.load("granulation"), np.radians([10.0, 65.0, 75.0]).tolist()
-    nothing, jumps, passes = edges.above_one(scene, angles, np.array([0.01, 0.03, 0.1, 0.3]), 1e-10)
+    nothing, jumps, passes = region.above_one(scene, angles, np.array([0.01, 0.03, 0.1, 0.3]), 1e-10)
     assert nothing.spans == ()
     for one in (jumps, passes):
         ((low, high),) = one.spans
