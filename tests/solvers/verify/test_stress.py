@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -16,6 +19,7 @@ from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.engines.casadi.replay import Stopped
 from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.schema import FILM_LAWS
@@ -290,6 +294,15 @@ def test_what_chatter_takes_is_booked() -> None:
     assert found.energy is not None
     assert abs(found.energy.residual) < 1e3 * RTOL * found.energy.initial
     assert found.energy.dry_contact > 0.9 * 0.5 * scene.particles.reduced_mass * found.speed**2
+
+
+@pytest.mark.skipif(sys.platform != "linux" or compiler() is None, reason="a library is compiled and preloaded")
+def test_workers_have_no_clock_of_c() -> None:
+    """In their environment C's `clock`, which CasADi reads for its statistics, returns 0; Python's clock goes on."""
+    code = "import ctypes, time\nprint(ctypes.CDLL(None).clock(), time.process_time() > 0)"
+    with stress_test._without_clock() as variables:
+        done = subprocess.run([sys.executable, "-c", code], env=os.environ | variables, capture_output=True, text=True)
+    assert done.stdout.split() == ["0", "True"]
 
 
 def test_an_interrupt_keeps_what_is_judged(
