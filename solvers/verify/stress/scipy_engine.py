@@ -108,9 +108,9 @@ class ScipyLocator(EventLocator):
 
         def limited(_: float, y: np.ndarray) -> np.ndarray:
             nonlocal evaluations
-            evaluations += 1
-            if evaluations % _LOOK == 0 and time.process_time() > self._until:
+            if evaluations % _LOOK == 0 and time.process_time() > self._until:  # the first of a phase looks, too
                 raise self._error(f"given up after {self._patience:g} s of {self.method}", "")
+            evaluations += 1
             return rates(y, parameters)
 
         def guards(y: np.ndarray) -> np.ndarray:
