@@ -352,6 +352,14 @@ def test_peers_solve_the_same_problem(reference: dict[str, Any], method: str, rt
     assert path.kinds == [event["kind"] for event in expected["events"]]
 
 
+def test_a_peer_that_is_out_of_time_gives_up() -> None:
+    """The time is looked at in the first evaluation of every phase: a peer may restart phases without end."""
+    scene = Scene.load("granulation")
+    n = nondimensionalise(scene, *scene.need_impact())
+    with pytest.raises(ComputationError, match="given up after 0 s of LSODA"):
+        ScipyLocator(load(select_model(scene, n.oblique)), n.groups, 1e-8, "LSODA", patience=0.0).run()
+
+
 def test_a_hidden_graze_is_found_by_the_peers() -> None:
     """A glass criterion that is met and left within one step is met: its minimum is looked for between the ends."""
     scene = Scene.load("granulation")
