@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from .regions import Slab, labelled, slabs
 from .window import STOKES
 
 LINES = 33  # default number of seed lines of an atlas
+_EDGE = 1e-6  # height in the window up to which a curve ends on its lower edge
 LATTICE = (65, 193)  # columns and rows of the search lattice, with a kernel
 
 
@@ -252,7 +254,13 @@ class Curves(Lines):
             Arc(self.unit(one.x, one.stokes), OUTCOMES.index(one.before), OUTCOMES.index(one.after))
             for one in self.curves
         ]
-        return slabs(arcs, np.array([0.5]), np.array([OUTCOMES.index(self.background)]))
+        parts = slabs(arcs, np.array([0.5]), np.array([OUTCOMES.index(self.background)]))
+        for order in (1, -1):  # where all curves have ended, the region goes on that none of them has cut off
+            for before, k in pairwise(range(len(parts))[::order]):
+                if parts[before].arcs and not parts[k].arcs:
+                    below = sum(arc.points[-1 if order > 0 else 0, 1] < _EDGE for arc in parts[before].arcs)
+                    parts[k] = replace(parts[k], labels=(parts[before].labels[below],))
+        return parts
 
     def __str__(self) -> str:
         angle = self.over == ANGLE

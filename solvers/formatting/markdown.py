@@ -19,6 +19,12 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join([line(head), line(rule), *(line(row) for row in rows)])
 
 
+def unpadded(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    """Lines of a Markdown table of long texts, whose columns do not line up; bars are escaped."""
+    lines = [head, ["---"] * len(head), *rows]
+    return ["| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |" for row in lines]
+
+
 def ms(seconds: float) -> str:
     """A time in milliseconds with three digits."""
     return f"{seconds * 1e3:#.3g}".removesuffix(".")

@@ -6,36 +6,30 @@ import math
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..boundaries.boundary import boundary
+from ..boundaries.boundary import atlas, boundary
 from ..boundaries.line import ready
 from ..boundaries.look import Look
-from ..engines.choice import collision_engine
 from ..errors import ComputationError
-from ..host.cores import usable_cores
-from ..host.workers import lasting_workers
 from ..scene.scene import Scene
 from ..settings import RTOL
 from .parts import number
 from .printed import CURVES
 
 if TYPE_CHECKING:
-    from ..boundaries.boundary import Boundaries
+    from ..boundaries.boundary import Atlas
     from ..boundaries.changes import Change
 
 Line = tuple["Change", ...]
 Span = tuple[float, float]  # range of St
-Result = TypeVar("Result")
 
-_FEW = 12  # angles; with more, `boundary` itself uses all cores
-_TOP = 89.0  # degrees, the highest line of a map
-_CORNER = 0.025  # smallest visible corner of a boundary, relative to the width of a map
+_STEEPEST = math.radians(89.0)  # the highest line of a map
 _AT_ONCE = 9  # collisions in each round of bracketing a criterion
-_ROUND, _BEND = 5, 2  # new angles between two whose outcomes differ, and where a boundary moves far
+PRESSURE = "liquid.glass_transition_pressure"
+_CLOSE = 1e-6  # relative tolerance in St of a pressure that is fitted
 
 
 @dataclass(frozen=True)
@@ -46,26 +40,18 @@ class Job:
     angles: tuple[float, ...]
     span: Span | None = None
 
-    def trace(self) -> Boundaries:
-        """Trace the lines."""
-        if self.span is None:
-            return boundary(self.scene, angle=list(self.angles))
-        return boundary(self.scene, angle=list(self.angles), stokes=self.span)
-
 
 @dataclass(frozen=True)
 class Detail:
     """Resolution of the figures.
 
     Arguments:
-        step: degrees between lines of a regime map.
-        rounds: rounds of refinement between lines where a region begins.
+        lines: lines of constant angle from which the atlas of a regime map starts.
         curve: points of a curve of Fig. 4b on each side of a boundary.
         critical: angles (rad) of the table of Ce*.
     """
 
-    step: float = 2.5
-    rounds: int = 2
+    lines: int = 33
     curve: int = 40
     critical: tuple[float, ...] = CURVES[2:]
 
@@ -75,69 +61,69 @@ class Desk:
 
     def __init__(self, detail: Detail | None = None, say: Callable[[str], None] | None = None) -> None:
         self.detail = detail or Detail()
+        self.say = say or (lambda _: None)
         self.collisions = 0
-        self._say = say or (lambda _: None)
-        self._known: dict[tuple[Scene, Span | None], dict[float, Line]] = {}
         self.failures: list[str] = []
-
-    def say(self, what: str) -> None:
-        """Report the current step."""
-        self._say(what)
+        self._known: dict[tuple[Scene, Span | None], dict[float, Line]] = {}
 
     def lines(self, scene: Scene, angles: Iterable[float]) -> list[Line]:
         """Changes of outcome at each angle (rad), in order; empty, with an entry in `failures`, where tracing fails."""
         return self.many([Job(scene, tuple(angles))])[0]
 
     def many(self, jobs: Sequence[Job]) -> list[list[Line]]:
-        """The lines of several jobs; unknown ones are traced on all cores."""
-        wanted: dict[tuple[Scene, Span | None], list[float]] = {}
+        """The lines of several jobs."""
+        missing: dict[tuple[Scene, Span | None], dict[float, None]] = {}
         for job in jobs:
             known = self._known.setdefault((job.scene, job.span), {})
-            missing = wanted.setdefault((job.scene, job.span), [])
-            missing += [angle for angle in job.angles if angle not in known and angle not in missing]
-        todo = [Job(scene, tuple(angles), span) for (scene, span), angles in wanted.items() if angles]
-        ready([job.scene for job in todo])
-        small = [job for job in todo if len(job.angles) < _FEW and collision_engine(job.scene) != "taylor"]
-        large = [job for job in todo if job not in small]
-        for job, traced in [*((job, job.trace()) for job in large), *zip(small, shared_out(Job.trace, small))]:
-            self.collisions += traced.collisions
-            self._known[job.scene, job.span] |= dict(zip(traced.angles, traced.changes))
-            name = job.scene.name
-            self.failures += [f"{name} at {math.degrees(angle):.4g} deg: {why}" for angle, why in traced.failed]
+            new = dict.fromkeys(angle for angle in job.angles if angle not in known)
+            missing.setdefault((job.scene, job.span), {}).update(new)
+        ready([scene for (scene, _), angles in missing.items() if angles])
+        for (scene, span), angles in missing.items():
+            if angles:
+                traced = boundary(scene, angle=list(angles), stokes=span)
+                self.collisions += traced.collisions
+                self._known[scene, span] |= dict(zip(traced.angles, traced.changes))
+                failed = traced.failed
+                self.failures += [f"{scene.name} at {math.degrees(angle):.4g} deg: {why}" for angle, why in failed]
         return [[self._known[job.scene, job.span][angle] for angle in job.angles] for job in jobs]
 
-    def map(self, scene: Scene, reach: float, first: float = 0.0) -> tuple[list[float], list[Line]]:
-        """Angles (rad) of a regime map from `first` degrees on, and their lines.
+    def map(self, scene: Scene, reach: float, first: float = 0.0) -> Atlas:
+        """The atlas of a regime map from an angle (rad) on, up to St = `reach`."""
+        lines, window = self.detail.lines, (1e-3 * reach, reach)
+        found = atlas(scene, span=(first, _STEEPEST), stokes=window, lines=lines)
+        self.collisions += found.collisions
+        self.failures += [
+            f"{scene.name}, map at {x:.4g} rad, St {stokes:.4g}: {why}" for x, stokes, why in found.unsettled
+        ]
+        return found
 
-        They are denser where a region begins, and where a boundary moves far on a map that ends at St = `reach`.
-        """
-        steps = np.arange(0.0, _TOP, self.detail.step).tolist()
-        angles = [math.radians(value) for value in sorted({first, *(v for v in steps if v > first), _TOP})]
-        lines = self.lines(scene, angles)
-        for _ in range(self.detail.rounds):
-            fresh: set[float] = set()
-            for (low, here), (high, there) in pairwise(zip(angles, lines)):
-                if not (here and there):
-                    continue
-                begins = outcomes(here) != outcomes(there)
-                count = _ROUND if begins else _BEND if _far(here, there, reach) else 0
-                fresh.update(np.linspace(low, high, count + 2).tolist()[1:-1])
-            if not fresh:
-                break
-            angles = sorted({*angles, *fresh})
-            lines = self.lines(scene, angles)
-        return [angle for angle, line in zip(angles, lines) if line], [line for line in lines if line]
+    def pressure_for(self, scene: Scene, stokes: float) -> str:
+        """Text of the p_gt at which head-on collisions bounce from `stokes` on, or of the reason of failure."""
+
+        def apart(pressure: float) -> float:
+            [line] = self.lines(scene.with_entries({PRESSURE: pressure}), (0.0,))
+            return math.log(change_at(line, "stick").stokes / stokes)
+
+        before = math.log(printed_pressure(scene))
+        here = before + 0.05
+        try:
+            was, now = apart(math.exp(before)), apart(math.exp(here))
+            while abs(now) > _CLOSE:  # the secant method, in logarithms
+                before, here, was = here, here - now * (here - before) / (now - was), now
+                now = apart(math.exp(here))
+        except ComputationError:
+            return "a pressure that could not be computed"
+        return f"{math.exp(here) / 1e6:.3g} MPa"
+
+
+def printed_pressure(scene: Scene) -> float:
+    """p_gt of a preset of the paper in Pa."""
+    return float(scene.entries[PRESSURE])
 
 
 def outcomes(line: Line) -> tuple[str, ...]:
     """The outcomes along a line of constant angle, in order of St."""
     return (line[0].before, *(change.after for change in line)) if line else ()
-
-
-def _far(here: Line, there: Line, reach: float) -> bool:
-    """True if a boundary moves enough to be visible as a corner."""
-    moved = (abs(min(one.stokes, reach) - min(other.stokes, reach)) for one, other in zip(here, there))
-    return max(moved, default=0.0) > _CORNER * reach
 
 
 def change_at(line: Line, before: str) -> Change:
@@ -167,14 +153,6 @@ def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rto
         first = int(np.argmax(met))
         low, high = float(stokes[first - 1]), float(stokes[first])
     return math.sqrt(low * high)
-
-
-def shared_out(function: Callable[[Any], Result], items: Sequence[Any]) -> list[Result]:
-    """Results of the function for all items, computed on all cores."""
-    if len(items) < 2:
-        return [function(item) for item in items]
-    with lasting_workers(usable_cores()) as pool:
-        return list(pool.map(function, items))
 
 
 def progress() -> Callable[[str], None]:

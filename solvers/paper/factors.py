@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
+
+import numpy as np
 
 from ..formatting.style import LETTERS
 from ..scene.scene import Scene
 from ..sensitivity.boundaries import moving
-from .desk import Desk, Line, outcomes
+from .desk import PRESSURE, Desk, Line, change_at, outcomes, printed_pressure
 from .fig4a import centrifugal, near_printed
 from .parts import Comparison, Part, Table, degrees, number
 from .printed import PRINTED
-from .tune import printed_pressure
 from .variants import BRIDGED, described, variant
 
 DOUBLED = {
@@ -32,99 +32,66 @@ _OUT_OF_REACH = 1e9  # factor on the preset's glass-transition pressure
 def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made alike; this one has no picture
     """Compute the part: the S/SRS boundary of every scene with a doubled quantity."""
     desk.say("factors: Ce* with one quantity doubled")
-    angles = desk.detail.critical
-    arms = {arm: _base(arm) for arm in ARMS}
-    scenes = {(arm, key): _doubled(base, entry) for arm, base in arms.items() for key, entry in DOUBLED.items()}
-    scenes |= {(arm, ""): base for arm, base in arms.items()}
-    jobs = [near_printed(scene, angle) for scene in scenes.values() for angle in angles]
-    followed = [line for [line] in desk.many(jobs)]
-    traced = [centrifugal(line) for line in followed]
-    lines = {name: followed[k * len(angles) : (k + 1) * len(angles)] for k, name in enumerate(scenes)}
-    found = {name: traced[k * len(angles) : (k + 1) * len(angles)] for k, name in enumerate(scenes)}
-    plain = {arm: found[arm, ""] for arm in arms}
-    factors = {
-        arm: {key: [new / old for new, old in zip(found[arm, key], plain[arm])] for key in DOUBLED} for arm in arms
-    }
-    place = angles.index(_AT)
+    angles, place = desk.detail.critical, desk.detail.critical.index(_AT)
+    bases = [variant(BRIDGED, {"model.arm": arm}) for arm in ARMS]
+    bases = [base.with_entries({PRESSURE: _OUT_OF_REACH * printed_pressure(base)}) for base in bases]
+    scenes = [[base, *(_doubled(base, entry) for entry in DOUBLED.values())] for base in bases]
+    lines = iter(desk.many([near_printed(scene, angle) for own in scenes for scene in own for angle in angles]))
+    traced = [[[next(lines)[0] for _ in angles] for _ in own] for own in scenes]
+    critical = np.array([[[centrifugal(line) for line in row] for row in own] for own in traced])
+    factors = critical[:, 1:] / critical[:, :1]  # by lever arm, quantity and angle
     [in_reach] = desk.lines(_doubled(variant(BRIDGED, {}), DOUBLED["factor_radius"]), (_AT,))
     through = ", ".join(LETTERS[outcome] for outcome in outcomes(in_reach))
+    printed = np.array([PRINTED[key].value for key in DOUBLED])
+    apart = ((factors - printed[:, None]) ** 2).sum(axis=1)
+    arm, angle = np.unravel_index(int(np.argmin(apart)), apart.shape)
     rows = [
         Comparison(
             key,
-            factors["midgap"][key][place],
-            described(arms["midgap"]) + ", p_gt out of reach",
-            f"at {degrees(_AT)}. " + _range(key, factors),
-            beside=f"(surface arm: {number(factors['surface'][key][place])})",
+            float(factors[0, k, place]),
+            described(bases[0]) + ", p_gt out of reach",
+            f"at {degrees(_AT)}. Over the angles and arms below: "
+            f"{number(factors[:, k].min())} to {number(factors[:, k].max())}",
+            beside=f"(surface arm: {number(factors[1, k, place])})",
         )
-        for key in DOUBLED
+        for k, key in enumerate(DOUBLED)
+    ]
+    head = ["", "paper", *(f"at {degrees(angle)}" for angle in angles)]
+    names = [[PRINTED[key].what, PRINTED[key].text] for key in DOUBLED]
+    tables = [
+        Table(
+            f"Factors of Ce*, {arm} arm",
+            head,
+            [[*name, *(f"{value:.3f}" for value in row)] for name, row in zip(names, own)],
+        )
+        for arm, own in zip(ARMS, factors)
     ]
     return Part(
         "Ce* with one quantity doubled",
         "Each quantity alone is doubled; a doubled radius leaves m, x₀ and V/R³. The glass criterion is put out of "
         f"reach: with the preset's p_gt a doubled radius goes through {through} at {degrees(_AT)}. Ce* itself: "
-        + "; ".join(f"{arm} arm {number(values[place])}" for arm, values in plain.items())
-        + f". The paper does not say at which angle; nearest to its six numbers is the {_nearest(angles, factors)}.",
+        + "; ".join(f"{arm} arm {number(own[0, place])}" for arm, own in zip(ARMS, critical))
+        + ". The paper does not say at which angle; nearest to its six numbers is the "
+        f"{ARMS[arm]} arm at {degrees(angles[angle])}.",
         comparisons=rows,
-        tables=[
-            *(_table(arm, angles, found) for arm, found in factors.items()),
-            _predicted(arms, lines, factors, place),
-        ],
+        tables=[*tables, _predicted(bases, [own[0][place] for own in traced], factors[:, :, place], names)],
         scenes=(BRIDGED,),
     )
-
-
-def _base(arm: str) -> Scene:
-    scene = variant(BRIDGED, {"model.arm": arm})
-    pressure = _OUT_OF_REACH * printed_pressure(scene)
-    return scene.with_entries({"liquid.glass_transition_pressure": pressure})
 
 
 def _doubled(scene: Scene, entry: str) -> Scene:
     return scene.with_entries({entry: 2 * float(scene.entries[entry])})
 
 
-def _range(key: str, factors: dict[str, dict[str, list[float]]]) -> str:
-    everything = [value for found in factors.values() for value in found[key]]
-    return f"Over the angles and arms below: {number(min(everything))} to {number(max(everything))}"
-
-
-def _nearest(angles: Sequence[float], factors: dict[str, dict[str, list[float]]]) -> str:
-    """Lever arm and angle whose factors are nearest to the printed ones, by the sum of squared differences."""
-    apart = {
-        (arm, angle): sum((found[key][k] - PRINTED[key].value) ** 2 for key in DOUBLED)
-        for arm, found in factors.items()
-        for k, angle in enumerate(angles)
-    }
-    arm, angle = min(apart, key=lambda name: apart[name])
-    return f"{arm} arm at {degrees(angle)}"
-
-
-def _table(arm: str, angles: Sequence[float], found: dict[str, list[float]]) -> Table:
-    rows = [
-        [PRINTED[key].what, PRINTED[key].text, *(f"{value:.3f}" for value in values)] for key, values in found.items()
-    ]
-    return Table(f"Factors of Ce*, {arm} arm", ["", "paper", *(f"at {degrees(angle)}" for angle in angles)], rows)
-
-
-def _predicted(
-    arms: dict[str, Scene],
-    lines: dict[tuple[str, str], list[Line]],
-    factors: dict[str, dict[str, list[float]]],
-    place: int,
-) -> Table:
+def _predicted(bases: list[Scene], lines: list[Line], factors: np.ndarray, names: list[list[str]]) -> Table:
     """Table of factors predicted by the exact elasticities of Ce* at 45 degrees, and of computed factors."""
-    columns = {}
-    for arm, scene in arms.items():
-        change = next(one for one in lines[arm, ""][place] if one.before == "stick")
-        found = moving(scene, _AT, change, tuple(DOUBLED.values())).elasticity["centrifugal"]
-        columns[arm] = [float(found[entry] or 0.0) for entry in DOUBLED.values()]
-    rows = []
-    for k, key in enumerate(DOUBLED):
-        row = [PRINTED[key].what, PRINTED[key].text]
-        for arm, elasticities in columns.items():
-            row += [f"{elasticities[k]:+.4f}", f"{2 ** elasticities[k]:.3f}", f"{factors[arm][key][place]:.3f}"]
-        rows.append(row)
-    head = ["", "paper", *(text for arm in columns for text in (f"d ln Ce*/d ln p, {arm}", "2^it", "doubled"))]
+    rows, head = [[*name] for name in names], ["", "paper"]
+    for arm, scene, line, doubled in zip(ARMS, bases, lines, factors):
+        elasticities = moving(scene, _AT, change_at(line, "stick"), tuple(DOUBLED.values())).elasticity["centrifugal"]
+        for row, entry, factor in zip(rows, DOUBLED.values(), doubled):
+            elasticity = float(elasticities[entry] or 0.0)
+            row += [f"{elasticity:+.4f}", f"{2**elasticity:.3f}", f"{factor:.3f}"]
+        head += [f"d ln Ce*/d ln p, {arm}", "2^it", "doubled"]
     return Table(
         f"Exact elasticities of Ce* at {degrees(_AT)}, and the factors they predict beside those of the doubling: "
         "a doubling is a large step, along which the elasticity itself changes",

@@ -5,15 +5,20 @@ from __future__ import annotations
 import math
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+from ...generated.automaton import ROTATE
 from ..formatting.style import halo
 from ..scene.scene import Scene
-from . import regimes, tune
-from .desk import Desk, Job, Line, change_at, criterion_met, outcomes, shared_out, shown
+from . import regimes
+from .desk import Desk, Job, Line, change_at, criterion_met, printed_pressure, shown
 from .parts import Comparison, Part, Picture, Table, number
 from .printed import PRINTED
-from .style import ANGLE, COLUMN, GREY, STOKES, panel, sheet
+from .style import ANGLE, COLUMN, GREY, STOKES, sheet
 from .variants import PENDULUM, STRING_VARIANTS, described, variant
+
+if TYPE_CHECKING:
+    from ..boundaries.boundary import Atlas
 
 _REACH = 2.5  # St at the right edge
 _BESIDE = 1 + 1e-6
@@ -24,14 +29,17 @@ def make(desk: Desk, folder: Path) -> Part:
     """Compute the part: the map, and St* at theta0 = 0 for the variants."""
     desk.say("fig. 3: tracing the pendulum's boundaries")
     scene = variant(PENDULUM, {})
-    angles, lines = desk.map(scene, _REACH)
-    _draw(angles, lines, folder / "fig3.png")
+    whole = desk.map(scene, _REACH)
+    _draw(whole, folder / "fig3.png")
     used = described(scene)
-    escapes, met = _escapes(lines[0]), _met(scene, lines[0])
-    first = math.degrees(next(angle for angle, line in zip(angles, lines) if len(outcomes(line)) > 2))
+    at_printed = math.radians(PRINTED["angle_3"].value)
+    [head_on], [[rotates, *_]] = desk.many([Job(scene, (0.0,)), Job(scene, (at_printed,))])
+    escapes, met = _escapes(head_on), _met(scene, head_on)
+    first = math.degrees(min(min(curve.x) for curve in whole.curves if curve.after == ROTATE))
+    leaves = math.degrees(max(max(curve.x) for curve in whole.curves if curve.before == ROTATE))
     printed = PRINTED["stokes_3"]
     desk.say("fig. 3: glass-transition pressure of the printed St*")
-    fitted = tune.pressure_for(desk, scene, printed.value)
+    fitted = desk.pressure_for(scene, printed.value)
     rows = (
         Comparison(
             "stokes_3",
@@ -39,7 +47,7 @@ def make(desk: Desk, folder: Path) -> Part:
             used,
             f"a criterion is met from {number(met)} on; up to {number(escapes)} the doublet is reversed and still "
             f"sticks. The printed number lies between; it is reached with p_gt = {fitted} in place of "
-            f"the printed {tune.printed_pressure(scene) / 1e6:.3g} MPa, which was fitted to a measured St*",
+            f"the printed {printed_pressure(scene) / 1e6:.3g} MPa, which was fitted to a measured St*",
             beside=f"(escapes), {number(met)} (a criterion is met)",
         ),
         Comparison(
@@ -47,11 +55,9 @@ def make(desk: Desk, folder: Path) -> Part:
             first,
             used,
             "printed as “about”; here the theory's SRS region begins, sooner for longer strings. Its S/SRS line is "
-            + _along(desk.lines(scene, [math.radians(PRINTED["angle_3"].value)])[0])
-            + " at the printed angle",
+            f"at St {number(rotates.stokes)} at the printed angle",
         ),
     )
-    leaves = math.degrees(next(angle for angle, line in zip(angles, lines) if line[-1].stokes > _REACH))
     caption = (
         "Fig. 3: regime map of the pendulum. Lines: theory; dashed: the paper's "
         f"St* = {printed.text}. St along and angle up, as the text has it (“at higher θ₀ for a given St”); the "
@@ -75,44 +81,29 @@ def _met(scene: Scene, head_on: Line) -> float:
     return criterion_met(scene, _BELOW * _escapes(head_on), _escapes(head_on) * _BESIDE)
 
 
-def _along(line: Line) -> str:
-    return f"at St {number(line[0].stokes)}"
-
-
 def _moved(desk: Desk) -> Table:
     """Both readings of St* for the variants; lever arm and logarithm have no effect head-on."""
     desk.say("fig. 3: variants")
     scenes = {name: variant(PENDULUM, changes) for name, changes in STRING_VARIANTS.items()}
     traced = desk.many([Job(scene, (0.0,)) for scene in scenes.values()])
-    rows = shared_out(_row, [(name, scene, line) for (name, scene), [line] in zip(scenes.items(), traced)])
+    rows = [
+        [name, shown(partial(_met, scene, head_on)), shown(partial(_escapes, head_on))]
+        for (name, scene), [head_on] in zip(scenes.items(), traced)
+    ]
     rows.append(["paper", PRINTED["stokes_3"].text, ""])
     head = ["variant", "St*: a criterion is met", "St*: escapes"]
-    return Table(
-        "Pendulum at θ₀ = 0: St* under the variants (head-on, lever arm and tangential cut-off have no part)",
-        head,
-        rows,
-    )
+    caption = "Pendulum at θ₀ = 0: St* under the variants (head-on, lever arm and tangential cut-off have no part)"
+    return Table(caption, head, rows)
 
 
-def _row(case: tuple[str, Scene, Line]) -> list[str]:
-    name, scene, head_on = case
-    return [name, shown(partial(_met, scene, head_on)), shown(partial(_escapes, head_on))]
-
-
-def _draw(angles: list[float], lines: list[Line], file: Path) -> None:
+def _draw(whole: Atlas, file: Path) -> None:
     printed = PRINTED["stokes_3"]
     with sheet(file, 7.6) as figure:
-        axes = panel(figure)
-        regimes.draw(axes, angles, lines, _REACH)
+        axes = figure.add_subplot()
+        regimes.draw(axes, whole)
         axes.axvline(printed.value, color=GREY, linestyle=(0, (4, 2)), linewidth=1, zorder=2)
-        axes.annotate(
-            f"paper: $St_n^*$ = {printed.text}",
-            (printed.value, 4),
-            (-4, 0),
-            textcoords="offset points",
-            fontsize=7.5,
-            ha="right",
-        )
+        style: Any = {"textcoords": "offset points", "fontsize": 7.5, "ha": "right"}
+        axes.annotate(f"paper: $St_n^*$ = {printed.text}", (printed.value, 4), (-4, 0), **style)
         axes.text(0.45, 22, "S", fontsize=13, ha="center")
         axes.text(1.02, 62, "SRS", fontsize=13, ha="center", path_effects=[halo()])
         axes.text(2.0, 40, "B", fontsize=13, ha="center")

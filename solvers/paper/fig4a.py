@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,27 +15,29 @@ from ..errors import ComputationError
 from ..formatting.style import INK, halo
 from ..model.dimensionless import nondimensionalise
 from ..scene.scene import Scene
-from . import regimes, tune
-from .desk import Desk, Job, Line, change_at, outcomes, shown
+from . import regimes
+from .desk import Desk, Job, Line, change_at, outcomes, printed_pressure, shown
 from .parts import Comparison, Part, Picture, Table, degrees, number
 from .printed import PRINTED
-from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, panel, sheet
+from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, sheet
 from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant
+
+if TYPE_CHECKING:
+    from ..boundaries.boundary import Atlas
 
 _REACH = 0.26  # St at the right edge
 _NO_BRIDGE = "without a bridge there is no centrifugal number"
 _AROUND = 1.35  # factor in St; nearly a factor of two in Ce
 _TAIL = 1.15  # end of the lines of constant Ce, relative to our St*
 _AT = math.radians(45)  # angle at which our Ce* is read
-_FIRST = 0.5  # degrees; the lowest oblique line without a bridge
+_FIRST = math.radians(0.5)  # the lowest oblique line without a bridge
 
 
 def make(desk: Desk, folder: Path) -> Part:
     """Compute the part: both maps, and Ce* and St* for the variants."""
     desk.say("fig. 4a: tracing the granules' boundaries")
     scene, dry = variant(BRIDGED, {}), variant(DRY, {})
-    angles, lines = desk.map(scene, _REACH)
-    dry_angles, dry_lines = desk.map(dry, _REACH, _FIRST)
+    whole, dry_oblique = desk.map(scene, _REACH), desk.map(dry, _REACH, _FIRST)
     [dry_head_on], [head_on] = desk.many([Job(dry, (0.0,)), Job(scene, (0.0,))])
     desk.say("fig. 4a: variants")
     critical = desk.detail.critical
@@ -43,12 +46,12 @@ def make(desk: Desk, folder: Path) -> Part:
     ours = centrifugal(desk.lines(scene, (_AT,))[0])
     stokes = _sticks_to(head_on)
     with sheet(folder / "fig4a.png", 7.6) as figure:
-        axes = panel(figure)
-        regimes.draw(axes, angles, lines, _REACH)
+        axes = figure.add_subplot()
+        regimes.draw(axes, whole)
         _critical_lines(axes, scene, ours, _TAIL * stokes)
-        _dry(axes, dry_angles, dry_lines, _sticks_to(dry_head_on))
-    sticking = [angle for angle, line in zip(dry_angles, dry_lines) if "stick" in outcomes(line)]
-    only_head_on = not sticking and "stick" in outcomes(dry_head_on)
+        _dry(axes, dry_oblique, _sticks_to(dry_head_on))
+    sides = {dry_oblique.background}.union(*((curve.before, curve.after) for curve in dry_oblique.curves))
+    only_head_on = "stick" not in sides and "stick" in outcomes(dry_head_on)
     caption = (
         f"Fig. 4a: regime map without strings. Black: traced boundaries. Blue: Ce = {number(ours)}, the S/SRS boundary "
         f"at {degrees(_AT)}; orange, dashed: the paper's Ce* = {PRINTED['centrifugal'].text} and St* = "
@@ -99,7 +102,7 @@ def _compared(
     only_head_on: bool,
 ) -> tuple[Comparison, ...]:
     desk.say("fig. 4a: glass-transition pressure of the printed St*")
-    pressure, fitted = tune.printed_pressure(scene), tune.pressure_for(desk, scene, PRINTED["stokes_4"].value)
+    pressure, fitted = printed_pressure(scene), desk.pressure_for(scene, PRINTED["stokes_4"].value)
     surface = variant(BRIDGED, BRIDGE_VARIANTS["arm surface"])
     found = _spread(desk.detail.critical, criticals)
     leading = _spread(
@@ -161,28 +164,22 @@ def _critical_lines(axes: Axes, scene: Scene, ours: float, end: float) -> None:
     axes.plot(np.sqrt(ours / per_square), up, color=BLUE, linewidth=2.6, alpha=0.55, zorder=2.5)
     axes.plot(np.sqrt(paper.value / per_square), up, color=ORANGE, linestyle=(0, (4, 2)), linewidth=1.1, zorder=4)
     axes.axvline(edge.value, color=ORANGE, linestyle=(0, (4, 2)), linewidth=1.1, zorder=4)
-    axes.annotate(
-        f"paper:\n$St_n^*$ = {edge.text}", (edge.value, 4), (-3, 0), textcoords="offset points", color=ORANGE,
-        fontsize=7.5, ha="right", path_effects=[halo()],
-    )  # fmt: skip
-    place = math.radians(33)
-    at = math.sqrt(paper.value / per_stokes_squared(scene, place))
-    axes.annotate(
-        f"paper:\n$Ce^*$ = {paper.text}", (at, math.degrees(place)), (-14, 0), textcoords="offset points", color=ORANGE,
-        fontsize=7.5, ha="right", va="center", path_effects=[halo()],
-    )  # fmt: skip
-    axes.text(0.03, 18, "S", fontsize=13, ha="center", va="center", path_effects=[halo()])
-    axes.text(0.075, 62, "SRS", fontsize=13, ha="center", va="center", path_effects=[halo()])
-    axes.text(0.17, 70, "B", fontsize=13, ha="center", va="center", path_effects=[halo()])
+    style: Any = {"textcoords": "offset points", "color": ORANGE, "fontsize": 7.5, "ha": "right"}
+    style |= {"path_effects": [halo()]}
+    axes.annotate(f"paper:\n$St_n^*$ = {edge.text}", (edge.value, 4), (-3, 0), **style)
+    at = math.sqrt(paper.value / per_stokes_squared(scene, math.radians(33)))
+    axes.annotate(f"paper:\n$Ce^*$ = {paper.text}", (at, 33), (-14, 0), va="center", **style)
+    for x, y, letters in ((0.03, 18, "S"), (0.075, 62, "SRS"), (0.17, 70, "B")):
+        axes.text(x, y, letters, fontsize=13, ha="center", va="center", path_effects=[halo()])
     axes.set(xlim=(0, _REACH), ylim=(0, 90), yticks=range(0, 91, 15), xlabel=STOKES, ylabel=ANGLE)
 
 
-def _dry(axes: Axes, angles: list[float], lines: list[Line], stokes: float) -> None:
+def _dry(axes: Axes, whole: Atlas, stokes: float) -> None:
     """Draw the inset, without capillary force."""
     inset = axes.inset_axes((0.61, 0.135, 0.36, 0.5))
     inset.patch.set_zorder(5)
     inset.set_zorder(6)
-    regimes.draw(inset, angles, lines, _REACH, linewidth=0.9)
+    regimes.draw(inset, whole, linewidth=0.9)
     inset.plot([0, stokes], [0, 0], color=INK, linewidth=3, solid_capstyle="butt", clip_on=False, zorder=7)
     inset.annotate(
         "S", (0.6 * stokes, 1), (0.6 * stokes, 24), ha="center", fontsize=8, arrowprops={"arrowstyle": "->", "lw": 0.8}

@@ -17,7 +17,7 @@ from ..scene.scene import Scene
 from .desk import Desk, Line, outcomes
 from .parts import Comparison, Part, Picture, Table, degrees, number
 from .printed import CURVES, PRINTED
-from .style import BLUE, COLUMN, GREEN, ORANGE, PURPLE, SKY, STOKES, panel, sheet
+from .style import BLUE, COLUMN, GREEN, ORANGE, PURPLE, SKY, STOKES, sheet
 from .variants import BRIDGED, described, variant
 
 _REACH = 0.25  # St at the right edge
@@ -37,6 +37,11 @@ class Curve:
     restitution: np.ndarray
     per_square: float  # Ce over St^2
 
+    @property
+    def highest(self) -> float:
+        """The largest restitution."""
+        return float(self.restitution.max())
+
 
 def make(desk: Desk, folder: Path) -> Part:
     """Compute the part: the curves between the boundaries, and their figure."""
@@ -46,10 +51,13 @@ def make(desk: Desk, folder: Path) -> Part:
     desk.say("fig. 4b: restitution along the curves")
     curves, counted = _curves(scene, lines, desk.detail.curve)
     desk.collisions += counted
-    _draw(curves, folder / "fig4b.png")
-    largest = max((curve for curve in curves), key=lambda curve: float(curve.restitution.max()))
+    with sheet(folder / "fig4b.png", 8.2) as figure:
+        axes = figure.add_subplot()
+        _against_stokes(axes, curves)
+        _against_centrifugal(axes, curves)
+    largest = max(curves, key=lambda curve: curve.highest)
     where = int(largest.restitution.argmax())
-    rotating = max((c for c in curves if c.outcome == ROTATE), key=lambda c: float(c.restitution.max()))
+    rotating = max((curve for curve in curves if curve.outcome == ROTATE), key=lambda curve: curve.highest)
     at_15, apart = lines[1], _apart(curves)
     used = described(scene)
     rows = (
@@ -69,11 +77,11 @@ def make(desk: Desk, folder: Path) -> Part:
         ),
         Comparison(
             "above_one",
-            f"{number(float(largest.restitution.max()))} at {degrees(largest.angle)}, St {largest.stokes[where]:.3g}",
+            f"{number(largest.highest)} at {degrees(largest.angle)}, St {largest.stokes[where]:.3g}",
             used,
-            f"in St up to {_REACH:g}; of those that rotate first {number(float(rotating.restitution.max()))} at "
+            f"in St up to {_REACH:g}; of those that rotate first {number(rotating.highest)} at "
             f"{degrees(rotating.angle)}",
-            agrees=float(largest.restitution.max()) > 1,
+            agrees=largest.highest > 1,
         ),
     )
     caption = (
@@ -139,13 +147,6 @@ def _jumps(lines: list[Line], curves: list[Curve]) -> Table:
     return Table("Granules: e_n on either side of the boundaries", ["θ₀", "change", "St", "Ce", "below", "above"], rows)
 
 
-def _draw(curves: list[Curve], file: Path) -> None:
-    with sheet(file, 8.2) as figure:
-        axes = panel(figure)
-        _against_stokes(axes, curves)
-        _against_centrifugal(axes, curves)
-
-
 def _against_stokes(axes: Axes, curves: list[Curve]) -> None:
     ends: dict[float, tuple[float, float]] = {}  # end of the last curve of an angle
     for curve in curves:
@@ -163,7 +164,7 @@ def _against_stokes(axes: Axes, curves: list[Curve]) -> None:
         handles[::-1], labels[::-1], title=r"$\theta_0$", loc="upper left", ncols=2, handlelength=1.8, columnspacing=1,
         title_fontsize=8,
     )  # fmt: skip
-    top = max(float(curve.restitution.max()) for curve in curves)
+    top = max(curve.highest for curve in curves)
     axes.set(xlim=(0, _REACH), ylim=(0, 1.12 * top), xlabel=STOKES, ylabel="normal restitution $e_{w,n}$")
     axes.axhline(1, color=INK, linewidth=0.5, linestyle=(0, (1, 2)), zorder=1)
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import html
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
 
+from ..formatting.markdown import unpadded
 from ..host import files
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
-from .parts import Comparison, Part, Table
+from .parts import Comparison, Part, Picture, Table
 from .printed import CITATION, NOT_COMPARED, PRINTED
 
 _TITLE = "Wet particles, oblique collisions: the paper and this model"
@@ -86,80 +87,73 @@ def inputs(parts: Iterable[Part]) -> Table:
     return Table("Presets, from the paper's captions; “assumed” is printed nowhere", ("entry", *presets), rows)
 
 
-def _not_compared() -> Table:
-    return Table("Printed, but not compared", ("what", "why"), NOT_COMPARED)
-
-
-def _lead(parts: Sequence[Part], how: str) -> list[str]:
-    if not any(part.comparisons for part in parts):
-        return [how]
-    read = (
-        "“With” has the variants used where the paper leaves a choice open; how the numbers move under the others is "
-        "in the tables further down. “Rounds to it”: ours, rounded to the printed digits, is the printed number."
-    )
-    return [f"The paper: {CITATION}.", how, read]
-
-
-# ---- Markdown
+def _blocks(parts: Sequence[Part], how: str) -> Iterator[str | Table | Picture | Sequence[tuple[str, str, str]]]:
+    """Content of the report in order: headings (with `## `), text, figures, formulas and tables."""
+    comparisons = any(part.comparisons for part in parts)
+    if comparisons:
+        yield f"The paper: {CITATION}."
+    yield how
+    if comparisons:
+        yield (
+            "“With” has the variants used where the paper leaves a choice open; how the numbers move under the others "
+            "is in the tables further down. “Rounds to it”: ours, rounded to the printed digits, is the printed number."
+        )
+        yield "## The numbers"
+        yield compared(parts)
+        yield Table("Printed, but not compared", ("what", "why"), NOT_COMPARED)
+    for part in parts:
+        yield f"## {part.title}"
+        if part.words:
+            yield part.words
+        yield from part.pictures
+        if part.formulas:
+            yield part.formulas
+        yield from part.tables
+    if any(part.scenes for part in parts):
+        yield "## Inputs"
+        yield inputs(parts)
+    if comparisons:
+        yield "## Sources"
+        yield sources(parts)
 
 
 def markdown(parts: Sequence[Part], how: str) -> str:
     """The report in Markdown; formulas in LaTeX between dollars."""
-    out = [f"# {_TITLE}", "", *(line for text in _lead(parts, how) for line in (text, ""))]
-    if any(part.comparisons for part in parts):
-        out += ["## The numbers", "", *_md_table(compared(parts)), *_md_table(_not_compared())]
-    for part in parts:
-        out += [f"## {part.title}", ""]
-        out += [part.words, ""] if part.words else []
-        for picture in part.pictures:
-            out += [f"![{_plain(picture.caption)}]({picture.file})", "", f"*{picture.caption}*", ""]
-        for heading, lines in groupby(part.formulas, key=lambda line: line[0]):
-            out += [f"### {heading}", ""]
-            for _, latex, note in lines:
-                out += [f"$$ {latex} $$", "", *([note, ""] if note else [])]
-        for table in part.tables:
-            out += _md_table(table)
-    if any(part.scenes for part in parts):
-        out += ["## Inputs", "", *_md_table(inputs(parts))]
-    if any(part.comparisons for part in parts):
-        out += ["## Sources", "", *_md_table(sources(parts))]
-    return "\n".join(out).rstrip() + "\n"
-
-
-def _md_table(table: Table) -> list[str]:
-    rows = [table.head, ["---"] * len(table.head), *table.rows]
-    cells = ["| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |" for row in rows]
-    return [f"**{table.caption}**", "", *cells, ""]
+    out = [f"# {_TITLE}"]
+    for block in _blocks(parts, how):
+        if isinstance(block, str):
+            out.append(block)
+        elif isinstance(block, Table):
+            out += [f"**{block.caption}**", "\n".join(unpadded(block.head, block.rows))]
+        elif isinstance(block, Picture):
+            out += [f"![{_plain(block.caption)}]({block.file})", f"*{block.caption}*"]
+        else:
+            for heading, lines in groupby(block, key=lambda line: line[0]):
+                out.append(f"### {heading}")
+                out += [text for _, latex, note in lines for text in (f"$$ {latex} $$", note) if text]
+    return "\n\n".join(out) + "\n"
 
 
 def _plain(caption: str) -> str:
     return re.sub(r"[\[\]*_]", "", caption.split(".", maxsplit=1)[0])
 
 
-# ---- HTML
-
-
 def page(parts: Sequence[Part], how: str) -> str:
     """The report as one HTML page; figures are linked, formulas are shown as a figure and as LaTeX."""
-    body = [f"<h1>{html.escape(_TITLE)}</h1>", *(f"<p>{html.escape(text)}</p>" for text in _lead(parts, how))]
-    if any(part.comparisons for part in parts):
-        body += ["<h2>The numbers</h2>", _html_table(compared(parts)), _html_table(_not_compared())]
-    for part in parts:
-        body.append(f"<h2>{html.escape(part.title)}</h2>")
-        body += [f"<p>{html.escape(part.words)}</p>"] if part.words else []
-        for picture in part.pictures:
-            caption = html.escape(picture.caption)
-            alt = html.escape(_plain(picture.caption))
-            image = f'<img src="{picture.file}" alt="{alt}" width="{picture.width * _PER_CM:.0f}">'
+    body = [f"<h1>{html.escape(_TITLE)}</h1>"]
+    for block in _blocks(parts, how):
+        if isinstance(block, str):
+            tag, text = ("h2", block[3:]) if block.startswith("## ") else ("p", block)
+            body.append(f"<{tag}>{html.escape(text)}</{tag}>")
+        elif isinstance(block, Table):
+            body.append(_html_table(block))
+        elif isinstance(block, Picture):
+            caption, alt = html.escape(block.caption), html.escape(_plain(block.caption))
+            image = f'<img src="{block.file}" alt="{alt}" width="{block.width * _PER_CM:.0f}">'
             body.append(f"<figure>{image}<figcaption>{caption}</figcaption></figure>")
-        if part.formulas:
-            rows = [f"<tr><td><code>{html.escape(latex)}</code></td></tr>" for _, latex, _ in part.formulas]
-            body.append(f"<details><summary>LaTeX</summary><table>{''.join(rows)}</table></details>")
-        body += map(_html_table, part.tables)
-    if any(part.scenes for part in parts):
-        body += ["<h2>Inputs</h2>", _html_table(inputs(parts))]
-    if any(part.comparisons for part in parts):
-        body += ["<h2>Sources</h2>", _html_table(sources(parts))]
+        else:
+            rows = "".join(f"<tr><td><code>{html.escape(latex)}</code></td></tr>" for _, latex, _ in block)
+            body.append(f"<details><summary>LaTeX</summary><table>{rows}</table></details>")
     head = f'<meta charset="utf-8">{_VIEWPORT}<title>{html.escape(_TITLE)}</title><style>{_STYLE}</style>'
     return f'<!doctype html>\n<html lang="en"><head>{head}</head><body>\n' + "\n".join(body) + "\n</body></html>\n"
 

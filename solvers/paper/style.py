@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..formatting.style import styled
@@ -43,8 +42,3 @@ def sheet(file: Path, height: float, width: float = COLUMN) -> Iterator[Figure]:
         figure = Figure(figsize=(width / _INCH, height / _INCH), layout="constrained")
         yield figure
         save(figure, file, dpi=DPI)
-
-
-def panel(figure: Figure) -> Axes:
-    """Return the axes of the figure."""
-    return figure.add_subplot()

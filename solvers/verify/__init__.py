@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from .budget import restitution_budget
 from .identities import symbolic
-from .laws import numeric
 from .report import Finding, Report
-from .run import verify
+from .run import numeric, verify
 
 __all__ = ["Finding", "Report", "numeric", "restitution_budget", "symbolic", "verify"]

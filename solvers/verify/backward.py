@@ -13,13 +13,16 @@ from dataclasses import dataclass
 import numpy as np
 from casadi import SX, Function, integrator, jacobian, reshape, vertcat
 
-from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, quiet
-from ..engines.casadi.replay import Piece
-from ..errors import WetDoubletError
+from ..engines.casadi.integrators import IntegrationFailed, Plain, Tolerance, plain, quiet, tolerance_for
+from ..engines.casadi.locate import locate
+from ..engines.casadi.replay import Piece, Stopped, replay
+from ..errors import ComputationError, WetDoubletError
 from ..host.thread_caches import own_cache
-from ..model.phases import Flow, expressions
-from .follow import Followed, follow
-from .report import Finding, bounded
+from ..model.dimensionless import nondimensionalise
+from ..model.model import Model, load, select_model
+from ..model.phases import Flow, Region, expressions
+from ..scene.scene import Scene
+from .report import Finding, bounded, note
 from .sample import PLUGINS, REFERENCE, RTOL, Sample, place
 
 _SAFETY = 30.0  # in units of rtol; allowed error of either integration over a section, before amplification
@@ -31,8 +34,32 @@ _TRAJECTORIES = 6  # trajectories of the sample
 
 
 @dataclass(frozen=True)
-class Stretch:
-    """A smooth section of a trajectory: initial state, duration (x0/v0), and backward amplification of errors."""
+class Replayed:
+    """A located collision as integrated by the reference engine, with spin as a state: its phases and final state."""
+
+    model: Model
+    p: np.ndarray
+    tolerance: Tolerance
+    pieces: list[Piece]
+    end: np.ndarray
+
+
+def replayed(scene: Scene, stokes: float, angle: float) -> Replayed:
+    """Locate a collision and integrate it. ComputationError if the outcome cannot be decided, or the engine stopped."""
+    n = nondimensionalise(scene, scene.speed_of(stokes), angle)
+    path = locate(load(select_model(scene, n.oblique)), n.groups, RTOL)
+    flow = Flow(select_model(scene, n.oblique, full=True), Region(1, 1, False))
+    p, tolerance = flow.model.group_values(n.groups), tolerance_for(RTOL, REFERENCE, n.groups)
+    try:
+        found = replay(path, REFERENCE, tolerance, flow, flow.model.start(p))
+    except Stopped as failure:
+        raise ComputationError(f"{REFERENCE} {failure.why}", phase=str(failure.step.phase)) from None
+    return Replayed(flow.model, p, tolerance, found.pieces, found.y)
+
+
+@dataclass(frozen=True)
+class Section:
+    """A smooth part of a phase: initial state, duration (x0/v0), and backward amplification of errors."""
 
     flow: Flow
     start: np.ndarray
@@ -40,59 +67,49 @@ class Stretch:
     amplification: float
 
 
-@dataclass(frozen=True)
-class _Return:
-    """Distance of the returned state from the start of a section, and its bound."""
-
-    error: float
-    bound: float
-    amplification: float
-    where: str
-
-
-def backward(group: str, sample: Sample, back: Back | None = None) -> Iterator[Finding]:
+def backward(sample: Sample, back: Back | None = None) -> Iterator[Finding]:
     """Findings for every engine, over sections of every phase of a few trajectories.
 
     Arguments:
         back: factory of the integrator backward in time; `returning` if None.
     """
-    back = returning if back is None else back
-    returns: dict[str, list[_Return]] = {engine: [] for engine in PLUGINS}
-    for one in _chosen(sample):
+    returns: dict[str, list[tuple[float, float, float, str]]] = {engine: [] for engine in PLUGINS}
+    for stokes, angle in _chosen(sample):
         try:
-            followed = follow(sample.scene, one[0], one[1], REFERENCE, RTOL)
+            path = replayed(sample.scene, stokes, angle)
         except WetDoubletError:
             continue  # failures are reported with the sample
-        for piece in followed.replayed.pieces:
-            where = place(*one, event=piece.name)
-            for stretch in stretches(piece, followed.p):
-                for engine, found in returns.items():
-                    found.append(_returned(stretch, followed, engine, where, back))
-    for engine, found in returns.items():
+        for piece in path.pieces:
+            at = place(stokes, angle, event=piece.name)
+            for section in sections(piece, path.p):
+                bound = _SAFETY * RTOL * section.amplification
+                for engine, entries in returns.items():
+                    error = _return_error(section, path.p, engine, back or returning)
+                    entries.append((error, bound, section.amplification, at))
+    for engine, entries in returns.items():
+        name = f"forward-back, {engine}"
         statement = (
             f"a stretch integrated forward and back returns to its start, within {_SAFETY:.0f} rtol times the norm of "
             f"the inverse of its variational matrix (at most {MOST:.0e})"
         )
-        if not found:
-            yield Finding(
-                group, f"forward-back, {engine}", statement, sample.silent or "no stretch is mild enough", "", None
-            )
+        if not entries:
+            yield note(name, statement, sample.silent or "no stretch is mild enough")
             continue
-        worst = max(found, key=lambda entry: entry.error / entry.bound)
-        most = max(entry.amplification for entry in found)
-        told = (f"  {len(found)} stretches; amplification {worst.amplification:.1e} at the worst, at most {most:.1e}",)
-        yield bounded(group, f"forward-back, {engine}", statement, worst.error, worst.bound, worst.where, told)
+        error, bound, amplification, at = max(entries, key=lambda entry: entry[0] / entry[1])
+        most = max(entry[2] for entry in entries)
+        about = f"  {len(entries)} stretches; amplification {amplification:.1e} at the worst, at most {most:.1e}"
+        yield bounded(name, statement, error, bound, at, about)
 
 
 def _chosen(sample: Sample) -> list[tuple[float, float]]:
-    """A few impacts of the sample, evenly spaced."""
+    """Stokes numbers and angles of a few impacts of the sample, evenly spaced."""
     impacts = [next(iter(impact.values())) for impact in sample.impacts]
     moving = [(one.stokes, one.angle) for one in impacts if (one.contact_time or one.until or 0) > 0]
     picked = np.unique(np.linspace(0, len(moving) - 1, min(_TRAJECTORIES, len(moving))).round().astype(int))
     return [moving[k] for k in picked]
 
 
-def stretches(piece: Piece, p: np.ndarray) -> Iterator[Stretch]:
+def sections(piece: Piece, p: np.ndarray) -> Iterator[Section]:
     """Sections of a phase with an amplification of at most MOST."""
     tolerance = Tolerance(1e-10, 1e-13)
     for part in _PLACES:
@@ -105,54 +122,34 @@ def stretches(piece: Piece, p: np.ndarray) -> Iterator[Stretch]:
         while duration > _SHORTEST * piece.duration:
             amplification = _amplification(piece.flow, start, p, duration)
             if amplification <= MOST:
-                yield Stretch(piece.flow, start, duration, amplification)
+                yield Section(piece.flow, start, duration, amplification)
                 break
             duration /= 2
 
 
-def _returned(stretch: Stretch, followed: Followed, engine: str, where: str, returning: Back) -> _Return:
-    tolerance = tolerance_of(engine)
-    scale = _scale(stretch.flow, followed.p)
-    bound = _SAFETY * RTOL * stretch.amplification
-    try:
-        end = plain(stretch.flow, engine, tolerance)(stretch.start, followed.p, stretch.duration)
-        back = returning(stretch.flow, engine, tolerance)(end, followed.p, stretch.duration)
-        error = float(np.max(np.abs(back - stretch.start) / scale))
-    except IntegrationFailed:
-        error = math.inf
-    return _Return(error if math.isfinite(error) else math.inf, bound, stretch.amplification, where)
-
-
-def tolerance_of(engine: str) -> Tolerance:
-    """Integrator tolerance of an engine for this check."""
+def _return_error(section: Section, p: np.ndarray, engine: str, back: Back) -> float:
+    """Distance of the returned state from the start of a section; inf if an integration fails."""
     share = 1 / 30 if engine == "cvodes" else 1.0  # as elsewhere, so that rtol has about the same meaning for both
-    return Tolerance(RTOL * share, 1e-3 * RTOL * share)
+    tolerance = Tolerance(RTOL * share, 1e-3 * RTOL * share)
+    try:
+        end = plain(section.flow, engine, tolerance)(section.start, p, section.duration)
+        returned = back(section.flow, engine, tolerance)(end, p, section.duration)
+    except IntegrationFailed:
+        return math.inf
+    error = float(np.max(np.abs(returned - section.start) / _scale(section.flow, p)))
+    return error if math.isfinite(error) else math.inf
 
 
-class Returning:
-    """Protocol of a backward integrator: (y at the end, groups, duration) -> y at the start."""
-
-    def __init__(self, function: Function) -> None:
-        self.function = function
-
-    def __call__(self, y: np.ndarray, p: np.ndarray, duration: float) -> np.ndarray:
-        try:
-            with quiet():
-                return np.asarray(self.function(x0=y, p=np.append(p, duration))["xf"].full()).ravel()
-        except RuntimeError as error:
-            raise IntegrationFailed(str(error).strip().splitlines()[-1]) from None
-
-
-Back = Callable[[Flow, str, Tolerance], Returning]
+Back = Callable[[Flow, str, Tolerance], Plain]
 
 
 @own_cache(64)
-def returning(flow: Flow, engine: str, tolerance: Tolerance) -> Returning:
+def returning(flow: Flow, engine: str, tolerance: Tolerance) -> Plain:
     """The integrator of a flow with negated rates."""
     parts, duration = expressions(flow), SX.sym("duration")
     dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": -duration * parts.rates}
     with quiet():
-        return Returning(integrator("returning", engine, dae, 0, 1, tolerance.options(engine)))
+        return Plain(integrator("returning", engine, dae, 0, 1, tolerance.options(engine)), engine)
 
 
 def _amplification(flow: Flow, start: np.ndarray, p: np.ndarray, duration: float) -> float:

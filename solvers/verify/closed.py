@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
@@ -20,8 +21,8 @@ from ..model.phases import Flow, Region
 from ..scene.contact import contact_gap
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
-from .report import Finding, bounded
-from .sample import PLUGINS, RTOL, Collide, own_stokes, place
+from .report import Finding, bounded, note
+from .sample import PLUGINS, RTOL, Collide, place, stokes_of
 
 Integrators = Callable[[Flow, str, Tolerance], Callable[[np.ndarray, np.ndarray, float], np.ndarray]]
 _BOUND = 1000 * RTOL  # global error of either engine, as in the comparison of engines
@@ -31,7 +32,7 @@ _SMALLEST, _BOUNCES = 0.02, 4  # smallest e_n and number of the compared bounces
 
 
 def closed_forms(
-    group: str, scene: Scene, head_on: bool = False, plain: Integrators = plain, collide: Collide = collide
+    scene: Scene, head_on: bool = False, plain: Integrators = plain, collide: Collide = collide
 ) -> Iterator[Finding]:
     """Findings for every closed form that applies to the scene.
 
@@ -40,19 +41,13 @@ def closed_forms(
         plain: factory of the integrator of a flow.
         collide: function that computes a bounce.
     """
-
-    def alone(scene: Scene, engine: str, plain: Integrators) -> tuple[float, str]:
-        return film_alone(scene, engine, plain, collide)
-
-    checks: list[tuple[str, Callable[[Scene, str, Integrators], tuple[float, str]]]] = [("film_alone", alone)]
+    checks: list[Callable[[Scene, str, Integrators], tuple[float, str]]] = [partial(film_alone, collide=collide)]
     if not head_on and scene.partner is not None:
-        for key in ("straight_line", "spin_relaxes"):
-            yield Finding(group, *_TOLD[key], "derived for equal spheres only", "", None)
+        for name, statement in _FORMS[1:3]:
+            yield note(name, statement, "derived for equal spheres only")
     elif not head_on:
-        checks += [("straight_line", straight_line), ("spin_relaxes", spin_relaxes)]
-        checks += [("swinging", swinging)] if scene.pendulum is not None else []
-    for key, check in checks:
-        name, statement = _TOLD[key]
+        checks += [straight_line, spin_relaxes, *([swinging] if scene.pendulum is not None else [])]
+    for (name, statement), check in zip(_FORMS, checks, strict=False):
         worst = (-1.0, "")
         for engine in PLUGINS:
             try:
@@ -60,27 +55,27 @@ def closed_forms(
             except (ComputationError, IntegrationFailed) as failure:
                 figure, where = math.inf, f"{engine}: {failure}"
             worst = max(worst, (figure if math.isfinite(figure) else math.inf, where))
-        yield bounded(group, name, statement, worst[0], _BOUND, worst[1])
+        yield bounded(name, statement, worst[0], _BOUND, worst[1])
 
 
-_TOLD = {
-    "film_alone": (
+_FORMS = (
+    (
         "film alone",
         "film and solids alone, head-on: approach, rebound, e_n by -u/v0 = 1 - [ln(1/s) - 3/2 + 2s - s^2/2]/St",
     ),
-    "straight_line": (
+    (
         "straight line",
         "liquid, bridge, attraction and strings taken away: the centres move on a straight line, r(t)^2 and beta(t)",
     ),
-    "spin_relaxes": (
+    (
         "spin relaxes",
         "gap held: omega - xi = omega0 exp(-k t), k = 8 pi mu a^2 ln(2a/x) [1/r + 5 r/(32 a^2)]/m; then one rigid body",
     ),
-    "swinging": (
+    (
         "swinging",
         "liquid taken away, small angles: the centres' difference from the pivots' is a harmonic oscillator, sqrt(g/l)",
     ),
-}
+)
 
 
 def film_loss(s: float) -> float:
@@ -99,7 +94,7 @@ def _bare(scene: Scene) -> Scene:
 def film_alone(scene: Scene, engine: str, plain: Integrators = plain, collide: Collide = collide) -> tuple[float, str]:
     """Largest error of u(s) on approach, of e_n and of the gap at rebound, with its place."""
     bare = _bare(scene)
-    worst = max(_approach(bare, factor * own_stokes(bare), engine, plain) for factor in (0.3, 1.0, 4.0))
+    worst = max(_approach(bare, factor * stokes_of(bare), engine, plain) for factor in (0.3, 1.0, 4.0))
     bounced = 0
     for stokes in _stokes_range(bare):
         n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
@@ -164,7 +159,7 @@ def _rebound(n: DimensionlessGroups, glass: str) -> float:
 
 def _oblique(scene: Scene) -> DimensionlessGroups:
     """Dimensionless groups of the scene's impact, or of an oblique one if it is head-on."""
-    return nondimensionalise(scene, scene.speed_of(own_stokes(scene)), scene.angle or _ANGLE)
+    return nondimensionalise(scene, scene.speed_of(stokes_of(scene)), scene.angle or _ANGLE)
 
 
 def straight_line(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[float, str]:

@@ -8,6 +8,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
+from ..formatting.markdown import unpadded
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -16,9 +17,7 @@ if TYPE_CHECKING:
 WIDTH = 100
 _COLUMNS = ("group", "name", "statement", "figure", "bound", "ok", "where")
 _MARKS = {True: "ok", False: "FAIL", None: "note"}
-_MARK = 6  # width of the mark on the left, characters
-_LONGEST = 200  # characters of the failure in the first line
-_ABOUT = 4  # the same for details of a finding
+_MARK, _LONGEST = 6, 200  # characters of the mark on the left, and of the failure in the first line
 _BESIDE = 26  # width of value and bound, so that places are aligned
 
 
@@ -51,11 +50,14 @@ class Finding:
         return f"{self.name} ({self.group}): {self.figure}{held}{place}"
 
 
-def bounded(
-    group: str, name: str, statement: str, figure: float, bound: float, where: str, about: tuple[str, ...] = ()
-) -> Finding:
-    """A finding whose value must not exceed a bound; NaN fails."""
-    return Finding(group, name, statement, f"{figure:.1e}", f"{bound:.1e}", bool(figure <= bound), where, about)
+def bounded(name: str, statement: str, figure: float, bound: float, where: str, *about: str) -> Finding:
+    """A finding whose value must not exceed a bound; NaN fails. The group is added where the checks are run."""
+    return Finding("", name, statement, f"{figure:.1e}", f"{bound:.1e}", bool(figure <= bound), where, about)
+
+
+def note(name: str, statement: str, figure: str, where: str = "", about: tuple[str, ...] = ()) -> Finding:
+    """A finding that is reported without a bound."""
+    return Finding("", name, statement, figure, "", None, where, about)
 
 
 @dataclass(frozen=True)
@@ -123,7 +125,7 @@ class Report:
     def __str__(self) -> str:
         lines: list[str] = [self.headline, ""]
         if self.failed:
-            lines += _section("Failed", list(self.failed), told=True)
+            lines += _section("Failed", self.failed, statements=True)
         for group, members in self._groups().items():
             lines += _section(group, members)
         return "\n".join([*lines, *wrap(self.summary, WIDTH)])
@@ -131,23 +133,13 @@ class Report:
     def to_markdown(self) -> str:
         """The report as a Markdown page, failures first."""
         lines = ["# wetdoublet verify", "", self.headline, ""]
-        sections = {"Failed": list(self.failed)} if self.failed else {}
+        sections = {"Failed": self.failed} if self.failed else {}
         for group, members in (sections | self._groups()).items():
-            lines += [
-                f"## {group}",
-                "",
-                "| | check | statement | figure | bound | where |",
-                "|---|---|---|---|---|---|",
-            ]
-            for finding in members:
-                cells = (
-                    _MARKS[finding.ok], finding.name, finding.statement, finding.figure, finding.bound, finding.where,
-                )  # fmt: skip
-                lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-            lines.append("")
-            for finding in members:
-                if finding.about and group != "Failed":
-                    lines += [f"{finding.name}:", "", "```text", *finding.about, "```", ""]
+            rows = [(_MARKS[one.ok], one.name, one.statement, one.figure, one.bound, one.where) for one in members]
+            lines += [f"## {group}", "", *unpadded(("", "check", "statement", "figure", "bound", "where"), rows), ""]
+            for one in members:
+                if one.about and group != "Failed":
+                    lines += [f"{one.name}:", "", "```text", *one.about, "```", ""]
         return "\n".join(lines).rstrip("\n")
 
     @property
@@ -174,39 +166,30 @@ class Report:
         told = f", {notes} note{'s' * (notes != 1)}" if notes else ""
         return f"{held} checks hold{told}" if self.ok else f"{len(self.failed)} of {held} checks FAIL{told}"
 
-    def _groups(self) -> dict[str, list[Finding]]:
-        groups: dict[str, list[Finding]] = {}
-        for finding in self.findings:
-            groups.setdefault(finding.group, []).append(finding)
-        return groups
+    def _groups(self) -> dict[str, tuple[Finding, ...]]:
+        names = dict.fromkeys(finding.group for finding in self.findings)
+        return {name: tuple(finding for finding in self.findings if finding.group == name) for name in names}
 
 
-def _section(title: str, members: list[Finding], told: bool = False) -> list[str]:
-    """Lines of a group: name, value with bound, place; `told` adds the statement of the check and its source."""
+def _section(title: str, members: tuple[Finding, ...], statements: bool = False) -> list[str]:
+    """Lines of a group: name, value with bound, place; its details, or its statement and group.
+
+    A bound with two dots is a range.
+    """
     lines = [title, "-" * len(title)]
-    name = max(len(finding.name) for finding in members)
-    figures = [_held(finding) for finding in members]
-    beside = [text for text, f in zip(figures, members) if f.where and len(text) <= _BESIDE]
-    column = max(map(len, beside), default=0)
+    name = max(len(one.name) for one in members)
+    held = {True: " in ", False: " <= "}
+    figures = [one.figure + (held[".." in one.bound] + one.bound if one.bound else "") for one in members]
+    beside = [len(text) for text, one in zip(figures, members) if one.where and len(text) <= _BESIDE]
     indent = " " * (_MARK + name + 2)
-    for finding, figure in zip(members, figures):
-        text = figure
-        if finding.where:
-            text = f"{figure:<{column}}  at {finding.where}"
-        first = f"{_MARKS[finding.ok]:<{_MARK}}{finding.name:<{name}}  "
-        lines += _wrapped(first, text, indent)
-        if told:
-            lines += _wrapped(indent, f"{finding.group}: {finding.statement}", indent)
+    for one, figure in zip(members, figures):
+        text = f"{figure:<{max(beside, default=0)}}  at {one.where}" if one.where else figure
+        lines += _wrapped(f"{_MARKS[one.ok]:<{_MARK}}{one.name:<{name}}  ", text, indent)
+        if statements:
+            lines += _wrapped(indent, f"{one.group}: {one.statement}", indent)
         else:
-            lines += [f"{' ' * _ABOUT}{line}".rstrip() for line in finding.about]
+            lines += [f"    {line}".rstrip() for line in one.about]
     return [*lines, ""]
-
-
-def _held(finding: Finding) -> str:
-    """Value and bound as text; a bound with two dots is a range."""
-    if not finding.bound:
-        return finding.figure
-    return f"{finding.figure} {'in' if '..' in finding.bound else '<='} {finding.bound}"
 
 
 def _wrapped(first: str, text: str, indent: str) -> list[str]:

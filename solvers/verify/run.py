@@ -1,16 +1,28 @@
-"""`verify`: all checks of a scene or of all presets."""
+"""`verify`: all checks of a scene or of all presets; if one raises an error, the others still run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import cache
+from typing import TYPE_CHECKING
 
+from ..errors import WetDoubletError
 from ..host.arguments import check_flag
 from ..scene.scene import Scene
 from ..scene.scenefile import OF_THE_PAPER
+from .audit import stick_audit
+from .backward import backward
+from .closed import closed_forms
+from .conserved import conserved, surface_arm
 from .identities import symbolic
-from .laws import numeric
-from .region import grid
+from .order import convergence
+from .region import argument, beside_cvodes, grid
 from .report import Finding, Report
+from .sample import WHOLE, Extent, collisions
+
+if TYPE_CHECKING:
+    import xarray
 
 
 def verify(
@@ -27,22 +39,55 @@ def verify(
         The Report; `report.ok` is True if all checks passed.
     """
     loaded = None if scene is None else Scene.load(scene)
+    check_flag(recompute, "recompute")
     findings: list[Finding] = []
+    budget = None
 
-    def take(found: Iterator[Finding]) -> None:
-        for finding in found:
+    def take(results: Iterator[Finding]) -> None:
+        for finding in results:
             findings.append(finding)
             if progress:
                 progress(finding)
 
-    take(symbolic(loaded, check_flag(recompute, "recompute")))
-    budget = None if loaded is None else grid(loaded)
-    take(_presets() if loaded is None else numeric(loaded, budget=budget))
+    take(symbolic(loaded, recompute))
+    if loaded is None:
+        for preset in map(Scene.load, OF_THE_PAPER):
+            take(numeric(preset))
+            take(numeric(preset, head_on=True))
+    else:
+        budget = grid(loaded)
+        take(numeric(loaded, budget=budget))
     return Report(tuple(findings), budget)
 
 
-def _presets() -> Iterator[Finding]:
-    for name in OF_THE_PAPER:
-        preset = Scene.load(name)
-        yield from numeric(preset)
-        yield from numeric(preset, head_on=True)
+def numeric(
+    scene: Scene, head_on: bool = False, budget: xarray.Dataset | None = None, extent: Extent = WHOLE
+) -> Iterator[Finding]:
+    """Findings of all numerical checks of a scene, in the order of the report.
+
+    Arguments:
+        head_on: check the head-on variant, without rotation.
+        budget: budget of the scene, if already computed.
+        extent: size of the samples.
+    """
+    group = f"Numeric: {scene.name or 'scene'}{', head-on' * head_on}"
+    angles = (0.0,) if head_on else None
+    sample = collisions(scene, angles, extent)
+    checks: dict[str, Callable[[], Iterator[Finding]]] = {
+        "conservation": lambda: conserved(sample),
+        "surface arm": lambda: surface_arm(sample),
+        "forward-back": lambda: backward(sample),
+        "closed forms": lambda: closed_forms(scene, head_on),
+        "convergence": lambda: convergence(sample, extent.tolerances),
+        "stick certificate": lambda: stick_audit(scene, angles, extent.audited),
+    }
+    if not head_on:
+        data = cache(lambda: grid(scene, extent) if budget is None else budget)
+        checks["cvodes, on the grid"] = lambda: beside_cvodes(scene, data())
+        checks["e_n > 1"] = lambda: argument(scene, data())
+    for name, check in checks.items():
+        try:
+            for finding in check():
+                yield replace(finding, group=group)
+        except WetDoubletError as failure:
+            yield Finding(group, name, "the check is completed", f"not completed: {failure}", "", False)

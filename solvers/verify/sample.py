@@ -73,7 +73,7 @@ class Sample:
         return ""
 
 
-def own_stokes(scene: Scene) -> float:
+def stokes_of(scene: Scene) -> float:
     """The Stokes number at the centre of the sample."""
     return scene.stokes or 1.0
 
@@ -98,7 +98,7 @@ def collisions(
         angles: impact angles, rad; None for the extent's and the scene's.
         collide: function that computes a collision.
     """
-    own = own_stokes(scene)
+    own = stokes_of(scene)
     sample = Sample(scene)
     for angle in dict.fromkeys((*extent.angles, scene.angle or 0.0) if angles is None else angles):
         for factor in extent.factors:

@@ -6,18 +6,19 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from itertools import takewhile
+from typing import TypeVar
 
 import numpy as np
 
 from ..collision.collide import collide
+from ..collision.result import Collision
 from ..engines.choice import available_engines
 from ..errors import ComputationError
 from ..host.environment import one_core
 from ..many.collide_many import collide_many
 from ..many.results import FAILED
 from ..scene.scene import Scene
-from .stress.answers import Impact
 
 TOLERANCES = tuple(10.0**-k for k in range(4, 13))
 BATCH, SINGLE = 100, 8  # collisions in a call, and number of those also computed one by one
@@ -29,17 +30,15 @@ _DEAR = 1.0  # s; after a slower batch, an engine gets no batches at smaller tol
 _GOLDEN = 0.6180339887498949
 
 Progress = Callable[[int, int], None]
-_Found = TypeVar("_Found")
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
-class Computed:
-    """Result of a collision; contact time in s, None for a stick."""
+class Impact:
+    """Stokes number and angle (rad)."""
 
-    outcome: str
-    restitution: float
-    contact_time: float | None
-    engine: str  # the engine that completed it, which may be a fallback
+    stokes: float
+    angle: float
 
 
 @dataclass(frozen=True)
@@ -117,40 +116,31 @@ class WorkPrecision:
     def _cheapest(self, use: str, error: float, cost: Callable[[Row], float | None]) -> Recommendation:
         """The cheapest of the engines, each at the loosest tolerance below which the error is always met."""
         if error < self.uncertainty:
-            said = f"the references differ by {self.uncertainty:.1e} in e_n, so that {error:.1e} cannot be verified"
-            return Recommendation(use, None, None, said)
-        loosest = [row for engine in self.engines if (row := self._loosest(engine, error))]
-        priced = [(spent, row) for row in loosest if (spent := cost(row)) is not None]
+            why = f"the references differ by {self.uncertainty:.1e} in e_n, so that {error:.1e} cannot be verified"
+            return Recommendation(use, None, None, why)
+        priced = []
+        for engine in self.engines:
+            rows = sorted((row for row in self.rows if row.engine == engine), key=lambda row: row.rtol)
+            kept = list(takewhile(lambda row: row.keeps(error), rows))
+            if kept and (spent := cost(kept[-1])) is not None:
+                priced.append((spent, kept[-1]))
         if not priced:
-            reached = min(
-                (row.error for row in self.rows if row.keeps(math.inf) and row.error is not None), default=None
-            )
-            least = (
-                "no setting has all outcomes right" if reached is None else f"the least error reached is {reached:.1e}"
-            )
-            return Recommendation(
-                use, None, None, f"no engine keeps {error:.1e} at a tolerance that was measured; {least}"
-            )
+            reached = [row.error for row in self.rows if row.keeps(math.inf) and row.error is not None]
+            least = f"the least error reached is {min(reached):.1e}" if reached else "no setting has all outcomes right"
+            why = f"no engine keeps {error:.1e} at a tolerance that was measured; {least}"
+            return Recommendation(use, None, None, why)
         priced.sort(key=lambda each: each[0])
         spent, best = priced[0]
-        kept = "all collisions of the sample stick, and all outcomes are right" if best.error is None else (
-            f"largest error {best.error:.1e} in e_n, and none above {error:.1e} at tighter tolerances"
-        )  # fmt: skip
+        why = "all collisions of the sample stick, and all outcomes are right"
+        if best.error is not None:
+            why = f"largest error {best.error:.1e} in e_n, and none above {error:.1e} at tighter tolerances"
         others = [f"{row.engine} at {row.rtol:.0e} costs {dear / spent:.3g} times as much" for dear, row in priced[1:]]
-        return Recommendation(use, best.engine, best.rtol, "; ".join([f"{shown(spent)} each, {kept}", *others]))
+        return Recommendation(use, best.engine, best.rtol, "; ".join([f"{shown(spent)} each, {why}", *others]))
 
     @property
     def engines(self) -> tuple[str, ...]:
         """The measured engines."""
         return tuple(dict.fromkeys(row.engine for row in self.rows))
-
-    def _loosest(self, engine: str, error: float) -> Row | None:
-        found = None
-        for row in sorted((row for row in self.rows if row.engine == engine), key=lambda row: row.rtol):
-            if not row.keeps(error):
-                break
-            found = row
-        return found
 
 
 def work_precision(
@@ -183,29 +173,29 @@ def work_precision(
     progress(0, total)
     with one_core():
         some = impacts[batch // (2 * single) :: batch // single][:single]
-        truth, tight = _references(scene, some, engines)
-        known = [impact for impact, *answers in zip(some, *truth.values()) if len({a.outcome for a in answers}) == 1]
-        if not known:
+        references, tight = _references(scene, some, engines)
+        pairs = [pair for pair in zip(*references.values()) if pair[0].outcome == pair[1].outcome]
+        if not pairs:
             raise ComputationError("no reference", advice="choose an impact farther from a boundary")
-        kept = {name: [a for i, a in zip(some, answers) if i in known] for name, answers in truth.items()}
-        first, second = kept.values()
-        rows = []
-        expensive: set[str] = set()
+        known = [Impact(one.stokes, one.angle) for one, _ in pairs]
+        rows: list[Row] = []
         for engine in engines:
-            expected = next(answers for name, answers in kept.items() if name != engine)
+            expected = [
+                pair[list(references).index(engine) == 0] if engine in references else pair[0] for pair in pairs
+            ]
+            expensive = False
             for rtol in sorted(tolerances, reverse=True):
-                each = None if engine in expensive else _batch(scene, impacts, engine, rtol)
-                if each is not None and each * batch > _DEAR:
-                    expensive.add(engine)
+                each = None if expensive else _batch(scene, impacts, engine, rtol)
+                expensive = expensive or (each is not None and each * batch > _DEAR)
                 rows.append(_row(scene, known, expected, engine, rtol, each))
                 progress(1 + len(rows), total)
-    own = _errors(first, second)
+    own = _errors(pairs)
     return WorkPrecision(
         scene=scene,
         sample=sample,
         batch=batch,
         impacts=tuple(known),
-        separate=sum(each.outcome != "stick" for each in first),
+        separate=sum(one.outcome != "stick" for one, _ in pairs),
         left_out=len(some) - len(known),
         references=tuple(tight.items()),
         uncertainty=max((e for e, _ in own), default=0.0),
@@ -233,61 +223,69 @@ def _drawn(scene: Scene, count: int) -> tuple[list[Impact], str]:
 
 def _references(
     scene: Scene, impacts: Sequence[Impact], engines: Sequence[str]
-) -> tuple[dict[str, list[Computed]], dict[str, float]]:
+) -> tuple[dict[str, list[Collision]], dict[str, float]]:
     """Results of two engines at the smallest tolerance that each completes, and that tolerance."""
-    truth: dict[str, list[Computed]] = {}
+    references: dict[str, list[Collision]] = {}
     tight: dict[str, float] = {}
     for engine in ("taylor", "rosenbrock", "cvodes"):
-        for rtol in _TIGHTEST if engine in engines and len(truth) < 2 else ():
-            found = [_one(scene, impact, engine, rtol) for impact in impacts]
-            answers = [each for each in found if isinstance(each, Computed) and each.engine == engine]
-            if len(answers) == len(impacts):
-                truth[engine], tight[engine] = answers, rtol
+        for rtol in _TIGHTEST if engine in engines and len(references) < 2 else ():
+            collisions = [
+                one for impact in impacts if (one := _one(scene, impact, engine, rtol)) and one.engine == engine
+            ]
+            if len(collisions) == len(impacts):
+                references[engine], tight[engine] = collisions, rtol
                 break
-    if len(truth) < 2:
+    if len(references) < 2:
         raise ComputationError(
             f"no two engines complete the sample at {max(_TIGHTEST):g} or tighter",
             advice="choose an impact farther from a boundary",
         )
-    return truth, tight
+    return references, tight
 
 
-def _one(scene: Scene, impact: Impact, engine: str, rtol: float) -> Computed | None:
-    """A collision as computed by `collide`; None if it fails."""
+def _one(scene: Scene, impact: Impact, engine: str, rtol: float) -> Collision | None:
+    """A collision as computed by `collide`, perhaps by another engine; None if it fails."""
     try:
-        found = collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine=engine, ledger=False)
+        return collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine=engine, ledger=False)
     except ComputationError:
         return None
-    return Computed(found.outcome, found.restitution, found.contact_time, found.engine)
 
 
 def _row(
-    scene: Scene, impacts: Sequence[Impact], expected: Sequence[Computed], engine: str, rtol: float, batch: float | None
+    scene: Scene,
+    impacts: Sequence[Impact],
+    expected: Sequence[Collision],
+    engine: str,
+    rtol: float,
+    batch: float | None,
 ) -> Row:
     """Time and errors of the collisions computed one by one."""
-    for impact in impacts:
-        _one(scene, impact, engine, rtol)  # builds
-    taken, found = _cheapest(lambda: [_one(scene, impact, engine, rtol) for impact in impacts])
-    done = [(one, truth) for one, truth in zip(found, expected) if one is not None]
-    errors = _errors(*([pair[k] for pair in done] for k in (0, 1)))
+
+    def each() -> list[Collision | None]:
+        return [_one(scene, impact, engine, rtol) for impact in impacts]
+
+    each()  # builds
+    taken, computed = _cheapest(each)
+    done = [(one, truth) for one, truth in zip(computed, expected) if one is not None]
+    errors = _errors(done)
     return Row(
         engine=engine,
         rtol=rtol,
         error=max((e for e, _ in errors), default=None),
         time_error=max((t for _, t in errors), default=None),
         single=taken / len(impacts),
-        batch=None if batch is None else batch,
+        batch=batch,
         wrong=sum(one.outcome != truth.outcome for one, truth in done),
-        failed=len(found) - len(done),
+        failed=len(computed) - len(done),
         handed_over=sum(one.engine != engine for one, _ in done),
     )
 
 
-def _errors(found: Sequence[Computed], expected: Sequence[Computed]) -> list[tuple[float, float]]:
+def _errors(pairs: Sequence[tuple[Collision, Collision]]) -> list[tuple[float, float]]:
     """Absolute error of e_n and relative error of the contact time, where both separate in the same way."""
     return [
         (abs(one.restitution - truth.restitution), abs(one.contact_time / truth.contact_time - 1))
-        for one, truth in zip(found, expected)
+        for one, truth in pairs
         if one.outcome == truth.outcome and one.contact_time and truth.contact_time
     ]
 
@@ -295,23 +293,19 @@ def _errors(found: Sequence[Computed], expected: Sequence[Computed]) -> list[tup
 def _batch(scene: Scene, impacts: Sequence[Impact], engine: str, rtol: float) -> float | None:
     """CPU time (s) per impact of one call for all; None if one fails."""
     stokes, angle = (np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))
-    asked: Any = {"rtol": rtol, "engine": engine}
-    collide_many(scene, stokes=stokes[:1], angle=angle[:1], **asked)  # builds
-    taken, found = _cheapest(lambda: collide_many(scene, stokes=stokes, angle=angle, **asked))
-    return None if (found["outcome"].values == FAILED).any() else taken / len(impacts)
+    collide_many(scene, stokes=stokes[:1], angle=angle[:1], rtol=rtol, engine=engine)  # builds
+    taken, data = _cheapest(lambda: collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine=engine))
+    return None if (data["outcome"].values == FAILED).any() else taken / len(impacts)
 
 
-def _cheapest(run: Callable[[], _Found]) -> tuple[float, _Found]:
+def _cheapest(run: Callable[[], Result]) -> tuple[float, Result]:
     """CPU time (s) of the cheapest of some calls, and the result of the last."""
-    least, spent = math.inf, 0.0
-    for _ in range(_PASSES):
+    times: list[float] = []
+    while len(times) < _PASSES and sum(times) <= _LONG:
         start = time.process_time()
-        found = run()
-        taken = time.process_time() - start
-        least, spent = min(least, taken), spent + taken
-        if spent > _LONG:
-            break
-    return least, found
+        result = run()
+        times.append(time.process_time() - start)
+    return min(times), result
 
 
 def shown(seconds: float) -> str:

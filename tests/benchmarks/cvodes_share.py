@@ -20,8 +20,8 @@ from wetdoublet.solvers.engines.casadi.replay import Stopped, replay
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Flow, Region
-from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
 
+from .measured.answers import Impact, dimensionless
 from .measured.reference import reference
 from .measured.tasks import TASKS, Task
 

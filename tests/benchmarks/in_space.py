@@ -10,18 +10,15 @@ reference's own change for a normal speed that differs by 1e-7: near a boundary 
 which either takes too long is left out, and counted.
 """
 
-# ruff: noqa: T201 -- a script that prints
 from __future__ import annotations
 
-import json
 import math
 import signal
 import sys
-from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import groupby
 from multiprocessing import Pipe, Process
 from multiprocessing.connection import Connection
@@ -38,9 +35,9 @@ from ..helpers.random_in_space import arrivals, differences, quantities, request
 from ..helpers.random_spinning import Model, numbers, tables
 from ..helpers.random_spinning import models as drawn
 from ..helpers.two_bodies import Bodies, bodies_of
+from .verdicts import OUTCOMES, SAME, Verdict, summary
 
-RTOL, SAME, STEP = 1e-12, 1e-8, 1e-7
-OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
+RTOL, STEP = 1e-12, 1e-7
 OF_A_SCENE = 5
 LONGEST = 4  # s of CPU time, for a scene's call or one pair of the reference
 Found = dict[str, np.ndarray]
@@ -68,28 +65,6 @@ def within(seconds: float) -> Iterator[None]:
         raise OutOfTimeError if late else KeyboardInterrupt from None
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0.0)
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """One comparison: `apart` by quantity, `sharpest` what an engine can be held to."""
-
-    tables: dict[str, object]
-    arrival: Arrival
-    expected: str
-    found: str
-    apart: dict[str, float] = field(default_factory=dict)
-    sharpest: float = SAME
-    said: str = ""
-
-    @property
-    def compared(self) -> bool:
-        """Whether both came to an end."""
-        return self.expected in OUTCOMES and self.found in OUTCOMES
-
-    @property
-    def agrees(self) -> bool:
-        return self.expected == self.found and max(self.apart.values(), default=0.0) <= self.sharpest
 
 
 def followed(bodies: Bodies, arrival: Arrival) -> End | str:
@@ -125,9 +100,9 @@ def judged(described: dict[str, object], arrival: Arrival, found: Found, outcome
     bodies = bodies_of(Scene.from_dict(described))
     end = followed(bodies, arrival)
     if isinstance(end, str):
-        return Verdict(described, arrival, end, outcome, said=str(found["reason"]))
+        return Verdict(described, arrival, end, outcome, remark=str(found["reason"]))
     if end.outcome != outcome:
-        return Verdict(described, arrival, end.outcome, outcome, said=f"{end.events} {end.time} {found['reason']}")
+        return Verdict(described, arrival, end.outcome, outcome, remark=f"{end.events} {end.time} {found['reason']}")
     expected = quantities(bodies, arrival, end)
     apart, sharpest = differences(bodies, arrival, found, expected), SAME
     if max(apart.values(), default=0.0) > SAME:
@@ -147,7 +122,7 @@ def computed(scene: Scene, bodies: Bodies, arrived: list[Arrival]) -> list[tuple
         if len(arrived) == 1:
             return [({"reason": np.array("")}, "OutOfTimeError")]
         return [one for each in arrived for one in computed(scene, bodies, [each])]
-    words = ["failed" if each < 0 else OUTCOMES[each] for each in data.outcome.values]
+    words = ["not completed" if each < 0 else OUTCOMES[each] for each in data.outcome.values]
     return [({name: data[name].values[k] for name in data.data_vars}, word) for k, word in enumerate(words)]
 
 
@@ -177,32 +152,8 @@ def compared(count: int, seed: int, of: int) -> Iterator[list[Verdict]]:
             yield list(pool.map(judged, *zip(*jobs, strict=True), chunksize=4))
 
 
-def told(verdict: Verdict) -> None:
-    """Print what deserves a look, with its scene."""
-    if (verdict.compared and verdict.agrees) or (verdict.found in OUTCOMES and not verdict.compared):
-        return
-    word = "DISAGREES" if verdict.compared else "left"
-    print(f"{word}: {verdict.expected}, found {verdict.found} {verdict.apart} limit {verdict.sharpest:.1e}")
-    print(f"  {verdict.said}\n  {json.dumps(verdict.tables)}\n  {verdict.arrival}", flush=True)
-
-
 def main(count: int = 1000, seed: int = 16, of: int = 20) -> int:
-    verdicts: list[Verdict] = []
-    for some in compared(count, seed, of):
-        for one in some:
-            told(one)
-        verdicts += some
-        print(f"{len(verdicts)} done", flush=True)
-    print(Counter((one.expected, one.found) for one in verdicts))
-    both = [one for one in verdicts if one.compared]
-    for name in ("restitution", "time", "normal", "velocities", "spins"):
-        apart = sorted((one.apart[name] for one in both if name in one.apart), reverse=True)
-        if apart:
-            beyond = sum(value > SAME for value in apart)
-            print(f"{name:12} {len(apart)} largest {apart[0]:.1e}, {beyond} beyond {SAME:g}")
-    disagree = sum(not one.agrees for one in both)
-    print(f"{len(both)} pairs compared, {len(verdicts) - len(both)} left out, {disagree} disagreements")
-    return bool(disagree)
+    return summary(compared(count, seed, of), ("restitution", "time", "normal", "velocities", "spins"))
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.settings import STEPS
 
 from ..helpers.exported_law import Law, written
-from .kernel import table
+from .measured.digits import of_rows
 
 FOLDER = Path(__file__).resolve().parents[2] / "docs" / "engineering" / "performance"
 PRESETS = ("granulation", "pendulum", "granulation-dry-bridge", "lactose-pvp")
@@ -189,7 +189,7 @@ def section(record: dict[str, Any]) -> str:
         f"{COMPARED} pairs each, relative to our kernel of the same variant. Beside a boundary: the outcome changes "
         f"within {BESIDE:g} of the speed."
     )
-    return "\n\n".join(["## The exported law", table(speeds), said, table(pairs), agreed])
+    return "\n\n".join(["## The exported law", of_rows(speeds), said, of_rows(pairs), agreed])
 
 
 def main() -> None:

@@ -32,7 +32,7 @@ from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.model.model import select_model
 from wetdoublet.solvers.settings import STEPS
 
-from .kernel import table
+from .measured.digits import of_rows
 from .measured.tasks import TASKS, Task
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -140,7 +140,7 @@ def page(rows: list[dict[str, Any]]) -> str:
             {"rtol": f"{rtol:.0e}", "compiled": order, "loss": f"{cost[order] - 1:.1%}", "error/rtol": max(errors)}
             | {str(each): f"{value:.2f}" for each, value in cost.items()}
         )
-    return f"{BEGIN}\n{table(lines)}\n{END}"
+    return f"{BEGIN}\n{of_rows(lines)}\n{END}"
 
 
 def main() -> None:

@@ -8,16 +8,13 @@ differences and every disagreement with its scene; status 1 where there is one. 
 compared with the reference's own change for a speed that differs by 1e-7: near a boundary no engine can do better.
 """
 
-# ruff: noqa: T201 -- a script that prints
 from __future__ import annotations
 
-import json
 import math
 import sys
-from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import groupby
 
 import numpy as np
@@ -28,31 +25,10 @@ from ..helpers.phases import Chatter, End
 from ..helpers.random_spinning import Model, impact_of, scenes, tables
 from ..helpers.spinning import FILM, PARTNER, SPIN, TURNING, Impact, Planar, U, collided
 from ..helpers.two_bodies import Bodies, bodies_of
+from .verdicts import FAILED, OUTCOMES, SAME, Verdict, summary
 
-RTOL, SAME, STEP = 1e-12, 1e-8, 1e-7
-OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
+RTOL, STEP = 1e-12, 1e-7
 RATES = ("final_spin", "final_spin_partner", "final_rotation_rate")
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """One comparison: `apart` by quantity, `sharpest` what an engine can be held to."""
-
-    tables: dict[str, object]
-    expected: str
-    found: str
-    apart: dict[str, float]
-    sharpest: float
-    said: str = ""
-
-    @property
-    def followed(self) -> bool:
-        """Whether the reference came to an end."""
-        return self.expected in OUTCOMES
-
-    @property
-    def agrees(self) -> bool:
-        return self.expected == self.found and max(self.apart.values(), default=0.0) <= self.sharpest
 
 
 def quantities(bodies: Bodies, impact: Impact, end: End) -> dict[str, float]:
@@ -89,14 +65,14 @@ def judged(model: Model, entries: dict[str, float], found: dict[str, float]) -> 
     """The reference's answer beside the one found."""
     scene = Scene.from_dict(tables(model, entries))
     bodies, impact = bodies_of(scene), impact_of(scene)
-    outcome = "failed" if found["outcome"] < 0 else OUTCOMES[int(found["outcome"])]
+    outcome = FAILED if found["outcome"] < 0 else OUTCOMES[int(found["outcome"])]
     described = tables(model, entries)
     try:
         end = collided(bodies, impact)
     except (Chatter, Unfinished) as error:
-        return Verdict(described, type(error).__name__, outcome, {}, SAME, str(error))
+        return Verdict(described, impact, type(error).__name__, outcome, remark=str(error))
     if end.outcome != outcome:
-        return Verdict(described, end.outcome, outcome, {}, SAME, f"{end.events} {end.time}")
+        return Verdict(described, impact, end.outcome, outcome, remark=f"{end.events} {end.time}")
     expected = quantities(bodies, impact, end)
     apart = differences(bodies, impact, expected, {name: found[name] for name in expected if name in found})
     sharpest = SAME
@@ -112,8 +88,8 @@ def judged(model: Model, entries: dict[str, float], found: dict[str, float]) -> 
     kinetic = Planar(bodies, impact).kinetic
     size = kinetic(end.start)
     gap = kinetic(end.state) + sum(end.state[FILM:]) + end.dry - size
-    said = "" if abs(gap) < 1e-9 * size else f"reference's ledger is open by {gap / size:.1e}"
-    return Verdict(described, end.outcome, outcome, apart, sharpest, said)
+    remark = "" if abs(gap) < 1e-9 * size else f"reference's ledger is open by {gap / size:.1e}"
+    return Verdict(described, impact, end.outcome, outcome, apart, sharpest, remark)
 
 
 def computed(model: Model, entries: list[dict[str, float]]) -> list[dict[str, float]]:
@@ -146,34 +122,8 @@ def compared(count: int, seed: int, of: int) -> Iterator[list[Verdict]]:
             yield list(pool.map(judged, [model] * len(entries), entries, found, chunksize=4))
 
 
-def told(verdict: Verdict) -> None:
-    """Print what deserves a look, with its scene."""
-    if verdict.agrees and not verdict.said and verdict.found != "failed":
-        return
-    if not verdict.followed and verdict.found != "failed" and verdict.expected != "Unfinished":
-        return
-    word = "left" if not verdict.followed else "agrees" if verdict.agrees else "DISAGREES"
-    print(f"{word}: {verdict.expected}, found {verdict.found} {verdict.apart} limit {verdict.sharpest:.1e}")
-    print(f"  {verdict.said}\n  {json.dumps(verdict.tables)}", flush=True)
-
-
 def main(count: int = 1000, seed: int = 16, of: int = 24) -> int:
-    verdicts: list[Verdict] = []
-    for some in compared(count, seed, of):
-        for one in some:
-            told(one)
-        verdicts += some
-        print(f"{len(verdicts)} done", flush=True)
-    print(Counter((one.expected, one.found) for one in verdicts))
-    for name in ("restitution", *RATES):
-        apart = sorted(one.apart[name] for one in verdicts if name in one.apart)
-        if apart:
-            beyond = sum(value > SAME for value in apart)
-            print(f"{name:22} {len(apart)} largest {apart[-1]:.1e}, {beyond} beyond {SAME:g}")
-    followed = [one for one in verdicts if one.followed]
-    disagree = sum(not one.agrees for one in followed)
-    print(f"{len(verdicts)} collisions, {len(verdicts) - len(followed)} not followed, {disagree} disagreements")
-    return bool(disagree)
+    return summary(compared(count, seed, of), ("restitution", *RATES))
 
 
 if __name__ == "__main__":

@@ -3,27 +3,22 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, collide
+from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.formatting.markdown import table
-from wetdoublet.solvers.verify.stress.answers import Answer, Impact
 
-from .measured import lines, needs
+from .measured import gradient_work, lines, near, sharp
 from .measured import reference as references
+from .measured.answers import Impact
 from .measured.cold import COMMANDS
+from .measured.gradient_task import Gradients
 from .measured.page import document
-from .measured.page.record import write
-from .measured.page.tables import equal_error, failures, surroundings
 from .measured.peers.engines import Engine, engines
-from .measured.reference import Reference, reference
-from .measured.run import MORE, bench, task_record
+from .measured.run import MORE, bench
 from .measured.tasks import TASKS, Task
-from .measured.work import work
 
 OURS = ("cvodes", "rosenbrock", "rosenbrock, compiled", "taylor", "taylor, kernel alone")
 TINY = Task("granulation", 3, (0.02, 0.5), 85.0)
@@ -85,16 +80,6 @@ def test_record_is_complete(record: dict[str, Any]) -> None:
     assert {tuple(cost["on"]) for cost in task["costs"]} == {(), ("ledger",), ("trajectory",), ("ledger", "trajectory")}
 
 
-@pytest.mark.slow
-def test_files_are_written(record: dict[str, Any], tmp_path: Path) -> None:
-    """JSON that reads back as the record, a row a line, and two pictures."""
-    data, *pictures = write(record, tmp_path / "new" / "folder")
-    assert json.loads(data.read_text()) == json.loads(json.dumps(record))
-    assert len(data.read_text().splitlines()) < 80
-    assert [file.name for file in pictures] == ["work.png", "cost.png"]
-    assert all(file.read_bytes()[:4] == b"\x89PNG" for file in pictures)
-
-
 def test_the_page_is_that_of_its_records() -> None:
     """docs/engineering/performance.md, and the figures of README.md, are what the committed records give."""
     folder = document.README.parent / "docs" / "engineering" / "performance"
@@ -106,67 +91,9 @@ def test_the_page_is_that_of_its_records() -> None:
     assert document.fronted(front, records[0]) == front
 
 
-@pytest.mark.slow
-def test_what_is_missing_is_named_on_the_page(record: dict[str, Any]) -> None:
-    """A peer that is not installed is in the list of what the benchmark was run with."""
-    assert "gone is not installed" in surroundings(record)
-
-
-def test_failures_and_wrong_outcomes_are_counted_and_told() -> None:
-    """An engine that fails on one collision and errs on another is measured, counted and named with both."""
-    task = Task("pendulum", 2, (1.0, 3.0), 80.0)
-    truth = [Reference(impact, "bounce", 0.5, False, 1e-13, {"DOP853": 0.5}) for impact in task.impacts()]
-
-    def prepare(*_: Any) -> Callable[[int], Answer]:
-        def one(k: int) -> Answer:
-            if k == 0:
-                raise ComputationError("gave up")
-            return Answer("stick", 0.0)
-
-        return one
-
-    (point,) = work(
-        task, truth, [Engine("odd", one=prepare), Engine("gone", one=prepare, missing="not here")], [1e-6], 2
-    )
-    assert point.summary()["failed"] == point.summary()["wrong"] == 1
-    assert point.errors() == [None, None]
-    entry = task_record(task, truth, [point])
-    assert "gave up" in failures(entry)
-    assert "stick instead of bounce" in failures(entry)
-    assert "odd" in equal_error(entry)
-
-
-def test_peers_that_are_absent_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nothing of the extra installed: every peer says so, and the reference is Rosenbrock's beside CVODES'."""
-    from .measured.peers import engines as listing
-
-    monkeypatch.setattr(listing, "find_spec", lambda _: None)
-    monkeypatch.setattr(references, "find_spec", lambda _: None)
-    missing = [each.name for each in engines() if "not installed" in each.missing]
-    assert missing == [
-        "heyoka, batch of 8", "heyoka, without callbacks", "sundae CVODE, numba", "diffrax Tsit5", "scipy LSODA",
-        "scipy Radau",
-    ]  # fmt: skip
-    found = reference(Scene.load("granulation"), Impact(0.05, 1.0))
-    assert list(found.computed) == ["rosenbrock", "cvodes"]
-
-
 def test_tables_line_up() -> None:
     """A Markdown table whose columns are as wide as their widest cell."""
     assert table(["a", "long"], [["bcd", "1"]]) == "| a   | long |\n| --- | ---: |\n| bcd |    1 |"
-
-
-def test_central_differences_agree_with_a_chord() -> None:
-    """Head-on, far above St*, e_n is nearly linear in e_dry: its derivative is the slope of a chord of 2 %."""
-    scene = Scene.load("granulation")
-    slope = needs.differences(["particles.dry_restitution"], stokes=3.0, angle=0.0)["particles.dry_restitution"]
-    ends = [
-        collide(
-            scene.with_entries({"particles.dry_restitution": each}), stokes=3.0, angle=0.0, rtol=1e-12, ledger=False
-        ).restitution
-        for each in (0.98, 1.0)
-    ]
-    assert slope == pytest.approx((ends[1] - ends[0]) / 0.02, rel=1e-3)
 
 
 @pytest.mark.slow
@@ -220,3 +147,45 @@ def test_variational_equations_of_heyoka_are_our_derivatives(task: Task) -> None
     assert {met for met in batch.criteria if met} == {"glass"}
     assert None in batch.criteria  # an escape by rotation alone
     assert asked.errors(batch.gradient).max() < 1e-8
+
+
+@pytest.fixture(scope="module")
+def asked() -> Gradients:
+    """Two collisions, three parameters."""
+    names = ("liquid.viscosity", "bridge.contact_angle", "impact.speed")
+    return Gradients(Scene.load("granulation"), (Impact(0.05, 1.3), Impact(0.3, 0.9)), names)
+
+
+def test_gradients_by_differences_are_the_derivatives(asked: Gradients) -> None:
+    """Two collisions a parameter agree with forward derivatives to the step's error, at the edge of a range as well."""
+    (method,) = (each for each in gradient_work.methods() if "differences" in each.name)
+    if method.missing:
+        pytest.skip(method.missing)
+    found = method.prepare(asked, 2, 1e-5)()
+    assert found.shape == (4, 3)
+    assert found[:2] == pytest.approx(found[2:], abs=0)
+    assert asked.errors(found[:2]).max() < 1e-5
+
+
+def test_the_kernel_is_as_exact_as_its_conditioning_allows() -> None:
+    """At rtol 1e-13, e_n differs from 80-bit numbers by less than 1e-13 of it, far from every boundary, on strings."""
+    pytest.importorskip("heyoka")
+    scene = Scene.load("pendulum")
+    task = Gradients(scene, (Impact(2.5, 0.5),), ("impact.speed",))
+    (exact,) = sharp.long_double(scene, task.numbers, 1e-18)
+    ours = collide(scene, stokes=2.5, angle=0.5, rtol=1e-13, engine="taylor", ledger=False)
+    assert ours.engine == "taylor"
+    assert abs(ours.restitution / exact - 1) < 1e-13
+
+
+def test_the_separatrix_is_the_traced_one() -> None:
+    """The Stokes numbers that points are set beside agree with the traced boundary."""
+    from wetdoublet.solvers import boundary
+
+    degrees = 70.0
+    traced = boundary("granulation", angle=np.radians(degrees), stokes=(0.01, 0.03)).changes[0][0]
+    assert traced.before == "stick"
+    assert near.SEPARATRIX[degrees] == pytest.approx(traced.stokes, rel=1e-8)
+    sides = near.beside(1e-3)
+    assert len(sides) == 2 * len(near.SEPARATRIX)
+    assert sum(each.sticks for each in sides) == len(near.SEPARATRIX)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from .newton import Bodies
+from .two_bodies import Bodies
 
 # By its defaults no event happens; a test chooses by [custom] which one does.
 EVENTS = '''"""A bridge that snaps when it is stretched too fast, or lets go and the collision goes on; a brake."""
@@ -49,14 +49,16 @@ def integrated(
         beyond: go on without the bridge's force.
     """
     a, m, x0 = bodies.a, bodies.m, bodies.film_thickness
+    own, cross, _ = bodies.friction_matrix
 
     def rates(pull: float) -> Callable[[float, np.ndarray], list[float]]:
         def of(_: float, y: np.ndarray) -> list[float]:
             x, u, omega, xi = y
-            r, (first, second) = 4 * a + x, bodies.torques(x, omega, (xi, xi))
-            along = bodies.along(x, u) - (1 - pull) * 4 * math.pi * a * bodies.surface_tension
-            turned = (-(first + second) / r / m - 2 * u * omega) / r
-            return [u, -along / m + r * omega**2, turned, first / (0.4 * 2 * m * 4 * a**2)]
+            r = 4 * a + x
+            torque = max(math.log(2 * a / x), 0.0) * r / (4 * a) * (own + cross) * (omega - xi)
+            along = (bodies.drag(x) * u if x < x0 else 0.0) + pull * bodies.pull(x)
+            turned = (-2 * torque / r / m - 2 * u * omega) / r
+            return [u, -along / m + r * omega**2, turned, torque / bodies.inertias[0]]
 
         return of
 

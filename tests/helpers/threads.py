@@ -153,8 +153,8 @@ LONG: dict[str, Callable[[], Any]] = {
     ),
     "band": lambda: solvers.band(GRANULATION, {"liquid.viscosity": "5 %"}, "impact.stokes", [0.03, 0.2], samples=8),
     "budget": lambda: restitution_budget(GRANULATION, stokes=[0.05, 0.1], angle=[0.5, 0.9]),
-    "conserved": lambda: [str(one) for one in conserved("", collisions(Scene.load(GRANULATION), (0.9,)))],
-    "integrated back": lambda: [str(one) for one in backward("", collisions(Scene.load(GRANULATION), (0.9,)))],
+    "conserved": lambda: [str(one) for one in conserved(collisions(Scene.load(GRANULATION), (0.9,)))],
+    "integrated back": lambda: [str(one) for one in backward(collisions(Scene.load(GRANULATION), (0.9,)))],
 }
 
 

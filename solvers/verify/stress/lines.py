@@ -14,7 +14,7 @@ from ...errors import InputError
 from ...many.collide_many import collide_many
 from ...scene.scene import Scene
 from ...scene.schema import BRIDGE_LAWS, FILM_LAWS
-from .verdict import FAST, RTOL, Case, Found, Issue, Verdict, physical_reason
+from .verdict import FAST, RTOL, Case, Issue, Result, Verdict, physical_reason
 
 SPAN = (2e-3, 30.0)  # range of the Stokes number
 SAMPLES = 700  # samples of a line
@@ -122,7 +122,7 @@ def judge_lines(case: Case) -> Verdict:
             scans.append(("rosenbrock", np.concatenate([np.geomspace(*SPAN, _SOME), beside])))
         for engine, stokes in scans:
             issues += _denied(case.scene, angle, at, outcomes, engine, np.clip(stokes, *SPAN))
-    return Verdict(case, {"boundary": Found(cpu=cpu)}, tuple(issues), None, None)
+    return Verdict(case, {"boundary": Result(cpu=cpu)}, tuple(issues), None, None)
 
 
 def _apart(at: np.ndarray) -> bool:

@@ -23,25 +23,25 @@ _COLOURS = {"taylor": "#E69F00", "rosenbrock": "#D55E00", "cvodes": "#0072B2", "
 _MARKERS = dict(zip(OUTCOMES, ("o", "^", "s"), strict=True))
 
 
-def draw(found: Stress, folder: Path) -> list[Path]:
+def draw(stress: Stress, folder: Path) -> list[Path]:
     """Draw stress-map.png and stress-near.png; returns their paths."""
     files = []
     for name, make in (("stress-map.png", over_impacts), ("stress-near.png", near)):
         files.append(folder / name)
-        save(make(found), files[-1], dpi=160)
+        save(make(stress), files[-1], dpi=160)
     return files
 
 
 @picture
-def over_impacts(found: Stress) -> Figure:
+def over_impacts(stress: Stress) -> Figure:
     """Draw the difference of e_n between engines and the cost of the fast one, a point for each sampled scene."""
     figure = Figure(figsize=(10.4, 5.0), layout="constrained")
     left, right = figure.subplots(1, 2, sharex=True, sharey=True, gridspec_kw={"wspace": 0.06})
     left.set_title("(a) do the engines agree?", loc="left")
     right.set_title("(b) what does a collision cost?", loc="left")
-    sampled = [one for one in found.verdicts if one.case.kind == "sampled"]
+    sampled = [one for one in stress.verdicts if one.case.kind == "sampled"]
     error = [max(one.error or 0.0, 1e-16) for one in sampled]
-    cost = [1e3 * one.found[FAST].cpu if FAST in one.found else np.nan for one in sampled]
+    cost = [1e3 * one.results[FAST].cpu if FAST in one.results else np.nan for one in sampled]
     for axes, values, label, ends in (
         (left, error, "largest difference in $e_n$ between engines", (1e-16, 1e-6)),
         (right, cost, f"CPU time by {FAST} (ms)", _ends(cost)),
@@ -49,7 +49,7 @@ def over_impacts(found: Stress) -> Figure:
         norm = LogNorm(*ends, clip=True)
         shown: Any = None
         for outcome, marker in _MARKERS.items():
-            here = [k for k, one in enumerate(sampled) if any(each.outcome == outcome for each in one.found.values())]
+            here = [k for k, one in enumerate(sampled) if any(each.outcome == outcome for each in one.results.values())]
             here.sort(key=lambda k: values[k])  # the worst on top
             style: Any = {"norm": norm, "cmap": "viridis_r", "linewidths": 0.3, "edgecolors": "#606060"}
             coloured = [values[k] for k in here]
@@ -59,7 +59,7 @@ def over_impacts(found: Stress) -> Figure:
         bar = figure.colorbar(shown, ax=axes, label=label, pad=0.01, extend="both")
         if ends[1] < 1e3 * ends[0]:  # powers of ten alone would be too few ticks
             plain(bar.ax.yaxis)
-        _marked(axes, found)
+        _marked(axes, stress)
         axes.set(xscale="log", xlabel="Stokes number", xlim=(5e-7, 2e4), ylim=(-2, 92))
         axes.set_yticks(range(0, 91, 15))
     left.set_ylabel("impact angle (deg)")
@@ -88,10 +88,10 @@ def _ends(values: list[float]) -> tuple[float, float]:
     return float(low), float(max(high, 1.01 * low))
 
 
-def _marked(axes: Axes, found: Stress) -> None:
+def _marked(axes: Axes, stress: Stress) -> None:
     """Draw failures and unexplained disagreements as crosses on top."""
-    failed = {id(one): one for one, issue in found.issues("failure") if one.case.kind == "sampled"}
-    strange = {id(one): one for one, _ in found.unexplained if one.case.kind == "sampled"}
+    failed = {id(one): one for one, issue in stress.issues("failure") if one.case.kind == "sampled"}
+    strange = {id(one): one for one, _ in stress.unexplained if one.case.kind == "sampled"}
     for which, colour, marker, label in ((failed, "#D55E00", "x", "failure"), (strange, "#D00000", "+", "unexplained")):
         scenes = [one.case.scene for one in which.values()]
         if scenes:
@@ -101,13 +101,13 @@ def _marked(axes: Axes, found: Stress) -> None:
 
 
 @picture
-def near(found: Stress) -> Figure:
+def near(stress: Stress) -> Figure:
     """Draw CPU time of every engine against the relative distance from an escape: medians, and all points faintly."""
     figure = Figure(figsize=(6.4, 4.0), layout="constrained")
     axes = figure.add_subplot()
-    beside = [one for one in found.verdicts if one.case.distance and one.case.change != GRAZE]
-    for name in dict.fromkeys(name for one in beside for name in one.found):
-        points = [(one.case.distance, 1e3 * one.found[name].cpu) for one in beside if name in one.found]
+    beside = [one for one in stress.verdicts if one.case.distance and one.case.change != GRAZE]
+    for name in dict.fromkeys(name for one in beside for name in one.results):
+        points = [(one.case.distance, 1e3 * one.results[name].cpu) for one in beside if name in one.results]
         at: Any = sorted({distance for distance, _ in points}, reverse=True)
         middle = [float(np.median([cpu for distance, cpu in points if distance == each])) for each in at]
         colour = _COLOURS.get(name, "#202020")

@@ -1,173 +1,209 @@
-"""Report of the stress test: tables in Markdown, the worst cases as scene files, two figures."""
+"""Report of the stress test: a record, tables in Markdown, the worst cases as scene files, two figures."""
 
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from ....generated.automaton import OUTCOMES
 from ...boundaries.changes import GRAZE
 from ...formatting.markdown import ms, table
 from ...host import files
-from .run import DISAGREEMENTS, WORST, Stress, record
-from .verdict import Issue, Verdict
+from .judge import SHARE, runs
+from .run import Stress
+from .sample import SEED
+from .verdict import DISAGREEMENTS, FAST, RTOL, Issue, Result, Verdict
+
+WORST = 20  # cases written as scene files, of each sort
 
 
-def write(found: Stress, folder: Path) -> list[Path]:
+def write(stress: Stress, folder: Path) -> list[Path]:
     """Write stress.json, stress.md, the figures and the worst cases as scene files; returns their paths."""
     from .plots import draw
 
     folder.mkdir(parents=True, exist_ok=True)
-    data, text = folder / "stress.json", folder / "stress.md"
-    kept = record(found) | {"tables": tables(found)}
-    files.write(data, json.dumps(kept, indent=1, allow_nan=False) + "\n")
-    scenes = worst(found, folder / "worst")
-    files.write(text, report(found, scenes))
-    return [data, text, *draw(found, folder), *scenes]
+    data, text, named = folder / "stress.json", folder / "stress.md", tables(stress)
+    files.write(data, json.dumps(record(stress) | {"tables": named}, indent=1, allow_nan=False) + "\n")
+    scenes = worst(stress, folder / "worst")
+    files.write(text, report(stress, named, scenes))
+    return [data, text, *draw(stress, folder), *scenes]
 
 
-def tables(found: Stress) -> dict[str, str]:
-    """The report's tables by name, also used for documentation pages."""
+def record(stress: Stress) -> dict[str, Any]:
+    """Content of `stress.json`."""
+    cases = [_case(one) for one in stress.verdicts]
     return {
-        "disagreements": _listed(found, DISAGREEMENTS),
-        "failures": _failures(found),
-        "engines": _engines(found),
-        "ledgers": _ledgers(found),
-        "near": _near(found),
-        "rate": rate(found),
+        "environment": stress.where,
+        "settings": {"seed": SEED, "rtol": RTOL, "share": SHARE, "engines": list(runs()), "fast": FAST},
+        "summary": stress.summary(),
+        "outside_of_ranges": dict(stress.remarks),
+        "outcomes": {name: sum(case["outcome"] == name for case in cases) for name in OUTCOMES},
+        "cases": cases,
+        "wall": stress.wall,
     }
 
 
-def worst(found: Stress, folder: Path) -> list[Path]:
+def _case(one: Verdict) -> dict[str, Any]:
+    case, results = one.case, one.results.items()
+    shown = ("outcome", "restitution", "certified", "failure", "cpu")
+    return {
+        **{name: getattr(case, name) for name in ("name", "kind", "distance", "change")},
+        "scene": case.scene.to_dict() if one.issues else None,  # the others can be reproduced from seed and number
+        "stokes": case.scene.stokes,
+        "angle": case.scene.angle,
+        "angles": list(case.angles),
+        "outcome": next((each.outcome for _, each in results if each.outcome), ""),
+        "error": one.error,
+        "conditioning": one.conditioning if one.conditioning != math.inf else None,
+        "found": {name: {key: getattr(each, key) for key in shown} | each.more for name, each in results},
+        "issues": [asdict(issue) for issue in one.issues],
+    }
+
+
+def tables(stress: Stress) -> dict[str, str]:
+    """The report's tables by name, also used for documentation pages."""
+    return {
+        "disagreements": _disagreements(stress),
+        "failures": _failures(stress),
+        "engines": _engines(stress),
+        "ledgers": _ledgers(stress),
+        "near": _near(stress),
+        "rate": _rate(stress),
+    }
+
+
+def worst(stress: Stress, folder: Path) -> list[Path]:
     """Scene files of all unexplained disagreements, then failures, then the largest errors and costs."""
-    picked: dict[str, tuple[Verdict, str]] = {}
-
-    def take(sort: str, cases: list[tuple[Verdict, str]]) -> None:
-        for k, (one, why) in enumerate(cases[:WORST]):
-            picked.setdefault(one.case.name, (one, f"{sort}-{k + 1:02d}\n{why}"))
-
-    take("disagreement", [(one, f"{issue.kind}: {issue.said}") for one, issue in found.unexplained])
-    failed = [(one, issue) for one, issue in found.issues("failure")]
-    failed.sort(key=lambda pair: bool(pair[1].explained))
-    take("failure", [(one, f"{', '.join(issue.between)}: {issue.said}") for one, issue in failed])
-    by_error = sorted((one for one in found.verdicts if one.error), key=lambda one: -(one.error or 0.0))
-    take("error", [(one, f"e_n differs by {one.error:.2e} between engines") for one in by_error[:5]])
-    by_cost = sorted(found.verdicts, key=lambda one: -max(each.cpu for each in one.found.values()))
-    take("cost", [(one, f"{_dearest(one)}") for one in by_cost[:5]])
+    failed = sorted(stress.issues("failure"), key=lambda pair: bool(pair[1].explained))
+    erring = sorted((one for one in stress.verdicts if one.error), key=lambda one: -(one.error or 0.0))
+    dearest = sorted(
+        ((one, max(one.results.items(), key=lambda each: each[1].cpu)) for one in stress.verdicts),
+        key=lambda pair: -pair[1][1].cpu,
+    )
+    sorts: dict[str, list[tuple[Verdict, str]]] = {
+        "disagreement": [(one, f"{issue.kind}: {issue.said}") for one, issue in stress.unexplained],
+        "failure": [(one, f"{', '.join(issue.between)}: {issue.said}") for one, issue in failed],
+        "error": [(one, f"e_n differs by {one.error:.2e} between engines") for one in erring[:5]],
+        "cost": [(one, f"{name} takes {each.cpu * 1e3:.0f} ms") for one, (name, each) in dearest[:5]],
+    }
     for earlier in folder.glob("*-[0-9][0-9].toml"):
         earlier.unlink()
-    scenes = []
-    for one, why in picked.values():
-        name, said = why.split("\n", 1)
-        folder.mkdir(parents=True, exist_ok=True)
-        scenes.append(folder / f"{name}.toml")
-        header = "".join(f"# {line}\n" for line in (one.case.name, re.sub(r"[^\x20-\x7e]", "?", said)))
-        files.write(scenes[-1], header + one.case.scene.to_toml())
-    return scenes
+    scenes: dict[str, Path] = {}
+    for sort, cases in sorts.items():
+        for k, (one, why) in enumerate(cases[:WORST]):
+            if one.case.name not in scenes:
+                folder.mkdir(parents=True, exist_ok=True)
+                scenes[one.case.name] = file = folder / f"{sort}-{k + 1:02d}.toml"
+                header = "".join(f"# {line}\n" for line in (one.case.name, re.sub(r"[^\x20-\x7e]", "?", why)))
+                files.write(file, header + one.case.scene.to_toml())
+    return list(scenes.values())
 
 
-def _dearest(one: Verdict) -> str:
-    name = max(one.found, key=lambda each: one.found[each].cpu)
-    return f"{name} takes {one.found[name].cpu * 1e3:.0f} ms"
-
-
-def report(found: Stress, scenes: list[Path]) -> str:
+def report(stress: Stress, named: dict[str, str], scenes: list[Path]) -> str:
     """Text of `stress.md`."""
-    parts = ["# wetdoublet verify --stress", f"**{found.summary()}**", rate(found), _surroundings(found)]
-    parts += ["## Disagreements", _listed(found, DISAGREEMENTS)]
-    parts += ["## Failures", _failures(found)]
-    parts += ["## Engines", _engines(found), _ledgers(found)]
-    if found.remarks:
-        rows = [[said, str(count)] for said, count in sorted(found.remarks.items())]
+    surroundings = "\n".join(f"* {name}: {value}" for name, value in stress.where.items() if value is not None)
+    parts = ["# wetdoublet verify --stress", f"**{stress.summary()}**", named["rate"], surroundings]
+    parts += ["## Disagreements", named["disagreements"]]
+    parts += ["## Failures", named["failures"]]
+    parts += ["## Engines", named["engines"], named["ledgers"]]
+    if stress.remarks:
+        rows = [[text, str(count)] for text, count in sorted(stress.remarks.items())]
         parts += ["## Outside the range of a law", table(["entry and law", "scenes"], rows)]
     parts += ["## Error and cost over Stokes number and angle", "![map](stress-map.png)"]
-    parts += ["## Near the separatrix", "![near the separatrix](stress-near.png)", _near(found)]
+    parts += ["## Near the separatrix", "![near the separatrix](stress-near.png)", named["near"]]
     if scenes:
         parts += ["## The worst, as scene files", "\n".join(f"* `worst/{file.name}`" for file in scenes)]
     return "\n\n".join(parts) + "\n"
 
 
-def rate(found: Stress) -> str:
+def _rate(stress: Stress) -> str:
     """Run time, and estimated run time of the default number of scenes."""
-    cores, each = found.where["cores"], found.wall / max(len(found.verdicts), 1)
+    cores, each = stress.where["cores"], stress.wall / max(len(stress.verdicts), 1)
     return (
         f"{1 / each:.1f} scenes a second on {cores} cores, start-up and compilation included: "
         f"20,000 scenes take some {20_000 * each / 60:.0f} minutes at that rate."
     )
 
 
-def _surroundings(found: Stress) -> str:
-    return "\n".join(f"* {name}: {value}" for name, value in found.where.items() if value is not None)
+def _counted(head: Sequence[str], keys: Iterable[tuple[str, ...]], none: str) -> str:
+    """A table of how often each row occurs, the most frequent first."""
+    rows = [[*key, str(count)] for key, count in Counter(keys).most_common()]
+    return table([*head, "count"], rows) if rows else none
 
 
-def _listed(found: Stress, kinds: tuple[str, ...]) -> str:
-    issues = found.issues(*kinds)
-    if not issues:
-        return "None."
-    counted = Counter((issue.kind, issue.explained or "**unexplained**") for _, issue in issues)
-    rows = [[kind, why, str(count)] for (kind, why), count in counted.most_common()]
+def _disagreements(stress: Stress) -> str:
+    issues = stress.issues(*DISAGREEMENTS)
+    keys = ((issue.kind, issue.explained or "**unexplained**") for _, issue in issues)
     lines = [f"* {one.case.name}: {issue.said}" for one, issue in issues if not issue.explained]
-    return "\n\n".join([table(["kind", "explanation", "count"], rows), *(["\n".join(lines)] if lines else [])])
+    counted = _counted(["kind", "explanation"], keys, "None.")
+    return "\n\n".join([counted, *(["\n".join(lines)] if lines else [])])
 
 
-def _kind(issue: Issue) -> str:
-    """The text of a failure without its numbers, to group failures."""
-    words = re.split(r" in phase | at t = |; state|: the collision", issue.said)[0]
-    return re.sub(r"[-+]?\d[\d.e+-]*", "#", words)
+def _failures(stress: Stress) -> str:
+    def key(issue: Issue) -> tuple[str, str, str]:
+        """Engines, message without its numbers, and explanation."""
+        words = re.split(r" in phase | at t = |; state|: the collision", issue.said)[0]
+        unexplained = "unexplained" if issue.kind == "failure" else "not examined: another code"
+        return ", ".join(issue.between), re.sub(r"[-+]?\d[\d.e+-]*", "#", words), issue.explained or unexplained
+
+    keys = (key(issue) for _, issue in stress.issues("failure", "peer"))
+    return _counted(["engine", "what it says", "explanation"], keys, "None.")
 
 
-def _failures(found: Stress) -> str:
+def _by_engine(verdicts: Iterable[Verdict]) -> dict[str, list[Result]]:
+    results: dict[str, list[Result]] = {}
+    for one in verdicts:
+        for name, each in one.results.items():
+            results.setdefault(name, []).append(each)
+    return results
+
+
+def _engines(stress: Stress) -> str:
     rows = []
-    issues = found.issues("failure", "peer")
-    counted = Counter((", ".join(issue.between), _kind(issue), issue.kind, issue.explained) for _, issue in issues)
-    for (engine, kind, whose, why), count in counted.most_common():
-        rows.append(
-            [engine, kind, why or ("unexplained" if whose == "failure" else "not examined: another code"), str(count)]
-        )
-    return table(["engine", "what it says", "explanation", "count"], rows) if rows else "None."
-
-
-def _engines(found: Stress) -> str:
-    rows = []
-    for name in dict.fromkeys(name for one in found.verdicts for name in one.found):
-        cpu = np.array([one.found[name].cpu for one in found.verdicts if name in one.found])
-        done = [one.found[name] for one in found.verdicts if name in one.found and not one.found[name].failure]
+    for name, results in _by_engine(stress.verdicts).items():
+        cpu, done = [each.cpu for each in results], [each for each in results if not each.failure]
         proved = sum(each.certified for each in done)
-        rows.append([name, str(len(done)), str(proved), ms(float(np.median(cpu))), ms(float(np.max(cpu)))])
-    return table(["engine", "completed", "proved sticks", "CPU ms: median", "largest"], rows)
+        rows.append([name, str(len(done)), str(proved), ms(float(np.median(cpu))), ms(max(cpu))])
+    note = (
+        "CPU times of several processes are without the clock that CasADi reads around every evaluation of the rates."
+    )
+    return table(["engine", "completed", "proved sticks", "CPU ms: median", "largest"], rows) + f"\n\n{note}"
 
 
-def _ledgers(found: Stress) -> str:
-    lines = []
-    for word, said in (("residual", "energy residual over the largest term"), ("drift", "drift of L (midgap arm)")):
-        values = [
-            each.more[word]
-            for one in found.verdicts
-            for each in one.found.values()
-            if word in each.more and (word == "residual" or one.case.scene.model.arm == "midgap")
-        ]
-        if values:
-            lines.append(f"* {said}: median {np.median(values):.1e}, largest {max(values):.1e}")
-    errors = [one.error for one in found.verdicts if one.error is not None]
-    if errors:
-        lines.append(f"* difference in e_n between engines: median {np.median(errors):.1e}, largest {max(errors):.1e}")
-    return "\n".join(lines)
+def _ledgers(stress: Stress) -> str:
+    pairs = [(one, each.more) for one in stress.verdicts for each in one.results.values()]
+    figures = {
+        "energy residual over the largest term": [more["residual"] for _, more in pairs if "residual" in more],
+        "drift of L (midgap arm)": [
+            more["drift"] for one, more in pairs if "drift" in more and one.case.scene.model.arm == "midgap"
+        ],
+        "difference in e_n between engines": [one.error for one in stress.verdicts if one.error is not None],
+    }
+    return "\n".join(
+        f"* {name}: median {np.median(values):.1e}, largest {max(values):.1e}"
+        for name, values in figures.items()
+        if values
+    )
 
 
-def _near(found: Stress) -> str:
-    beside = [one for one in found.verdicts if one.case.distance is not None and one.case.change != GRAZE]
-    distances = sorted({one.case.distance for one in beside if one.case.distance}, reverse=True)
-    engines = list(dict.fromkeys(name for one in beside for name in one.found))
-    rows = []
-    for distance in distances:
-        here = [one for one in beside if one.case.distance == distance]
+def _near(stress: Stress) -> str:
+    beside = [one for one in stress.verdicts if one.case.distance and one.case.change != GRAZE]
+    engines, rows = list(_by_engine(beside)), []
+    for distance in sorted({one.case.distance for one in beside}, reverse=True):  # type: ignore[type-var]  # no None
+        here = _by_engine(one for one in beside if one.case.distance == distance)
         cells = []
         for name in engines:
-            times = [one.found[name].cpu for one in here if name in one.found]
-            failed = sum(bool(one.found[name].failure) for one in here if name in one.found)
-            cells.append((ms(float(np.median(times))) if times else "-") + (f" ({failed} failed)" if failed else ""))
+            results = here.get(name, [])
+            failed = sum(bool(each.failure) for each in results)
+            median = ms(float(np.median([each.cpu for each in results]))) if results else "-"
+            cells.append(median + f" ({failed} failed)" * bool(failed))
         rows.append([f"{distance:.0e}", *cells])
     return table(["distance", *(f"{name}, median CPU ms" for name in engines)], rows) if rows else "No points."

@@ -2,30 +2,33 @@
 
 from __future__ import annotations
 
-import threading
+import os
+import re
+import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any
 
-from ....generated.automaton import OUTCOMES
-from ...engines.taylor.build import Variant, kernel
+from ...engines.taylor.build import Variant, compile_all
 from ...engines.taylor.call import variant
-from ...host.compiler import stop
+from ...host.compiled import FLAGS
+from ...host.compiler import CannotCompile, compiler, key, library
 from ...host.cores import usable_cores
 from ...host.environment import environment
+from ...host.user_cache import kept, room
 from ...host.workers import undisturbed, workers
 from ...model.model import select_model
-from .judge import SHARE, fast_kernel, judge, runs
+from .judge import fast_kernel, judge
 from .sample import SEED, sample
-from .verdict import FAST, RTOL, Case, Issue, Verdict
+from .verdict import DISAGREEMENTS, RTOL, Case, Issue, Verdict
 
-DISAGREEMENTS = ("outcome", "restitution", "spin", "side", "ledger", "drift", "certificate", "boundary")
-_BLOCK = 12  # cases in a block for a worker
+_LAST, _SMALL = 0.2, 4  # share of the cases that comes last, in blocks so small that the workers end together
+_COSTS = {"sampled": 1, "lines": 3, "beside": 3}  # of a case, about
+_CLOCK = "#include <time.h>\nclock_t clock(void) { return 0; }\n"
 _ALONE = 40  # fewest cases for which starting workers pays
-WORST = 20  # cases written as scene files, of each sort
 
 Tell = Callable[[int, int], None]
 
@@ -92,8 +95,8 @@ def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None
     cases = _prepared(count, seed)
     verdicts: dict[int, Verdict] = {}
     try:
-        for block, found in _judged(cases):
-            verdicts.update(zip(block, found, strict=True))
+        for block, judged in _judged(cases):
+            verdicts.update(zip(block, judged, strict=True))
             tell(len(verdicts), count)
     except KeyboardInterrupt:
         if not verdicts:
@@ -103,23 +106,9 @@ def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None
 
 
 def _prepared(count: int, seed: int) -> list[Case]:
-    """The sample, with its kernels compiled once each while boundaries are traced."""
-    threads: list[int] = []  # they suffice, as compilers are separate processes
-    compiling = ThreadPoolExecutor(usable_cores(), initializer=lambda: threads.append(threading.get_ident()))
-
-    def compile_for(cases: Sequence[Case]) -> None:
-        if FAST == "taylor":
-            for wanted in dict.fromkeys(_kernel_of(case) for case in cases):
-                compiling.submit(kernel, wanted)
-
-    try:
-        cases = sample(count, seed, compile_for)
-        compile_for(cases)
-    except BaseException:
-        compiling.shutdown(wait=False, cancel_futures=True)
-        stop(threads)
-        raise
-    compiling.shutdown()
+    """The sample, with its kernels compiled once each."""
+    cases = sample(count, seed)
+    compile_all({_kernel_of(case) for case in cases})
     return cases
 
 
@@ -141,62 +130,44 @@ def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
     from concurrent.futures import as_completed
 
     alone = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # numpy's threads would compete with the workers
-    with workers(cores, alone) as pool:
+    with _without_clock() as preloaded, workers(cores, alone | preloaded) as pool:
         with undisturbed():
             waiting = {pool.submit(_block, [cases[k] for k in block]): block for block in blocks}
         for future in as_completed(waiting):
             yield waiting.pop(future), future.result()
 
 
+@contextmanager
+def _without_clock() -> Iterator[dict[str, str]]:
+    """Environment of processes in which C's `clock` returns 0 at once; empty where that cannot be had.
+
+    CasADi reads this clock before and after every evaluation of an integrator's rates, for statistics that are not used
+    here. It is a system call, which takes as long as the rates. Times in the report are read from other clocks.
+    """
+    with ExitStack() as stack:
+        variables = {}
+        with suppress(CannotCompile, OSError):
+            if sys.platform == "linux" and compiler() is not None:
+                content = kept(f"clock-{key(_CLOCK, FLAGS)}.so", lambda: library(_CLOCK, FLAGS))
+                file = stack.enter_context(room()) / "clock.so"
+                file.write_bytes(content)
+                if not re.search(r"[\s:]", str(file)):  # these separate libraries
+                    variables["LD_PRELOAD"] = f"{file} {os.environ.get('LD_PRELOAD', '')}".strip()
+        yield variables
+
+
 def _blocks(cases: Sequence[Case]) -> list[list[int]]:
-    """Blocks of cases; those with one structure and laws go to one worker, which builds and compiles for them once."""
+    """Blocks of cases, the most expensive first; those of one model go to one worker, which builds for them once."""
     alike: dict[Any, list[int]] = {}
     for k, case in enumerate(cases):
-        alike.setdefault(fast_kernel(case.scene), []).append(k)
-    return [group[k : k + _BLOCK] for group in alike.values() for k in range(0, len(group), _BLOCK)]
+        alike.setdefault(_kernel_of(case), []).append(k)
+    left, blocks = len(cases), []
+    for group in sorted(alike.values(), key=lambda group: -sum(_COSTS[cases[k].kind] for k in group)):
+        size = len(group) if left > _LAST * len(cases) else _SMALL
+        blocks += [group[k : k + size] for k in range(0, len(group), size)]
+        left -= len(group)
+    return blocks
 
 
 def _block(cases: Sequence[Case]) -> list[Verdict]:
     return [judge(case) for case in cases]
-
-
-def record(found: Stress) -> dict[str, Any]:
-    """Content of `stress.json`."""
-    return {
-        "environment": found.where,
-        "settings": {"seed": SEED, "rtol": RTOL, "share": SHARE, "engines": list(runs()), "fast": FAST},
-        "summary": found.summary(),
-        "outside_of_ranges": dict(found.remarks),
-        "outcomes": {name: sum(_outcome(one) == name for one in found.verdicts) for name in OUTCOMES},
-        "cases": [_case(one) for one in found.verdicts],
-        "wall": found.wall,
-    }
-
-
-def _outcome(one: Verdict) -> str:
-    return next((each.outcome for each in one.found.values() if each.outcome), "")
-
-
-def _case(one: Verdict) -> dict[str, Any]:
-    return {
-        "name": one.case.name,
-        "kind": one.case.kind,
-        "distance": one.case.distance,
-        "change": one.case.change,
-        "scene": one.case.scene.to_dict() if one.issues else None,  # the others can be reproduced from seed and number
-        "stokes": one.case.scene.stokes,
-        "angle": one.case.scene.angle,
-        "angles": list(one.case.angles),
-        "outcome": _outcome(one),
-        "error": one.error,
-        "conditioning": one.conditioning if one.conditioning != float("inf") else None,
-        "found": {
-            name: {"outcome": each.outcome, "restitution": each.restitution, "certified": each.certified,
-                   "failure": each.failure, "cpu": each.cpu, **each.more}
-            for name, each in one.found.items()
-        },
-        "issues": [
-            {"kind": issue.kind, "between": list(issue.between), "said": issue.said, "explained": issue.explained}
-            for issue in one.issues
-        ],
-    }  # fmt: skip

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from itertools import islice
+from collections.abc import Iterator, Sequence
+from itertools import islice, product
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from ...errors import InputError
 from ...scene.entry_rules import OWN_RUPTURE
 from ...scene.scene import Scene
 from ...scene.schema import BRIDGE_LAWS, FILM_LAWS
+from . import lines
 from .verdict import Case
 
 SEED = 20121
@@ -27,24 +28,12 @@ _NUMBERS, _CHOICES = 26, 11  # dimensions of a point, and of a model
 _FASTEST = 5.0  # surface speed of a spin, over v0
 
 
-def sample(count: int, seed: int = SEED, drawn: Callable[[list[Case]], None] = lambda _cases: None) -> list[Case]:
-    """`count` cases, deterministic for a count and seed. InputError without scipy, which provides the sequence.
-
-    Arguments:
-        drawn: called with the random cases before boundaries are traced for the others, which takes longer.
-    """
-    from .lines import drawn as lines
-
-    beside, traced = _wanted(count), int(_LINES * count)
-    cases = list(_drawn(count - beside - traced, seed))
-    drawn(cases)
-    found = [*lines(traced, count // _PER_LINE_MODEL, seed), *_limited(beside), *cases]
-    return [*found, *islice(_drawn(count, seed + 1), count - len(found))]  # fill up if there are too few boundaries
-
-
-def _wanted(count: int) -> int:
-    """Number of the `count` cases that lie beside boundaries."""
-    return max(1, int(_BESIDE * count)) if count else 0
+def sample(count: int, seed: int = SEED) -> list[Case]:
+    """`count` cases, deterministic for a count and seed. InputError without scipy, which provides the sequence."""
+    beside, traced = max(1, int(_BESIDE * count)) if count else 0, int(_LINES * count)
+    cases = [*lines.drawn(traced, count // _PER_LINE_MODEL, seed), *islice(_beside_boundaries(beside), beside)]
+    cases += _drawn(count - beside - traced, seed)
+    return [*cases, *islice(_drawn(count, seed + 1), count - len(cases))]  # fill up if there are too few boundaries
 
 
 def _drawn(count: int, seed: int) -> Iterator[Case]:
@@ -164,23 +153,11 @@ def _ends(share: float) -> float:
     return min(max(share, 0.0), 1.0)
 
 
-def _limited(wanted: int) -> Iterator[Case]:
-    """`count` points beside boundaries."""
-    made = 0
-    for name, scene, stokes, before, after, change in _changes(math.ceil(wanted / PER_CHANGE)):
-        for distance in DISTANCES:
-            for side, expected in ((-1, before), (1, after)):
-                st = stokes * (1 + side * distance)
-                yield Case(
-                    f"{name} {side * distance:+.0e}", scene.with_impact(stokes=st), "beside", distance, expected, change
-                )
-                made += 1
-                if made == wanted:
-                    return
+def _beside_boundaries(count: int) -> Iterator[Case]:
+    """At least `count` points beside changes of outcome of the presets and some variants.
 
-
-def _changes(count: int) -> Iterator[tuple[str, Scene, float, str, str, str]]:
-    """Changes of outcome of the presets and some variants, traced at angles that fill the range."""
+    They are traced at angles that fill the range.
+    """
     variants: tuple[tuple[str, dict[str, Any]], ...] = (
         ("granulation", {}),
         ("pendulum", {}),
@@ -191,14 +168,16 @@ def _changes(count: int) -> Iterator[tuple[str, Scene, float, str, str, str]]:
         ("pendulum", {"model.glass": "film-corrected", "pendulum.law": "small-angle"}),
         ("granulation", {"model.tangential": "film", "particles.dry_restitution": 0.5}),
     )
-    found = turn = 0
-    while found < count and turn < 4 * count + 16:
+    changes, turn = 0, 0
+    while changes < math.ceil(count / PER_CHANGE) and turn < 4 * count + 16:
         preset, entries = variants[turn % len(variants)]
         scene = Scene.load(preset).with_entries(entries)
         golden = (0.3 + 0.6180339887 * (turn // len(variants)) + 0.13 * (turn % len(variants))) % 1.0
         angle = math.radians(20.0 + 65.0 * golden)
         turn += 1
         for change in boundary(scene, angle=np.array([angle]), stokes=(1e-3, 20.0), rtol=1e-12).changes[0]:
-            found += 1
+            changes += 1
             label = f"{preset} at {math.degrees(angle):.4g} deg, {change.before} to {change.after}"
-            yield label, scene.with_impact(angle=angle), change.stokes, change.before, change.after, change.kind
+            for distance, (side, expected) in product(DISTANCES, ((-1, change.before), (1, change.after))):
+                moved = scene.with_impact(angle=angle).with_impact(stokes=change.stokes * (1 + side * distance))
+                yield Case(f"{label} {side * distance:+.0e}", moved, "beside", distance, expected, change.kind)

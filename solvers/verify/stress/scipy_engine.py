@@ -1,49 +1,70 @@
 """Collisions by scipy's integrators, with the same equations, events, stopping rule and certificates as our engines.
 
 `solve_ivp` is used as documented: terminal events with a direction, an analytic Jacobian for implicit methods, our
-tolerances. Optimisations of an experienced user are included: parameters bound once, all guards of a step in one call,
-one call of `solve_ivp` from event to event, and grazing minima searched afterwards on the steps taken (as events of
-their own they double LSODA's time).
+tolerances. Optimisations of an experienced user are included: functions with fixed arguments in memory, all guards of a
+step in one call, one call of `solve_ivp` from event to event, and grazing minima searched afterwards on the steps taken
+(as events of their own they double LSODA's time).
 """
 
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from casadi import SX, Function, densify, jacobian, jtimes, vertcat
 
 from ...engines.casadi.integrators import EventHit, tolerance_for
-from ...engines.casadi.locate import EventLocator, EventSequence
+from ...engines.casadi.locate import EventLocator
+from ...host.buffered import Buffered
 from ...model.model import Model
-from .numpy_equations import Bound, Equations, equations
+from ...model.phases import Flow, WatchedEvents, event_table, expressions
 
 IMPLICIT = ("LSODA", "Radau")  # methods that take a Jacobian
 _SPANS = (1e4, 1e8, 1e16)  # x0/v0; a trajectory fails after their sum
 _TIGHTEST = 2.3e-14  # smallest relative tolerance that scipy accepts without a warning
 _UNREACHABLE = -1e30  # a certificate's level
+_LOOK = 32  # evaluations of the rates between two looks at the clock
+Rates = Callable[[float, np.ndarray], np.ndarray]
 
 
-class _Table:
-    """All guard functions of a step, evaluated once."""
+@dataclass(frozen=True)
+class Equations:
+    """A flow, its Jacobian and its events as CasADi functions of (variables, parameters).
 
-    def __init__(self, evaluate: Bound) -> None:
-        self.evaluate = evaluate
-        self._time, self._y = math.nan, np.zeros(0)
-        self._values: list[float] = []
+    Arguments:
+        events: names of the events, in order of precedence.
+        dips: indices of guards that may become negative and return within a step; after all guards, `table` has minus
+            the rate of each of these, which crosses zero at its minimum.
+    """
 
-    def event(self, index: int) -> Callable[[float, np.ndarray], float]:
-        """One event for `solve_ivp`, terminal where its guard decreases through zero."""
+    rates: Function
+    jacobian: Function
+    table: Function
+    events: tuple[str, ...]
+    dips: tuple[int, ...]
 
-        def value(t: float, y: np.ndarray) -> float:
-            if t != self._time or y is not self._y:
-                self._values = self.evaluate(t, y).tolist()
-                self._time, self._y = t, y
-            return self._values[index]
 
-        value.terminal, value.direction = True, -1.0  # type: ignore[attr-defined]  # how scipy wants it said
-        return value
+@lru_cache(maxsize=256)
+def equations(flow: Flow, watch: WatchedEvents) -> Equations:
+    """The equations of a flow for an external integrator; the parameters are groups, motion and level."""
+    parts = expressions(flow)
+    motion, level = SX.sym("motion"), SX.sym("level")
+    table = event_table(flow, watch, motion, level)
+    dips = tuple(k for k, event in enumerate(table) if event.dips)
+    slopes = [-jtimes(table[k].function, parts.variables, parts.rates) for k in dips]
+    inputs = [parts.variables, vertcat(flow.model.parameters, motion, level)]
+    return Equations(
+        Function("rates", inputs, [parts.rates]),
+        Function("jacobian", inputs, [densify(jacobian(parts.rates, parts.variables))]),
+        Function("table", inputs, [densify(vertcat(*(event.function for event in table), *slopes))]),
+        tuple(event.name for event in table),
+        dips,
+    )
 
 
 class ScipyLocator(EventLocator):
@@ -51,24 +72,24 @@ class ScipyLocator(EventLocator):
 
     Arguments:
         method: a method of `solve_ivp`.
+        patience: s of CPU time after which the collision is given up.
     """
 
-    def __init__(self, model: Model, groups: dict[str, float], rtol: float, method: str) -> None:
+    def __init__(
+        self, model: Model, groups: dict[str, float], rtol: float, method: str, patience: float = math.inf
+    ) -> None:
         super().__init__(model, groups, rtol)
-        self.method = method
+        self.method, self._patience, self._until = method, patience, time.process_time() + patience
         tolerance = tolerance_for(rtol, "rosenbrock", groups)
-        self.options: dict[str, Any] = {
-            "method": method,
-            "rtol": max(tolerance.relative, _TIGHTEST),
-            "atol": tolerance.absolute,
-        }
+        relative = max(tolerance.relative, _TIGHTEST)
+        self.options: dict[str, Any] = {"method": method, "rtol": relative, "atol": tolerance.absolute}
 
     def _run_phase(self) -> bool:
         """Integrate a phase as `EventLocator._run_phase` does, with few long calls instead of short intervals."""
-        found, elapsed = equations(self._flow(), self.watch), 0.0
+        flow, elapsed = equations(self._flow(), self.watch), 0.0
         for span in _SPANS:
             level = self.proof.level(self.y, self.phase) if self.watch.certificate else None
-            stop = self._solved(found, span, _UNREACHABLE if level is None else level)
+            stop = self._solved(flow, span, _UNREACHABLE if level is None else level)
             elapsed += stop.time
             self.path.time += stop.time
             self.y = self.path.y = stop.y
@@ -79,24 +100,35 @@ class ScipyLocator(EventLocator):
                 return True
         raise self._error(f"no event within {elapsed:.3g} x0/v0", "try a smaller rtol")
 
-    def _solved(self, found: Equations, span: float, level: float) -> EventHit:
+    def _solved(self, flow: Equations, span: float, level: float) -> EventHit:
         """Integrate to the first event, or to the end of the span."""
         parameters = np.append(self.p, [self.phase.motion, level])
-        table = _Table(Bound(found.table, parameters))
-        rates = Bound(found.rates, parameters)
-        options: dict[str, Any] = {"events": [table.event(k) for k in range(len(found.events))]}
+        rates, table, jacobian = (Buffered(each, (0, 1)) for each in (flow.rates, flow.table, flow.jacobian))
+        evaluations, size = 0, self.y.size
+
+        def limited(_: float, y: np.ndarray) -> np.ndarray:
+            nonlocal evaluations
+            if evaluations % _LOOK == 0 and time.process_time() > self._until:  # the first of a phase looks, too
+                raise self._error(f"given up after {self._patience:g} s of {self.method}", "")
+            evaluations += 1
+            return rates(y, parameters)
+
+        def guards(y: np.ndarray) -> np.ndarray:
+            return table(y, parameters)
+
+        options: dict[str, Any] = {"events": _events(guards, len(flow.events))}
         if self.method in IMPLICIT:
-            options["jac"] = Bound(found.jacobian, parameters)
-        solution = self._integrated(rates, 0.0, span, self.y, options)
-        grazed = self._grazed(found, solution, rates, table.evaluate)
+            options["jac"] = lambda _, y: jacobian(y, parameters).reshape(size, size, order="F")
+        solution = self._integrated(limited, 0.0, span, self.y, options)
+        grazed = self._grazed(flow, solution, limited, guards)
         if grazed is not None:
             return grazed
-        for name, times, states in zip(found.events, solution.t_events, solution.y_events):
+        for name, times, states in zip(flow.events, solution.t_events, solution.y_events):
             if len(times):
                 return EventHit(name, float(times[-1]), states[-1].copy(), False)
         return EventHit(None, float(solution.t[-1]), solution.y[:, -1].copy(), False)
 
-    def _integrated(self, rates: Bound, start: float, end: float, y: np.ndarray, more: dict[str, Any]) -> Any:
+    def _integrated(self, rates: Rates, start: float, end: float, y: np.ndarray, more: dict[str, Any]) -> Any:
         from scipy.integrate import solve_ivp
 
         try:
@@ -107,47 +139,51 @@ class ScipyLocator(EventLocator):
             raise self._error(f"{self.method} failed ({solution.message})", "")
         return solution
 
-    def _grazed(self, found: Equations, solution: Any, rates: Bound, table: Bound) -> EventHit | None:
+    def _grazed(
+        self, flow: Equations, solution: Any, rates: Rates, guards: Callable[[np.ndarray], np.ndarray]
+    ) -> EventHit | None:
         """The first crossing hidden within a step, where a guard becomes negative and returns.
 
         A cubic through values and slopes at the ends shows candidates; there the step is integrated again and searched.
         """
         times, states = solution.t, solution.y
-        values = np.array([table(0.0, y) for y in states.T])
+        values = np.array([guards(y) for y in states.T])
         hidden = []
-        for position, index in enumerate(found.dips):
-            g, slope = values[:, index], -values[:, len(found.events) + position]
+        for position, index in enumerate(flow.dips):
+            g, slope = values[:, index], -values[:, len(flow.events) + position]
             turns = np.flatnonzero((slope[:-1] < 0) & (slope[1:] > 0) & (g[:-1] > 0) & (g[1:] > 0))
             hidden += [(int(k), index) for k in turns if _lowest(g, slope, times, int(k)) < 0]
         for k, index in sorted(hidden):
             dense = self._integrated(rates, times[k], times[k + 1], states[:, k], {"dense_output": True}).sol
-            trials = np.linspace(times[k], times[k + 1], 65)
-            below = [t for t in trials if table(0.0, dense(t))[index] < 0]
+            below = [t for t in np.linspace(times[k], times[k + 1], 65) if guards(dense(t))[index] < 0]
             if below:
-                time = _bisected(lambda t: bool(table(0.0, dense(t))[index] < 0), times[k], below[0])  # noqa: B023 # used at once
-                return EventHit(found.events[index], time, dense(time), True)
+                before, after = times[k], below[0]
+                while before < (middle := 0.5 * (before + after)) < after:  # to machine precision
+                    before, after = (before, middle) if guards(dense(middle))[index] < 0 else (middle, after)
+                return EventHit(flow.events[index], after, dense(after), True)
         return None
+
+
+def _events(guards: Callable[[np.ndarray], np.ndarray], count: int) -> list[Callable[[float, np.ndarray], float]]:
+    """Events for `solve_ivp`, terminal where a guard decreases through zero; all guards of a state in one call."""
+    last: tuple[float, Any, list[float]] = (math.nan, None, [])
+
+    def event(index: int) -> Callable[[float, np.ndarray], float]:
+        def value(t: float, y: np.ndarray) -> float:
+            nonlocal last
+            if t != last[0] or y is not last[1]:  # a solver may change its array in place
+                last = t, y, guards(y).tolist()
+            return last[2][index]
+
+        value.terminal, value.direction = True, -1.0  # type: ignore[attr-defined]  # as scipy reads them
+        return value
+
+    return [event(k) for k in range(count)]
 
 
 def _lowest(g: np.ndarray, slope: np.ndarray, times: np.ndarray, k: int) -> float:
     """The smallest value of the cubic through both ends of step k."""
-    s, h = np.linspace(0, 1, 33), times[k + 1] - times[k]
-    cubic = (
-        (1 + 2 * s) * (1 - s) ** 2 * g[k]
-        + s * (1 - s) ** 2 * h * slope[k]
-        + s**2 * (3 - 2 * s) * g[k + 1]
-        + s**2 * (s - 1) * h * slope[k + 1]
-    )
-    return float(cubic.min())
+    from scipy.interpolate import CubicHermiteSpline
 
-
-def _bisected(below: Callable[[float], bool], before: float, after: float) -> float:
-    """Time at which `below` becomes true, to machine precision."""
-    while before < (middle := 0.5 * (before + after)) < after:
-        before, after = (before, middle) if below(middle) else (middle, after)
-    return after
-
-
-def locate_by_scipy(model: Model, groups: dict[str, float], rtol: float, method: str) -> EventSequence:
-    """The trajectory of a collision by a scipy method. ComputationError if it does not reach an end."""
-    return ScipyLocator(model, groups, rtol, method).run()
+    cubic = CubicHermiteSpline(times[k : k + 2], g[k : k + 2], slope[k : k + 2])
+    return float(cubic(np.linspace(times[k], times[k + 1], 33)).min())

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 
 from ...engines.casadi.locate import CHATTERS, CREEPS, RESTS, REVERSED, ROUNDED
 from ...scene.scene import Scene
-from ...settings import ENGINES
 
 RTOL = 1e-9
-FAST = "taylor" if "taylor" in ENGINES else "rosenbrock"
+FAST = "taylor"  # the engine under test, which is that of `collide_many`
+DISAGREEMENTS = ("outcome", "restitution", "spin", "side", "ledger", "drift", "certificate", "boundary")
 _REASONS = {  # physical explanations of engine failures, by pattern of the message
     REVERSED: "turns within a rounding error of x0",
     ROUNDED: "an angular momentum within rounding of its parts: a separation at less than 1e-14 of the speeds",
@@ -40,7 +40,7 @@ class Case:
 
 
 @dataclass
-class Found:
+class Result:
     """Result of an engine: outcome or failure, e_n, CPU seconds, and the final spins over the initial motion."""
 
     outcome: str = ""
@@ -51,13 +51,15 @@ class Found:
     more: dict[str, float] = field(default_factory=dict)
     spins: tuple[float, ...] = ()
 
-    def apart(self, other: Found) -> float:
+    @property
+    def numbers(self) -> str:
+        """Restitution and spins as text."""
+        return " ".join(f"{value:.12g}" for value in (self.restitution, *self.spins))
+
+    def apart(self, other: Result) -> float:
         """The largest difference of e_n and the final spins."""
-        return max(
-            abs(self.restitution - other.restitution),
-            *(abs(one - its) for one, its in zip(self.spins, other.spins, strict=False)),
-            0.0,
-        )
+        pairs = [(self.restitution, other.restitution), *zip(self.spins, other.spins, strict=False)]
+        return max(abs(one - its) for one, its in pairs)
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,7 @@ class Issue:
     """A disagreement or failure.
 
     Arguments:
-        kind: "outcome", "restitution", "spin", "side", "ledger", "drift", "certificate", "boundary" or "failure".
+        kind: one of DISAGREEMENTS, "failure", or "peer" for a failure of a peer.
         between: the engines concerned.
         said: description.
         explained: the explanation; empty if there is none.
@@ -82,7 +84,7 @@ class Verdict:
     """A case with its results and issues."""
 
     case: Case
-    found: dict[str, Found]
+    results: dict[str, Result]
     issues: tuple[Issue, ...]
     error: float | None  # largest difference in e_n between engines that agree on the outcome
     conditioning: float | None  # |d e_n/d ln St|, at least 1

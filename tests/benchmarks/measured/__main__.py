@@ -1,11 +1,10 @@
 """Measure everything anew and write docs/engineering/performance.md: one command, on a quiet machine.
 
-    python -m tests.benchmarks.measured [FOLDER] [SCENES] [--by-hand FOLDER]
+    python -m tests.benchmarks.measured [FOLDER] [SCENES]
 
-FOLDER is docs/engineering/performance; SCENES (500) is what the stress test takes; the folder behind --by-hand holds a
-kernel made by hand, measured beside ours where it is named. Some ten minutes on two cores. With the usual folder the
-figures of README.md and docs/engineering/kernel-figures.md are written as well. What fails is named at the end, and the
-rest is measured all the same; the page is then made from the older record of that part.
+FOLDER is docs/engineering/performance; SCENES (500) is what the stress test takes. Some ten minutes on two cores. With
+the usual folder the figures of README.md and docs/engineering/kernel-figures.md are written as well. What fails is
+named at the end, and the rest is measured all the same; the page is then made from the older record of that part.
 """
 
 from __future__ import annotations
@@ -51,24 +50,18 @@ def main() -> None:
     asked = argparse.ArgumentParser()
     asked.add_argument("folder", nargs="?", type=Path, default=USUAL)
     asked.add_argument("scenes", nargs="?", default="500")
-    asked.add_argument("--by-hand", type=Path)
     given = asked.parse_args()
     folder, scenes = given.folder.resolve(), given.scenes
-    hand = ["--by-hand", str(given.by_hand.resolve())] if given.by_hand else []
     folder.mkdir(parents=True, exist_ok=True)
     parts = {
-        "bench": lambda: script("measured.page.record", str(folder), *hand),
+        "bench": lambda: script("measured.page.record", str(folder)),
         "compile_flags": lambda: script("compile_flags", str(folder)),
         "cvodes_share": lambda: script("cvodes_share", str(folder)),
         "stress": lambda: stress(folder, scenes),
         "law_in_c": lambda: script("law_in_c", str(folder)),
     }
     if folder == USUAL:
-        parts["kernel"] = lambda: script("kernel")
         parts["orders"] = lambda: script("orders")
-        parts["kinds"] = lambda: script("kinds")
-        parts["kernel_gradients"] = lambda: script("kernel_gradients")
-        parts["gradient_engine"] = lambda: script("gradient_engine")
     parts["page"] = lambda: script("measured.page.document", str(folder))
     failed = []
     for name, measure in parts.items():

@@ -13,8 +13,8 @@ from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.settings import RTOL
-from wetdoublet.solvers.verify.stress.answers import Impact
 
+from .answers import Impact
 from .reference import Reference
 from .tasks import Task
 

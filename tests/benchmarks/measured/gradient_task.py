@@ -15,8 +15,8 @@ from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.sensitivity.parameters import Kind, kind_of, known, parameter_map, references
 from wetdoublet.solvers.sensitivity.sensitivities import sensitivities
-from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
 
+from .answers import Impact, dimensionless
 from .tasks import Task
 
 COUNT = 12  # parameters

@@ -17,8 +17,8 @@ from wetdoublet.solvers.formatting.markdown import ms, table
 from wetdoublet.solvers.host import compiled
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.answers import Answer, Impact, dimensionless
 
+from .answers import Answer, Impact, dimensionless
 from .peers.bulk import Bulk
 from .peers.engines import HEYOKA, Engine, engines
 

@@ -11,8 +11,9 @@ from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.answers import Answer, Impact, answer, dimensionless
-from wetdoublet.solvers.verify.stress.scipy_engine import locate_by_scipy
+from wetdoublet.solvers.verify.stress.scipy_engine import ScipyLocator
+
+from .answers import Answer, Impact, answer, dimensionless
 
 RTOL = 1e-13
 _CVODES_RTOLS = (1e-13, 1e-12, 1e-11)  # the tightest that it completes
@@ -59,7 +60,7 @@ def reference(scene: Scene, impact: Impact) -> Reference:
     found = {"rosenbrock": answer(path)}
     if path.time > 0:
         if find_spec("scipy"):
-            found = {"DOP853": answer(locate_by_scipy(model, n.groups, RTOL, "DOP853"))} | found
+            found = {"DOP853": answer(ScipyLocator(model, n.groups, RTOL, "DOP853").run())} | found
         cvodes = _cvodes(scene, impact)
         if cvodes is not None:
             found["cvodes"] = cvodes

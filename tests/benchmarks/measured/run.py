@@ -6,7 +6,6 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from importlib.util import find_spec
-from pathlib import Path
 from typing import Any
 
 from wetdoublet.solvers.host.environment import environment, one_core
@@ -18,8 +17,6 @@ from .growth import growth
 from .lines import lines
 from .near import near
 from .needs import gradients, structures
-from .peers.by_hand import PRESET as MADE_BY_HAND
-from .peers.by_hand import best_order, by_hand
 from .peers.engines import Engine, engines
 from .peers.heyoka_callbacks import around
 from .reference import Reference, references
@@ -42,7 +39,6 @@ def bench(
     fine: Sequence[float] = FINE,
     sets: int = SETS,
     featured: Sequence[str] = ENGINES,
-    hand: Path | None = None,
 ) -> Record:
     """Run the benchmark.
 
@@ -54,7 +50,6 @@ def bench(
         fine: tolerances of engines that are fast.
         sets: times the collisions are repeated within one call of an engine that takes many.
         featured: engines of which ledger, trajectory and rotation are measured.
-        hand: folder of a kernel made by hand, measured beside the others.
 
     Returns:
         A record that JSON can hold: environment, settings, engines, tasks (references, points, costs), cold start.
@@ -78,9 +73,7 @@ def bench(
         for task in tasks:
             tell(f"{task.preset}: reference values")
             truths = references(task.scene, task.impacts())
-            more_engines = by_hand(hand) if hand and task.preset == MADE_BY_HAND else []
-            points = work(task, truths, [*all_engines, *more_engines], tolerances, repeats, tell, fine, sets)
-            points = best_order(points)
+            points = work(task, truths, all_engines, tolerances, repeats, tell, fine, sets)
             tell(f"{task.preset}: ledger, trajectory, rotation")
             spent = [_cost(each) for each in costs(task, truths, repeats, featured)]
             found.append(task_record(task, truths, points) | {"costs": spent})

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.answers import Impact
+
+from .answers import Impact
 
 SEED = 2012  # of numpy's default_rng, one generator a task: all Stokes numbers are drawn first, then all angles
 

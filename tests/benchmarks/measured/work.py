@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.answers import Answer, Impact
 
+from .answers import Answer, Impact
 from .peers.bulk import Bulk, left_out
 from .peers.engines import Engine
 from .reference import Reference

@@ -139,6 +139,14 @@ def test_slopes_of_the_curves(name: str, angle: float) -> None:
         assert float(fit.deriv()(at)) == pytest.approx(exact, rel=1e-4)
 
 
+def test_a_region_goes_on_beyond_the_last_curve() -> None:
+    """Where a curve has left through the lower edge, the outcome above it reaches down to the edge."""
+    found = atlas("pendulum", span=("86 deg", "89 deg"), stokes=(2.5e-3, 0.5), lines=3)
+    angle, stokes = np.radians(88.9), np.array([3e-3, 0.1, 0.4])
+    outcomes = collide_many("pendulum", stokes=stokes, angle=angle).outcome.values
+    assert found.region(np.full(3, angle), stokes).tolist() == outcomes.tolist() == [1, 1, 1]
+
+
 def test_a_plane_of_another_entry() -> None:
     """Roughness across: where the graze passes from the glass criterion to roughness, the approach just meets both.
 

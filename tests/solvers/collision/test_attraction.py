@@ -9,8 +9,9 @@ import pytest
 from wetdoublet.solvers import Scene, boundary
 from wetdoublet.solvers.commands.cli import main
 
-from ...helpers.newton import Bodies, integrated
 from ...helpers.reference import collide
+from ...helpers.spinning import Impact, U, collided
+from ...helpers.two_bodies import bodies_of
 
 A_H = 2e-12  # J, far above any real one, so that it shows in granulation
 X0 = 8e-6
@@ -47,15 +48,12 @@ def test_the_work_is_the_potentials(bridge, stokes, angle):
 
 @pytest.mark.parametrize("bridge", [True, False])
 def test_oblique_is_newtons(bridge):
-    """The doublet moves as two bodies do in the laboratory that attract each other with A a/(6 x^2)."""
+    """The doublet moves as two bodies do by Newton's law that attract each other with A a/(6 x^2)."""
     scene = scene_of(bridge)
     one = collide(scene, stokes=0.12, angle="75 deg", rtol=1e-11)
-    bodies = Bodies(
-        (1e-4, 1e-4), (1.04e-8, 1.04e-8), scene.liquid.viscosity, X0, 0.025 if bridge else 0.0, 0.05, hamaker=A_H
-    )
-    end = integrated(bodies, one.speed, one.angle, longest=10 * one.contact_time)
-    assert end.separated and one.outcome == "stick-rotate-separate"
-    assert one.restitution == pytest.approx(end.opening / one.speed, rel=1e-6)
+    end = collided(bodies_of(scene), Impact(one.speed, one.angle))
+    assert end.outcome == one.outcome == "stick-rotate-separate"
+    assert one.restitution == pytest.approx(end.state[U] / one.speed, rel=1e-6)
     without = collide(scene.with_entries({"attraction.hamaker": 0.0}), stokes=0.12, angle="75 deg", rtol=1e-11)
     assert abs(without.restitution / one.restitution - 1) > 1e-5  # it does act
 
@@ -93,9 +91,8 @@ def test_van_der_waals_alone_can_hold():
     below, above = (collide(scene, stokes=first.stokes * f, angle=angle) for f in (1 - 1e-5, 1 + 1e-5))
     assert (below.outcome, above.outcome) == (first.before, first.after)
     assert below.certified
-    bodies = Bodies((1e-4, 1e-4), (1.04e-8, 1.04e-8), scene.liquid.viscosity, X0, hamaker=2e-10)
-    end = integrated(bodies, above.speed, angle, longest=2 * above.contact_time, rtol=1e-11)
-    assert first.after == "stick-rotate-separate" and end.separated
+    end = collided(bodies_of(scene), Impact(above.speed, angle))
+    assert first.after == end.outcome == "stick-rotate-separate"
     assert end.time == pytest.approx(above.contact_time, rel=1e-2)  # so near the boundary
 
 

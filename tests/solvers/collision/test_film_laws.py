@@ -11,8 +11,9 @@ from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Region
 
-from ...helpers.newton import Bodies, integrated
 from ...helpers.reference import collide
+from ...helpers.spinning import SPIN, Impact, U, collided
+from ...helpers.two_bodies import bodies_of
 
 X0, X_B, E_DRY = 8e-6, 2e-7, 0.9
 
@@ -76,14 +77,13 @@ def bridged(film, **changes):
 
 @pytest.mark.parametrize("film", ["finite", "infinite", "cavitating", "constant-volume"])
 def test_oblique_is_newtons(film):
-    """With each film an oblique doublet moves as its two bodies do in the laboratory (1e-6: see test_partner)."""
+    """With each film an oblique doublet moves as its two bodies do by Newton's law (1e-6: see test_partners)."""
     scene = bridged(film)
     one = collide(scene, stokes=0.12, angle="75 deg", rtol=1e-11)
-    bodies = Bodies((1e-4, 1e-4), (1.04e-8, 1.04e-8), scene.liquid.viscosity, X0, 0.025, 0.05, film=film)
-    end = integrated(bodies, one.speed, one.angle, longest=10 * one.contact_time)
-    assert one.outcome == "stick-rotate-separate" and end.separated
-    assert one.restitution == pytest.approx(end.opening / one.speed, rel=1e-6)
-    assert one.final_spin == pytest.approx(end.spins[0], rel=1e-6)
+    end = collided(bodies_of(scene), Impact(one.speed, one.angle))
+    assert one.outcome == end.outcome == "stick-rotate-separate"
+    assert one.restitution == pytest.approx(end.state[U] / one.speed, rel=1e-6)
+    assert one.final_spin == pytest.approx(end.state[SPIN], rel=1e-6)
     assert abs(one.energy.residual) < 1e-8 * one.energy.initial
 
 
@@ -126,8 +126,7 @@ def test_sticks_are_sticks(film):
     scene = bridged(film)
     one = collide(scene, stokes=0.02, angle="60 deg")
     assert one.outcome == "stick" and one.certified
-    bodies = Bodies((1e-4, 1e-4), (1.04e-8, 1.04e-8), scene.liquid.viscosity, X0, 0.025, 0.05, film=film)
-    assert not integrated(bodies, one.speed, one.angle, longest=300 * X0 / one.speed, rtol=1e-8).separated
+    assert collided(bodies_of(scene), Impact(one.speed, one.angle)).outcome == "stick"
 
 
 def test_a_pendulum_whose_film_cavitates_has_a_kernel():

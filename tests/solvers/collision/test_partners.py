@@ -14,8 +14,9 @@ from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 
-from ...helpers.newton import Bodies, integrated
 from ...helpers.reference import collide
+from ...helpers.spinning import PARTNER, SPIN, TURNING, WORK, Impact, U, collided
+from ...helpers.two_bodies import bodies_of
 
 pytestmark = pytest.mark.slow
 
@@ -29,22 +30,6 @@ def scene_of(changes):
         name: value for name, value in Scene.load("granulation").given if "young" not in name and "poiss" not in name
     }
     return Scene("", tuple({**given, **BRIDGE, **NO_CRITERIA, **changes}.items()))
-
-
-def bodies_of(scene):
-    """The same numbers for the independent model."""
-    radius, mass = 2 * scene.particles.reduced_radius, 2 * scene.particles.reduced_mass
-    bridge = scene.bridge
-    return Bodies(
-        (radius, scene.partner.radius),
-        (mass, scene.partner.mass),
-        scene.liquid.viscosity,
-        scene.liquid.film_thickness,
-        bridge.surface_tension if bridge else 0.0,
-        bridge.volume if bridge else 0.0,
-        scene.attraction.hamaker if scene.attraction else 0.0,
-        scene.model.film,
-    )
 
 
 @pytest.mark.parametrize(
@@ -63,32 +48,22 @@ def bodies_of(scene):
     ],
 )
 def test_a_pair_is_newtons(radius, mass, angle, stokes, more):
-    """Unequal spheres move as two bodies in the laboratory under Jeffrey & Onishi's friction: e_n, omega, both spins.
+    """Unequal spheres move by Newton's law under Jeffrey & Onishi's friction: e_n, omega, both spins.
 
-    1e-6: the independent integrator works on positions, whose difference, the gap, has lost two digits of its 1e-11,
-    and near the barrier errors grow by exp(lambda t).
+    1e-6: near the barrier errors grow by exp(lambda t).
     """
     scene = scene_of({"partner.radius": radius, "partner.mass": mass, **more})
     one = collide(scene, stokes=stokes, angle=math.radians(angle), rtol=1e-11, engine="cvodes")
-    end = integrated(bodies_of(scene), one.speed, one.angle, longest=10 * (one.contact_time or 1e-3))
-    assert one.outcome == "stick-rotate-separate" and end.separated
-    assert one.restitution == pytest.approx(end.opening / one.speed, rel=1e-6)
+    end = collided(bodies_of(scene), Impact(one.speed, one.angle))
+    assert one.outcome == end.outcome == "stick-rotate-separate"
+    assert one.restitution == pytest.approx(end.state[U] / one.speed, rel=1e-6)
     assert one.contact_time == pytest.approx(end.time, rel=1e-6)
-    assert one.final_rotation_rate == pytest.approx(end.omega, rel=1e-6)
-    assert (one.final_spin, one.final_spin_partner) == pytest.approx(end.spins, rel=1e-6)
+    rates = one.final_rotation_rate, one.final_spin, one.final_spin_partner
+    assert rates == pytest.approx([end.state[k] for k in (TURNING, SPIN, PARTNER)], rel=1e-6)
     works = one.energy.capillary + (one.energy.attraction or 0.0)
-    assert works == pytest.approx(end.work, rel=1e-6)
+    assert works == pytest.approx(end.state[WORK], rel=1e-6)
     assert one.angular_momentum_drift < 1e-10
     assert abs(one.energy.residual) < 1e-8 * one.energy.initial
-
-
-def test_the_laboratory_keeps_its_momenta():
-    """The independent model itself keeps both momenta: its forces are a pair that acts on each other only."""
-    scene = scene_of({"partner.radius": "300 um", "partner.mass": "2e-4 g"})
-    end = integrated(bodies_of(scene), 1.0, 1.2, longest=1e-3)
-    size = scene.reduced_mass * 1.0
-    assert np.abs(end.momentum[:2]).max() < 1e-8 * size
-    assert abs(end.momentum[2]) < 1e-8 * size * (2 * scene.reduced_radius)
 
 
 @pytest.mark.parametrize("arm", ["midgap", "surface"])

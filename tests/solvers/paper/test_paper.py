@@ -11,17 +11,18 @@ import pytest
 from click.testing import CliRunner
 from matplotlib.image import imread
 from matplotlib.mathtext import MathTextParser
+from wetdoublet.solvers import collide_many
 from wetdoublet.solvers.commands.cli import cli
 from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.paper import PARTS, factors, fig1, fig3, fig4a, fig4b, report, table1
 from wetdoublet.solvers.paper.desk import Desk, Detail, Job, outcomes
 from wetdoublet.solvers.paper.parts import Comparison, Part, Table, number
 from wetdoublet.solvers.paper.printed import CURVES, PRINTED, SHOTS
-from wetdoublet.solvers.paper.variants import BRIDGED, variant
+from wetdoublet.solvers.paper.variants import BRIDGED, PENDULUM, variant
 
 pytestmark = pytest.mark.slow
 
-COARSE = Detail(step=30.0, rounds=0, curve=12, critical=(CURVES[3],))
+COARSE = Detail(lines=5, curve=12, critical=(CURVES[3],))
 FACTORS = {  # an independent prototype's: midgap, surface
     "factor_volume": (1.038, 1.038),
     "factor_film": (0.762, 0.778),
@@ -93,12 +94,18 @@ def test_figure_1_has_the_papers_outcomes(compared):
         assert one.verdict == "agrees"
 
 
-@pytest.mark.parametrize(
-    ("key", "value"), [("stokes_3", 1.44666), ("stokes_4", 0.115321), ("centrifugal", 4.121), ("angle_3", 60.0)]
-)
+@pytest.mark.parametrize(("key", "value"), [("stokes_3", 1.44666), ("stokes_4", 0.115321), ("centrifugal", 4.121)])
 def test_critical_numbers(compared, key, value):
-    """St* and Ce* are those of an independent prototype; the coarse map begins SRS at 60 deg."""
+    """St* and Ce* are those of an independent prototype."""
     assert compared[key].ours == pytest.approx(value, rel=2e-4)
+
+
+def test_the_angle_from_which_doublets_rotate(compared):
+    """Half a degree below it collisions stick or bounce; half a degree above it some rotate first."""
+    for aside, rotates in ((-0.5, False), (0.5, True)):
+        angle = math.radians(compared["angle_3"].ours + aside)
+        outcome = collide_many(PENDULUM, stokes=np.linspace(1.3, 1.42, 500), angle=angle).outcome.values
+        assert set(outcome) == ({0, 1, 2} if rotates else {0, 2})
 
 
 def test_both_readings_of_stokes_3(compared):

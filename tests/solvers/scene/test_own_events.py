@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -24,9 +25,9 @@ from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
 
 from ...helpers.command import run
-from ...helpers.newton import Bodies
 from ...helpers.reference import collide
 from ...helpers.snapping import EVENTS, Ended, integrated
+from ...helpers.two_bodies import Bodies, bodies_of
 
 pytestmark = pytest.mark.slow
 ANGLE = math.radians(60)
@@ -50,11 +51,7 @@ def scene(model: Path, **custom: object) -> Scene:
 
 def bodies(one: Scene) -> Bodies:
     """Its numbers for the independent integration."""
-    particles, liquid = one.particles, one.liquid
-    assert one.bridge is not None
-    radius, mass = 2 * particles.reduced_radius, 2 * particles.reduced_mass
-    return Bodies((radius, radius), (mass, mass), liquid.viscosity, liquid.film_thickness,
-                  one.bridge.surface_tension, one.bridge.volume)  # fmt: skip
+    return replace(bodies_of(one), law="constant", wetting=0.0)  # the force of the model's bridge while it holds
 
 
 def same(found, expected: Ended, speed: float, rel: float = 1e-7) -> None:

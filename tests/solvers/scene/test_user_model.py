@@ -65,7 +65,7 @@ def test_verify_has_the_models_own_checks(mine: Path):
     assert scene.package is not None
     assert {(finding.group, finding.ok) for finding in of_the_model(scene.package)} == {("Model: mine", True)}
     collided = collisions(scene, (0.0, 1.0), Extent(factors=(1.0,)))
-    found = {finding.name: finding for finding in conserved("numeric", collided)}
+    found = {finding.name: finding for finding in conserved(collided)}
     assert found["energy ledger"].ok
     assert all(finding.ok is not False for finding in found.values())
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 from wetdoublet import derive
+from wetdoublet.solvers.verify.identities import kept_verdicts, symbolic_key
 from wetdoublet.solvers.verify.report import Finding, Report
-from wetdoublet.solvers.verify.verdicts import kept_verdicts, symbolic_key
 
 Verdicts = Callable[..., list[Finding]]
 FINDINGS = [

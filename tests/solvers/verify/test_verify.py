@@ -17,13 +17,11 @@ from wetdoublet.solvers.verify import (
     backward,
     closed,
     conserved,
-    edges,
     numeric,
     order,
     region,
     restitution_budget,
     sample,
-    surface,
 )
 from wetdoublet.solvers.verify.plot import draw_budget
 
@@ -61,7 +59,7 @@ def test_the_surface_arm_is_a_note_and_loses_what_its_torque_says() -> None:
     """Surface arm: the drift of L is reported, not held; it equals the integral of -x F_t to integration error."""
     scene = Scene.load("granulation").with_entries({"model.arm": "surface"})
     collisions = sample.collisions(scene, (0.0, 0.5, 1.3))
-    findings = [*conserved.conserved("g", collisions), *surface.surface_arm("g", collisions)]
+    findings = [*conserved.conserved(collisions), *conserved.surface_arm(collisions)]
     found = {finding.name: finding for finding in findings}
     assert found["angular momentum"].ok is None
     drift = float(found["angular momentum"].figure.split()[1].rstrip(":"))
@@ -92,7 +90,7 @@ def test_the_budget_of_spinning_spheres() -> None:
     at = restitution_budget(scene, stokes=[0.5], angle=[0.0, 1.0])
     assert np.abs(at["gap"].values).max() < 1e-12 * at["tangential_lubrication"].values.max()
     assert np.all(at["restitution"].values ** 2 < at["ceiling"].values)
-    found = {finding.name: finding.ok for finding in region.argument("g", scene, at)}
+    found = {finding.name: finding.ok for finding in region.argument(scene, at)}
     assert found["e_n^2 - 1: identity"] and found["e_n^2: ceiling"]
 
 
@@ -100,7 +98,7 @@ def test_the_budget_of_spinning_spheres() -> None:
 def test_closed_forms_are_of_spheres_that_do_not_spin() -> None:
     """Forms without rotation are compared with collisions without it, though the scene's spheres spin."""
     scene = Scene.load("granulation").with_entries({"impact.spin": 2e4, "impact.partner_spin": -5e3})
-    found = list(closed.closed_forms("g", scene))
+    found = list(closed.closed_forms(scene))
     assert [finding.ok for finding in found] == [True, True, True]
 
 
@@ -108,7 +106,7 @@ def test_closed_forms_are_of_spheres_that_do_not_spin() -> None:
 def test_intervals_end_where_the_restitution_is_one() -> None:
     """e_n passes 1, or jumps over it where the outcome changes, within 1e-4 of an end, by another engine."""
     scene, angles = Scene.load("granulation"), np.radians([10.0, 65.0, 75.0]).tolist()
-    nothing, jumps, passes = edges.above_one(scene, angles, np.array([0.01, 0.03, 0.1, 0.3]), 1e-10)
+    nothing, jumps, passes = region.above_one(scene, angles, np.array([0.01, 0.03, 0.1, 0.3]), 1e-10)
     assert nothing.spans == ()
     for one in (jumps, passes):
         ((low, high),) = one.spans
@@ -267,7 +265,7 @@ def test_a_trajectory_that_is_exact_at_any_tolerance_needs_no_slope() -> None:
     """Errors at rounding for every rtol have no slope; the check holds and says why."""
     one = collide("granulation", stokes=0.12, angle=1.0)
     collisions = sample.Sample(one.scene, [{"rosenbrock": one}])
-    (found,) = order.convergence("g", collisions, collide=off_by(lambda rtol: 1e-15))
+    (found,) = order.convergence(collisions, collide=off_by(lambda rtol: 1e-15))
     assert (found.ok, found.figure) == (True, "all errors at rounding")
 
 
@@ -279,7 +277,7 @@ def test_errors_far_below_the_tolerance_need_no_slope(part: float, ok: bool) -> 
     collisions = sample.Sample(one.scene, [{"rosenbrock": one}])
     last = sample.WHOLE.tolerances[-1]
     # the last one alone would be rounding: 0.01 rtol is 1e-13
-    (found,) = order.convergence("g", collisions, collide=off_by(lambda rtol: part * last * (rtol / last) ** 0.5))
+    (found,) = order.convergence(collisions, collide=off_by(lambda rtol: part * last * (rtol / last) ** 0.5))
     assert (found.ok, "every error below 0.05 rtol" in found.figure) == (ok, ok)
     assert "slope 0.5" in found.figure
 
@@ -290,9 +288,9 @@ def test_what_finds_nothing_to_look_at_says_so() -> None:
     scene = Scene.load("pendulum").with_entries({"liquid.film_thickness": 2e-6})
     collisions = sample.collisions(scene, (0.0, 0.5))
     findings = [
-        *conserved.conserved("g", collisions),
-        *backward.backward("g", collisions),
-        *order.convergence("g", collisions),
+        *conserved.conserved(collisions),
+        *backward.backward(collisions),
+        *order.convergence(collisions),
     ]
     found = {finding.name: finding for finding in findings}
     for law in ("forward-back, cvodes", "forward-back, rosenbrock", "convergence"):

@@ -15,7 +15,7 @@ from wetdoublet.generated.automaton import OPENING
 from wetdoublet.solvers import Collision, ComputationError, Scene, collide
 from wetdoublet.solvers.certificates import Certainty
 from wetdoublet.solvers.engines.casadi import locate
-from wetdoublet.solvers.engines.casadi.integrators import plain
+from wetdoublet.solvers.engines.casadi.integrators import Plain, plain
 from wetdoublet.solvers.model.phases import expressions
 from wetdoublet.solvers.verify import (
     audit,
@@ -26,7 +26,6 @@ from wetdoublet.solvers.verify import (
     order,
     region,
     sample,
-    surface,
 )
 from wetdoublet.solvers.verify.report import Finding
 
@@ -90,7 +89,7 @@ def test_one_bad_collision_is_found_and_named(laws, change, engine) -> None:
     at that place.
     """
     collisions = sample.collisions(SCENE, extent=FEW, collide=doctored(change, engine))
-    found = by_name(conserved.conserved("g", collisions))
+    found = by_name(conserved.conserved(collisions))
     assert failures(found.values()) == laws
     assert all(found[law].where.startswith("St 0.12, 60 deg") for law in laws)
 
@@ -102,7 +101,7 @@ def test_a_collision_that_fails_does_not_lose_the_others() -> None:
         raise ComputationError("no event within 1e9 x0/v0", phase="closing")
 
     collisions = sample.collisions(SCENE, extent=FEW, collide=doctored(fail, "cvodes"))
-    found = by_name(conserved.conserved("g", collisions))
+    found = by_name(conserved.conserved(collisions))
     assert failures(found.values()) == ["completed"]
     assert "St 0.12, 60 deg, cvodes" in found["completed"].about[0] and "no event" in found["completed"].about[0]
     assert found["energy ledger"].ok and found["cvodes = rosenbrock"].ok
@@ -116,10 +115,10 @@ def test_a_wrong_sign_on_the_way_back_is_found(collisions) -> None:
         rates = [-rate for rate in SX.elements(parts.rates)]
         rates[1] = -rates[1]
         dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * vertcat(*rates)}
-        return backward.Returning(integrator("wrong", engine, dae, 0, 1, told.options(engine)))
+        return Plain(integrator("wrong", engine, dae, 0, 1, told.options(engine)), engine)
 
-    assert failures(backward.backward("g", collisions)) == []
-    found = by_name(backward.backward("g", collisions, wrong))
+    assert failures(backward.backward(collisions)) == []
+    found = by_name(backward.backward(collisions, wrong))
     assert failures(found.values()) == ["forward-back, cvodes", "forward-back, rosenbrock"]
     assert "St " in found["forward-back, cvodes"].where
 
@@ -134,7 +133,7 @@ def test_equations_that_are_off_miss_their_closed_forms(name) -> None:
 
     swing = ["swinging"] if name == "pendulum" else []
     laws = ["film alone", "straight line", "spin relaxes", *swing]
-    assert failures(closed.closed_forms("g", Scene.load(name), plain=off)) == laws
+    assert failures(closed.closed_forms(Scene.load(name), plain=off)) == laws
 
 
 def test_a_bounce_that_is_off_misses_the_film_alone() -> None:
@@ -144,7 +143,7 @@ def test_a_bounce_that_is_off_misses_the_film_alone() -> None:
         one = collide(scene, **options)
         return replace(one, restitution=one.restitution + 1e-6)
 
-    (found,) = [finding for finding in closed.closed_forms("g", SCENE, collide=off) if finding.ok is False]
+    (found,) = [finding for finding in closed.closed_forms(SCENE, collide=off) if finding.ok is False]
     assert found.name == "film alone"
     assert float(found.figure) == pytest.approx(1e-6, rel=0.1)
     assert found.where.endswith("glass")
@@ -157,7 +156,7 @@ def test_an_engine_that_does_not_converge_is_found(collisions) -> None:
         one = collide(scene, **options)
         return replace(one, restitution=one.restitution * (1 + 1e-6 * (one.engine == "cvodes")))
 
-    assert failures(order.convergence("g", collisions, TOLERANCES, collide=off)) == ["convergence, cvodes"]
+    assert failures(order.convergence(collisions, TOLERANCES, collide=off)) == ["convergence, cvodes"]
 
 
 class Overeager:
@@ -183,9 +182,9 @@ class Deceived(locate.EventLocator):
 
 def test_a_certificate_that_proves_too_much_is_caught() -> None:
     """Impacts that a false proof certifies escape when continued; the audit counts them and names one."""
-    (honest,) = audit.stick_audit("g", SCENE, impacts=12)
+    (honest,) = audit.stick_audit(SCENE, impacts=12)
     assert honest.ok and not honest.figure.startswith("0 of 0")
-    (found,) = audit.stick_audit("g", SCENE, impacts=12, locator=Deceived)
+    (found,) = audit.stick_audit(SCENE, impacts=12, locator=Deceived)
     assert (found.name, found.ok) == ("stick certificate", False)
     assert int(found.figure.split()[0]) > 0
     assert found.where.startswith("St ") and "apart at" in found.where
@@ -215,7 +214,7 @@ def test_without_a_proof_the_trajectory_is_the_same() -> None:
 def test_a_budget_that_does_not_add_up_is_found(law, change) -> None:
     """An open ledger, a spin or an e_n off by 1e-5 break the identity; an e_n four times too large its ceiling."""
     data = budget.budgeted(SCENE, [0.05, BAD["stokes"]], [0.5, BAD["angle"]], 1e-10, doctored(change))
-    found = by_name(region.argument("g", SCENE, data))
+    found = by_name(region.argument(SCENE, data))
     assert law in failures(found.values())
     assert found[law].where == "St 0.12, 60 deg"
 
@@ -223,10 +222,10 @@ def test_a_budget_that_does_not_add_up_is_found(law, change) -> None:
 def test_a_grid_by_an_engine_that_is_off_is_found() -> None:
     """A point of the grid whose e_n is off by 1e-6 differs from CVODES, by name and place; an honest grid does not."""
     data = budget.budgeted(SCENE, [0.05, BAD["stokes"]], [BAD["angle"]], 1e-10)
-    (honest,) = region.beside_cvodes("g", SCENE, data)
+    (honest,) = region.beside_cvodes(SCENE, data)
     assert honest.ok
     off = doctored(lambda one: replace(one, restitution=one.restitution * (1 + 1e-6)), "taylor")
-    (found,) = region.beside_cvodes("g", SCENE, data, partial(off, engine="taylor"))
+    (found,) = region.beside_cvodes(SCENE, data, partial(off, engine="taylor"))
     assert found.ok is False
     assert found.where.startswith("St 0.12, 60 deg")
 
@@ -238,7 +237,7 @@ def test_a_budget_with_a_failed_point_still_has_its_findings() -> None:
         raise ComputationError("the integrator gave up")
 
     data = budget.budgeted(SCENE, [0.05, BAD["stokes"]], [BAD["angle"]], 1e-10, doctored(fail))
-    found = by_name(region.argument("g", SCENE, data))
+    found = by_name(region.argument(SCENE, data))
     assert failures(found.values()) == ["e_n^2 - 1: completed"]
     assert found["e_n^2 - 1: identity"].ok
     assert np.isnan(data["excess"].values[0, 1])
@@ -247,5 +246,5 @@ def test_a_budget_with_a_failed_point_still_has_its_findings() -> None:
 def test_a_torque_that_is_off_is_found() -> None:
     """Surface arm: a drift of L that is not the integral of -x F_t fails by name."""
     collisions = sample.collisions(SCENE.with_entries({"model.arm": "surface"}), extent=FEW)
-    off = surface.surface_arm("g", collisions, lambda trajectory: surface.torque(trajectory) * (1 + 1e-4))
+    off = conserved.surface_arm(collisions, lambda trajectory: conserved.torque(trajectory) * (1 + 1e-4))
     assert failures(off) == ["dL = -int x F_t dt"]

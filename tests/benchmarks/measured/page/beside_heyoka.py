@@ -9,12 +9,14 @@ from wetdoublet.solvers.formatting.markdown import table
 from ..digits import us
 from ..gradient_work import HEYOKA as VARIATIONAL
 from ..gradient_work import HEYOKA_ALONE as VARIATIONAL_ALONE
-from ..peers.by_hand import BY_HAND
 from ..peers.engines import HEYOKA, HEYOKA_ALONE, KERNEL
 
 Record = dict[str, Any]
 
 BOUND = 1e-8  # of the largest error, at which costs are compared
+
+
+BY_HAND = "by hand"  # a kernel that is no part of this project; in records of runs that had it
 
 
 class Cost(NamedTuple):
@@ -89,9 +91,8 @@ a stick are a compiled function of heyoka's, called from there.
   Somebody who calls heyoka from C++ waits at least so long: what callbacks do costs something there as well. There is
   no driver in C++ here, as neither PyPI's nor Debian's packages hold heyoka's headers.
 * **Ours**: `collide_many` and `gradients_many` as a user calls them; "kernel alone" leaves out what these add.
-* **Made by hand**: a kernel for granulation alone, from `--by-hand FOLDER`, which is no part of this project. It looks
-  for events at four points of a step, and its parameters are computed beforehand, for nothing. "-" where it was not
-  measured.
+* **Made by hand**: a kernel for granulation alone, which is no part of this project; "-" where it was not measured. It
+  looks for events at four points of a step, and its parameters are computed beforehand, for nothing.
 
 All get the same collisions, none of which is decided at initial contact by any of our proofs. heyoka does not get our
 jump along the slow manifold, nor the bound of the impulse where a trajectory turns."""

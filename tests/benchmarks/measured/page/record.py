@@ -1,6 +1,6 @@
 """The benchmark's record on disk: JSON and pictures in one folder.
 
-    python -m tests.benchmarks.measured.page.record FOLDER [--by-hand FOLDER]
+    python -m tests.benchmarks.measured.page.record FOLDER
 
 Measures everything that is in it: some minutes, the first time longer, as integrators are compiled. The second folder
 holds a kernel made by hand (`peers/by_hand.py`), measured beside the others where it is named.
@@ -50,6 +50,4 @@ def _tell(what: str) -> None:
 if __name__ == "__main__":
     asked = argparse.ArgumentParser()
     asked.add_argument("folder", type=Path)
-    asked.add_argument("--by-hand", type=Path)
-    given = asked.parse_args()
-    write(bench(tell=_tell, hand=given.by_hand), given.folder)
+    write(bench(tell=_tell), asked.parse_args().folder)

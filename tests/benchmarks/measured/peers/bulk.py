@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from wetdoublet.solvers.verify.stress.answers import Answer
+from ..answers import Answer
 
 Collide = Callable[[int], Answer]
 

@@ -14,8 +14,8 @@ from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.answers import Answer, Impact, dimensionless
 
+from ..answers import Answer, Impact, dimensionless
 from .bulk import Bulk
 from .heyoka_engine import starts
 from .translated import translated

@@ -16,9 +16,9 @@ from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.settings import ENGINES
-from wetdoublet.solvers.verify.stress.answers import Answer, Impact, answer, dimensionless
-from wetdoublet.solvers.verify.stress.scipy_engine import locate_by_scipy
+from wetdoublet.solvers.verify.stress.scipy_engine import ScipyLocator
 
+from ..answers import Answer, Impact, answer, dimensionless
 from .bulk import Bulk, Collide, Partly
 
 
@@ -175,6 +175,6 @@ def _peer(method: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> 
 
     def one(k: int) -> Answer:
         n = dimensionless(scene, impacts[k])
-        return answer(locate_by_scipy(load(select_model(scene, n.oblique)), n.groups, rtol, method))
+        return answer(ScipyLocator(load(select_model(scene, n.oblique)), n.groups, rtol, method).run())
 
     return one

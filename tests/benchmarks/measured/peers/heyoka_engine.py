@@ -21,8 +21,8 @@ from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
 from wetdoublet.solvers.model.model import ModelKey, load, select_model
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.answers import Impact, dimensionless
 
+from ..answers import Impact, dimensionless
 from .heyoka_callbacks import Inside
 from .translated import translated
 

@@ -16,8 +16,7 @@ from casadi import Function
 from wetdoublet.solvers.engines.casadi.integrators import EventHit
 from wetdoublet.solvers.engines.casadi.locate import EventSequence
 from wetdoublet.solvers.model.model import Model
-from wetdoublet.solvers.verify.stress.numpy_equations import Equations
-from wetdoublet.solvers.verify.stress.scipy_engine import ScipyLocator
+from wetdoublet.solvers.verify.stress.scipy_engine import Equations, ScipyLocator
 
 _WORDS = {
     "ADD": "{0} + {1}", "SUB": "{0} - {1}", "MUL": "{0} * {1}", "DIV": "{0} / {1}", "NEG": "-{0}", "EXP": "exp({0})",

@@ -1,12 +1,12 @@
-"""Input and output of the engines in the stress test."""
+"""Input and output of the engines that are compared."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ...engines.casadi.locate import EventSequence
-from ...model.dimensionless import DimensionlessGroups, nondimensionalise
-from ...scene.scene import Scene
+from wetdoublet.solvers.engines.casadi.locate import EventSequence
+from wetdoublet.solvers.model.dimensionless import DimensionlessGroups, nondimensionalise
+from wetdoublet.solvers.scene.scene import Scene
 
 
 @dataclass(frozen=True)
