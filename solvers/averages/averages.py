@@ -17,7 +17,7 @@ from ..host.workers import in_workers
 from ..many.batch import checked_numbers
 from ..many.journal import Journal
 from ..many.journal import journal as checked_journal
-from ..many.stream import software
+from ..many.scan import software
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, Field, Range

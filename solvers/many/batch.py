@@ -121,23 +121,37 @@ def validated_batch(
     return request
 
 
-def batch(scene: Scene, columns: dict[str, np.ndarray], rtol: float, engine: str | None, of: tuple[str, ...]) -> Batch:
-    """A Batch of checked columns of one length, by dotted name."""
+def batch(
+    scene: Scene,
+    columns: dict[str, np.ndarray],
+    rtol: float,
+    engine: str | None,
+    of: tuple[str, ...],
+    engines: Mapping[tuple[str, ...], str] | None = None,
+) -> Batch:
+    """A Batch of checked columns of one length, by dotted name.
+
+    Arguments:
+        engine: the requested engine; None for the best of the scene, unless `engines` knows it already.
+    """
     angle, relative = columns.pop("impact.angle"), columns.pop("impact.relative_speed", None)
-    speed = columns.pop("impact.speed", None)
-    made = Batch(
+    speed, requested = columns.pop("impact.speed", None), check_engine(engine)
+    request = Batch(
         scene=scene,
         stokes=columns.pop("impact.stokes", None),
         speed=speed if relative is None else normal_speed(relative, angle),
         angle=angle,
         vary={name: column for name, column in columns.items() if column.dtype.kind == "f"},
         rtol=check_rtol(rtol),
-        engine=(asked := check_engine(engine)) or "rosenbrock",
+        engine=requested or "rosenbrock",
         of=of,
-        asked=asked,
+        asked=requested,
         texts={name: column for name, column in columns.items() if column.dtype.kind != "f"},
+        engines=engines or {},
     )
-    return made if made.texts else replace(made, engine=collision_engine(scene, asked))
+    if request.texts:
+        return request
+    return replace(request, engine=request.engines.get(()) or collision_engine(scene, requested))
 
 
 def of_one_length(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

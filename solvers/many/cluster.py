@@ -274,10 +274,3 @@ def _translated(error: BaseException) -> BaseException:
         said = " ".join(str(error).split())[:120]
         return ComputationError(f"the connection to the scheduler is lost ({said})", advice="what is finished is kept")
     return error
-
-
-def one_at_a_time(tasks: Callable[[int], Task], todo: Sequence[int]) -> Iterator[tuple[int, Block]]:
-    """The chunks `todo` and their results, in order, each on all cores of this process."""
-    for k in todo:
-        check()
-        yield k, tasks(k)(usable_cores())
