@@ -10,7 +10,7 @@ import hashlib
 import json
 import os
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,6 @@ import numpy as np
 
 from ..errors import InputError
 from ..host.files import write, write_all
-from ..host.locks import take
 from .results import Block
 
 
@@ -94,14 +93,17 @@ class Journal:
 
     def _locked(self) -> int | None:
         """The journal's file, open and locked; None if it is locked by another run."""
+        from filelock import lock_descriptor  # slow import
+
         while True:
             if self.path.exists() and not self.path.is_file():
                 raise InputError("journal", str(self.path), "a file", "is none")
             opened = os.open(self.path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NONBLOCK", 0), 0o666)
             try:
-                if not take(opened):
-                    os.close(opened)
-                    return None
+                with suppress(OSError):  # a file system without locks
+                    if not lock_descriptor(opened, blocking=False):
+                        os.close(opened)
+                        return None
                 if self.path.exists() and os.path.samestat(os.fstat(opened), self.path.stat()):
                     return opened
             except BaseException:
