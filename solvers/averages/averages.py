@@ -15,8 +15,7 @@ from ..host.arguments import check_function, check_name, check_names
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
 from ..many.batch import checked_numbers
-from ..many.journal import Journal
-from ..many.journal import journal as checked_journal
+from ..many.journal import Journal, checked_journal
 from ..many.scan import software
 from ..model.validity import warn
 from ..scene.scene import Scene

@@ -28,8 +28,7 @@ from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
 from .batch import Batch, check_outputs, checked_impact, checked_vary, held_by_default
 from .compute import Slow
-from .journal import Journal
-from .journal import journal as checked_journal
+from .journal import Journal, checked_journal
 from .results import QUANTITIES, VALIDITY
 from .scan import LABELS, Scan
 from .stream import Progress, check_places, into_memory, into_store
