@@ -71,6 +71,8 @@ class Journal:
             yield
             return
         named = str(file or self.path)
+        if self.path.exists() and not self.path.is_file():
+            raise InputError("journal", str(self.path), "a file", "is none")
         try:
             self._held = self._locked()
         except (OSError, ValueError) as error:
@@ -92,8 +94,6 @@ class Journal:
         from filelock import lock_descriptor  # slow import
 
         while True:
-            if self.path.exists() and not self.path.is_file():
-                raise InputError("journal", str(self.path), "a file", "is none")
             opened = os.open(self.path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NONBLOCK", 0), 0o666)
             try:
                 with suppress(OSError):  # a file system without locks
