@@ -130,7 +130,7 @@ class Scan:
             # a speed that follows from other arguments has all dimensions
             every = self.dims, flat.reshape(self.shape)
             own, values = self.columns.get(label if "." in label else f"impact.{label}", every)
-            coordinates[label] = own, values, said  # type: ignore[assignment]  # names of dimensions are hashable
+            coordinates[label] = own, values, said
         return coordinates
 
     def about(self) -> dict[str, Any]:
