@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 3ee32522a5e57490ec0d430d478e23e9187623055d83b8d9b2eb87687555a870
+# Automaton sha256 ffaf8bca325f59a66c77c4bf6964e0dd11e3ad44313eca788b157e4b99917de4
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -147,6 +147,7 @@ class Event(NamedTuple):
     follows: str
     dips: bool
     within_reach: bool
+    driven: bool
     scale: str
     chosen_by: str
 
@@ -170,6 +171,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="motion",
         dips=True,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="motion",
     ),
@@ -182,6 +184,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=True,
         within_reach=False,
+        driven=False,
         scale="glass_number",
         chosen_by="",
     ),
@@ -194,6 +197,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=False,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="larger gap",
     ),
@@ -206,6 +210,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=False,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="",
     ),
@@ -218,6 +223,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="film",
         dips=False,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="",
     ),
@@ -230,6 +236,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="shear",
         dips=False,
         within_reach=True,
+        driven=False,
         scale="",
         chosen_by="",
     ),
@@ -242,6 +249,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=True,
         within_reach=False,
+        driven=True,
         scale="",
         chosen_by="",
     ),
@@ -254,6 +262,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="sliding",
         dips=True,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="grip",
     ),
@@ -266,6 +275,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=True,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="",
     ),
@@ -278,6 +288,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=False,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="",
     ),
@@ -290,6 +301,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=True,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="",
     ),

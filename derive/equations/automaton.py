@@ -157,6 +157,7 @@ class Event:
             and -1 beyond.
         dips: the function may become negative and positive again within one integration step.
         within_reach: watched only where its gap lies between contact and rupture and is not the film's edge.
+        driven: watched only where a tangential force other than that of the dry contact acts.
         scale: dimensionless group that gives the magnitude of the function; 1 if empty.
         words: names under which it may be reported.
         chosen_by: what selects among the words: "motion" (closing, opening), "larger gap" (the criterion met first),
@@ -172,6 +173,7 @@ class Event:
     follows: str = ""
     dips: bool = False
     within_reach: bool = False
+    driven: bool = False
     scale: str = ""
     chosen_by: str = ""
 
@@ -202,7 +204,7 @@ EVENTS = (
           follows="film"),
     Event("tangential_edge", ("tangential_edge",), (_MOVING,), ("tangential edge",),
           ("gap = tangential edge", "cross tangential edge"), follows="shear", within_reach=True),
-    Event("release", ("release",), (_RESTING,), ("released",), ("open",), dips=True),
+    Event("release", ("release",), (_RESTING,), ("released",), ("open",), dips=True, driven=True),
     Event("slipping", ("slipping",), (_RESTING, ("rolling", 0)), ("rolls", "slides"), ("roll or slide",),
           follows="sliding", dips=True, chosen_by="grip"),
     Event("rolling", ("rolling",), (_RESTING, ("rolling", 1)), ("slides",), ("slide",), dips=True),
@@ -237,7 +239,8 @@ RULES = (
          "it slides; if it has no slip (less than NO_SLIP) and friction can hold the surfaces, it rolls. In space "
          "it slides in the direction of the slip, which may turn, and rolls where that is less than CREEP", ("rolls",)),
     Rule("parting", "the doublet ruptures at a normal velocity below LEAST_PARTING", "no outcome is decided"),
-    Rule("opening", "the doublet opens on the edge of the film or of the tangential force", "it is beyond that edge"),
+    Rule("opening", "the doublet opens or rests on the edge of the film or of the tangential force",
+         "it is beyond that edge"),
     Rule("obliqueness", "the centrifugal force exceeds MOST_OBLIQUE times v0^2/x0", "the collision is refused"),
 )  # fmt: skip
 

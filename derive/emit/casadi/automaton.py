@@ -15,8 +15,8 @@ _CRITERION_FIELDS = {
 }  # fmt: skip
 _EVENT_FIELDS = {
     "name": "str", "functions": "tuple[str, ...]", "where": "tuple[tuple[str, int], ...]", "words": "tuple[str, ...]",
-    "actions": "tuple[str, ...]", "follows": "str", "dips": "bool", "within_reach": "bool", "scale": "str",
-    "chosen_by": "str",
+    "actions": "tuple[str, ...]", "follows": "str", "dips": "bool", "within_reach": "bool", "driven": "bool",
+    "scale": "str", "chosen_by": "str",
 }  # fmt: skip
 
 

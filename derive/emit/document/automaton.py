@@ -80,7 +80,8 @@ def _guard(event: Event) -> str:
     sign = {"": "", "motion": ", negative while closing", "sliding": ", negative while sliding back"}
     sign |= dict.fromkeys(("film", "shear"), ", negative beyond")
     guard = (functions[0] if len(functions) == 1 else f"the smallest of {', '.join(functions)}") + sign[event.follows]
-    return f"{guard}, if its gap lies within reach" if event.within_reach else guard
+    guard += ", if its gap lies within reach" if event.within_reach else ""
+    return f"{guard}, if a tangential force acts besides dry friction" if event.driven else guard
 
 
 def watched(event: Event) -> str:

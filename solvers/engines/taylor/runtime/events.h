@@ -219,6 +219,9 @@ static void find_events(const series *s, const lanes *l, const fixed *f, vec h, 
         look(found, close, s->gap, f->edge, away, h, splat_mask(AT_TANGENTIAL_EDGE));
 #endif
     close = l->alive & l->resting;
+#if OBLIQUE && !STRINGS
+    close &= l->shear != 0.0;
+#endif
     if (OBLIQUE && !WALL && bits(close)) { /* beside a wall and head-on the forces at rest stay as they are */
         close &= NOT(-s->acceleration[0] > reach(s->acceleration, h));
         if (bits(close))
