@@ -7,10 +7,9 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
-from ..scene.held import held_text
 from ..scene.scene import Scene
 from ..settings import RTOL
-from .batch import check_outputs, checked_impact, checked_vary, held_by_default
+from .batch import check_outputs, checked_columns
 from .results import RESULTS
 from .scan import Scan, laid_out
 from .stream import check_places, into_memory, into_store
@@ -75,17 +74,11 @@ def collide_many(
         >>> laws.restitution.shape
         (2,)
     """
-    loaded, names = Scene.load(scene), check_outputs(of, RESULTS)
-    file = check_places(client, store)
+    names, file = check_outputs(of, RESULTS), check_places(client, store)
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
-    vary = {} if vary is None else vary
-    loaded, varied = checked_vary(loaded, vary, most=None, texts=True)
-    kept = held_by_default(loaded, impact, varied, hold)
-    arrays = checked_impact(loaded, impact, None, kept) | varied
-    dims, shape, columns, beside = laid_out(
-        arrays, {**{f"impact.{name}": values for name, values in impact.items()}, **vary}
-    )
-    held = held_text(loaded, kept) if kept else ""
+    loaded, arrays, held = checked_columns(scene, impact, vary, hold, most=None, texts=True)
+    arguments = {**{f"impact.{name}": values for name, values in impact.items()}, **(vary or {})}
+    dims, shape, columns, beside = laid_out(arrays, arguments)
     scan = Scan(loaded, dims, shape, columns, rtol, engine, names, held, beside).checked()
     if file is None:
         return into_memory(scan, client)

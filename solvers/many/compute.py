@@ -6,7 +6,7 @@ worker processes. A collision that fails is marked with its reason and the rest 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import numpy as np
 
@@ -107,16 +107,9 @@ def compute(
         for block in blocks:
             finished(block, run(request.part(block), many))
         return
-    for block, result in _in_parallel(request, blocks, cores, many):
-        finished(block, result)
-
-
-def _in_parallel(
-    request: Batch, blocks: list[np.ndarray], cores: int, machine_code: bool
-) -> Iterator[tuple[np.ndarray, Block]]:
-    """Blocks and their results in the order in which they finish; each worker receives only its part of the batch."""
     if request.engine != "cvodes":
         compiler()  # a missing compiler is reported here and not by a worker
-    if machine_code:
+    if many:
         run(request.part(blocks[0][:1]), True)  # compile once, before the workers need it
-    yield from in_workers(cores, run, ((block, (request.part(block), machine_code)) for block in blocks))
+    for block, result in in_workers(cores, run, ((block, (request.part(block), many)) for block in blocks)):
+        finished(block, result)

@@ -19,14 +19,13 @@ from ..formatting.labelled import Column
 from ..host import files
 from ..host.arguments import check_function
 from ..scene.groups import si_values
-from ..scene.held import held_text
 from ..scene.quantities import normal_speed
 from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
-from .batch import Batch, check_outputs, checked_impact, checked_vary, held_by_default
+from .batch import Batch, check_outputs, checked_columns
 from .compute import Slow
 from .journal import Journal, checked_journal
 from .results import QUANTITIES, VALIDITY
@@ -160,13 +159,11 @@ def regime_map(
     check_function(slow, "slow")
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     file = check_places(client, store)
-    loaded, varied = checked_vary(Scene.load(scene), {} if vary is None else vary)
-    kept = held_by_default(loaded, impact, varied, hold)
-    axes = _axes(checked_impact(loaded, impact, 1, kept) | varied, MOST if file is None else MOST_STORED)
+    loaded, arrays, held = checked_columns(scene, impact, vary, hold)
+    axes = _axes(arrays, MOST if file is None else MOST_STORED)
     rtol, engine, names, blocks = check_rtol(rtol), check_engine(engine), check_outputs(of), checked_journal(journal)
     columns = {name: ((name.partition(".")[2] if name in MEETING else name,), axis) for name, axis in axes.items()}
     dims, shape = tuple(own[0] for own, _ in columns.values()), tuple(axis.size for axis in axes.values())
-    held = held_text(loaded, kept) if kept else ""
     grid = Grid(loaded, dims, shape, columns, rtol, engine, names, held).checked()
     if file is not None:
         return into_store(grid, file, client, progress, blocks)
