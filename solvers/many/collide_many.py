@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..scene.scene import Scene
-from ..settings import RTOL
+from ..settings import RTOL, check_engine, check_rtol
 from .batch import check_outputs, checked_columns
 from .results import RESULTS
 from .scan import Scan, laid_out
@@ -75,6 +75,7 @@ def collide_many(
         (2,)
     """
     names, file = check_outputs(of, RESULTS), check_places(client, store)
+    rtol, engine = check_rtol(rtol), check_engine(engine)
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     loaded, arrays, held = checked_columns(scene, impact, vary, hold, most=None, texts=True)
     arguments = {**{f"impact.{name}": values for name, values in impact.items()}, **(vary or {})}

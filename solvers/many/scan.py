@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated import scaling
+from ..engines.choice import collision_engine
 from ..errors import InputError
 from ..formatting.labelled import Column, labelled
 from ..host.pictures import register
@@ -66,7 +67,7 @@ class Scan:
     @property
     def answered_by(self) -> str:
         """The engines that answer, as text."""
-        return ", ".join(dict.fromkeys(self.engines.values()))
+        return ", ".join(dict.fromkeys(self.engines.values())) or self.engine or "rosenbrock"
 
     def order(self) -> np.ndarray:
         """Flat indices in the order of computation."""
@@ -94,6 +95,9 @@ class Scan:
 
         Scenes are warned of here, and not by the processes that compute them.
         """
+        if not set(self.columns) - {*MEETING}:  # one scene
+            warn(self.scene)
+            return replace(self, engines={(): collision_engine(self.scene, self.engine)})
         varied = {dim for name, (own, _) in self.columns.items() if name not in MEETING for dim in own}
         lengths = zip(self.dims, self.shape, strict=True)
         scenes = self.part(tuple(slice(0, size if dim in varied else min(size, 1)) for dim, size in lengths)).batch()

@@ -48,7 +48,7 @@ def check_places(client: object, store: object) -> Path | None:
 def _cut(scan: Scan) -> list[Place]:
     """The chunks of a scan, each small enough to be sent."""
     numbers = sum(3 if values.dtype.kind == "U" else 1 for _, values in scan.columns.values())
-    return chunks(scan.shape, next(iter(scan.engines.values())), min(LARGEST, _NUMBERS // numbers))
+    return chunks(scan.shape, next(iter(scan.engines.values()), "rosenbrock"), min(LARGEST, _NUMBERS // numbers))
 
 
 def _computed_part(part: Scan, size: int, cores: int) -> Block:
