@@ -116,7 +116,7 @@ def validated_batch(
     """
     kept = check_outputs(of)
     loaded, columns, _ = checked_columns(scene, impact, vary)
-    request = batch(loaded, of_one_length(columns), rtol, engine, kept)
+    request = batch(loaded, of_one_length(columns), check_rtol(rtol), check_engine(engine), kept)
     check_some_scene(request)
     return request
 
@@ -129,29 +129,29 @@ def batch(
     of: tuple[str, ...],
     engines: Mapping[tuple[str, ...], str] | None = None,
 ) -> Batch:
-    """A Batch of checked columns of one length, by dotted name.
+    """A Batch of checked columns of one length, by dotted name, with checked settings.
 
     Arguments:
         engine: the requested engine; None for the best of the scene, unless `engines` knows it already.
     """
     angle, relative = columns.pop("impact.angle"), columns.pop("impact.relative_speed", None)
-    speed, requested = columns.pop("impact.speed", None), check_engine(engine)
+    speed = columns.pop("impact.speed", None)
     request = Batch(
         scene=scene,
         stokes=columns.pop("impact.stokes", None),
         speed=speed if relative is None else normal_speed(relative, angle),
         angle=angle,
         vary={name: column for name, column in columns.items() if column.dtype.kind == "f"},
-        rtol=check_rtol(rtol),
-        engine=requested or "rosenbrock",
+        rtol=rtol,
+        engine=engine or "rosenbrock",
         of=of,
-        asked=requested,
+        asked=engine,
         texts={name: column for name, column in columns.items() if column.dtype.kind != "f"},
         engines=engines or {},
     )
     if request.texts:
         return request
-    return replace(request, engine=request.engines.get(()) or collision_engine(scene, requested))
+    return replace(request, engine=request.engines.get(()) or collision_engine(scene, engine))
 
 
 def of_one_length(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -85,6 +85,9 @@ class Scan:
         """All collisions, in one dimension."""
         columns = {}
         for name, (own, values) in self.columns.items():
+            if own == self.dims:
+                columns[name] = values.ravel()
+                continue
             full = values.transpose([own.index(dim) for dim in self.dims if dim in own])
             full = full.reshape([n if dim in own else 1 for dim, n in zip(self.dims, self.shape, strict=True)])
             columns[name] = np.broadcast_to(full, self.shape).ravel()
