@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
+from ..host import bounded
 from ..host.files import write, write_all
 from .results import Block
 
@@ -71,7 +72,7 @@ class Journal:
             yield
             return
         named = str(file or self.path)
-        if self.path.exists() and not self.path.is_file():
+        if bounded.exists(self.path) and not bounded.is_file(self.path):
             raise InputError("journal", str(self.path), "a file", "is none")
         try:
             self._held = self._locked()
