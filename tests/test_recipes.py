@@ -90,11 +90,17 @@ HELLO = """\"\"\"`wetdoublet hello`: say hello.\"\"\"
 
 import click
 
+from .signature import as_command
 
-@click.command("hello", short_help="Say hello.")
-def command() -> None:
-    \"\"\"Say hello.\"\"\"
-    click.echo("hello")
+
+@as_command("Say hello.")
+def command(to: str | None) -> None:
+    \"\"\"Say hello.
+
+    Options:
+        --to NAME: Who is greeted.
+    \"\"\"
+    click.echo(f"hello {to}")
 """
 EMIT = """
 from pathlib import Path
@@ -205,5 +211,5 @@ def test_a_new_bridge_law(tree: Tree) -> None:
 
 
 def test_a_new_command(tree: Tree) -> None:
-    """It is run by its name."""
-    assert tree.run("hello") == "hello\n"
+    """It is run by its name, with the option of its signature."""
+    assert tree.run("hello", "--to", "you") == "hello you\n"

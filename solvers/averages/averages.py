@@ -17,9 +17,8 @@ from ..host.cores import usable_cores
 from ..host.workers import in_workers
 from ..many.batch import checked_numbers
 from ..many.dataset import fill
-from ..many.journal import Journal
-from ..many.journal import journal as checked_journal
-from ..many.stream import software
+from ..many.journal import Journal, checked_journal
+from ..many.scan import software
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, Field, Range

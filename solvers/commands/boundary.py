@@ -2,56 +2,30 @@
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
-
-import click
+from functools import partial
+from typing import Annotated
 
 from ..errors import CheckFailed, InputError
-from ..scene import units
-from ..scene.schema import FIELDS, Field
+from ..scene.schema import FIELDS
 from ..scene.user_model import fields
-from ..settings import RTOL, check_rtol
-from . import options
-from .bar import bar
-
-if TYPE_CHECKING:
-    from ..boundaries.boundary import Boundaries
-    from ..scene.scene import Scene
-    from ..sensitivity.boundaries import BoundarySensitivities
+from . import options, texts
+from .bar import Bar
+from .signature import as_command, passed
 
 _MOST = 100_000  # lines; about half an hour
-_ENTRY = FIELDS["impact.angle"]
+_ANGLE = FIELDS["impact.angle"]
 
 
-@click.command("boundary", short_help="Every Stokes number at which the outcome changes, traced.")
-@options.scene_argument
-@click.option("--angle", metavar="RANGE", help="Impact angles (degrees): 40, lines 20:65:10, a plane 20:65.")
-@click.option("--over", metavar="NAME=LO:HI", help='A plane of this entry, as liquid.viscosity="1:4 Pa s".')
-@click.option("--stokes", metavar="LO:HI", help="Stokes numbers to search [1e-4:100, or more by the scene].")
-@click.option("--wrt", metavar="NAMES", help="Derivatives as well, in bridge.volume,liquid.viscosity, or all.")
-@options.changes
-@options.model
-@options.rtol
-@options.as_json
-@options.plot
-@options.output
-@options.debug
+@as_command("Every Stokes number at which the outcome changes, traced.")
 def command(
-    source: str | None,
     angle: str | None,
     over: str | None,
-    stokes: str | None,
-    wrt: str | None,
-    changes: Sequence[str],
-    model: str | None,
-    rtol: str | None,
-    as_json: bool,
-    plot: str | None,
-    output: str | None,
+    stokes: Annotated[texts.Range | None, partial(texts.span, FIELDS["impact.stokes"])],
+    wrt: list[str] | None,
+    request: options.EntriesRequest,
+    rtol: options.Rtol,
+    output: options.Shown,
 ) -> None:
     """Changes of outcome of SCENE along lines of constant angle: Stokes number, Ce, and the outcomes on either side.
 
@@ -63,48 +37,56 @@ def command(
       wetdoublet boundary granulation --angle 20:70:26 --plot boundary.png
       wetdoublet boundary granulation --angle 0:85 --plot atlas.png
       wetdoublet boundary granulation --over particles.roughness="0.1:6 um" --set impact.angle=60
-    """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
-    from ..boundaries.boundary import boundary
 
-    tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
-    picture = options.check_file(plot, "--plot", options.PICTURES)
-    file = options.check_file(output, "-o")
-    options.check_apart(file, "-o", picture, "--plot")
-    span = None if stokes is None else _span(stokes)
-    asked = options.SceneRequest.check(source, changes, model=model)
-    plane = _plane(angle, over, wrt, asked)
-    angles = None if angle is None or plane else options.entry_range(_ENTRY, angle, "--angle", most=_MOST)
-    scene = asked.scene()
+    Options:
+        --angle RANGE: Impact angles (degrees): 40, lines 20:65:10, a plane 20:65.
+        --over NAME=LO:HI: A plane of this entry, as liquid.viscosity="1:4 Pa s".
+        --stokes LO:HI: Stokes numbers to search [1e-4:100, or more by the scene].
+        --wrt NAMES: Derivatives as well, in bridge.volume,liquid.viscosity, or all.
+    """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
+    from ..boundaries.boundary import atlas, boundary
+
+    plane = _plane(angle, over, request)
+    if plane is not None and wrt is not None:
+        raise InputError("--wrt", ",".join(wrt), "--angle LO:HI:N", "differentiates lines, not a plane")
+    angles = None if angle is None or plane else texts.entry_range(_ANGLE, angle, "--angle", most=_MOST)
+    scene = request.scene()
+    search = passed(stokes=stokes, rtol=rtol)
     if plane is not None:
-        _show_atlas(scene, *plane, span, tolerance, as_json, picture, file)
+        name, across = plane
+        with Bar("lines") as progress:
+            curves = atlas(scene, over=name, span=across, progress=progress, **search)
+        output.show(curves)
+        if curves.unsettled:
+            x, at_stokes, reason = curves.unsettled[0]
+            where = f"first {name} = {x:.6g} (SI), St {at_stokes:.6g}"
+            raise CheckFailed(f"{len(curves.unsettled)} places are not settled, {where}: {reason}")
         return
     if angles is None:
         raise InputError("--angle", None, "an angle, LO:HI:N, or LO:HI, in degrees, as 20:65:10, or --over")
+    if wrt is None:
+        names = None
+    else:
+        from ..sensitivity.boundaries import boundary_sensitivities, check_boundary_wrt
 
-    names = _names(scene, wrt)
-    with bar("angles") as tell:
-        found = boundary(scene, angle=angles, stokes=span, rtol=tolerance, progress=lambda k: tell(k, len(angles)))
-    shown: Boundaries | BoundarySensitivities = found
-    if names is not None:
-        from ..sensitivity.boundaries import boundary_sensitivities
-
-        with bar("angles differentiated") as tell:
-            shown = boundary_sensitivities(
-                scene, wrt=names, rtol=tolerance, traced=found, progress=lambda k: tell(k, len(angles))
+        names = check_boundary_wrt(scene, None if wrt == ["all"] else wrt)
+    with Bar("angles") as progress:
+        lines = boundary(scene, angle=angles, progress=lambda k: progress(k, len(angles)), **search)
+    if names is None:
+        output.show(lines)
+    else:
+        with Bar("angles differentiated") as progress:
+            moving = boundary_sensitivities(
+                scene, wrt=names, traced=lines, progress=lambda k: progress(k, len(angles)), **passed(rtol=rtol)
             )
-    options.put(json.dumps(shown.to_dict(), indent=2, allow_nan=False) if as_json else str(shown), file)
-    if picture is not None:
-        found.plot(picture)
-    if found.failed:
-        at, reason = found.failed[0]
-        raise CheckFailed(
-            f"{len(found.failed)} of {len(angles)} angles failed, first {math.degrees(at):.6g} deg: {reason}"
-        )
+        output.show(moving, drawn=lines)
+    if lines.failed:
+        at, reason = lines.failed[0]
+        where = f"first {math.degrees(at):.6g} deg"
+        raise CheckFailed(f"{len(lines.failed)} of {len(angles)} angles failed, {where}: {reason}")
 
 
-def _plane(
-    angle: str | None, over: str | None, wrt: str | None, asked: options.SceneRequest
-) -> tuple[str, tuple[float, float] | tuple[str, str]] | None:
+def _plane(angle: str | None, over: str | None, request: options.SceneRequest) -> tuple[str, texts.Range] | None:
     """The entry on the horizontal axis and its span if a plane is requested, else None."""
     if over is not None:
         name, equals, ends = over.partition("=")
@@ -112,74 +94,14 @@ def _plane(
         if not equals:
             raise InputError("--over", over, 'NAME=LO:HI, such as liquid.viscosity="1:4 Pa s"', "has no =")
         if angle is not None:
-            raise InputError("--angle", angle, "--set impact.angle=ANGLE for a plane of another entry",
-                             "is given together with --over")  # fmt: skip
+            accepted = "--set impact.angle=ANGLE for a plane of another entry"
+            raise InputError("--angle", angle, accepted, "is given together with --over")
         from ..many.batch import check_varies
 
-        check_varies(name, ends, "--over", asked.package)
-        if name in asked.entries:
+        check_varies(name, ends, "--over", request.package)
+        if name in request.entries:
             raise InputError("--over", name, "every entry once", "is given together with --set")
-        entry = fields(asked.package)[name]
-        parts = ends.split(":")
-        if entry.or_unit and not all(units.is_number(end) for end in parts):
-            low, high = _ends(f"--over {name}", ends, entry.measured)
-            return name, (f"{low!r} {entry.or_unit}", f"{high!r} {entry.or_unit}")
-        found = name, _ends(f"--over {name}", ends, entry)
-    elif angle is not None and angle.count(":") == 1 and not angle.strip().startswith("log"):
-        found = _ENTRY.name, _ends("--angle", angle, _ENTRY)
-    else:
-        return None
-    if wrt is not None:
-        raise InputError("--wrt", wrt, "--angle LO:HI:N", "differentiates lines, not a plane")
-    return found
-
-
-def _ends(label: str, text: str, entry: Field) -> tuple[float, float]:
-    """The two ends of LO:HI, SI."""
-    parts = text.split(":")
-    said = " in degrees, or with a unit" if entry.unit == "rad" else " with a unit at either end" if entry.unit else ""
-    accepted = f"LO:HI{said}, with LO below HI"
-    if len(parts) != 2:
-        raise InputError(label, text, accepted, "is not a range")
-    low, high = options.entry_ends(entry, label)(*parts)
-    if not low < high:
-        raise InputError(label, text, accepted, "is not a range")
-    return low, high
-
-
-def _show_atlas(
-    scene: Scene,
-    over: str,
-    across: tuple[float, float] | tuple[str, str],
-    span: tuple[float, float] | None,
-    rtol: float,
-    as_json: bool,
-    picture: Path | None,
-    file: Path | None,
-) -> None:
-    from ..boundaries.boundary import atlas
-
-    with bar("lines") as tell:
-        found = atlas(scene, over=over, span=across, stokes=span, rtol=rtol, progress=tell)
-    options.put(json.dumps(found.to_dict(), indent=2, allow_nan=False) if as_json else str(found), file)
-    if picture is not None:
-        found.plot(picture)
-    if found.unsettled:
-        x, stokes, reason = found.unsettled[0]
-        raise CheckFailed(
-            f"{len(found.unsettled)} places are not settled, first {over} = {x:.6g} (SI), St {stokes:.6g}: {reason}"
-        )
-
-
-def _names(scene: Scene, wrt: str | None) -> tuple[str, ...] | None:
-    """The parameters of --wrt; `all` stands for every numeric entry of the scene and the angle."""
-    if wrt is None:
-        return None
-    from ..sensitivity.boundaries import check_boundary_wrt
-
-    names = options.listed(wrt, "--wrt")
-    return check_boundary_wrt(scene, None if names == ["all"] else names, "--wrt")
-
-
-def _span(text: str) -> tuple[float, float]:
-    return _ends("--stokes", text, FIELDS["impact.stokes"])
+        return name, texts.span(fields(request.package)[name], ends, f"--over {name}")
+    if angle is not None and angle.count(":") == 1 and not angle.strip().startswith("log"):
+        return _ANGLE.name, texts.span(_ANGLE, angle, "--angle")
+    return None

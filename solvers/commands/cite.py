@@ -4,37 +4,26 @@ from __future__ import annotations
 
 import json
 
-import click
-
 from ..scene.origin import origin
 from . import options
+from .signature import as_command
 
 
-@click.command("cite", short_help="BibTeX of the paper and of each law that a scene uses.")
-@options.scene_argument
-@options.of_scene
-@options.as_json
-@options.output
-@options.debug
-def command(
-    request: options.SceneRequest,
-    as_json: bool,
-    output: str | None,
-) -> None:
+@as_command("BibTeX of the paper and of each law that a scene uses.")
+def command(request: options.Request, output: options.Written) -> None:
     """Print BibTeX entries of what SCENE rests on: the paper, and where its laws are published.
 
     \b
     Example:
       wetdoublet cite granulation --set bridge.law=willett -o references.bib
     """  # noqa: D301 # click wants the character itself
-    file = options.check_file(output, "-o")
     scene = request.scene()
 
     from ..export.citations import as_bibtex, citations
 
-    found = citations(scene)
-    if as_json:
-        told = {**origin(scene), "references": [each.to_dict() for each in found]}
-        options.put(json.dumps(told, indent=2, allow_nan=False, ensure_ascii=False), file)
+    references = citations(scene)
+    if output.as_json:
+        record = {**origin(scene), "references": [each.to_dict() for each in references]}
+        output.put(json.dumps(record, indent=2, allow_nan=False, ensure_ascii=False))
     else:
-        options.put(as_bibtex(found), file)
+        output.put(as_bibtex(references))

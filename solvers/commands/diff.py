@@ -2,33 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-import click
-
 from ..errors import InputError
 from . import options
+from .signature import as_command
 
-_KINDS = "library, a preset or scene file, a folder of `generate`, or MODEL.py"
 
-
-@click.command("diff", short_help="The terms in which two models differ, and their effect.")
-@click.argument("one", metavar="A", required=False)
-@click.argument("other", metavar="B", required=False)
-@click.option("--scene", "probe", metavar="SCENE", default="granulation", help="Scene of the comparison [granulation].")
-@options.changes
-@click.option("--latex", is_flag=True, help="A LaTeX document.")
-@click.option("--markdown", is_flag=True, help="Markdown.")
-@options.output
-@options.debug
+@as_command("The terms in which two models differ, and their effect.", probe={"default": "granulation"})
 def command(
     one: str | None,
     other: str | None,
     probe: str,
-    changes: Sequence[str],
+    changes: options.Changes,
     latex: bool,
     markdown: bool,
-    output: str | None,
+    output: options.WrittenText,
 ) -> None:
     """Compare A and B: `library`, presets, scene files, models, or two folders of `generate`.
 
@@ -38,20 +25,22 @@ def command(
     Example:
       wetdoublet diff library mine.py
       wetdoublet diff granulation granulation --set bridge.law=willett
+
+    Options:
+        A (one):
+        B (other):
+        --scene SCENE (probe): Scene of the comparison [granulation].
+        --latex: A LaTeX document.
+        --markdown: Markdown.
     """  # noqa: D301 # click wants the character itself
-    file = options.check_file(output, "-o")
     if latex and markdown:
         raise InputError("--markdown", None, "only one of --latex, --markdown", "is given together with --latex")
-    for label, given in (("A", one), ("B", other)):
-        if given is None:
-            raise InputError(label, None, _KINDS)
-    assert one is not None
-    assert other is not None
+    if one is None or other is None:
+        accepted = "library, a preset or scene file, a folder of `generate`, or MODEL.py"
+        raise InputError("A" if one is None else "B", None, accepted)
 
     from ..export.differences import differences
-
-    found = differences(one, other, probe, options.entries(changes))
-
     from ..export.text import as_latex, as_markdown, as_text
 
-    options.put((as_latex if latex else as_markdown if markdown else as_text)(found), file)
+    form = as_latex if latex else as_markdown if markdown else as_text
+    output.put(form(differences(one, other, probe, changes)))

@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
+from functools import partial
+from typing import Annotated
+
 import click
 
-from ..errors import InputError, did_you_mean
+from ..errors import InputError
 from ..host.files import write_all_in
-from . import options
+from . import options, texts
+from .signature import as_command
 
 KINDS = ("c", "casadi", "latex")
 
 
-@click.command("export", short_help="The collision law of the scene in C; its model as LaTeX and Markdown.")
-@options.scene_argument
-@click.option("--to", "kind", metavar="KIND", help="c, casadi or latex.")
-@click.option("--out", metavar="DIR", help="Folder to write into.")
-@options.of_scene
-@options.debug
+@as_command("The collision law of the scene in C; its model as LaTeX and Markdown.")
 def command(
-    request: options.SceneRequest,
-    kind: str | None,
-    out: str | None,
+    to: Annotated[str | None, partial(texts.known, KINDS)], out: options.Folder, request: options.Request
 ) -> None:
     """Write the law of SCENE, or its model, into DIR.
 
@@ -32,21 +29,22 @@ def command(
     \b
     Example:
       wetdoublet export granulation --to c --out law
+
+    Options:
+        --to KIND: c, casadi or latex.
+        --out DIR: Folder to write into.
     """  # noqa: D301 # click wants the character itself
-    if kind is not None and kind not in KINDS:
-        raise InputError("--to", kind, ", ".join(KINDS), "is not known" + did_you_mean(kind, KINDS))
-    folder = options.check_folder(out)
     scene = request.scene(remark=True)
-    if kind is None:
+    if to is None:
         raise InputError("--to", None, "one of " + ", ".join(KINDS))
-    if folder is None:
+    if out is None:
         raise InputError("--out", None, "a folder to write into")
 
-    if kind == "latex":
+    if to == "latex":
         from ..export.equations import texts
-    elif kind == "c":
+    elif to == "c":
         from ..export.law.texts import texts
     else:
         from ..export.functions import texts
-    for file in write_all_in(folder, texts(scene)):
+    for file in write_all_in(out, texts(scene)):
         click.echo(str(file))

@@ -9,20 +9,14 @@ import click
 from ..errors import CheckFailed, InputError
 from ..host.files import write_all_in
 from . import options
+from .signature import as_command, passed
 
 OWN = Path(__file__).resolve().parents[2] / "generated"  # not imported: may be stale or broken
-
-
 _SHOWN = 5  # most extra files named in the message; the listing names all
 
 
-@click.command("generate", short_help="Derive the equations and emit them as CasADi functions.")
-@click.argument("model", metavar="[MODEL.py]", required=False)
-@click.option("--out", metavar="DIR", help="Output folder; required for a model.")
-@click.option("--check", is_flag=True, help="Compare with the files there, byte for byte, and write nothing.")
-@click.option("--template", is_flag=True, help="Print a model file that runs as it is.")
-@options.debug
-def command(model: str | None, out: str | None, check: bool, template: bool) -> None:
+@as_command("Derive the equations and emit them as CasADi functions.")
+def command(model: str | None, out: options.Folder, check: bool, template: bool) -> None:
     """Derive the equations and emit them as CasADi functions.
 
     With MODEL.py, which is run as Python, its laws are derived, checked and emitted into DIR, for --model DIR of the
@@ -33,11 +27,16 @@ def command(model: str | None, out: str | None, check: bool, template: bool) -> 
       wetdoublet generate --template > mine.py
       wetdoublet generate mine.py --out mine
       wetdoublet collide granulation --model mine --set custom.yield_stress="50 Pa"
+
+    Options:
+        [MODEL.py] (model):
+        --out DIR: Output folder; required for a model.
+        --check: Compare with the files there, byte for byte, and write nothing.
+        --template: Print a model file that runs as it is.
     """  # noqa: D301 # click wants the character itself
     if template:
-        for option, given in (("MODEL.py", model), ("--out", out), ("--check", check or None)):
-            if given is not None:
-                raise InputError(option, given, "--template alone: it prints a model file", "is given with --template")
+        for option, value in passed(**{"MODEL.py": model, "--out": out, "--check": check or None}).items():
+            raise InputError(option, value, "--template alone: it prints a model file", "is given with --template")
         from ...derive.user_model.template import TEMPLATE
 
         click.echo(TEMPLATE.rstrip("\n"))
@@ -46,46 +45,43 @@ def command(model: str | None, out: str | None, check: bool, template: bool) -> 
         _model(model, out, check)
         return
     if check and out is not None:
-        raise InputError("--out", out, "--check alone: it compares the package's own folder", "is given with --check")
-    folder = options.check_folder(out) or OWN
+        accepted = "--check alone: it compares the package's own folder"
+        raise InputError("--out", str(out), accepted, "is given with --check")
 
     from ...derive.emit import write
 
     if not check:
-        click.echo("\n".join(map(str, write_all_in(folder, write.emitted()))))
+        click.echo("\n".join(map(str, write_all_in(out or OWN, write.emitted()))))
     elif differences := write.check():
         click.echo("\n".join(differences))
         raise CheckFailed(_advice(differences))
 
 
-def _model(source: str, out: str | None, check: bool) -> None:
+def _model(source: str, folder: Path | None, check: bool) -> None:
     """Derive, check and emit a user's model, and print its description."""
-    if out is None:
+    if folder is None:
         raise InputError("--out", None, "a folder for the emitted model")
-    folder = options.check_folder(out)
-    assert folder is not None
     if folder.resolve() == OWN:
-        raise InputError("--out", out, "a folder of its own for a model", "is the package's own folder")
+        raise InputError("--out", str(folder), "a folder of its own for a model", "is the package's own folder")
 
     from ..scene.user_model_derived import derived_package
 
-    made = derived_package(Path(source), folder)
-    click.echo(made.report)
-    if not made.files:
-        raise CheckFailed(f"{source}: {made.failed}")
+    derived = derived_package(Path(source), folder)
+    click.echo(derived.report)
+    if not derived.files:
+        raise CheckFailed(f"{source}: {derived.failed}")
 
     from ...derive.emit import user
 
     if check:
-        if lines := user.differences(made.files, folder):
+        if lines := user.differences(derived.files, folder):
             click.echo("\n".join(lines))
-            raise CheckFailed(
-                f"{folder} is not what {source} gives; `wetdoublet generate {source} --out {out}` mends it"
-            )
+            remedy = f"`wetdoublet generate {source} --out {folder}` mends it"
+            raise CheckFailed(f"{folder} is not what {source} gives; {remedy}")
         return
     before = user.earlier(folder)
-    written = write_all_in(folder, made.files)
-    for name in before - made.files.keys():
+    written = write_all_in(folder, derived.files)
+    for name in before - derived.files.keys():
         (folder / name).unlink(missing_ok=True)
     click.echo(f"\n{len(written)} files in {folder}; use it with --model {folder}")
 
@@ -93,9 +89,7 @@ def _model(source: str, out: str | None, check: bool) -> None:
 def _advice(differences: list[str]) -> str:
     """The remedy for findings of `write.check`. Emitting again repairs or creates files, but removes none."""
     extra = [str(OWN / line.removeprefix("extra: ")) for line in differences if line.startswith("extra: ")]
-    parts = []
-    if len(extra) < len(differences):
-        parts.append(f"`wetdoublet generate` would mend {OWN}")
+    parts = [f"`wetdoublet generate` would mend {OWN}"] if len(extra) < len(differences) else []
     if extra:
         more = f" and {len(extra) - _SHOWN} more" if len(extra) > _SHOWN else ""
         parts.append(f"nothing emits {', '.join(extra[:_SHOWN])}{more}: to be removed by hand")

@@ -1,65 +1,50 @@
-"""`wetdoublet scenes`: lists or prints the presets."""
+"""`wetdoublet scenes`: lists, prints and begins scene files."""
 
 from __future__ import annotations
-
-from pathlib import Path
 
 import click
 
 from ..errors import InputError
 from ..host import bounded, files
+from ..host.outputs import check_file
 from ..scene.scenefile import PRESETS, description, read_text, template
 from . import options
+from .signature import as_command, passed
 
 
-@click.command("scenes", short_help="List the presets, or print one as TOML.")
-@click.argument("source", metavar="[NAME]", required=False)
-@click.option("--new", "new", metavar="NAME", help="Write NAME.toml, a commented scene to be filled in.")
-@options.of_scene
-@options.output
-@options.debug
-def command(
-    request: options.SceneRequest,
-    new: str | None,
-    output: str | None,
-) -> None:
+@as_command("List the presets, or print one as TOML.")
+def command(new: str | None, request: options.NamedRequest, output: options.WrittenText) -> None:
     """List the presets, or print the scene NAME as TOML, ready to be saved and edited.
 
     With --new NAME a scene file to be filled in is written, which runs as it is.
+
+    Options:
+        --new NAME: Write NAME.toml, a commented scene to be filled in.
     """
-    file = options.check_file(output, "-o")
-    begun = None if new is None else _new(new)
-    if begun is not None:
-        for option, text in {"NAME": request.source, **request.options, "-o": output}.items():
-            if text is not None:
-                raise InputError("--new", new, "--new NAME alone", f"is given together with {option}")
-        files.write(begun, template(begun.stem))
-        click.echo(str(begun))
+    if new is not None:
+        _begin(new, {"NAME": request.source, **request.options, "-o": output.file})
         return
     scene = request.optional_scene()
     if scene is None:
-        options.put(_listing(), file)
+        width = max(map(len, PRESETS))
+        output.put("\n".join(f"{name:<{width}}  {description(name)}" for name in PRESETS))
     elif request.source in PRESETS and not request.options:
-        options.put(read_text(str(request.source))[0].rstrip("\n"), file)
+        output.put(read_text(str(request.source))[0].rstrip("\n"))
     else:
-        options.put(scene.to_toml().rstrip("\n"), file)
+        output.put(scene.to_toml().rstrip("\n"))
 
 
-def _new(name: str) -> Path:
-    """The file to begin, which must not be there."""
+def _begin(name: str, others: dict[str, object]) -> None:
+    """Write a scene file to be filled in, which must not be there."""
     if not name.strip():
         raise InputError("--new", name, "a name for the file NAME.toml", "is empty")
-    file = options.check_file(name if name.endswith(".toml") else f"{name}.toml", "--new")
-    assert file is not None
+    file = check_file(name if name.endswith(".toml") else f"{name}.toml", "--new")
     accepted = "a name NAME for a file NAME.toml that is not there"
     if file.stem in PRESETS:
         raise InputError("--new", name, accepted, "is the name of a preset")
     if bounded.exists(file):
         raise InputError("--new", name, accepted, f"would overwrite {file}")
-    return file
-
-
-def _listing() -> str:
-    """One line per preset: its name and description."""
-    width = max(map(len, PRESETS))
-    return "\n".join(f"{name:<{width}}  {description(name)}" for name in PRESETS)
+    for option in passed(**others):
+        raise InputError("--new", name, "--new NAME alone", f"is given together with {option}")
+    files.write(file, template(file.stem))
+    click.echo(str(file))

@@ -2,67 +2,41 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
-
-import click
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
 from ..scene.held import NAMES
 from ..scene.schema import FIELDS
-from ..settings import RTOL, check_engine, check_rtol
-from . import options
+from . import options, texts
+from .signature import as_command, passed
 
 if TYPE_CHECKING:
     import xarray
 
     from ..scene.scene import Scene
 
+_DEVIATION = 'NAME=VALUE, such as liquid.viscosity="5 %"'
 
-@click.command("sensitivity", short_help="Exact derivatives of a collision's results, through its events.")
-@options.scene_argument
-@click.option(
-    "--of", "of", metavar="NAMES", help="Results, as restitution,contact_time,energy.capillary [restitution]."
-)
-@click.option("--wrt", metavar="NAMES", help="Parameters, as liquid.viscosity,impact.angle [all of the scene].")
-@click.option("--method", metavar="M", help="forward or adjoint [forward].")
-@click.option(
-    "--uncertainty",
-    "uncertain",
-    metavar="NAME=VALUE",
-    multiple=True,
-    help='A standard deviation, as liquid.viscosity="5 %" or impact.angle="1 deg"; repeatable.',
-)
-@click.option(
-    "--over",
-    metavar="NAME=RANGE",
-    help="With --uncertainty: the band over stokes, speed or angle, as stokes=log:0.01:0.5:30 or angle=20:80:25.",
-)
-@click.option("--over-time", is_flag=True, help="Derivatives of the whole trajectory; --plot draws them.")
-@click.option("--hessian", is_flag=True, help="Second derivatives as well.")
-@options.of_varied_scene
-@options.rtol
-@options.engine
-@options.as_json
-@options.plot
-@options.output
-@options.debug
+
+def _deviations(typed: Sequence[str]) -> dict[str, str]:
+    return texts.typed(texts.assigned(_DEVIATION, typed))
+
+
+@as_command("Exact derivatives of a collision's results, through its events.")
 def command(
-    request: options.SceneRequest,
-    of: str | None,
-    wrt: str | None,
+    of: list[str] | None,
+    wrt: list[str] | None,
     method: str | None,
-    uncertain: Sequence[str],
+    uncertainty: Annotated[dict[str, str], _deviations],
     over: str | None,
     over_time: bool,
     hessian: bool,
-    rtol: str | None,
-    engine: str | None,
-    as_json: bool,
-    plot: str | None,
-    output: str | None,
+    request: options.VariedRequest,
+    rtol: options.Rtol,
+    engine: options.Engine,
+    output: options.Shown,
 ) -> None:
     """Differentiate the results of a collision of SCENE, through its events: gradients and elasticities.
 
@@ -71,80 +45,80 @@ def command(
       wetdoublet sensitivity granulation --of restitution,contact_time --plot tornado.png
       wetdoublet sensitivity granulation --uncertainty liquid.viscosity="5 %" --over angle=40:80:17 --plot band.png
       wetdoublet sensitivity granulation --wrt liquid.viscosity,impact.speed --over-time --plot trajectory.png
+
+    Options:
+        --of NAMES: Results, as restitution,contact_time,energy.capillary [restitution].
+        --wrt NAMES: Parameters, as liquid.viscosity,impact.angle [all of the scene].
+        --method M: forward or adjoint [forward].
+        --uncertainty NAME=VALUE: A standard deviation, as liquid.viscosity="5 %" or impact.angle="1 deg"; repeatable.
+        --over NAME=RANGE: With --uncertainty: the band over stokes, speed or angle, as stokes=log:0.01:0.5:30 or
+            angle=20:80:25.
+        --over-time: Derivatives of the whole trajectory; --plot draws them.
+        --hessian: Second derivatives as well.
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..sensitivity.parameters import check_wrt
     from ..sensitivity.results import check_quantities
     from ..sensitivity.sensitivities import check_method, sensitivities
     from ..sensitivity.uncertainty import deviations, first_order, spoken
 
-    tolerance = RTOL if rtol is None else check_rtol(rtol, "--rtol")
-    chosen = check_engine(engine, "--engine")
-    how = "forward" if method is None else check_method(method, "--method")
-    asked = ("restitution",) if of is None else check_quantities(options.listed(of, "--of"), "--of")
-    if hessian and chosen in ("cvodes", "taylor"):
-        raise InputError("--engine", chosen, "rosenbrock with --hessian", "has no second derivatives")
-    if chosen == "taylor" and how != "forward":
-        raise InputError("--method", how, "forward with --engine taylor", "is not the kernel's")
-    picture = options.check_file(plot, "--plot", options.PICTURES)
-    file = options.check_file(output, "-o")
-    options.check_apart(file, "-o", picture, "--plot")
+    if method is not None:
+        check_method(method)
+    if of is not None:
+        check_quantities(of)
+    if hessian and engine in ("cvodes", "taylor"):
+        raise InputError("--engine", engine, "rosenbrock with --hessian", "has no second derivatives")
+    if engine == "taylor" and method not in (None, "forward"):
+        raise InputError("--method", method, "forward with --engine taylor", "is not the kernel's")
     scene = request.scene()
     if over is not None or over_time:
-        given = {"--hessian": "given" * hessian, "--method": method or ""}
-        given |= {"--over": over or "", "--of": of or "", "--uncertainty": " ".join(uncertain)} if over_time else {}
-        given |= {} if over_time else {"--wrt": wrt or "", "--engine": engine or ""}
-        for name, value in given.items():
+        unused: dict[str, Any] = {"--hessian": hessian, "--method": method}
+        unused |= {"--over": over, "--of": of, "--uncertainty": uncertainty} if over_time else {}
+        unused |= {} if over_time else {"--wrt": wrt, "--engine": engine}
+        for option, value in unused.items():
             if value:
-                accepted = f"no {name} with {'--over-time' if over_time else '--over'}"
-                raise InputError(name, value, accepted, "is not for this")
-        data, text = _trajectory(scene, wrt, tolerance, engine, request.hold) if over_time else _band(
-            scene, over or "", uncertain, asked, None if rtol is None else tolerance, request.hold
-        )  # fmt: skip
-        options.put(json.dumps(_plain(data.to_dict()), indent=2, allow_nan=False) if as_json else text, file)
-        if picture is not None:
-            data.wetdoublet.plot(picture)
+                accepted = f"no {option} with {'--over-time' if over_time else '--over'}"
+                text = ",".join(value) if isinstance(value, list) else value if isinstance(value, str) else "given"
+                raise InputError(option, text, accepted, "is not for this")
+        shared = passed(rtol=rtol, hold=request.hold)
+        if over is None:
+            data, table = _trajectory(scene, None if wrt is None else check_wrt(scene, wrt), engine=engine, **shared)
+        else:
+            data, table = _band(scene, over, uncertainty, of or ["restitution"], shared)
+        output.put(table, _plain(data.to_dict()) if output.as_json else None)
+        if output.picture is not None:
+            data.wetdoublet.plot(output.picture)
         return
-    names = None if wrt is None else check_wrt(scene, options.listed(wrt, "--wrt"), "--wrt")
+    names = None if wrt is None else check_wrt(scene, wrt)
     scene.need_impact()
-    deviation = deviations(scene, _assigned(uncertain), "--uncertainty") if uncertain else {}
+    deviation = deviations(scene, uncertainty) if uncertainty else {}
     if names is not None:
         names = tuple(dict.fromkeys((*names, *deviation)))
-
-    found = sensitivities(
-        scene, asked, names, method=how, rtol=tolerance, engine=chosen, hold=request.hold, hessian=hessian
-    )
-    spread = first_order(found, deviation) if deviation else {}
-    if as_json:
-        object_ = found.to_dict() | ({"standard_deviation": spread} if deviation else {})
-        text = json.dumps(object_, indent=2, allow_nan=False)
-    else:
-        text = str(found) + ("\n" + spoken(found, spread) if deviation else "")
-    options.put(text, file)
-    if picture is not None:
-        found.plot(picture)
+    chosen = passed(of=of, method=method, rtol=rtol, engine=engine, hold=request.hold)
+    gradients = sensitivities(scene, wrt=names, hessian=hessian, **chosen)
+    spread = first_order(gradients, deviation) if deviation else {}
+    record = gradients.to_dict() | ({"standard_deviation": spread} if deviation else {})
+    output.put(str(gradients) + ("\n" + spoken(gradients, spread) if deviation else ""), record)
+    if output.picture is not None:
+        gradients.plot(output.picture)
 
 
-def _trajectory(
-    scene: Scene, wrt: str | None, rtol: float, engine: str | None, hold: str | None
-) -> tuple[xarray.Dataset, str]:
+def _trajectory(scene: Scene, wrt: Sequence[str] | None, **chosen: Any) -> tuple[xarray.Dataset, str]:
     """Sensitivities over time, and a table of how the events move."""
-    from ..sensitivity.parameters import check_wrt
     from ..sensitivity.trajectory import trajectory_sensitivities
 
-    names = None if wrt is None else check_wrt(scene, options.listed(wrt, "--wrt"), "--wrt")
-    found = trajectory_sensitivities(scene, names, rtol=rtol, engine=engine, hold=hold)
-    parameters = [str(name) for name in found.parameter.values]
+    data = trajectory_sensitivities(scene, wrt, **chosen)
+    parameters = [str(name) for name in data.parameter.values]
     width = max(map(len, parameters))
-    lines = [f"{found.attrs['outcome']}: how the time of each event moves, p dt/dp in s"]
-    for k, event in enumerate(found.event.values):
-        lines += ["", f"{event} at {float(found.event_time[k]):.6g} s"]
-        moved = found.d_event_time.values[k] * found.reference.values
+    lines = [f"{data.attrs['outcome']}: how the time of each event moves, p dt/dp in s"]
+    for k, event in enumerate(data.event.values):
+        lines += ["", f"{event} at {float(data.event_time[k]):.6g} s"]
+        moved = data.d_event_time.values[k] * data.reference.values
         lines += [f"  {name:<{width}}  {move:>12.5g}" for name, move in zip(parameters, moved, strict=True)]
-    return found, "\n".join(lines)
+    return data, "\n".join(lines)
 
 
 def _band(
-    scene: Scene, over: str, uncertain: Sequence[str], of: Sequence[str], rtol: float | None, hold: str | None
+    scene: Scene, over: str, uncertainty: dict[str, str], of: Sequence[str], chosen: dict[str, Any]
 ) -> tuple[xarray.Dataset, str]:
     """The band of one result, and its table."""
     from ..sensitivity.uncertainty import band
@@ -154,22 +128,21 @@ def _band(
     units = {"stokes": "", "speed": " (m/s)", "relative_speed": " (m/s)", "angle": " (deg)"}
     if not equals or name not in units:
         raise InputError("--over", over, ", ".join(f"{each}=RANGE" for each in units))
-    if not uncertain:
-        raise InputError("--uncertainty", None, 'NAME=VALUE, such as liquid.viscosity="5 %", with --over')
+    if not uncertainty:
+        raise InputError("--uncertainty", None, f"{_DEVIATION}, with --over")
     if len(of) != 1:
         raise InputError("--of", ",".join(of), "one result with --over")
     entry = FIELDS[f"impact.{name}"]
-    values = options.entry_range(entry, text, "--over")
-    more: Any = {} if rtol is None else {"rtol": rtol}
-    found = band(scene, _assigned(uncertain), entry.name, values, of=of[0], hold=hold, **more)
+    values = texts.entry_range(entry, text, "--over")
+    data = band(scene, uncertainty, entry.name, values, of=of[0], **chosen)
     label = f"{NAMES.get(name, name)}{units[name]}"
     lines = [f"{label:<20} {of[0]:>16} {'± (first order)':>16} {'2.5 %':>12} {'97.5 %':>12}"]
-    columns = (found[of[0]], found.first_order, found.low, found.high)
+    columns = (data[of[0]], data.first_order, data.low, data.high)
     for k, value in enumerate(values):
         cells = [f"{float(column[k]):.6g}" for column in columns]
         shown = math.degrees(value) if name == "angle" else value
         lines.append(f"{shown:<20.6g} {cells[0]:>16} {cells[1]:>16} {cells[2]:>12} {cells[3]:>12}")
-    return found, "\n".join(lines)
+    return data, "\n".join(lines)
 
 
 def _plain(value: Any) -> Any:
@@ -179,8 +152,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(each) for each in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _assigned(given: Sequence[str]) -> dict[str, str]:
-    accepted = 'NAME=VALUE, such as liquid.viscosity="5 %"'
-    return options.typed(options.assigned(given, "--uncertainty", accepted))

@@ -28,26 +28,8 @@ class NotRead(Exception):
     """The reason why a file cannot be read, worded to follow its name."""
 
 
-def is_folder(path: str | Path) -> bool:
-    """True if a folder of that name exists; False also for invalid names."""
-    return stat.S_ISDIR(_mode(path))
-
-
-def is_file(path: str | Path) -> bool:
-    """True if a regular file of that name exists."""
-    return stat.S_ISREG(_mode(path))
-
-
-def exists(path: str | Path) -> bool:
-    """True if anything of that name exists."""
-    return _mode(path) != 0
-
-
-def _mode(path: str | Path) -> int:
-    try:
-        return os.stat(path).st_mode  # noqa: PTH116 # a Path cannot be made of everything
-    except (OSError, ValueError):  # absent, or an invalid name (too long, null byte)
-        return 0
+is_folder, is_file, exists = os.path.isdir, os.path.isfile, os.path.exists
+"""What of that name exists; False also for invalid names, unlike the methods of a path."""
 
 
 def read(path: Path, most: int, unopened: float = UNOPENED, silent: float = SILENT) -> bytes:

@@ -31,24 +31,14 @@ DERIVING = threading.RLock()  # sympy is not thread-safe
 @cache
 def manifest() -> dict[str, Any]:
     """The library's manifest (digests of the emitted files)."""
-    found: dict[str, Any] = json.loads(_manifest_text())
+    found: dict[str, Any] = json.loads((_FOLDER / "manifest.json").read_bytes())
     return found
-
-
-@cache
-def _manifest_text() -> str:
-    return (_FOLDER / "manifest.json").read_text(encoding="utf-8")
 
 
 @cache
 def library_digest() -> str:
     """Digest of the manifest, and so of all laws and structures of the library."""
-    return hashlib.sha256(_manifest_text().encode()).hexdigest()
-
-
-def structure(name: str) -> ModuleType:
-    """The module of a structure, committed or derived on first use."""
-    return module(name)
+    return hashlib.sha256((_FOLDER / "manifest.json").read_bytes()).hexdigest()
 
 
 def law(slot: str, name: str) -> ModuleType:
@@ -83,7 +73,13 @@ def text(name: str) -> str:
         return with_imports(_read(path), lambda home: _read(f"{home}.py"))
     if "." in name:  # all laws are committed
         raise CheckFailed(f"generated/{path} is neither there nor can it be derived; run `wetdoublet generate`")
-    return derived_once(f"{name}.py", lambda: _derived_structure(name))
+
+    def derived() -> str:
+        from ...derive.emit.one import structure_text  # imports sympy
+
+        return structure_text(name)
+
+    return derived_once(f"{name}.py", derived)
 
 
 def with_imports(module: str, read: Callable[[str], str]) -> str:
@@ -108,10 +104,15 @@ def header(path: str) -> str:
     It is derived if it is not committed.
     """
     if committed(path):
-        return _INCLUDED.sub(lambda shared: _without_provenance(_read(f"taylor/{shared[1]}")), _read(path))
+        return _INCLUDED.sub(lambda shared: _read(f"taylor/{shared[1]}").partition("*/\n")[2], _read(path))
     name, tangent = Path(path).stem, "tangent" in Path(path).parts
-    kind = "tangent" if tangent else "kernel"
-    return derived_once(f"{kind}-{name}.h", lambda: _derived_header(name, tangent))
+
+    def derived() -> str:
+        from ...derive.emit.one import structure_header_text, structure_tangent_text  # imports sympy
+
+        return (structure_tangent_text if tangent else structure_header_text)(name)
+
+    return derived_once(f"{'tangent' if tangent else 'kernel'}-{name}.h", derived)
 
 
 def committed(path: str) -> bool:
@@ -122,10 +123,6 @@ def committed(path: str) -> bool:
 def _read(path: str) -> str:
     _verified(path)
     return (_FOLDER / path).read_text(encoding="utf-8")
-
-
-def _without_provenance(header: str) -> str:
-    return header.partition("*/\n")[2]
 
 
 @cache
@@ -161,23 +158,8 @@ def derived_once(name: str, derived: Callable[[], str]) -> str:
     """A text from the cache, derived if the cache has none of that name from this derivation."""
     from .user_cache import kept
 
-    stem, _, suffix = name.rpartition(".")
-    return kept(f"emitted-{derivation()[:32]}-{stem}.{suffix}", lambda: _alone(derived).encode()).decode()
+    def alone() -> bytes:
+        with DERIVING:  # one thread at a time
+            return derived().encode()
 
-
-def _alone(derived: Callable[[], str]) -> str:
-    """Run a derivation, one thread at a time."""
-    with DERIVING:
-        return derived()
-
-
-def _derived_structure(name: str) -> str:
-    from ...derive.emit.one import structure_text  # imports sympy
-
-    return structure_text(name)
-
-
-def _derived_header(name: str, tangent: bool) -> str:
-    from ...derive.emit.one import structure_header_text, structure_tangent_text  # imports sympy
-
-    return structure_tangent_text(name) if tangent else structure_header_text(name)
+    return kept(f"emitted-{derivation()[:32]}-{name}", alone).decode()

@@ -24,7 +24,7 @@ _HOMES = {  # a variable that only one kind of result has -> what draws it
     "rotation_released": "verify.plot.draw_budget",
     "total_within": "sensitivity.sobol_plot.draw",
     "engine": "sensitivity.gradients_plot.draw",
-    "outcome": "many.plot_any.draw",
+    "outcome": "many.plot_map.draw",
 }
 _ROOT = __package__.rpartition(".")[0]
 

@@ -26,7 +26,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from .files import write_all
-from .locks import TEMPORARY, held_file, held_folder, sweep, temporary
+from .locks import TEMPORARY, held_folder, sweep, temporary
 from .remarks import say, say_once
 from .thread_caches import Locks
 
@@ -34,16 +34,16 @@ Loaded = TypeVar("Loaded")
 
 _NAMED = "WETDOUBLET_CACHE"
 _PRIVATE = "WETDOUBLET_PRIVATE_CACHE"  # environment variable that passes the folder of this run to workers
-_MAKING = ".making-"  # prefix of temporary files
+_MAKING = ".making-"  # prefix of temporary folders
 _DIGITS = 32  # hexadecimal digits of the digest in a name
 _LARGEST = 1 << 28  # bytes; larger than any entry
 _ROOM = 16 << 20  # bytes; ample for a compilation
-_PROBE = 1 << 18  # bytes; more than most entries
+_PROBE = bytes(1 << 18)  # more than most entries
 _MEMORY: dict[str, bytes] = {}  # entries kept in memory if no folder can be written
 _REFUSED: set[Path] = set()  # folders whose failure was reported
 _LOCK = threading.RLock()
 _LOADS = itertools.count()
-_MAKING_OF = Locks()
+_BY_NAME = Locks()
 
 
 def folder() -> Path:
@@ -72,8 +72,8 @@ def kept(name: str, made: Callable[[], bytes]) -> bytes:
         >>> kept("law-3f2a.py", lambda: b"ONE = 1")  # doctest: +SKIP
         b'ONE = 1'
     """
-    with _MAKING_OF(name):  # one thread makes the entry; others wait
-        content = _found(name)
+    with _BY_NAME(name):  # one thread makes the entry; others wait
+        content = found(name)
         if content is None:
             content = made()
             _put(name, content)
@@ -82,11 +82,21 @@ def kept(name: str, made: Callable[[], bytes]) -> bytes:
 
 def found(name: str) -> bytes | None:
     """The content of the entry of that name; None if it is not there or not whole."""
-    return _found(name)
+    if name in _MEMORY:
+        return _MEMORY[name]
+    stem, _, suffix = name.rpartition(".")
+    for shelf in _shelves():
+        for file in _names(shelf):
+            first, _, digest = file.removesuffix(f".{suffix}").rpartition(".")
+            if first == stem and file.endswith(f".{suffix}"):
+                content = _verified(shelf / file, digest)
+                if content is not None:
+                    return content
+    return None
 
 
 def has(prefix: str) -> bool:
-    """True if an entry's name begins with `stem`; the entry is not read."""
+    """True if an entry's name begins with `prefix`; the entry is not read."""
     listed = (name for shelf in _shelves() for name in _names(shelf))
     return any(name.startswith(prefix) for name in (*_MEMORY, *listed))
 
@@ -128,47 +138,30 @@ def room() -> Iterator[Path]:
     Raises:
         OSError: no folder has the space.
     """
-    own = folder()
     with ExitStack() as stack:
-        for place, prefix in ((own, _MAKING), *((root, TEMPORARY) for root in temporary())):
+        for place, prefix in ((folder(), _MAKING), *((root, TEMPORARY) for root in temporary())):
             with suppress(OSError):
-                if place == own:
-                    place.mkdir(mode=0o700, parents=True, exist_ok=True)
-                    if not _private(place):
-                        continue
+                if prefix == _MAKING:
+                    _check_private(place, create=True)
                 _sweep(place, prefix)
                 if shutil.disk_usage(place).free >= _ROOM:
                     path = stack.enter_context(held_folder(place, prefix))
                     break
         else:
-            raise OSError(errno.ENOSPC, "no room to compile in", str(own))
+            raise OSError(errno.ENOSPC, "no room to compile in", str(folder()))
         yield path
 
 
 # ---- reading
 
 
-def _found(name: str) -> bytes | None:
-    if name in _MEMORY:
-        return _MEMORY[name]
-    stem, _, suffix = name.rpartition(".")
-    for shelf in _shelves():
-        for file in _names(shelf):
-            first, _, digest = file.removesuffix(f".{suffix}").rpartition(".")
-            if first == stem and file.endswith(f".{suffix}"):
-                content = _whole(shelf / file, digest)
-                if content is not None:
-                    return content
-    return None
-
-
 def _shelves() -> Iterator[Path]:
     """Folders with entries: the user's, and the temporary one of this run if any."""
-    own, private = folder(), os.environ.get(_PRIVATE)
-    for shelf in (own, *([Path(private)] if private else [])):
+    private = os.environ.get(_PRIVATE)
+    for shelf in (folder(), *([Path(private)] if private else [])):
         with suppress(OSError):
-            if _private(shelf):
-                yield shelf
+            _check_private(shelf)
+            yield shelf
 
 
 def _names(shelf: Path) -> list[str]:
@@ -178,14 +171,14 @@ def _names(shelf: Path) -> list[str]:
         return []
 
 
-def _whole(path: Path, digest: str) -> bytes | None:
+def _verified(path: Path, digest: str) -> bytes | None:
     """Content of a file if its digest is right; else None, and the file is removed."""
     content = None
     try:
         flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
         with os.fdopen(os.open(path, flags), "rb") as file:
-            found = os.fstat(file.fileno())
-            if stat.S_ISREG(found.st_mode) and found.st_size <= _LARGEST and _alone(found):
+            status = os.fstat(file.fileno())
+            if stat.S_ISREG(status.st_mode) and status.st_size <= _LARGEST and _alone(status):
                 content = file.read()
     except OSError as error:
         if error.errno != errno.ELOOP:  # absent or unreadable, but not known to be damaged
@@ -206,15 +199,18 @@ def _digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()[:_DIGITS]
 
 
-def _private(shelf: Path) -> bool:
-    """True if only this user can write to a folder. OSError if it does not exist."""
-    return _alone(shelf.stat())
+def _check_private(shelf: Path, create: bool = False) -> None:
+    """Raise OSError unless the folder exists, or is created, and only this user can write to it."""
+    if create:
+        shelf.mkdir(mode=0o700, parents=True, exist_ok=True)
+    if not _alone(shelf.stat()):
+        raise OSError(errno.EPERM, "others can write to it")
 
 
-def _alone(found: os.stat_result) -> bool:
+def _alone(status: os.stat_result) -> bool:
     if os.name != "posix":
         return True
-    return found.st_uid == os.getuid() and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+    return status.st_uid == os.getuid() and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
 
 
 # ---- writing
@@ -222,51 +218,51 @@ def _alone(found: os.stat_result) -> bool:
 
 def settle() -> None:
     """Determine where entries can be written, and report it, before silent workers start; they share the folder."""
-    own = folder()
     with _LOCK:
-        if own not in _REFUSED and (reason := _written(own, "", bytes(_PROBE))):
-            _refuse(own, reason, os.environ.get(_PRIVATE) or _moved("", bytes(_PROBE)))
+        if folder() not in _REFUSED and (reason := unwritable()):
+            _refuse(reason, os.environ.get(_PRIVATE) or _moved("", _PROBE))
 
 
 def unwritable() -> str:
     """Why the user's folder takes no entries; "" if it does."""
-    return _written(folder(), "", bytes(_PROBE))
+    return _written(folder(), "", _PROBE)
 
 
 def _put(name: str, content: bytes) -> None:
     """Write an entry to the first folder that accepts it."""
-    own = folder()
     with _LOCK:
-        reason = "" if own in _REFUSED else _written(own, name, content)
-        if own not in _REFUSED and not reason:
+        refused = folder() in _REFUSED
+        reason = "" if refused else _written(folder(), name, content)
+        if not refused and not reason:
             return
         private = os.environ.get(_PRIVATE)
         where = private if private and not _written(Path(private), name, content) else _moved(name, content)
         if where is None:
             _MEMORY[name] = content
-        if own not in _REFUSED:
-            _refuse(own, reason, where)
+        if not refused:
+            _refuse(reason, where)
 
 
-def _refuse(own: Path, reason: str, where: str | None) -> None:
-    _REFUSED.add(own)
+def _refuse(reason: str, where: str | None) -> None:
+    _REFUSED.add(folder())
     kept_in = "in memory" if where is None else f"in {where}"
-    say(f"{own}: {reason}; what is derived or compiled is kept {kept_in} while this runs")
+    say(f"{folder()}: {reason}; what is derived or compiled is kept {kept_in} while this runs")
 
 
 def _written(place: Path, name: str, content: bytes) -> str:
     """Write an entry, or without a name only test the folder; returns the reason of failure or ""."""
     stem, _, suffix = name.rpartition(".")
     try:
-        if place == folder():
-            place.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if not _private(place):
-            return "others can write to it"
+        _check_private(place, create=place == folder())
         _sweep(place, _MAKING)
-        with held_file(place, _MAKING) as (descriptor, beside):
-            write_all(descriptor, content)
+        with held_folder(place, _MAKING) as beside:
+            descriptor = os.open(beside / "entry", os.O_WRONLY | os.O_CREAT, 0o600)
+            try:
+                write_all(descriptor, content)
+            finally:
+                os.close(descriptor)
             if name:
-                beside.replace(place / f"{stem}.{_digest(content)}.{suffix}")
+                (beside / "entry").replace(place / f"{stem}.{_digest(content)}.{suffix}")
     except OSError as error:
         return error.strerror or str(error)
     return ""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from ..engines.choice import collision_engine
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..model.validity import NEEDS
-from ..scene.held import HOLDS, held_quantity, impact_quantity, impact_value
+from ..scene.held import HOLDS, held_quantity, held_text, impact_quantity, impact_value
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, Field, unknown_entry
@@ -23,6 +23,8 @@ from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
 from ..settings import check_engine, check_rtol
 from .results import MAPPED, VALIDITY
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -112,32 +114,44 @@ def validated_batch(
     Arguments:
         impact: `stokes`, `speed`, `relative_speed` and `angle` as they were given; None for the scene's.
     """
-    loaded = Scene.load(scene)
     kept = check_outputs(of)
-    loaded, varied = checked_vary(loaded, vary)
-    columns = checked_impact(loaded, impact) | varied
-    request = batch(loaded, of_one_length(columns), rtol, engine, kept)
+    loaded, columns, _ = checked_columns(scene, impact, vary)
+    request = batch(loaded, of_one_length(columns), check_rtol(rtol), check_engine(engine), kept)
     check_some_scene(request)
     return request
 
 
-def batch(scene: Scene, columns: dict[str, np.ndarray], rtol: float, engine: str | None, of: tuple[str, ...]) -> Batch:
-    """A Batch of checked columns of one length, by dotted name."""
+def batch(
+    scene: Scene,
+    columns: dict[str, np.ndarray],
+    rtol: float,
+    engine: str | None,
+    of: tuple[str, ...],
+    engines: Mapping[tuple[str, ...], str] | None = None,
+) -> Batch:
+    """A Batch of checked columns of one length, by dotted name, with checked settings.
+
+    Arguments:
+        engine: the requested engine; None for the best of the scene, unless `engines` knows it already.
+    """
     angle, relative = columns.pop("impact.angle"), columns.pop("impact.relative_speed", None)
     speed = columns.pop("impact.speed", None)
-    made = Batch(
+    request = Batch(
         scene=scene,
         stokes=columns.pop("impact.stokes", None),
         speed=speed if relative is None else normal_speed(relative, angle),
         angle=angle,
         vary={name: column for name, column in columns.items() if column.dtype.kind == "f"},
-        rtol=check_rtol(rtol),
-        engine=(asked := check_engine(engine)) or "rosenbrock",
+        rtol=rtol,
+        engine=engine or "rosenbrock",
         of=of,
-        asked=asked,
+        asked=engine,
         texts={name: column for name, column in columns.items() if column.dtype.kind != "f"},
+        engines=engines or {},
     )
-    return made if made.texts else replace(made, engine=collision_engine(scene, asked))
+    if request.texts:
+        return request
+    return replace(request, engine=request.engines.get(()) or collision_engine(scene, engine))
 
 
 def of_one_length(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -185,11 +199,28 @@ def checked_impact(
     return {name: checked_numbers(name, values, most=most) for name, values in given.items()}
 
 
-def held_by_default(scene: Scene, impact: Mapping[str, Any], vary: Mapping[str, Any], hold: str | None) -> str | None:
-    """What the scene's impact keeps while entries vary; None where nothing does, or speeds are arguments."""
-    quantity = held_quantity(scene, hold)
-    replaced = any(impact.get(name) is not None for name in HOLDS)
-    return None if replaced or not (vary or hold) else quantity
+def checked_columns(
+    scene: Scene | str | Path,
+    impact: Mapping[str, Any],
+    vary: Mapping[str, Any] | None,
+    hold: str | None = None,
+    most: int | None = 1,
+    texts: bool = False,
+) -> tuple[Scene, dict[str, np.ndarray], str]:
+    """The scene, its impacts and what varies by dotted name (SI), and what its impact keeps meanwhile, in words.
+
+    Nothing is kept where nothing varies, or where speeds are arguments.
+
+    Arguments:
+        impact: `stokes`, `speed`, `relative_speed` and `angle`; None for the scene's.
+        most: dimensions of a column; None for any number.
+        texts: choices may vary as well.
+    """
+    loaded, varied = checked_vary(Scene.load(scene), {} if vary is None else vary, most=most, texts=texts)
+    quantity = held_quantity(loaded, hold)
+    kept = (varied or hold) and not any(impact.get(name) is not None for name in HOLDS)
+    columns = checked_impact(loaded, impact, most, quantity if kept else None) | varied
+    return loaded, columns, held_text(loaded, quantity) if kept else ""
 
 
 def checked_vary(
@@ -239,13 +270,19 @@ def _carry_units(name: str, values: Any) -> bool:
 
 def _with_any(scene: Scene, name: str, values: np.ndarray, unit: str) -> Scene:
     """The scene with the first value that it accepts, so that its entry is meant as the values are."""
+    texts = (f"{value!r}{unit}" if unit else value for value in values.ravel().tolist())
+    return first_accepted(partial(scene.with_entries, {name: text}) for text in texts)
+
+
+def first_accepted(attempts: Iterable[Callable[[], T]]) -> T:
+    """The result of the first attempt that accepts its input; the InputError of the first where none does."""
     first: InputError | None = None
-    for value in values.ravel().tolist():
+    for attempt in attempts:
         try:
-            return scene.with_entries({name: f"{value!r}{unit}" if unit else value})
+            return attempt()
         except InputError as error:
             first = first or error
-    assert first is not None  # there are values
+    assert first is not None  # there are attempts
     raise first
 
 
@@ -264,16 +301,8 @@ def check_varies(
 
 def check_some_scene(request: Batch) -> None:
     """Raise InputError if the varied entries make every collision impossible; single failures are marked later."""
-    first: InputError | None = None
-    for k in range(request.size if request.vary else 0):
-        try:
-            request.scene_of(k)
-        except InputError as error:
-            first = first or error
-        else:
-            return
-    if first is not None:
-        raise first
+    if request.vary and request.size:
+        first_accepted(partial(request.scene_of, k) for k in range(request.size))
 
 
 def checked_texts(name: str, values: Any, entry: Field) -> np.ndarray:

@@ -6,6 +6,7 @@ import json
 import logging
 import re
 import signal
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
@@ -199,7 +200,7 @@ def computed(
     from distributed import as_completed
 
     waiting: dict[Any, int] = {}
-    refusals: dict[int, int] = {}
+    refusals: Counter[int] = Counter()
     finished, left = as_completed(), iter(todo)
 
     def submit(k: int, **where: Any) -> None:
@@ -220,11 +221,12 @@ def computed(
             check()
             k = waiting.pop(future)
             answer = future.result()
-            if isinstance(answer, Refused):
-                refusals[k] = refusals.get(k, 0) + 1
-                submit(k, workers=_matching(client, expected, answer, refusals[k]), allow_other_workers=False)
+            if not isinstance(answer, Refused):
+                yield k, answer
                 continue
-            yield k, answer
+            refusals[k] += 1
+            same = _matching(client, expected, answer, refusals[k])
+            submit(k, workers=same, allow_other_workers=False)
     except Exception as error:
         raise _translated(error) from error
     finally:
@@ -244,13 +246,13 @@ def _answered(task: Task, expected: Mapping[str, str]) -> Block | Refused:
 def _matching(client: Client, expected: Mapping[str, str], refused: Refused, count: int) -> list[str]:
     """The workers that may answer; ComputationError if there are none."""
     answers = client.run(arithmetic, on_error="return")
-    found = [address for address, given in answers.items() if given == dict(expected)]
-    if not found or count > _REFUSALS:
+    same = [address for address, given in answers.items() if given == dict(expected)]
+    if not same or count > _REFUSALS:
         raise ComputationError(
             f"the worker {refused.worker} would compute other digits: {refused.why}",
             advice="use workers of one kind; what is finished is kept",
         )
-    return found
+    return same
 
 
 def _translated(error: BaseException) -> BaseException:
@@ -260,24 +262,16 @@ def _translated(error: BaseException) -> BaseException:
 
     from distributed import KilledWorker
 
+    kept = "what is finished is kept"
     if isinstance(error, KilledWorker):
         return ComputationError(
-            "workers died of one chunk again and again", advice="they may be out of memory; what is finished is kept"
+            "workers died of one chunk again and again", advice=f"they may be out of memory; {kept}"
         )
-    if isinstance(error, (CancelledError, Cancelled)):
-        return ComputationError("the connection to the scheduler is lost", advice="what is finished is kept")
     if isinstance(error, ModuleNotFoundError):
         return ComputationError(
             f"a worker has no module {error.name}", advice="install the same version of wetdoublet where workers run"
         )
-    if isinstance(error, OSError):  # of the connection: nothing here opens files
-        said = " ".join(str(error).split())[:120]
-        return ComputationError(f"the connection to the scheduler is lost ({said})", advice="what is finished is kept")
+    if isinstance(error, (CancelledError, Cancelled, OSError)):  # of the connection: nothing here opens files
+        said = f" ({' '.join(str(error).split())[:120]})" if isinstance(error, OSError) else ""
+        return ComputationError(f"the connection to the scheduler is lost{said}", advice=kept)
     return error
-
-
-def one_at_a_time(tasks: Callable[[int], Task], todo: Sequence[int]) -> Iterator[tuple[int, Block]]:
-    """The chunks `todo` and their results, in order, each on all cores of this process."""
-    for k in todo:
-        check()
-        yield k, tasks(k)(usable_cores())

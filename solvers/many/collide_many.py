@@ -2,41 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from functools import partial
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from ..errors import InputError
-from ..model.validity import warn
-from ..scene.held import held_text
 from ..scene.scene import Scene
-from ..settings import RTOL
-from .batch import (
-    Batch,
-    batch,
-    check_outputs,
-    check_some_scene,
-    checked_impact,
-    checked_vary,
-    held_by_default,
-    of_one_length,
-)
-from .broadcast import Layout, laid_out
-from .chunks import chunks
-from .compute import complete, complete_by_choices, computed_chunk
-from .dataset import as_dataset, blank, empty, fill
-from .results import RESULTS, Block
-from .stream import Scan, check_places, digest, into_memory, into_store, software
+from ..settings import RTOL, check_engine, check_rtol
+from .batch import check_outputs, checked_columns
+from .results import RESULTS
+from .scan import Scan, laid_out
+from .stream import check_places, into_memory, into_store
 
 if TYPE_CHECKING:
     import xarray
-
-_NUMBERS = 1 << 19  # in the request of a chunk, 4 MB; Dask warns of much more
 
 
 def collide_many(
@@ -95,99 +74,15 @@ def collide_many(
         >>> laws.restitution.shape
         (2,)
     """
-    loaded, names = Scene.load(scene), check_outputs(of, RESULTS)
-    file = check_places(client, store)
+    names, file = check_outputs(of, RESULTS), check_places(client, store)
+    rtol, engine = check_rtol(rtol), check_engine(engine)
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
-    vary = {} if vary is None else vary
-    loaded, varied = checked_vary(loaded, vary, most=None, texts=True)
-    kept = held_by_default(loaded, impact, varied, hold)
-    arrays = checked_impact(loaded, impact, None, kept) | varied
-    layout = laid_out(arrays, {**{f"impact.{name}": values for name, values in impact.items()}, **vary})
-    request = batch(loaded, of_one_length(arrays) if layout is None else layout.columns, rtol, engine, names)
-    request = replace(request, held=held_text(loaded, kept)) if kept else request
-    if client is not None or file is not None:
-        return _in_chunks(request, layout, client, file)
-    results = empty(request.size, request.of)
-    if request.texts:
-        return as_dataset(request, results, layout, complete_by_choices(request, results))
-    check_some_scene(request)
-    warn(loaded)
-    complete(request, results)
-    return as_dataset(request, results, layout)
-
-
-def _in_chunks(request: Batch, layout: Layout | None, client: Any, file: FilePath | None) -> xarray.Dataset:
-    """Compute a request chunk by chunk, on a cluster, into a store, or both."""
-    if file is not None and not request.size:
+    loaded, arrays, held = checked_columns(scene, impact, vary, hold, most=None, texts=True)
+    arguments = {**{f"impact.{name}": values for name, values in impact.items()}, **(vary or {})}
+    dims, shape, columns, beside = laid_out(arrays, arguments)
+    scan = Scan(loaded, dims, shape, columns, rtol, engine, names, held, beside).checked()
+    if file is None:
+        return into_memory(scan, client)
+    if not scan.size:
         raise InputError("store", str(file), "at least one collision to write", "would be empty")
-    engines = _engines(request)
-    engine = ", ".join(dict.fromkeys(engines.values()))
-    scan = _scan(replace(request, whole=request.size, engines=engines), layout, engine)
-    if file is not None:
-        return into_store(scan, file, client)
-    results = blank(request.size, request.of)
-    results["reason"] = results["reason"].astype(object)
-    into_memory(scan, client, np.zeros(request.size, bool), lambda where, block: fill(results, where, block))
-    return as_dataset(request, results, layout, engine)
-
-
-def _engines(request: Batch) -> dict[tuple[str, ...], str]:
-    """The engines of a request by its choices; scenes are checked and warned of here, and not on workers."""
-    engines: dict[tuple[str, ...], str] = {}
-    first = None
-    for where, part in request.by_text() if request.texts else ((np.arange(1), request),):
-        try:
-            if isinstance(part, InputError):
-                raise part
-            check_some_scene(part)
-        except InputError as error:
-            first = first or error
-        else:
-            engines[tuple(str(values[where[0]]) for values in request.texts.values())] = part.engine
-            warn(part.scene)
-    if first is not None and not engines:
-        raise first
-    return engines
-
-
-def _scan(request: Batch, layout: Layout | None, engine: str) -> Scan:
-    """The collisions as chunks that are computed by themselves."""
-    shape = (request.size,) if layout is None else layout.shape
-    given = {"angle": request.angle, "stokes": request.stokes, "speed": request.speed, **request.vary, **request.texts}
-    columns = {name: values for name, values in given.items() if values is not None}
-    cut = chunks(shape, request.engine, _NUMBERS // (len(columns) + 3 * len(request.texts)))
-
-    def dataset(k: int, block: Block) -> xarray.Dataset:
-        import xarray as xr
-
-        flat = as_dataset(request.part(cut.flat(k)), block, None, engine)
-        dims = ("collision",) if layout is None else tuple(map(str, layout.dims))
-        variables = {
-            name: (dims, each.values.reshape(cut.extent(k)[: len(dims)]), each.attrs)
-            for name, each in flat.data_vars.items()
-        }
-        return xr.Dataset(variables, attrs=flat.attrs)
-
-    def coordinates() -> xarray.Dataset:
-        nothing = {name: np.broadcast_to(one, request.size) for name, one in blank(1, request.of).items()}
-        return as_dataset(request, nothing, layout).coords.to_dataset()
-
-    return Scan(
-        cut,
-        request.engine,
-        task=lambda k: partial(computed_chunk, request.part(cut.flat(k))),
-        dataset=dataset,
-        blank=lambda k: blank(math.prod(cut.extent(k)), request.of),
-        fixed=coordinates,
-        identity={
-            "scene": request.scene.si,
-            "volume": request.scene.ways.volume,
-            "columns": {name: digest(values) for name, values in columns.items()},
-            "shape": cut.shape,
-            "rtol": request.rtol,
-            "engine": engine,
-            "of": sorted(set(request.of)),
-            **software(),
-            "model": request.scene.package and request.scene.package.digest,
-        },
-    )
+    return into_store(scan, file, client)

@@ -1,4 +1,4 @@
-"""Quantities of many collisions as columns of one length, from the scene and what varies."""
+"""Quantities of many collisions as columns of one length, without any integration: from scene, impacts and entries."""
 
 from __future__ import annotations
 
@@ -7,10 +7,14 @@ from typing import Any
 import numpy as np
 
 from ...generated import scaling
+from ..errors import WetDoubletError
+from ..model.cohesion import generalised_centrifugal
+from ..model.dimensionless import nondimensionalise
 from ..scene.groups import si_values
 from ..scene.quantities import quantities
 from ..scene.schema import MEETING
 from .batch import Batch
+from .results import OF_IMPACT
 
 
 def varied_columns(request: Batch) -> dict[str, np.ndarray]:
@@ -30,3 +34,19 @@ def with_impacts(request: Batch) -> dict[str, Any]:
             unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
             speed = np.asarray(request.stokes) / unit
     return values | {"speed": speed, "angle": request.angle}
+
+
+def of_impact(request: Batch) -> dict[str, np.ndarray]:
+    """Columns of those that are names for; NaN where a scene has no such number, or its collision cannot be."""
+    names = [name for name in OF_IMPACT if name in request.of]
+    columns = {name: np.full(request.size, np.nan) for name in names}
+    for k in range(request.size if names else 0):
+        try:
+            scene, speed, angle = request.impact(k)
+            n = nondimensionalise(scene, speed, angle)
+        except WetDoubletError:  # the collision is marked as failed
+            continue
+        for name in names:
+            value = generalised_centrifugal(scene, n) if name == "generalised_centrifugal" else getattr(n, name)
+            columns[name][k] = np.nan if value is None else value
+    return columns

@@ -6,7 +6,7 @@ worker processes. A collision that fails is marked with its reason and the rest 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import numpy as np
 
@@ -14,13 +14,12 @@ from ..errors import InputError
 from ..host.compiler import compiler
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
-from ..model.validity import warn
 from ..settings import FEW
-from .batch import Batch, check_some_scene
+from .batch import Batch
 from .by_casadi import run
 from .by_kernel import collide_by_kernel
+from .columns import of_impact
 from .dataset import as_text, empty, fill, validity
-from .of_impact import of_impact
 from .results import FAILED, OF_IMPACT, VALIDITY, Block
 
 _BLOCK = 50  # collisions in a block for a worker
@@ -38,53 +37,44 @@ def computed_chunk(request: Batch, cores: int) -> Block:
         cores: that it may use.
     """
     results = empty(request.size, request.of)
-    if request.texts:
-        complete_by_choices(request, results, cores)
-    else:
-        complete(request, results, cores)
-    if VALIDITY in request.of:
-        results.setdefault(VALIDITY, np.zeros(request.size, dtype=np.int16))
+    complete(request, results, cores=cores)
     results["reason"] = as_text(results)
     return results
 
 
-def complete(request: Batch, results: Block, cores: int | None = None) -> None:
-    """Fill the columns of a request without choices that vary.
+def complete(
+    request: Batch,
+    results: Block,
+    which: np.ndarray | None = None,
+    finished: Finished | None = None,
+    slow: Slow | None = None,
+    cores: int | None = None,
+) -> None:
+    """Fill the columns of a request.
 
     Arguments:
-        cores: how many it may use; None for all of this process.
+        which: the collisions that are missing; None for all.
+        finished: called with indices and results of every block, in place of filling the columns with them.
+        slow, cores: as of `compute`.
     """
-    compute(request, np.arange(request.size), lambda where, block: fill(results, where, block), cores=cores)
+    if VALIDITY in request.of:
+        results[VALIDITY] = np.zeros(request.size, dtype=np.int16)
+    if request.texts:
+        for where, part in request.by_text():
+            if isinstance(part, InputError):
+                results["outcome"][where], results["reason"][where] = FAILED, str(part)
+                continue
+            its = empty(part.size, part.of)
+            complete(part, its, cores=cores)
+            fill(results, where, its)
+        return
+    everything = np.arange(request.size)
+    keep = finished or (lambda where, block: fill(results, where, block))
+    compute(request, everything if which is None else which, keep, slow or (lambda _count: None), cores)
     if any(name in OF_IMPACT for name in request.of):
-        fill(results, np.arange(request.size), of_impact(request))
+        fill(results, everything, of_impact(request))
     if VALIDITY in request.of:
         results[VALIDITY] = validity(request, results)
-
-
-def complete_by_choices(request: Batch, results: Block, cores: int | None = None) -> str:
-    """The same batch by batch, one for each set of choices; returns the engines."""
-    engines, first = dict[str, None](), None
-    for where, part in request.by_text():
-        if isinstance(part, InputError):
-            first = first or part
-            results["outcome"][where], results["reason"][where] = FAILED, str(part)
-            continue
-        try:
-            if not request.whole:
-                check_some_scene(part)
-        except InputError as error:
-            first = first or error
-        else:
-            engines[part.engine] = None
-            warn(part.scene)
-        found = empty(part.size, part.of)
-        complete(part, found, cores)
-        if VALIDITY in found:
-            results.setdefault(VALIDITY, np.zeros(request.size, dtype=np.int16))
-        fill(results, where, found)
-    if first is not None and not engines and not request.whole:
-        raise first
-    return ", ".join(engines) or request.engine
 
 
 def compute(
@@ -117,16 +107,9 @@ def compute(
         for block in blocks:
             finished(block, run(request.part(block), many))
         return
-    for block, result in _in_parallel(request, blocks, cores, many):
-        finished(block, result)
-
-
-def _in_parallel(
-    request: Batch, blocks: list[np.ndarray], cores: int, machine_code: bool
-) -> Iterator[tuple[np.ndarray, Block]]:
-    """Blocks and their results in the order in which they finish; each worker receives only its part of the batch."""
     if request.engine != "cvodes":
         compiler()  # a missing compiler is reported here and not by a worker
-    if machine_code:
+    if many:
         run(request.part(blocks[0][:1]), True)  # compile once, before the workers need it
-    yield from in_workers(cores, run, ((block, (request.part(block), machine_code)) for block in blocks))
+    for block, result in in_workers(cores, run, ((block, (request.part(block), many)) for block in blocks)):
+        finished(block, result)

@@ -1,7 +1,7 @@
 """Finished blocks of a scan on disk, so that an interrupted run computes only what is missing.
 
 A journal is a text file with one block per line. Each line has the key of its request and a checksum; incomplete lines
-and lines of other requests are skipped.
+and lines of other requests are skipped. NetCDF cannot take its place, as a kill in mid-write spoils the whole file.
 """
 
 from __future__ import annotations
@@ -10,25 +10,25 @@ import hashlib
 import json
 import os
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..errors import InputError
+from ..host import bounded
 from ..host.files import write, write_all
-from ..host.locks import take
 from .results import Block
 
 
-def journal(given: object) -> Journal | None:
-    """A journal from what a caller gives: a file's name, a journal, or None; InputError for anything else."""
-    if given is None or isinstance(given, Journal):
-        return given
-    if not isinstance(given, (str, os.PathLike)) or not str(given).strip():
-        raise InputError("journal", given, "a file name, or None", "is not a file name")
-    return Journal(Path(given))
+def checked_journal(value: object) -> Journal | None:
+    """A journal of what a caller passes: a file's name, a journal, or None; InputError for anything else."""
+    if value is None or isinstance(value, Journal):
+        return value
+    if not isinstance(value, (str, os.PathLike)) or not str(value).strip():
+        raise InputError("journal", value, "a file name, or None", "is not a file name")
+    return Journal(Path(value))
 
 
 def beside(file: Path) -> Journal:
@@ -72,18 +72,16 @@ class Journal:
             yield
             return
         named = str(file or self.path)
+        if bounded.exists(self.path) and not bounded.is_file(self.path):
+            raise InputError("journal", str(self.path), "a file", "is none")
         try:
             self._held = self._locked()
-        except InputError:
-            raise
         except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or error
-            raise InputError(
-                label, named, "a file in a folder that can be written to", f"cannot be kept ({reason})"
-            ) from None
+            accepted, reason = "a file in a folder that can be written to", getattr(error, "strerror", None) or error
+            raise InputError(label, named, accepted, f"cannot be kept ({reason})") from None
         if self._held is None:
-            problem = "is being written by another run"
-            raise InputError(label, named, "a file of its own for each run, or this one when that has ended", problem)
+            accepted = "a file of its own for each run, or this one when that has ended"
+            raise InputError(label, named, accepted, "is being written by another run")
         try:
             yield
         finally:
@@ -94,14 +92,15 @@ class Journal:
 
     def _locked(self) -> int | None:
         """The journal's file, open and locked; None if it is locked by another run."""
+        from filelock import lock_descriptor  # slow import
+
         while True:
-            if self.path.exists() and not self.path.is_file():
-                raise InputError("journal", str(self.path), "a file", "is none")
             opened = os.open(self.path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NONBLOCK", 0), 0o666)
             try:
-                if not take(opened):
-                    os.close(opened)
-                    return None
+                with suppress(OSError):  # a file system without locks
+                    if not lock_descriptor(opened, blocking=False):
+                        os.close(opened)
+                        return None
                 if self.path.exists() and os.path.samestat(os.fstat(opened), self.path.stat()):
                     return opened
             except BaseException:
@@ -127,7 +126,7 @@ class Journal:
     def others(self) -> tuple[int, int]:
         """Content that is not this request's: number of collisions of others, number of lines that are no blocks."""
         strange = [record for key, record in self._records() if key != self.key]
-        return sum(_collisions(one) for one in strange if one is not None), sum(one is None for one in strange)
+        return sum(map(_collisions, filter(None, strange))), strange.count(None)
 
     def _records(self) -> Iterator[tuple[bytes, dict[str, Any] | None]]:
         """Key and content of every line; the content is None for an incomplete line."""
@@ -141,7 +140,8 @@ class Journal:
 
     def add(self, where: np.ndarray, block: Block) -> None:
         """Append a block in a single write."""
-        self._append({"where": where.tolist(), "columns": {name: values.tolist() for name, values in block.items()}})
+        columns = {name: values.tolist() for name, values in block.items()}
+        self._append({"where": where.tolist(), "columns": columns})
 
     def note(self, chunk: int, collisions: int) -> None:
         """Append a chunk whose results have been stored elsewhere."""
@@ -162,10 +162,10 @@ class Journal:
             return
         lines = self.path.read_bytes().split(b"\n")
         others = [line for line in lines if line and not line.startswith(self.key + b" ")]
-        if not others:
+        if others:
+            write(self.path, b"\n".join(others) + b"\n")
+        else:
             self.path.unlink(missing_ok=True)
-            return
-        write(self.path, b"\n".join(others) + b"\n")
 
 
 def _collisions(record: Mapping[str, Any]) -> int:

@@ -1,4 +1,4 @@
-"""A regime map as a figure: outcomes and restitution over impact angle and Stokes number."""
+"""Outcomes of many collisions as a figure: a map where they lie on a grid, else a point for each."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ..collision.text import against, name_of, plain, quantity
 from ..formatting import ticks
 from ..formatting.style import EDGES, FILLS, HATCHES, INK, LETTERS, NOTE, NOTHING, halo, patch, picture, plain_text
 from ..model.validity import counted
-from ..scene.held import NAMES
+from ..scene.held import AXIS_LABELS, NAMES
 from ..scene.scene import Scene
 from .regime_map import IMPACTS, impact_axis, scene_of
 from .results import FAILED, VALIDITY
@@ -44,6 +44,12 @@ Curves = Mapping[int, Sequence[Curve]]  # of each panel: its flat index among wh
 
 
 @picture
+def draw(data: xarray.Dataset) -> Figure:
+    """Draw what `regime_map` or `collide_many` has returned: a map, or a point for each collision."""
+    return draw_map(data) if "Conventions" in data.attrs else _points(data)
+
+
+@picture
 def draw_map(data: xarray.Dataset, curves: Curves | None = None) -> Figure:
     """Draw a regime map as returned by `regime_map` or read from a file.
 
@@ -61,7 +67,7 @@ def draw_map(data: xarray.Dataset, curves: Curves | None = None) -> Figure:
         title = f"outcome and normal restitution{alone}"
     across = figure.get_figwidth()
     figure.suptitle(textwrap.fill(f"{plain_text(name_of(scene))}{against(scene)}: {title}", int(11 * across)))
-    notes += [_counts(data), _variant(scene), *_range(data)]
+    notes += _notes(data, scene)
     assumed = [line for line in scene.assumed if line.split(" ")[0] not in varied]
     lines = [textwrap.fill(line, int(across / _NOTES)) for line in notes]
     lines += [textwrap.shorten(line, int(across / _NOTES)) for line in assumed]
@@ -85,32 +91,23 @@ def _vertical(data: xarray.Dataset) -> str:
     return next((name for name in dims if name in IMPACTS), dims[0])
 
 
-def _variant(scene: Scene) -> str:
-    """The model's variants, under their names in a scene."""
-    model = scene.model
+def _notes(data: xarray.Dataset, scene: Scene) -> list[str]:
+    """Counts of the outcomes, the model's variants under their names in a scene, and the limits that are passed."""
+    outcome, model = data["outcome"].values, scene.model
+    counts = [f"{np.count_nonzero(outcome == k)} {LETTERS[name]}" for k, name in enumerate(OUTCOMES)]
+    failed = np.count_nonzero(outcome == FAILED)
+    counts += [f"{failed} failed"] if failed else []
+    run = f"relative tolerance {data.attrs['rtol']:g}, engine {data.attrs['engine']}"
     parts = [f"arm {model.arm}", f"tangential {model.tangential}", f"film {model.film}"]
     parts += [f"glass {model.glass}"] if scene.liquid.glass_transition_pressure is not None else []
     parts.append("no bridge" if scene.bridge is None else f"bridge {scene.bridge.law}")
     if scene.pendulum is not None:
         parts.append(f"strings {quantity(scene.pendulum.length, 'm')} long, {scene.pendulum.law}")
-    return f"model: {', '.join(parts)}"
-
-
-def _counts(data: xarray.Dataset) -> str:
-    outcome = data["outcome"].values
-    found = [f"{np.count_nonzero(outcome == k)} {LETTERS[name]}" for k, name in enumerate(OUTCOMES)]
-    failed = np.count_nonzero(outcome == FAILED)
-    if failed:
-        found.append(f"{failed} failed")
-    told = f"relative tolerance {data.attrs['rtol']:g}, engine {data.attrs['engine']}"
-    return f"{outcome.size} collisions: {', '.join(found)}; {told}"
-
-
-def _range(data: xarray.Dataset) -> list[str]:
-    """Which limits of the model are passed, and in how many cells."""
-    if VALIDITY not in data or not data[VALIDITY].values.any():
-        return []
-    return [f"outside the model's range: {', '.join(f'{w} in {n} cells' for w, n in counted(data[VALIDITY].values))}"]
+    notes = [f"{outcome.size} collisions: {', '.join(counts)}; {run}", f"model: {', '.join(parts)}"]
+    if VALIDITY in data and data[VALIDITY].values.any():
+        limits = ", ".join(f"{words} in {count} cells" for words, count in counted(data[VALIDITY].values))
+        notes.append(f"outside the model's range: {limits}")
+    return notes
 
 
 def _pair(data: xarray.Dataset, curves: Curves) -> Figure:
@@ -121,7 +118,8 @@ def _pair(data: xarray.Dataset, curves: Curves) -> Figure:
     right = figure.add_subplot(grid[1, 1], sharey=left)
     _outcomes(left, data)
     _letters(left, data)
-    values = np.ma.masked_invalid(_restitution(data))
+    separated = _upright(data, "outcome") > 0
+    values = np.ma.masked_invalid(np.where(separated, _upright(data, "restitution"), np.nan))
     right.set_facecolor(NOTHING)
     highest = float(values.max()) if values.count() else 1.0
     top = min(max(highest, 1.0), _HIGHEST)
@@ -199,11 +197,6 @@ def _upright(data: xarray.Dataset, name: str) -> np.ndarray:
     return np.asarray(data[name].transpose(_vertical(data), "angle").values)
 
 
-def _restitution(data: xarray.Dataset) -> np.ndarray:
-    """Restitution of the pairs that separate, NaN elsewhere."""
-    return np.where(_upright(data, "outcome") > 0, _upright(data, "restitution"), np.nan)
-
-
 def _outcomes(axes: Axes, data: xarray.Dataset) -> None:
     """Colour the cells by outcome, with the hatch of the outcome, and hatch those outside the model's range."""
     outcome = _upright(data, "outcome")
@@ -251,24 +244,17 @@ def _failed(axes: Axes, data: xarray.Dataset) -> None:
 
 def _letters(axes: Axes, data: xarray.Dataset) -> None:
     """Draw the name of each region where it is widest."""
+    from scipy.ndimage import distance_transform_cdt
+
     outcome = _upright(data, "outcome")
     angles, values = np.degrees(data["angle"].values), data[_vertical(data)].values
     for k, name in enumerate(OUTCOMES):
-        inside = np.pad(outcome == k, 1)
-        depth = np.zeros(inside.shape)
-        while inside.any():  # erode the region; the cells that remain last are the deepest
-            depth += inside
-            inside = (
-                inside
-                & np.roll(inside, 1, 0) & np.roll(inside, -1, 0) & np.roll(inside, 1, 1) & np.roll(inside, -1, 1)
-            )  # fmt: skip
+        depth = distance_transform_cdt(np.pad(outcome == k, 1), "taxicab")[1:-1, 1:-1]
         if depth.max() < 3:  # too small for a label
             continue
-        row, column = np.unravel_index(np.argmax(depth[1:-1, 1:-1]), outcome.shape)
-        axes.annotate(
-            LETTERS[name], (angles[column], values[row]), ha="center", va="center", color=INK, fontsize=12, zorder=6,
-            path_effects=[halo(4)],
-        )  # fmt: skip
+        row, column = np.unravel_index(np.argmax(depth), outcome.shape)
+        look: Any = {"ha": "center", "va": "center", "color": INK, "fontsize": 12, "zorder": 6}
+        axes.annotate(LETTERS[name], (angles[column], values[row]), path_effects=[halo(4)], **look)
 
 
 def draw_contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float]) -> None:
@@ -372,3 +358,37 @@ def _logarithmic(values: np.ndarray) -> bool:
         return False
     ratios = np.diff(np.log(values))
     return bool(np.ptp(ratios) < np.ptp(np.diff(values)) / values[-1])
+
+
+def _points(data: xarray.Dataset) -> Figure:
+    """A point for each collision, over impact angle and Stokes number or speed, marked by its outcome."""
+    impact = "stokes" if "stokes" in data.coords else "speed"
+    outcome = data["outcome"].values.ravel()
+    x, y = (data[name].broadcast_like(data["outcome"]).transpose(*data["outcome"].dims).values.ravel()
+            for name in ("angle", impact))  # fmt: skip
+    figure = Figure(figsize=(6.4, 4.4), layout="constrained")
+    axes = figure.add_subplot()
+    for code, (name, mark) in enumerate(zip(OUTCOMES, "o^s", strict=True)):
+        here = outcome == code
+        if here.any():
+            edge: Any = {"linewidths": 0.4, "edgecolors": "#404040", "label": f"{name} ({int(here.sum())})"}
+            axes.scatter(
+                np.degrees(x[here]),
+                y[here],
+                s=26,
+                c=EDGES[name],
+                marker=mark,
+                **edge,
+            )
+    failed = outcome == FAILED
+    if failed.any():
+        axes.scatter(np.degrees(x[failed]), y[failed], s=30, c="#C00000", marker="x", label=f"failed ({failed.sum()})")
+    if y.size and y.min() > 0 and y.max() > 20 * y.min():
+        axes.set_yscale("log")
+    axes.set(xlabel="impact angle (deg)", ylabel=AXIS_LABELS[impact])
+    name = plain_text(name_of(scene_of(data)))
+    axes.set_title(f"{name}: outcomes of {outcome.size} collisions", fontsize=11)
+    axes.spines[["top", "right"]].set_visible(False)
+    if outcome.size:
+        figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=8)
+    return figure

@@ -22,7 +22,7 @@ from ..errors import ComputationError, InputError
 from ..host import bounded
 from ..host.interrupts import held
 from ..host.outputs import check_file
-from .chunks import Chunks
+from .scan import Scan, without
 
 if TYPE_CHECKING:
     import xarray
@@ -62,50 +62,51 @@ def opened(path: Path) -> xarray.Dataset:
 class Store:
     """The unfinished store of one request; what an earlier run has left is continued.
 
+    It is written through Zarr itself: xarray's region writes open the store anew for every chunk, and the template that
+    they need is loaded whole where it is text.
+
     Arguments:
         path: where it appears when it is complete.
         key: of the request.
-        cut: chunks of the request; those of the store are the same.
     """
 
-    def __init__(self, path: Path, key: str, cut: Chunks) -> None:
+    def __init__(self, path: Path, key: str) -> None:
         self.target = Path(os.path.realpath(path))
         self.place = self.target.with_name(f"{self.target.name}.{key[:12]}.unfinished")
-        self.cut = cut
         self._group: Any = None
+        self._dims: dict[str, list[str]] = {}  # array -> its dimensions
 
     @held()  # Zarr's tasks, interrupted, would write tracebacks later
-    def open(self, fixed: xarray.Dataset, first: xarray.Dataset) -> str:
+    def open(self, scan: Scan, first: xarray.Dataset) -> str:
         """Open or create the arrays; returns a token that only this folder has.
 
         Arguments:
-            fixed: coordinates that are known beforehand.
-            first: the first chunk, with any values: names, dimensions, kinds and attributes of all other variables.
+            first: the first chunk, which is none of the smaller ones, with any values.
         """
-        zarr = _zarr()
+        variables = dict(first.variables)
+        beside = {} if scan.beside is None else dict(without(scan.beside, {*map(str, variables)}).variables)
+        self._dims = {str(name): [str(dim) for dim in each.dims] for name, each in variables.items()}
         with _unwarned():
             if (self.place / _TOKEN).is_file():
                 token = (self.place / _TOKEN).read_text(errors="replace")
                 with self._undamaged():
                     if not token.endswith(self._description()):
                         raise ValueError("its description is not what was written")
-                    self._group = zarr.open_group(self.place, mode="r+", zarr_format=3)
-                for name, variable in fixed.variables.items():
+                    self._group = _zarr().open_group(self.place, mode="r+", zarr_format=3)
+            else:
+                if self.place.exists():  # an earlier run was killed before the arrays were complete
+                    shutil.rmtree(self.place)
+                self._group = _zarr().open_group(self.place, mode="w", zarr_format=3)
+                sizes = dict(zip(map(str, scan.dims), scan.shape, strict=True))
+                for name, variable in (variables | beside).items():
+                    self._create(str(name), variable, sizes)
+                others = [str(name) for name in (*first.coords, *beside) if name not in sizes]
+                about = {**_plain(first.attrs), **({"coordinates": " ".join(others)} if others else {})}
+                self._group.attrs.update(about)
+                for name, variable in beside.items():
                     self._group[str(name)][...] = _values(name, variable)
-                return token
-            if self.place.exists():  # an earlier run was killed before the arrays were complete
-                shutil.rmtree(self.place)
-            self._group = zarr.open_group(self.place, mode="w", zarr_format=3)
-            dims = tuple(map(str, first["outcome"].dims))
-            sizes, block = (dict(zip(dims, lengths)) for lengths in (self.cut.shape, self.cut.block))
-            for name, variable in fixed.variables.items():
-                self._create(name, variable, sizes, block)[...] = _values(name, variable)
-            for name in (name for name in first.variables if name not in fixed.variables):
-                self._create(name, first.variables[name], sizes, block)
-            more = [str(name) for name in {**fixed.coords, **first.coords} if name not in dims]
-            self._group.attrs.update({**_plain(first.attrs), **({"coordinates": " ".join(more)} if more else {})})
-        token = f"{uuid.uuid4().hex} {self._description()}"
-        (self.place / _TOKEN).write_text(token)
+                token = f"{uuid.uuid4().hex} {self._description()}"
+                (self.place / _TOKEN).write_text(token)
         return token
 
     def _description(self) -> str:
@@ -113,15 +114,14 @@ class Store:
         files = [self.place / _META, *sorted(self.place.glob(f"*/{_META}"))]
         return hashlib.sha256(b"\n".join(file.read_bytes() for file in files)).hexdigest()
 
-    def _create(self, name: Hashable, variable: Any, sizes: Mapping[str, int], block: Mapping[str, int]) -> Any:
-        """An array for a variable that a chunk or all of it is known of."""
+    def _create(self, name: str, variable: Any, sizes: Mapping[str, int]) -> None:
+        """An array for a variable of which a chunk is known, or all."""
         variable = _encoded(variable)
-        shape = tuple(sizes.get(str(dim), size) for dim, size in variable.sizes.items())
         kind = "string" if variable.dtype.kind in "OUT" else variable.dtype
-        return self._group.create_array(
-            str(name),
-            shape=shape,
-            chunks=tuple(max(1, block.get(str(dim), size)) for dim, size in variable.sizes.items()),
+        self._group.create_array(
+            name,
+            shape=tuple(sizes.get(str(dim), size) for dim, size in variable.sizes.items()),
+            chunks=tuple(max(1, size) for size in variable.shape),
             dtype=kind,
             compressors=(_zarr().codecs.ZstdCodec(), _zarr().codecs.Crc32cCodec()),  # reading a damaged chunk fails
             fill_value=np.nan if variable.dtype.kind == "f" else "" if kind == "string" else 0,
@@ -130,24 +130,22 @@ class Store:
         )
 
     @held()
-    def write(self, k: int, chunk: xarray.Dataset, fixed: xarray.Dataset) -> None:
-        """Write chunk k; what has not all dimensions is written with the first chunk along those that it lacks."""
-        at = dict(zip(map(str, chunk["outcome"].dims), self.cut.slices(k)))
-        for name, variable in chunk.variables.items():
-            dims = [str(dim) for dim in variable.dims]
-            if name in fixed.variables or any(at[dim].start for dim in at if dim not in dims):
+    def write(self, at: tuple[slice, ...], chunk: xarray.Dataset) -> None:
+        """Write a chunk; what has not all dimensions is written with the first chunk along those that it lacks."""
+        place = dict(zip(map(str, chunk["outcome"].dims), at))
+        for name, dims in self._dims.items():
+            if any(place[dim].start for dim in place if dim not in dims):
                 continue
             with self._undamaged():
-                array = self._group[str(name)]
-            array[tuple(at[dim] for dim in dims)] = _values(name, variable)
+                array = self._group[name]
+            array[tuple(place[dim] for dim in dims)] = _values(name, chunk.variables[name])
 
-    def holds(self, k: int) -> bool:
-        """True if chunk k can be read: no checksum differs."""
-        arrays = [self._group[file.parent.name] for file in self.place.glob(f"*/{_META}")]
-        at = dict(zip(self._group["outcome"].metadata.dimension_names, self.cut.slices(k)))
+    def holds(self, at: tuple[slice, ...]) -> bool:
+        """True if a chunk can be read: no checksum differs."""
+        place = dict(zip(self._dims["outcome"], at))
         try:
-            for array in arrays:
-                array[tuple(at[dim] for dim in array.metadata.dimension_names)]
+            for name, dims in self._dims.items():
+                self._group[name][tuple(place[dim] for dim in dims)]
         except (ValueError, RuntimeError):  # of the checksum, or of the decompression before it
             return False
         return True
@@ -164,16 +162,14 @@ class Store:
     @held()
     def finish(self) -> None:
         """Move the store to its name, in place of a complete one that was there."""
-        zarr = _zarr()
         (self.place / _TOKEN).unlink()
         with _unwarned():
-            zarr.consolidate_metadata(self._group.store)
-        former = None
+            _zarr().consolidate_metadata(self._group.store)
+        former = self.place.with_suffix(".former")
         if self.target.exists():
-            former = self.place.with_suffix(".former")
             self.target.rename(former)
         self.place.rename(self.target)
-        if former is not None:
+        if former.exists():
             shutil.rmtree(former)
 
 

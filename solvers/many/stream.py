@@ -1,4 +1,4 @@
-"""Requests computed chunk by chunk: here or on a cluster, into memory or into a Zarr store, and continued later."""
+"""Scans computed: here or on a cluster, into memory or chunk by chunk into a Zarr store, and continued later."""
 
 from __future__ import annotations
 
@@ -7,47 +7,31 @@ import json
 import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...generated import scaling
 from ..engines.arithmetic import arithmetic
-from .chunks import Chunks
-from .cluster import Task, agreed, check_scheduler, computed, connected, one_at_a_time
+from ..host.cores import usable_cores
+from ..host.interrupts import check
+from .chunks import LARGEST, chunks
+from .cluster import Task, agreed, check_scheduler, computed, connected
+from .compute import Slow, complete, computed_chunk
+from .dataset import blank, empty, fill, validity
 from .journal import Journal, beside
-from .results import Block
+from .results import VALIDITY, Block
+from .scan import Place, Scan
 from .store import Store, check_store, opened
 
 if TYPE_CHECKING:
     import xarray
 
 Progress = Callable[[int, int], None]
-
-
-@dataclass(frozen=True)
-class Scan:
-    """A request as its chunks.
-
-    Arguments:
-        cut: chunks of its array of collisions.
-        engine: of all of them.
-        task: the computation of chunk k.
-        dataset: chunk k and its results as a Dataset.
-        blank: results of no meaning, for the layout of a store.
-        fixed: coordinates that are known beforehand.
-        identity: everything that the results depend on, as JSON values.
-    """
-
-    cut: Chunks
-    engine: str
-    task: Callable[[int], Task]
-    dataset: Callable[[int, Block], xarray.Dataset]
-    blank: Callable[[int], Block]
-    fixed: Callable[[], xarray.Dataset]
-    identity: Mapping[str, Any]
+_Blocks = Callable[[list[int]], Iterator[tuple[int, Block]]]
+_NUMBERS = 1 << 19  # in the request of a chunk, 4 MB; Dask warns of much more
 
 
 def check_places(client: object, store: object) -> Path | None:
@@ -61,82 +45,115 @@ def check_places(client: object, store: object) -> Path | None:
     return None if store is None else check_store(store, "store")
 
 
+def _cut(scan: Scan) -> list[Place]:
+    """The chunks of a scan, each small enough to be sent."""
+    numbers = sum(3 if values.dtype.kind == "U" else 1 for _, values in scan.columns.values())
+    return chunks(scan.shape, next(iter(scan.engines.values()), "rosenbrock"), min(LARGEST, _NUMBERS // numbers))
+
+
+def _computed_part(part: Scan, size: int, cores: int) -> Block:
+    """Results of a part of a scan of `size` collisions; a worker makes the collisions of its columns itself."""
+    return computed_chunk(replace(part.batch(), whole=size), cores)
+
+
 @contextmanager
-def _blocks(scan: Scan, client: Any, label: str) -> Iterator[tuple[Mapping[str, str], Callable[..., Any]]]:
+def _chunkwise(
+    scan: Scan, client: Any
+) -> Iterator[tuple[Mapping[str, str], Callable[..., Iterator[tuple[int, Block]]]]]:
     """The arithmetic of a run, and a function that yields the chunks of a list with their results."""
+    cut = _cut(scan)
+
+    def task(k: int) -> Task:
+        return partial(_computed_part, scan.part(cut[k]), scan.size)
+
     if client is None:
-        yield arithmetic(), lambda todo: one_at_a_time(scan.task, todo)
+
+        def one_at_a_time(todo: list[int]) -> Iterator[tuple[int, Block]]:
+            for k in todo:
+                check()
+                yield k, task(k)(usable_cores())
+
+        yield arithmetic(), one_at_a_time
         return
-    with connected(client, label) as cluster:
-        expected = agreed(cluster, scan.engine)
-        yield expected, lambda todo: computed(cluster, scan.task, todo, expected)
+    with connected(client) as cluster:
+        expected = agreed(cluster, "taylor" if "taylor" in scan.engines.values() else "")
+        yield expected, lambda todo: computed(cluster, task, todo, expected)
 
 
 def into_memory(
     scan: Scan,
-    client: Any,
-    done: np.ndarray,
-    finished: Callable[[np.ndarray, Block], None],
-    label: str = "client",
-) -> None:
-    """Compute what is missing on a cluster; `finished` is called with flat indices and results of each chunk.
+    client: Any = None,
+    kept: Journal | None = None,
+    progress: Progress | None = None,
+    slow: Slow | None = None,
+) -> xarray.Dataset:
+    """Compute a scan here or on a cluster, continuing what a journal holds.
 
     Arguments:
-        done: mask of finished collisions, flat.
+        progress: called with (collisions done, collisions in all) at the start and after every block.
+        slow: called with the number of collisions left to slower engines, once the kernel has done all others.
     """
-    todo = [k for k in range(len(scan.cut)) if not done[scan.cut.flat(k)].all()]
-    with _blocks(scan, client, label) as (_, blocks):
-        for k, block in blocks(todo):
-            finished(scan.cut.flat(k), block)
+    request = scan.batch()
+    results = empty(scan.size, scan.of)
+    names = {*results}  # a journal holds no flags
+    done = np.zeros(scan.size, bool)
+
+    def finished(where: np.ndarray, block: Block) -> None:
+        done[where] = True
+        fill(results, where, block)
+        if progress is not None:
+            progress(int(np.count_nonzero(done)), scan.size)
+
+    def keep(where: np.ndarray, block: Block) -> None:
+        if kept is not None:
+            kept.add(where, {name: block[name] for name in names if name in block})
+        finished(where, block)
+
+    for where, block in kept.read() if kept else ():
+        done[where] = True
+        fill(results, where, block)
+    if progress is not None:
+        progress(int(np.count_nonzero(done)), scan.size)
+    if client is None:
+        order = scan.order()
+        complete(request, results, order[~done[order]], keep, slow=slow)
+    else:
+        cut, flat = _cut(scan), np.arange(scan.size).reshape(scan.shape)
+        results |= {name: values for name, values in blank(scan.size, scan.of).items() if name not in results}
+        with _chunkwise(scan, client) as (_, blocks):
+            for k, block in blocks([k for k in range(len(cut)) if not done[flat[cut[k]]].all()]):
+                keep(flat[cut[k]].ravel(), block)
+        if kept is not None and VALIDITY in scan.of:
+            results[VALIDITY] = validity(request, results)
+    return scan.dataset(results, request=request)
 
 
 def into_store(
-    scan: Scan,
-    path: Path,
-    client: Any = None,
-    progress: Progress = lambda _done, _total: None,
-    journal: Journal | None = None,
-    label: str = "client",
+    scan: Scan, path: Path, client: Any = None, progress: Progress | None = None, journal: Journal | None = None
 ) -> xarray.Dataset:
-    """Compute a request into a Zarr store, continuing an interrupted run; returns the Dataset, its values on disk.
+    """Compute a scan into a Zarr store, continuing an interrupted run; returns the Dataset, its values on disk.
 
     Arguments:
         client: of a cluster; None for this process.
         progress: called with (collisions done, collisions in all) after every chunk.
         journal: of the store, if the caller has it.
     """
-    kept = beside(path) if journal is None else journal
-    with _blocks(scan, client, label) as (digits, blocks), kept.held("store", path):
-        identity = {**scan.identity, "arithmetic": dict(digits)}
-        store = Store(path, hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest(), scan.cut)
-        fixed = scan.fixed()
-        token = store.open(fixed, scan.dataset(0, scan.blank(0)))
+    kept, cut = journal or beside(path), _cut(scan)
+    sizes = [math.prod(one.stop - one.start for one in at) for at in cut]
+    with _chunkwise(scan, client) as (digits, blocks), kept.held("store", path):
+        identity = {**scan.identity(), "arithmetic": dict(digits)}
+        store = Store(path, hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest())
+        token = store.open(scan, scan.part(cut[0]).dataset(blank(sizes[0], scan.of)))
         kept.under({**identity, "store": token})  # what another folder held is not in this one
-        done, total = {k for k in kept.chunks() if store.holds(k)}, math.prod(scan.cut.shape)
-        count = sum(math.prod(scan.cut.extent(k)) for k in done)
-        progress(count, total)
-        for k, block in blocks([k for k in range(len(scan.cut)) if k not in done]):
-            store.write(k, scan.dataset(k, block), fixed)
-            size = block["outcome"].size
-            kept.note(k, size)
-            count += size
-            progress(count, total)
+        done = {k for k in kept.chunks() if store.holds(cut[k])}
+        count = sum(sizes[k] for k in done)
+        tell = progress or (lambda _done, _total: None)
+        tell(count, scan.size)
+        for k, block in blocks([k for k in range(len(cut)) if k not in done]):
+            store.write(cut[k], scan.part(cut[k]).dataset(block))
+            kept.note(k, sizes[k])
+            count += sizes[k]
+            tell(count, scan.size)
         store.finish()
         kept.remove()
     return opened(path)
-
-
-def digest(values: np.ndarray) -> str:
-    """Digest of an array, for the identity of a request."""
-    text = "\0".join(map(str, values.tolist())).encode() if values.dtype.kind == "U" else values.tobytes()
-    return hashlib.sha256(text).hexdigest()
-
-
-def software() -> dict[str, str]:
-    """Version and equations, for the identity of a request."""
-    from importlib.metadata import version
-
-    return {
-        "version": version("wetdoublet"),
-        "equations": Path(scaling.__file__).with_name("manifest.json").read_text(),
-    }

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
@@ -37,17 +36,11 @@ def table(data: xarray.Dataset) -> str:
         index = [int(k) for k in np.unravel_index(number, sizes)] if varied else []
         part = data.isel(dict(zip(varied, index, strict=True)))
         lines += ["", *([", ".join(_value(part, name) for name in varied)] if varied else []), *_map(part)]
-    notes = _subsampled(data, len(chosen), math.prod(sizes))
-    return "\n".join([*lines, *notes, *_outside(data)])
-
-
-def _outside(data: xarray.Dataset) -> list[str]:
-    """How many collisions leave the model's range, and by which limit."""
-    if VALIDITY not in data or not data[VALIDITY].values.any():
-        return []
-    said = [f"{words} in {count}" for words, count in counted(data[VALIDITY].values)]
-    lines = wrap(f"outside the model's range: {', '.join(said)}", WIDTH, subsequent_indent="  ")
-    return ["", *lines]
+    lines += _subsampled(data, len(chosen), math.prod(sizes))
+    if VALIDITY in data and data[VALIDITY].values.any():
+        limits = ", ".join(f"{words} in {count}" for words, count in counted(data[VALIDITY].values))
+        lines += ["", *wrap(f"outside the model's range: {limits}", WIDTH, subsequent_indent="  ")]
+    return "\n".join(lines)
 
 
 def _map(data: xarray.Dataset) -> list[str]:
@@ -99,28 +92,18 @@ def _subsampled(data: xarray.Dataset, shown: int, total: int) -> list[str]:
 
 def failures(data: xarray.Dataset) -> str | None:
     """One line with the number of failures and their reasons; None without failures."""
-    reasons = [reason for part in _strips(data) for reason in _reasons(part)]
-    if not reasons:
-        return None
+    dim, size = data["outcome"].dims[0], data["outcome"].shape[0]
+    length = (data["outcome"].encoding.get("chunks") or (size,))[0]  # strip by strip, as it lies in chunks on disk
     kinds: dict[str, list[str]] = {}
-    for reason in reasons:
-        kinds.setdefault(re.sub(r"[-+]?[0-9.]+(e[-+]?[0-9]+)?", "#", reason.partition("; state ")[0]), []).append(
-            reason
-        )
-    said = [f"{len(alike)} x {alike[0]}" for alike in sorted(kinds.values(), key=len, reverse=True)]
-    more = f", and {len(said) - 3} other reasons" if len(said) > 3 else ""
-    return f"{len(reasons)} of {data['outcome'].size} collisions failed: {' | '.join(said[:3])}{more}"
-
-
-def _strips(data: xarray.Dataset) -> Iterator[xarray.Dataset]:
-    """A map in parts along its first dimension, as it lies in chunks on disk; all of it where it is in memory."""
-    outcome = data["outcome"]
-    dim, size = outcome.dims[0], outcome.shape[0]
-    length = (outcome.encoding.get("chunks") or outcome.shape)[0]
-    for first in range(0, size, length):
-        yield data.isel({dim: slice(first, first + length)})
-
-
-def _reasons(data: xarray.Dataset) -> list[str]:
-    failed = data["outcome"].values == FAILED
-    return list(map(str, data["reason"].values[failed].tolist())) if failed.any() else []
+    for first in range(0, size, max(1, length)):
+        strip = data.isel({dim: slice(first, first + length)})
+        failed = strip["outcome"].values == FAILED
+        for reason in strip["reason"].values[failed].tolist() if failed.any() else ():
+            kind = re.sub(r"[-+]?[0-9.]+(e[-+]?[0-9]+)?", "#", reason.partition("; state ")[0])
+            kinds.setdefault(kind, []).append(reason)
+    if not kinds:
+        return None
+    alike = sorted(kinds.values(), key=len, reverse=True)
+    parts = [f"{len(reasons)} x {reasons[0]}" for reasons in alike[:3]]
+    more = f", and {len(alike) - 3} other reasons" if len(alike) > 3 else ""
+    return f"{sum(map(len, alike))} of {data['outcome'].size} collisions failed: {' | '.join(parts)}{more}"

@@ -95,7 +95,7 @@ def _structure(choice: ModelKey) -> ModuleType:
     slots = tuple(slot for slot, _ in choice.laws)
     if choice.package is not None and choice.package.changes(slots):
         return choice.package.structure(choice.structure)
-    return emitted.structure(choice.structure)
+    return emitted.module(choice.structure)
 
 
 def _law(package: Package | None, slot: str, name: str) -> Any:

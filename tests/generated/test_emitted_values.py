@@ -14,16 +14,16 @@ import casadi
 import mpmath
 import pytest
 import sympy as sp
+from wetdoublet.derive.emit.one import structure_text
+from wetdoublet.derive.equations.model import Model, derive
 from wetdoublet.derive.physics.forces import FILM, SHEAR
 from wetdoublet.derive.physics.laws import LAWS, Law, LawFunction, fill
-from wetdoublet.derive.equations.model import Model, derive
-from wetdoublet.derive.vocabulary.quantities import VOCABULARY
 from wetdoublet.derive.physics.scaling import group_definitions
-from wetdoublet.derive.emit.one import structure_text
 from wetdoublet.derive.physics.structure import Structure, committed, known, structures
-from wetdoublet.solvers.host.emitted import executed
+from wetdoublet.derive.vocabulary.quantities import VOCABULARY
 from wetdoublet.generated import scaling
 from wetdoublet.generated.assemble import Laws, casadi_functions
+from wetdoublet.solvers.host.emitted import executed
 
 DIGITS = 30
 REGIONS = ((1, 1), (0, 1), (0, 0))

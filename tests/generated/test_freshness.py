@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.derive.emit.write import GENERATED, check, emitted
-from wetdoublet.solvers.host.emitted import header, structure, text
+from wetdoublet.solvers.host.emitted import header, module, text
 from wetdoublet.solvers.host.files import write_all_in
 
 DERIVE = GENERATED.parent / "derive"
@@ -124,9 +124,9 @@ def test_what_structures_share_is_emitted_once():
     functions = [b for b in blocks if re.match(r"(/\*(.|\n)*?\*/\n)?(static inline|INLINE|OUTLINE)", b) and b[-2:] == "\n}"]
     assert len(set(functions)) == len(functions) > 100
     for name in json.loads(TEXTS["manifest.json"])["structures"]:
-        module = structure(name)
-        assert all(callable(getattr(module, function)) for function in module.FUNCTIONS)
-        assert set(module.FUNCTIONS) <= _functions(text(name)).keys()
+        emitted = module(name)
+        assert all(callable(getattr(emitted, function)) for function in emitted.FUNCTIONS)
+        assert set(emitted.FUNCTIONS) <= _functions(text(name)).keys()
 
 
 _BLOCKED = """
@@ -241,7 +241,7 @@ def test_digests_agree(name: str):
     text = (GENERATED / name).read_text()
     assert text.splitlines()[1].removeprefix("# ").split(" sha256 ")[1] == _digests()[name]
     if "/" not in name and name not in ("scaling.py", "automaton.py"):
-        assert _digests()[name] == structure(name.removesuffix(".py")).DIGEST
+        assert _digests()[name] == module(name.removesuffix(".py")).DIGEST
 
 
 def test_every_used_name_is_imported_and_every_import_used():

@@ -10,7 +10,7 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 from wetdoublet.solvers.commands.cli import COMMANDS, cli
-from wetdoublet.solvers.commands.options import entry_range
+from wetdoublet.solvers.commands.texts import entry_range
 from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
 from wetdoublet.solvers.scene.ranges import parse_range
 from wetdoublet.solvers.scene.scene import Scene

@@ -1,0 +1,125 @@
+"""What texts of the command line mean: lists, assignments, numbers, and ranges with units and angles in degrees.
+
+An InputError without a field is about the option that is read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ..errors import InputError, did_you_mean, shown
+from ..scene import units
+from ..scene.ranges import MOST, Ends, parse_range
+from ..scene.schema import FIELDS, Field
+
+Range = tuple[float, float] | tuple[str, str]
+"""Two ends in SI; texts where a plain number is something else than a quantity."""
+
+
+def typed(entries: Mapping[str, str]) -> dict[str, str]:
+    """Entries by dotted name, a bare angle in degrees."""
+    return {name: with_degrees(FIELDS[name], value) if name in FIELDS else value for name, value in entries.items()}
+
+
+def names(text: str) -> list[str]:
+    """The names of a list NAME,NAME; InputError for a name that stands twice."""
+    listed = [name.strip() for name in text.split(",") if name.strip()]
+    if not listed:
+        raise InputError("", text, "names, separated by commas", "names nothing")
+    for name in listed:
+        if listed.count(name) > 1:
+            raise InputError("", text, "every name once", f"has {shown(name)} twice")
+    return listed
+
+
+def assigned(accepted: str, texts: Sequence[str], label: str = "") -> dict[str, str]:
+    """The texts of a repeatable option NAME=TEXT, by name; InputError for a name that stands twice."""
+    values: dict[str, str] = {}
+    for text in texts:
+        name, equals, value = text.partition("=")
+        name = name.strip()
+        if not equals or name in values:
+            raise InputError(label, text, accepted, "is given twice: every name once" if equals else "has no =")
+        values[name] = value
+    return values
+
+
+def number(accepted: str, text: str) -> float:
+    """A number; InputError for another text."""
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError("", text, accepted, "is no number") from None
+
+
+def whole(text: str) -> int:
+    """A whole number; InputError for another text."""
+    try:
+        return int(text)
+    except ValueError:
+        raise InputError("", text, "a whole number") from None
+
+
+def known(names: Sequence[str], text: str, label: str = "") -> str:
+    """One of the names; InputError with the nearest for another."""
+    if text not in names:
+        raise InputError(label, text, ", ".join(names), "is not known" + did_you_mean(text, names))
+    return text
+
+
+def with_degrees(entry: Field, text: str) -> str:
+    """An angle as it is typed: a bare number is in degrees."""
+    return f"{text.strip()} deg" if entry.unit == "rad" and units.is_number(text) else text
+
+
+def entry_range(entry: Field, text: str, label: str = "", *, most: int = MOST) -> list[float]:
+    """The values (SI) of a range of an entry, either end of which may carry the unit; bare angles are in degrees."""
+    return parse_range(text, label, entry_ends(entry, label), unit=_in_units(entry), most=most)
+
+
+def varied(entry: Field, text: str, label: str) -> list[float] | list[str]:
+    """The values of a range of an entry; as text where a plain number is something else than a quantity."""
+    if _measured(entry, text.removeprefix("log:").split(":")):
+        return [f"{value!r} {entry.or_unit}" for value in entry_range(entry.measured, text, label)]
+    return entry_range(entry, text, label)
+
+
+def span(entry: Field, text: str, label: str = "") -> Range:
+    """The two ends of LO:HI of an entry; as text where a plain number is something else than a quantity."""
+    ends = text.split(":")
+    measured = _measured(entry, ends)
+    quantity = entry.measured if measured else entry
+    accepted = f"{f'LO:HI {_in_units(quantity)}'.strip()}, with LO below HI"
+    low, high = entry_ends(quantity, label)(*ends) if len(ends) == 2 else (0.0, 0.0)
+    if not low < high:
+        raise InputError(label, text, accepted, "is not a range")
+    return (f"{low!r} {entry.or_unit}", f"{high!r} {entry.or_unit}") if measured else (low, high)
+
+
+def _measured(entry: Field, ends: Sequence[str]) -> bool:
+    """True if the ends of a range carry the unit of an entry that may be a plain number instead."""
+    return bool(entry.or_unit) and not all(units.is_number(end) for end in ends)
+
+
+def entry_ends(entry: Field, label: str) -> Ends:
+    """What reads both ends of a range of an entry (SI): an end without a unit has that of the other."""
+
+    def read(low: str, high: str) -> tuple[float, float]:
+        bare = [units.is_number(end) for end in (low, high)]
+        if all(bare) and entry.unit and entry.unit != "rad":
+            unit = units.unit_of(entry.example.strip('"'))
+            text = low.strip() if low == high else f"{low.strip()}:{high.strip()}"
+            raise InputError(label, text, f'a number with its unit, as "{text} {unit}"', "has no unit")
+        if bare[0] != bare[1]:
+            unit = units.unit_of(high if bare[0] else low)
+            low, high = (f"{end.strip()} {unit}" if units.is_number(end) else end for end in (low, high))
+        first, last = (entry.number(with_degrees(entry, end), label=label) for end in (low, high))
+        return first, last
+
+    return read
+
+
+def _in_units(entry: Field) -> str:
+    if entry.unit == "rad":
+        return "in degrees, or with a unit"
+    return "with a unit at either end" if entry.unit else ""

@@ -1,0 +1,299 @@
+"""A scan: collisions over several dimensions, each argument over some of them, laid out as numpy or xarray does."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field, replace
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...generated import scaling
+from ..engines.choice import collision_engine
+from ..errors import InputError
+from ..formatting.labelled import Column, labelled
+from ..host.pictures import register
+from ..model.validity import flag_attributes, warn
+from ..scene.scene import Scene
+from ..scene.schema import MEETING
+from .batch import Batch, batch, check_some_scene, of_one_length
+from .dataset import as_text
+from .results import RESULTS, VALIDITY, Block, attributes, outcome_attributes
+
+if TYPE_CHECKING:
+    import xarray
+
+Dims = tuple[Hashable, ...]
+Place = tuple[slice, ...]
+LABELS = {
+    "stokes": {"units": "1", "long_name": "Stokes number"},
+    "speed": {"units": "m/s", "long_name": "normal approach speed"},
+    "relative_speed": {"units": "m/s", "long_name": "magnitude of the relative velocity"},
+    "angle": {"units": "rad", "long_name": "impact angle"},
+}
+
+
+@dataclass(frozen=True)
+class Scan:
+    """Collisions of one scene over several dimensions.
+
+    Arguments:
+        columns: argument by dotted name -> the dimensions that it has, and its checked values (SI) along these.
+        engine: the requested engine; None for the best of each scene.
+        engines: the engines that answer, by the choices of a scene.
+        held: what the collisions share of the scene's impact, in words.
+        beside: coordinates that DataArrays bring along.
+    """
+
+    scene: Scene
+    dims: Dims
+    shape: tuple[int, ...]
+    columns: Mapping[str, tuple[Dims, np.ndarray]]
+    rtol: float
+    engine: str | None
+    of: tuple[str, ...]
+    held: str = ""
+    beside: xarray.Dataset | None = None
+    engines: Mapping[tuple[str, ...], str] = field(default_factory=dict)
+
+    @property
+    def size(self) -> int:
+        return math.prod(self.shape)
+
+    @property
+    def answered_by(self) -> str:
+        """The engines that answer, as text."""
+        return ", ".join(dict.fromkeys(self.engines.values())) or self.engine or "rosenbrock"
+
+    def order(self) -> np.ndarray:
+        """Flat indices in the order of computation."""
+        return np.arange(self.size)
+
+    def part(self, at: Place) -> Scan:
+        """A block of the scan."""
+        columns = {
+            name: (own, values[tuple(at[self.dims.index(dim)] for dim in own)])
+            for name, (own, values) in self.columns.items()
+        }
+        return replace(self, shape=tuple(one.stop - one.start for one in at), columns=columns, beside=None)
+
+    def batch(self) -> Batch:
+        """All collisions, in one dimension."""
+        columns = {}
+        for name, (own, values) in self.columns.items():
+            if own == self.dims:
+                columns[name] = values.ravel()
+                continue
+            full = values.transpose([own.index(dim) for dim in self.dims if dim in own])
+            full = full.reshape([n if dim in own else 1 for dim, n in zip(self.dims, self.shape, strict=True)])
+            columns[name] = np.broadcast_to(full, self.shape).ravel()
+        return batch(self.scene, columns, self.rtol, self.engine, self.of, self.engines)
+
+    def checked(self) -> Scan:
+        """The scan with its engines; InputError if the entries that vary make every scene impossible.
+
+        Scenes are warned of here, and not by the processes that compute them.
+        """
+        if not set(self.columns) - {*MEETING}:  # one scene
+            warn(self.scene)
+            return replace(self, engines={(): collision_engine(self.scene, self.engine)})
+        varied = {dim for name, (own, _) in self.columns.items() if name not in MEETING for dim in own}
+        lengths = zip(self.dims, self.shape, strict=True)
+        scenes = self.part(tuple(slice(0, size if dim in varied else min(size, 1)) for dim, size in lengths)).batch()
+        engines: dict[tuple[str, ...], str] = {}
+        first = None
+        for where, part in scenes.by_text() if scenes.texts else ((np.arange(1), scenes),):
+            try:
+                if isinstance(part, InputError):
+                    raise part
+                check_some_scene(part)
+            except InputError as error:
+                first = first or error
+            else:
+                engines[tuple(str(values[where[0]]) for values in scenes.texts.values())] = part.engine
+                warn(part.scene)
+        if first is not None and not engines:
+            raise first
+        return replace(self, engines=engines)
+
+    def coordinates(self, request: Batch) -> dict[str, Column]:
+        """Impacts and entries that vary, each over its own dimensions; `beside` excepted."""
+        labels: dict[str, tuple[np.ndarray | None, Mapping[str, Any]]] = {
+            "stokes": (request.stokes, LABELS["stokes"]),
+            "speed": (request.speed, LABELS["speed"]),
+            "angle": (request.angle, LABELS["angle"]),
+        }
+        fields = self.scene.fields
+        labels |= {name: (values, {"units": fields[name].unit or "1"}) for name, values in request.vary.items()}
+        labels |= {name: (values, {"long_name": fields[name].what}) for name, values in request.texts.items()}
+        coordinates: dict[str, Column] = {}
+        for label, (flat, said) in labels.items():
+            if flat is None:
+                continue
+            # a speed that follows from other arguments has all dimensions
+            every = self.dims, flat.reshape(self.shape)
+            own, values = self.columns.get(label if "." in label else f"impact.{label}", every)
+            coordinates[label] = own, values, said
+        return coordinates
+
+    def about(self) -> dict[str, Any]:
+        """Attributes of the Dataset."""
+        said = {
+            "scene": self.scene.to_toml(),
+            "rtol": self.rtol,
+            "engine": self.answered_by,
+            "held": self.held,
+            "model": self.scene.package and self.scene.package.text,
+        }
+        return {name: value for name, value in said.items() if value not in ("", None)}
+
+    def dataset(self, results: Block, request: Batch | None = None) -> xarray.Dataset:
+        """Results as a labelled Dataset.
+
+        Arguments:
+            request: the batch of the scan, if the caller has it.
+        """
+        import xarray as xr
+
+        register()
+        columns = {
+            "outcome": (results["outcome"], outcome_attributes()),
+            "certified": (results["certified"], {"long_name": "the stick is proved"}),
+            "reason": (as_text(results), {"long_name": "why it failed"}),
+        }
+        for name, values in results.items():
+            if name not in columns:
+                columns[name] = values, flag_attributes() if name == VALIDITY else attributes(name)
+        variables: Any = {
+            name: (self.dims, values.reshape(self.shape), said) for name, (values, said) in columns.items()
+        }
+        coordinates, about = self.coordinates(request or self.batch()), self.about()
+        if self.dims == ("collision",) and self.beside is None:
+            return labelled(variables, coordinates, about)
+        data = xr.Dataset(variables, coordinates, about)
+        if self.beside is None:
+            return data
+        return data.assign_coords(without(self.beside, {*variables, *coordinates}).coords)
+
+    def identity(self) -> dict[str, Any]:
+        """Everything that the results depend on, as JSON values."""
+        columns = {name: [list(map(str, own)), _digest(values)] for name, (own, values) in self.columns.items()}
+        return {
+            "scene": self.scene.si,
+            "volume": self.scene.ways.volume,
+            "columns": columns,
+            "shape": self.shape,
+            "rtol": self.rtol,
+            "engine": self.answered_by,
+            "of": sorted(set(self.of)),
+            **software(),
+            "model": self.scene.package and self.scene.package.digest,
+        }
+
+
+def software() -> dict[str, str]:
+    """Version and equations, for the identity of a request."""
+    manifest = Path(scaling.__file__).with_name("manifest.json").read_text()
+    return {"version": version("wetdoublet"), "equations": manifest}
+
+
+def _digest(values: np.ndarray) -> str:
+    text = "\0".join(map(str, values.ravel().tolist())).encode() if values.dtype.kind == "U" else values.tobytes()
+    return hashlib.sha256(text).hexdigest()
+
+
+def laid_out(
+    arrays: Mapping[str, np.ndarray], arguments: Mapping[str, Any]
+) -> tuple[Dims, tuple[int, ...], dict[str, tuple[Dims, np.ndarray]], xarray.Dataset | None]:
+    """Dimensions, shape, columns and further coordinates of a scan, as its arguments are broadcast.
+
+    Over `collision` where all have one dimension or none, without a name.
+
+    Arguments:
+        arrays: checked values by dotted name.
+        arguments: what they were read from, with dimensions and coordinates if these are DataArrays.
+
+    Raises:
+        InputError: a shape that does not fit, naming the argument.
+    """
+    named = {name: arguments[name] for name in arrays if _is_labelled(arguments.get(name))}
+    dims_of: dict[str, Dims] = {name: tuple(value.dims) for name, value in named.items()}
+    if not any(dims_of.values()) and all(array.ndim < 2 for array in arrays.values()):
+        columns = of_one_length(arrays)
+        size = next(iter(columns.values())).size
+        return ("collision",), (size,), {name: (("collision",), values) for name, values in columns.items()}, None
+    sizes: dict[Hashable, int] = {}
+    for name, own in dims_of.items():
+        for dim, size in zip(own, arrays[name].shape, strict=True):
+            if sizes.setdefault(dim, size) != size:
+                raise InputError(name, f"{size} values", f"{sizes[dim]} values along {dim}", "differs in length")
+    if not sizes:
+        shape: tuple[int, ...] = ()
+        for name, array in arrays.items():
+            shape = _broadcast(name, array, shape)
+        sizes = {f"dim_{k}": size for k, size in enumerate(shape)}
+    dims, shape = tuple(sizes), tuple(sizes.values())
+    columns_of = {}
+    for name, array in arrays.items():
+        if name not in dims_of:
+            if array.ndim > len(shape) or _broadcast(name, array, shape) != shape:
+                raise _misfit(name, array, shape)
+            kept = [axis for axis in range(-array.ndim, 0) if array.shape[axis] == shape[axis]]
+            array = array.reshape([array.shape[axis] for axis in kept])
+            dims_of[name] = tuple(dims[axis] for axis in kept)
+        columns_of[name] = dims_of[name], array
+    _check_names(dims, dims_of)
+    return dims, shape, columns_of, _beside(named)
+
+
+def _check_names(dims: Dims, dims_of: Mapping[str, Dims]) -> None:
+    """InputError for a dimension that is named as a result, or as an argument that is not along it alone."""
+    for dim in dims:
+        if dim in RESULTS:
+            raise InputError("dims", dim, "dimensions that are not named as a result", "is the name of a result")
+    for name, own in dims_of.items():
+        label = name.removeprefix("impact.")
+        if label in dims and own != (label,):
+            problem = f"is the name of a dimension, along which {name} does not lie alone"
+            raise InputError("dims", label, "a dimension of another name", problem)
+
+
+def _is_labelled(value: object) -> bool:
+    return isinstance(getattr(value, "dims", None), tuple) and hasattr(value, "coords")
+
+
+def _broadcast(name: str, array: np.ndarray, shape: tuple[int, ...]) -> tuple[int, ...]:
+    try:
+        return np.broadcast_shapes(array.shape, shape)
+    except ValueError:
+        raise _misfit(name, array, shape) from None
+
+
+def _misfit(name: str, array: np.ndarray, shape: tuple[int, ...]) -> InputError:
+    return InputError(name, f"shape {array.shape}", f"what numpy broadcasts to {shape}", "does not fit the others")
+
+
+def _beside(named: Mapping[str, Any]) -> xarray.Dataset | None:
+    """Coordinates of all DataArrays; those that contradict each other are left out, unless it is an index."""
+    import xarray as xr
+
+    if not named:
+        return None
+    try:
+        return xr.merge([one.coords.to_dataset() for one in named.values()], compat="minimal", join="exact")
+    except ValueError as error:
+        said = " ".join(str(error).split())[:120]
+        problem = f"is not aligned: {said}"
+        raise InputError([*named][-1], None, "DataArrays with the same coordinates", problem) from None
+
+
+def without(beside: xarray.Dataset, taken: set[str]) -> xarray.Dataset:
+    """The coordinates without those whose names the results take, and without indices that these are part of."""
+    drop: set[Hashable] = set()
+    for name in taken & set(beside.coords):
+        drop |= set(beside.xindexes.get_all_coords(name, errors="ignore")) | {name}
+    return beside.drop_vars(drop)
