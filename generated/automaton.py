@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 3ee32522a5e57490ec0d430d478e23e9187623055d83b8d9b2eb87687555a870
+# Automaton sha256 afd898453c864d026527ebab411cd9da540547b373c5fbcf531b6bc82f75b90a
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -144,6 +144,7 @@ class Event(NamedTuple):
     where: tuple[tuple[str, int], ...]
     words: tuple[str, ...]
     actions: tuple[str, ...]
+    target: str
     follows: str
     dips: bool
     within_reach: bool
@@ -167,6 +168,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(("resting", 0),),
         words=("turned", "fell back"),
         actions=("velocity = 0", "turn"),
+        target="",
         follows="motion",
         dips=True,
         within_reach=False,
@@ -179,6 +181,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(("resting", 0), ("motion", -1)),
         words=("glass",),
         actions=("rebound",),
+        target="",
         follows="",
         dips=True,
         within_reach=False,
@@ -190,7 +193,8 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("elastic", "rough"),
         where=(("resting", 0), ("motion", -1)),
         words=("elastic", "rough"),
-        actions=("gap = contact", "rebound"),
+        actions=("gap = target", "rebound"),
+        target="contact",
         follows="",
         dips=False,
         within_reach=False,
@@ -202,7 +206,8 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("rupture",),
         where=(("resting", 0), ("motion", 1), ("film", 0)),
         words=("rupture",),
-        actions=("gap = rupture", "separate"),
+        actions=("gap = target", "separate"),
+        target="rupture",
         follows="",
         dips=False,
         within_reach=False,
@@ -214,7 +219,8 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("film_edge",),
         where=(("resting", 0),),
         words=("film edge",),
-        actions=("gap = film edge", "cross film edge"),
+        actions=("gap = target", "cross film edge"),
+        target="film edge",
         follows="film",
         dips=False,
         within_reach=False,
@@ -226,7 +232,8 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("tangential_edge",),
         where=(("resting", 0),),
         words=("tangential edge",),
-        actions=("gap = tangential edge", "cross tangential edge"),
+        actions=("gap = target", "cross tangential edge"),
+        target="tangential edge",
         follows="shear",
         dips=False,
         within_reach=True,
@@ -239,6 +246,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(("resting", 1),),
         words=("released",),
         actions=("open",),
+        target="",
         follows="",
         dips=True,
         within_reach=False,
@@ -251,6 +259,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(("resting", 1), ("rolling", 0)),
         words=("rolls", "slides"),
         actions=("roll or slide",),
+        target="",
         follows="sliding",
         dips=True,
         within_reach=False,
@@ -263,6 +272,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(("resting", 1), ("rolling", 1)),
         words=("slides",),
         actions=("slide",),
+        target="",
         follows="",
         dips=True,
         within_reach=False,
@@ -275,6 +285,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(),
         words=("half turn",),
         actions=("cut off",),
+        target="half turn",
         follows="",
         dips=False,
         within_reach=False,
@@ -287,6 +298,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(),
         words=("rotation reverses",),
         actions=("cut off",),
+        target="",
         follows="",
         dips=True,
         within_reach=False,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e
+# Equations sha256 9d0f2cea359709db0695da2486d9708ecf486bbdb7cb67fe9178b711c2104edf
 """Oblique doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -45,7 +45,7 @@ FUNCTIONS = (
     "spin_down_margins", "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e"
+DIGEST = "9d0f2cea359709db0695da2486d9708ecf486bbdb7cb67fe9178b711c2104edf"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -153,10 +153,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": -centrifugal_force,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34
+# Equations sha256 b33c53cf988a99499619d2854da5d44428dcc59aa6338333b81f3bd3ebb2777c
 """Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -45,7 +45,7 @@ FUNCTIONS = (
     "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34"
+DIGEST = "b33c53cf988a99499619d2854da5d44428dcc59aa6338333b81f3bd3ebb2777c"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

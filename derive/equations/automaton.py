@@ -1,10 +1,9 @@
 """A collision as a hybrid automaton: modes, events with their guards and effects, rules, ends and report words.
 
 Plain data, which `derive/emit/` writes for the CasADi engine, for the kernel and for the documentation. An event is a
-guard (functions of the emitted structures, where they are watched), a word and a list of actions. The CasADi engine
-interprets all of it. In the kernel numbers, words and effects are emitted; its guards are written by hand in `events.h`
-and its rules in `transitions.h`. Tests hold them to this table: where each event is watched, which of coincident ones
-counts, and that both engines decide alike.
+guard (what reaches which target, and where it is watched), a word and a list of actions. The CasADi engine interprets
+the table. The kernel's search for events, their effects and their derivatives are emitted from it; written by hand are
+the search for a root of a series and what the actions call. That both engines decide alike is tested.
 """
 
 from __future__ import annotations
@@ -129,10 +128,7 @@ class Action:
 
 
 ACTIONS = (
-    Action("gap = contact", "put the gap on the largest at which a criterion is met"),
-    Action("gap = film edge", "put the gap on x0"),
-    Action("gap = tangential edge", "put the gap on the reach of the tangential force"),
-    Action("gap = rupture", "put the gap on the rupture gap"),
+    Action("gap = target", "put the gap on the gap of the event"),
     Action("velocity = 0", "the normal velocity is zero"),
     Action("rebound", "the solids rebound; the rules of a rebound decide the next phase"),
     Action("turn", "closing becomes opening, and opening becomes closing"),
@@ -153,15 +149,22 @@ class Event:
     Arguments:
         functions: event functions of the structures; if several, the first to vanish triggers the event.
         where: mode components and the values for which it is watched.
-        follows: the guard is the function times this component: the sign of the motion or of the slip, or +1 inside
-            and -1 beyond.
+        words: names under which it may be reported.
+        actions: the effect, in order.
+        series: what reaches the target, as defined in `events.py`; of several, the first that does.
+        target: a gap or an angle that `events.py` defines, or the name of a dimensionless group; zero if empty.
+        direction: 1 if the series falls to its target, -1 if it rises to it.
+        follows: the direction is multiplied by this component: the sign of the motion or of the slip, or +1 inside and
+            -1 beyond.
+        bound: by which the kernel excludes the event within a step: "monotonic" (the value at the end; for the gap,
+            which is monotonic up to a turn), "terms" (the sum of the magnitudes of all terms but the first) or
+            "parabola" (the minimum of the first three terms less the magnitudes of the others).
+        structures: features of a structure that has the event, and "not" features of one that has not.
         dips: the function may become negative and positive again within one integration step.
         within_reach: watched only where its gap lies between contact and rupture and is not the film's edge.
         scale: dimensionless group that gives the magnitude of the function; 1 if empty.
-        words: names under which it may be reported.
         chosen_by: what selects among the words: "motion" (closing, opening), "larger gap" (the criterion met first),
             "grip" (whether friction holds the surfaces).
-        actions: the effect, in order.
     """
 
     name: str
@@ -169,7 +172,12 @@ class Event:
     where: tuple[tuple[str, int], ...]
     words: tuple[str, ...]
     actions: tuple[str, ...]
+    series: tuple[str, ...]
+    target: str = ""
+    direction: int = 1
     follows: str = ""
+    bound: str = "parabola"
+    structures: tuple[str, ...] = ()
     dips: bool = False
     within_reach: bool = False
     scale: str = ""
@@ -181,33 +189,43 @@ class Event:
         return self.actions[-1] in ENDS
 
     @property
-    def rebounds(self) -> bool:
-        """True if the event is a rebound."""
-        return self.actions[-1] == "rebound"
+    def at_gap(self) -> bool:
+        """True if the event happens at a gap."""
+        return self.series == ("gap",)
 
 
 ENDS = ("separate", "cut off")
 _MOVING, _RESTING = ("resting", 0), ("resting", 1)
 _CLOSING, _OPENING = ("motion", CLOSING), ("motion", OPENING)
 
-# Turning comes first: at zero normal velocity there is no approach, so touching a contact gap is no rebound.
+# Turning comes first: at zero normal velocity there is no approach, so touching a contact gap is no rebound. Events at a
+# gap stand together: the kernel searches for the nearest gap ahead.
 EVENTS = (
     Event("turning", ("turning",), (_MOVING,), ("turned", "fell back"), ("velocity = 0", "turn"),
-          follows="motion", dips=True, chosen_by="motion"),
-    Event("glass", ("glass",), (_MOVING, _CLOSING), ("glass",), ("rebound",), dips=True, scale="glass_number"),
+          series=("normal_velocity",), follows="motion", dips=True, chosen_by="motion"),
+    Event("glass", ("glass",), (_MOVING, _CLOSING), ("glass",), ("rebound",),
+          series=("glass_clearance",), dips=True, scale="glass_number"),
     Event("contact", tuple(each.word for each in CONTACTS), (_MOVING, _CLOSING),
-          tuple(each.word for each in CONTACTS), ("gap = contact", "rebound"), chosen_by="larger gap"),
-    Event("rupture", ("rupture",), (_MOVING, _OPENING, ("film", 0)), ("rupture",), ("gap = rupture", "separate")),
-    Event("film_edge", ("film_edge",), (_MOVING,), ("film edge",), ("gap = film edge", "cross film edge"),
-          follows="film"),
+          tuple(each.word for each in CONTACTS), ("gap = target", "rebound"),
+          series=("gap",), target="contact", bound="monotonic", chosen_by="larger gap"),
+    Event("rupture", ("rupture",), (_MOVING, _OPENING, ("film", 0)), ("rupture",), ("gap = target", "separate"),
+          series=("gap",), target="rupture", direction=-1, bound="monotonic"),
+    Event("film_edge", ("film_edge",), (_MOVING,), ("film edge",), ("gap = target", "cross film edge"),
+          series=("gap",), target="film edge", direction=-1, follows="film", bound="monotonic",
+          structures=("bridge", "not spread")),
     Event("tangential_edge", ("tangential_edge",), (_MOVING,), ("tangential edge",),
-          ("gap = tangential edge", "cross tangential edge"), follows="shear", within_reach=True),
-    Event("release", ("release",), (_RESTING,), ("released",), ("open",), dips=True),
+          ("gap = target", "cross tangential edge"), series=("gap",), target="tangential edge", direction=-1,
+          follows="shear", bound="monotonic", structures=("oblique",), within_reach=True),
+    Event("release", ("release",), (_RESTING,), ("released",), ("open",),  # beside a wall no force changes at rest
+          series=("acceleration",), direction=-1, bound="terms", structures=("oblique", "not wall"), dips=True),
     Event("slipping", ("slipping",), (_RESTING, ("rolling", 0)), ("rolls", "slides"), ("roll or slide",),
-          follows="sliding", dips=True, chosen_by="grip"),
-    Event("rolling", ("rolling",), (_RESTING, ("rolling", 1)), ("slides",), ("slide",), dips=True),
-    Event("half_turn", ("half_turn",), (), ("half turn",), ("cut off",)),
-    Event("unwinding", ("unwinding",), (), ("rotation reverses",), ("cut off",), dips=True),
+          series=("slip",), follows="sliding", structures=("friction", "not space"), dips=True, chosen_by="grip"),
+    Event("rolling", ("rolling",), (_RESTING, ("rolling", 1)), ("slides",), ("slide",),
+          series=("grip_backward", "grip_forward"), structures=("friction", "not space"), dips=True),
+    Event("half_turn", ("half_turn",), (), ("half turn",), ("cut off",),
+          series=("rotation",), target="half turn", direction=-1, bound="terms", structures=("oblique", "strings")),
+    Event("unwinding", ("unwinding",), (), ("rotation reverses",), ("cut off",),
+          series=("orbital_momentum",), bound="terms", structures=("oblique", "strings"), dips=True),
 )  # fmt: skip
 
 

@@ -76,7 +76,7 @@ class Proposed:
         inside = REGIONS[region]
         where += [] if inside is None else [("film", inside)]
         actions = (f"jump {self.name}", ENDINGS[self.ends])
-        return Event(self.name, (self.name,), tuple(where), (self.word,), actions, dips=True)
+        return Event(self.name, (self.name,), tuple(where), (self.word,), actions, (), dips=True)
 
 
 @dataclass(frozen=True)

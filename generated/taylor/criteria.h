@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 3ee32522a5e57490ec0d430d478e23e9187623055d83b8d9b2eb87687555a870
+ * Automaton sha256 afd898453c864d026527ebab411cd9da540547b373c5fbcf531b6bc82f75b90a
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

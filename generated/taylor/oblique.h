@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e */
+ * Equations sha256 9d0f2cea359709db0695da2486d9708ecf486bbdb7cb67fe9178b711c2104edf */
 
 /* Oblique doublet with a film only.
  *

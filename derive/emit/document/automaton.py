@@ -10,7 +10,7 @@ from ...equations.automaton import Event
 DIAGRAM = "automaton.svg"
 _INTRODUCTION = """A collision is integrated mode by mode. In each mode the equations are smooth. The first event ends
 the mode, is reported by its word, and has its effect; of events at the same time, the one further up in the table
-counts. Both engines use these tables, which are declared in `derive/equations/automaton.py`.
+counts. A guard is a function of the state that reaches a target, zero or a gap. Both engines use these tables, which are declared in `derive/equations/automaton.py`.
 
 At initial contact the mode is closing, moving and inside the film, and inside the tangential edge if that is not below
 x0."""
@@ -29,7 +29,7 @@ def automaton_page(provenance: str) -> str:
     lines += ["", _VOID]
     lines += ["", "## Events", ""]
     lines += _table(
-        ("event", "guard falls through zero", "watched while", "reported as", "effect"),
+        ("event", "guard", "watched while", "reported as", "effect"),
         [
             (f"`{each.name}`", _guard(each), watched(each), _either(each.words), "; ".join(each.actions))
             for each in automaton.EVENTS
@@ -76,11 +76,12 @@ def _reported_by() -> list[str]:
 
 
 def _guard(event: Event) -> str:
-    functions = [f"`{name}`" for name in event.functions]
-    sign = {"": "", "motion": ", negative while closing", "sliding": ", negative while sliding back"}
-    sign |= dict.fromkeys(("film", "shear"), ", negative beyond")
-    guard = (functions[0] if len(functions) == 1 else f"the smallest of {', '.join(functions)}") + sign[event.follows]
-    return f"{guard}, if its gap lies within reach" if event.within_reach else guard
+    falls, rises = ("falls", "rises") if event.direction > 0 else ("rises", "falls")
+    value = {"": "", "motion": f", {rises} while closing", "sliding": f", {rises} while sliding back"}
+    value |= dict.fromkeys(("film", "shear"), f", {rises} beyond")
+    series = " or ".join(f"`{name}`" for name in event.series)
+    guard = f"{series} {falls} to {f'`{event.target}`' if event.target else 'zero'}{value[event.follows]}"
+    return f"{guard}, if that lies within reach" if event.within_reach else guard
 
 
 def watched(event: Event) -> str:

@@ -6,16 +6,13 @@ from collections.abc import Iterable, Sequence
 
 from ...equations import automaton
 from ...equations.automaton import Event
+from .guards import event_name, target_of
 from .layout import comment, function
 
 _KIND = {word.word: f"KIND_{word.name}" for word in automaton.WORDS}
 
-# C statement of each action; "rebound" is a function of the word. The functions are in `engines/taylor/runtime/`.
+# C statements of the actions but "gap = target"; "rebound" is a function of the word. The functions are in `engines/taylor/runtime/`.
 _STATEMENTS = {
-    "gap = contact": ("LANE(l->y[GAP], lane) = LANE(f->contact, lane);",),
-    "gap = film edge": ("LANE(l->y[GAP], lane) = 1.0;",),
-    "gap = tangential edge": ("LANE(l->y[GAP], lane) = LANE(f->edge, lane);",),
-    "gap = rupture": ("LANE(l->y[GAP], lane) = LANE(f->end, lane);",),
     "velocity = 0": ("LANE(l->y[NORMAL_VELOCITY], lane) = 0.0;",),
     "turn": ("LANE(l->closing, lane) = LANE(l->closing, lane) ? 0 : TRUTH;",),
     "cross film edge": (
@@ -158,21 +155,16 @@ def _own_effect(event: Event) -> list[str]:
     return [noted, "if (own_event_jumps(q, l, f, lane, event))", f"    {ending}"]
 
 
-def event_name(event: Event) -> str:
-    """The name of an event in the C enumeration."""
-    return f"AT_{event.name.upper()}"
-
-
 def _effect(event: Event) -> list[str]:
     """C statements of an effect; the word is logged first unless a rule of the action logs its own."""
     *landing, last = event.actions
     word = _chosen(event)
     if last == "rebound":
-        return [*_done(landing), f"rebounds(q, l, f, lane, {word});"]
+        return [*_done(event, landing), f"rebounds(q, l, f, lane, {word});"]
     if last == "separate":  # logs its own word
-        return [*_done(landing), *_done([last])]
+        return _done(event, event.actions)
     noted = f"note(q, LANE(l->index, lane), {word}, LANE(l->time, lane));"
-    return [noted, *([] if event.ends else ["new_phase(l, lane);"]), *_done(event.actions)]
+    return [noted, *([] if event.ends else ["new_phase(l, lane);"]), *_done(event, event.actions)]
 
 
 def _chosen(event: Event) -> str:
@@ -186,8 +178,10 @@ def _chosen(event: Event) -> str:
     return names[0]
 
 
-def _done(actions: Iterable[str]) -> list[str]:
-    return [line for action in actions for line in _STATEMENTS[action]]
+def _done(event: Event, actions: Iterable[str]) -> list[str]:
+    target = target_of(event)
+    put = f"LANE(l->y[GAP], lane) = {'1.0' if target == 'one' else f'LANE({target}, lane)'};"
+    return [line for action in actions for line in ((put,) if action == "gap = target" else _STATEMENTS[action])]
 
 
 def _enumeration(names: Iterable[str]) -> list[str]:

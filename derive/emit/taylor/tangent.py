@@ -20,6 +20,7 @@ from .adjoint import Adjoint, contraction
 from .c_text import Text
 from .groups_from_si import scale_slopes
 from .header import Beside
+from .guards import check_differentiable
 from .layout import comment, compiled_if, documented, each_term, struct
 from .linear_flow import LinearFlow
 
@@ -31,6 +32,7 @@ class Tangent(LinearFlow):
 
     def text(self, digest: str, provenance: str) -> str:
         """The header."""
+        check_differentiable(self.model)
         coefficients, row, source = self._coefficients(), self._row(), self._sources()
         back = Adjoint(self)
         per_direction = sum(isinstance(entry, str) for (of, _), entry in self.matrix.items() if of != "turned")

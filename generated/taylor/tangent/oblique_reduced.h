@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34 */
+ * Equations sha256 b33c53cf988a99499619d2854da5d44428dcc59aa6338333b81f3bd3ebb2777c */
 
 /* Tangent of oblique_reduced.h: derivatives of the states by the groups.
  *

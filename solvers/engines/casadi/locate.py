@@ -135,6 +135,8 @@ class EventLocator:
         self.rupture_gap = groups["rupture_gap"] if model.bridge else 1.0
         more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
         self.edge = float(model.laws.shear.edge(groups["aspect"], *more)) if model.oblique else np.inf
+        self.gaps = {"contact": self.contact_gap, "rupture": self.rupture_gap, "film edge": 1.0}
+        self.gaps["tangential edge"] = self.edge
         own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < self.rupture_gap
         self.watch = WatchedEvents(tangential_edge=own_edge, certificate=self.proof.watches)
         works = self.proof.watches == "energy" or any(work in extras for work in model.works)
@@ -390,7 +392,7 @@ class EventLocator:
             if action == "rebound":
                 self._rebound(word, elapsed, event.name)
                 return False
-            phase = self._done(action, phase)
+            phase = self._done(action, phase, event.target)
         self._next(PhaseRun(before, elapsed, event.name, (word,)), phase)
         return event.actions[-1] in ENDS
 
@@ -403,17 +405,11 @@ class EventLocator:
             return event.words[not self._grips(self.phase).rolling]
         return event.words[0]
 
-    def _done(self, action: str, phase: Phase) -> Phase:
-        """The phase after an action, which may also change the state."""
+    def _done(self, action: str, phase: Phase, target: str) -> Phase:
+        """The phase after an action of an event with this target; the action may also change the state."""
         match action:
-            case "gap = contact":
-                self._put(_GAP, self.contact_gap)
-            case "gap = film edge":
-                self._put(_GAP, 1.0)
-            case "gap = tangential edge":
-                self._put(_GAP, self.edge)
-            case "gap = rupture":
-                self._put(_GAP, self.rupture_gap)
+            case "gap = target":
+                self._put(_GAP, self.gaps[target] if target in self.gaps else self.groups[target])
             case "velocity = 0":
                 self._put(_VELOCITY, 0.0)
             case "turn":

@@ -16,13 +16,15 @@ def has_events(choice: ModelKey) -> bool:
 
 
 @once
-def automaton(choice: ModelKey) -> tuple[str, str, str]:
-    """Texts of the automaton's headers: enumerations and constants, contact gaps, switch over effects."""
-    rules, criteria, effects = (emitted.header(f"taylor/{name}.h") for name in ("automaton", "criteria", "effects"))
+def automaton(choice: ModelKey) -> tuple[str, str, str, str]:
+    """Texts of the automaton's headers: enumerations and constants, contact gaps, guards, switch over effects."""
+    rules, criteria, guards, effects = (
+        emitted.header(f"taylor/{name}.h") for name in ("automaton", "criteria", "guards", "effects")
+    )
     if has_events(choice):
         assert choice.package is not None
         rules, effects = choice.package.automaton_headers()
-    return rules, criteria, effects
+    return rules, criteria, guards, effects
 
 
 @once

@@ -8,7 +8,7 @@
 #include "chatter.h"
 #include "damped_sum.h"
 #include "effects.h"
-#include "events.h"
+#include "guards.h"
 #include "implicit.h"
 #include "model.h"
 #include "nearness.h"
@@ -157,26 +157,25 @@ static void run(queue *q)
             s.glass.result[0] = splat(1.0);
         }
 #endif
-        first_event found;
-        find_events(&s, &l, &f, h, &found);
+        first_event first = find_events(&s, &l, &f, h);
 #if RUBS
         if (bits(l.alive & l.resting))
-            find_rubbing_events(&r, &l, h, &found);
+            find_events_at_rest(&r, &l, h, &first);
 #endif
-        mask falls = l.alive & (found.time <= 1.0);
-        h = choose(falls, h*found.time, h);
+        mask falls = l.alive & (first.time <= 1.0);
+        h = choose(falls, h*first.time, h);
 #if WITH_LIMIT
         if (reached(q, &l, &f, a, h))
             break;
 #endif
 #if GRADIENTS
-        measure(&l, &f, &s, h, falls, found.event);
+        measure(&l, &f, &s, h, falls, first.event);
 #endif
 #if BACKWARD
-        keep_on_tape(q, &l, h, creeps, falls, found.event);
+        keep_on_tape(q, &l, h, creeps, falls, first.event);
 #elif GRADIENTS
         if (q->asked)
-            carry(&l, &f, &s, &t, h, falls, found.event, q->asked);
+            carry(&l, &f, &s, &t, h, falls, first.event, q->asked);
 #endif
 #if WITH_TRAJECTORY
         keep_steps(q, &l, a, h);
@@ -186,8 +185,8 @@ static void run(queue *q)
 #endif
 #endif
         if (bits(falls))
-            found.gap = sum_at(a[GAP], h);
-        l.y[GAP] = choose(l.alive, found.gap, l.y[GAP]);
+            first.gap = sum_at(a[GAP], h);
+        l.y[GAP] = choose(l.alive, first.gap, l.y[GAP]);
         for (int state = GAP + 1; state < STATES; state++)
             l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
 #if SPACE
@@ -205,13 +204,13 @@ static void run(queue *q)
         for (unsigned event = bits(falls & NOT(lost)); event; event &= event - 1) {
             int lane = first_of(event);
 #if WITH_TRAJECTORY
-            act_for_purpose(q, &l, &f, lane, (int)LANE(found.event, lane));
+            act_for_purpose(q, &l, &f, lane, (int)LANE(first.event, lane));
 #else
-            act(q, &l, &f, lane, (int)LANE(found.event, lane));
+            act(q, &l, &f, lane, (int)LANE(first.event, lane));
 #endif
         }
 #if JUMPS
-        park_turned(q, &l, &f, falls & NOT(lost) & (found.event == splat_mask(AT_TURNING)) & l.alive & NOT(l.closing));
+        park_turned(q, &l, &f, falls & NOT(lost) & (first.event == splat_mask(AT_TURNING)) & l.alive & NOT(l.closing));
 #endif
         mask spent = l.alive & (lost | (l.steps > q->budget));
         unsigned slow_ones = bits(l.alive & NOT(falls) & NOT(spent) & (l.crept > splat_mask(PATIENCE)));

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "certificates.h"
+#include "guards.h"
 #include "model.h"
 #include "own_events.h"
 #include "queue.h"
@@ -123,37 +124,15 @@ static void advance(const slow *w, const eliminated *e, vec h, const vec *rate, 
     }
 }
 
-/* Lanes in which no event can lie between two states: quantities that could reach zero keep half their value. */
+/* Lanes in which no event can lie between two states. */
 static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const vec *from, const vec *to)
 {
-    const vec zero = splat(0.0);
     mask opens = from[NORMAL_VELOCITY] > 0.0;
-    mask clear = ((opens & (to[NORMAL_VELOCITY] > 0.0)) | (NOT(opens) & (to[NORMAL_VELOCITY] < 0.0))) & (opens ^ l->closing);
-    vec away = choose(opens, splat(-1.0), splat(1.0));
-#if BRIDGE && !SPREAD
-    mask inside = l->film != 0.0, edge = l->closing ^ inside;
-    vec target = choose(edge, splat(1.0), choose(l->closing, f->contact, f->end));
-#else
-    vec target = choose(l->closing, f->contact, f->end);
-#endif
-    clear &= 2.0*away*(to[GAP] - target) > away*(from[GAP] - target);
-#if TURNS
-    if (bits(l->resting)) {
-        mask stays = 2.0*inward_force(w->c, to) > vec_max(inward_force(w->c, from), zero);
+    mask goes_on = (opens & (to[NORMAL_VELOCITY] > 0.0)) | (NOT(opens) & (to[NORMAL_VELOCITY] < 0.0));
+    mask clear = (l->resting | (goes_on & (opens ^ l->closing))) & guards_kept(l, f, from, to);
 #if RUBS
-        stays &= keeps_rubbing(w->c, l, from, to);
-#endif
-        clear = choose_whole(l->resting, stays, clear);
-    }
-#endif
-    clear &= NOT(l->closing) | (2.0*glass_clearance(w->c, to) > vec_max(glass_clearance(w->c, from), zero));
-#if OBLIQUE
-    vec first = away*(from[GAP] - f->edge);
-    clear &= (first <= 0.0) | (2.0*away*(to[GAP] - f->edge) > first);
-#endif
-#if OBLIQUE && STRINGS
-    clear &= 2.0*(PI - to[ROTATION]) > PI - from[ROTATION];
-    clear &= 2.0*to[ORBITAL_MOMENTUM] > from[ORBITAL_MOMENTUM];
+    if (bits(l->resting))
+        clear &= NOT(l->resting) | keeps_rubbing(w->c, l, from, to);
 #endif
 #if OWN_EVENTS
     vec before[OWN_EVENTS], after[OWN_EVENTS];
