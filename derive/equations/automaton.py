@@ -198,8 +198,8 @@ ENDS = ("separate", "cut off")
 _MOVING, _RESTING = ("resting", 0), ("resting", 1)
 _CLOSING, _OPENING = ("motion", CLOSING), ("motion", OPENING)
 
-# Turning comes first: at zero normal velocity there is no approach, so touching a contact gap is no rebound. Events at a
-# gap stand together: the kernel searches for the nearest gap ahead.
+# Turning comes first: at zero normal velocity there is no approach, so touching a contact gap is no rebound. Events at
+# a gap stand together: the kernel searches for the nearest gap ahead.
 EVENTS = (
     Event("turning", ("turning",), (_MOVING,), ("turned", "fell back"), ("velocity = 0", "turn"),
           series=("normal_velocity",), follows="motion", dips=True, chosen_by="motion"),

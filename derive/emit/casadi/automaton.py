@@ -14,7 +14,8 @@ _CRITERION_FIELDS = {
 }  # fmt: skip
 EVENT_FIELDS = {
     "name": "str", "functions": "tuple[str, ...]", "where": "tuple[tuple[str, int], ...]", "words": "tuple[str, ...]",
-    "actions": "tuple[str, ...]", "target": "str", "follows": "str", "dips": "bool", "within_reach": "bool", "scale": "str",
+    "actions": "tuple[str, ...]",
+    "target": "str", "follows": "str", "dips": "bool", "within_reach": "bool", "scale": "str",
     "chosen_by": "str",
 }  # fmt: skip
 

@@ -10,7 +10,8 @@ from ...equations.automaton import Event
 DIAGRAM = "automaton.svg"
 _INTRODUCTION = """A collision is integrated mode by mode. In each mode the equations are smooth. The first event ends
 the mode, is reported by its word, and has its effect; of events at the same time, the one further up in the table
-counts. A guard is a function of the state that reaches a target, zero or a gap. Both engines use these tables, which are declared in `derive/equations/automaton.py`.
+counts. A guard is a function of the state that reaches a target, zero or a gap. Both engines use these tables, which
+are declared in `derive/equations/automaton.py`.
 
 At initial contact the mode is closing, moving and inside the film, and inside the tangential edge if that is not below
 x0."""

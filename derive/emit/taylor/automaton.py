@@ -11,7 +11,8 @@ from .layout import comment, function
 
 _KIND = {word.word: f"KIND_{word.name}" for word in automaton.WORDS}
 
-# C statements of the actions but "gap = target"; "rebound" is a function of the word. The functions are in `engines/taylor/runtime/`.
+# C statements of the actions but "gap = target"; "rebound" is a function of the word. What they call is in
+# `engines/taylor/runtime/`.
 _STATEMENTS = {
     "velocity = 0": ("LANE(l->y[NORMAL_VELOCITY], lane) = 0.0;",),
     "turn": ("LANE(l->closing, lane) = LANE(l->closing, lane) ? 0 : TRUTH;",),

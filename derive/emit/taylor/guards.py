@@ -95,8 +95,8 @@ def _find() -> list[str]:
             body += ["part = up_to_turn(&first);", "h *= part;", "first.gap = sum_at(s->gap, h);"]
     body += ["#if OWN_EVENTS", "find_own_events(s, l, f, h, moves, &first);", "#endif /* OWN_EVENTS */"]
     return documented(
-        "The first event of a step in each lane; of coincident ones the first in the table. The turn comes first: up to "
-        "there the gap is monotonic, and extremal at the end. Under a constant force steps are unlimited, and all "
+        "The first event of a step in each lane; of coincident ones the first in the table. The turn comes first: up "
+        "to there the gap is monotonic, and extremal at the end. Under a constant force steps are unlimited, and all "
         "events before the turn lie in a tiny part of the step.",
         "static first_event find_events(const series *s, const lanes *l, const fixed *f, vec h)",
         [*body, "first.time *= part;", "return first;"],
@@ -141,8 +141,8 @@ def _search(event: Event) -> list[str]:
             excluded = f"least_of({series}, h) > 0.0"
         else:
             excluded = f"({start} > 0.0) & (least_of({series}, h) > 0.0)"
-        lines += ["if (bits(close))", f"    close &= NOT({excluded});", "if (bits(close))",
-                  f"    look(&first, close, {series}, {target}, {sign}, h, splat_mask({event_name(event)}));"]  # fmt: skip
+        found = f"look(&first, close, {series}, {target}, {sign}, h, splat_mask({event_name(event)}));"
+        lines += ["if (bits(close))", f"    close &= NOT({excluded});", "if (bits(close))", f"    {found}"]
     return lines
 
 
@@ -227,9 +227,10 @@ def series_of_guards(model: Model, constants: Constants, valued: Valued) -> list
                 result = program.series(expression, f"value_of_{name}")
                 recurrences = Recurrences(program, constants, lambda series: f"m->{series}")
                 lines += struct(f"{name}_series", [*recurrences.fields(), "vec result[TERMS];"])
+                arguments = f"{name}_series *s, const series *m, const constants *c, int k"
                 lines += documented(
                     f"Coefficient k of the series that the event {event.name} watches.",
-                    f"static inline void {name}_coefficients({name}_series *s, const series *m, const constants *c, int k)",
+                    f"static inline void {name}_coefficients({arguments})",
                     ["(void)c; (void)m;", *recurrences.lines(), f"s->result[k] = {recurrences.array(result)}[k];"],
                 )
                 head = f"static inline vec {name}_at(const constants *c, const vec *y)"
@@ -241,6 +242,6 @@ def check_differentiable(model: Model) -> None:
     """Raise EmissionError if a structure has an event that goes on and whose derivative the kernel does not take."""
     for event in EVENTS:
         rests = ("resting", 1) in event.where  # resting contact is a boundary, where no derivative exists
-        if model.structure.has(*event.structures) and not rests and not event.ends:
-            if not set(event.series) <= set(_DIFFERENTIATED):
-                raise EmissionError(f"the event {event.name} has no derivatives in C")
+        known = rests or event.ends or set(event.series) <= set(_DIFFERENTIATED)
+        if not known and model.structure.has(*event.structures):
+            raise EmissionError(f"the event {event.name} has no derivatives in C")

@@ -19,8 +19,8 @@ from ...physics.laws.base import Law, filled, slot_calls
 from .adjoint import Adjoint, contraction
 from .c_text import Text
 from .groups_from_si import scale_slopes
-from .header import Beside
 from .guards import check_differentiable
+from .header import Beside
 from .layout import comment, compiled_if, documented, each_term, struct
 from .linear_flow import LinearFlow
 
