@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 afd898453c864d026527ebab411cd9da540547b373c5fbcf531b6bc82f75b90a
+# Automaton sha256 cb6adeb834083f5a4cf6a39fe5574f10025d955826a8f4a8414ee9b2c17a2fcf
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -148,6 +148,7 @@ class Event(NamedTuple):
     follows: str
     dips: bool
     within_reach: bool
+    driven: bool
     scale: str
     chosen_by: str
 
@@ -172,6 +173,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="motion",
         dips=True,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="motion",
     ),
@@ -185,6 +187,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=True,
         within_reach=False,
+        driven=False,
         scale="glass_number",
         chosen_by="",
     ),
@@ -198,6 +201,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=False,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="larger gap",
     ),
@@ -211,6 +215,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=False,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="",
     ),
@@ -224,6 +229,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="film",
         dips=False,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="",
     ),
@@ -237,6 +243,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="shear",
         dips=False,
         within_reach=True,
+        driven=False,
         scale="",
         chosen_by="",
     ),
@@ -250,6 +257,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=True,
         within_reach=False,
+        driven=True,
         scale="",
         chosen_by="",
     ),
@@ -263,6 +271,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="sliding",
         dips=True,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="grip",
     ),
@@ -276,6 +285,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=True,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="",
     ),
@@ -289,6 +299,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=False,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="",
     ),
@@ -302,6 +313,7 @@ EVENTS = (  # in order of precedence among coincident ones
         follows="",
         dips=True,
         within_reach=False,
+        driven=False,
         scale="",
         chosen_by="",
     ),

@@ -57,7 +57,8 @@ CRITERION = [  # a row of the automaton
 CAUGHT_ROW = """    Event("caught", ("caught",), (_MOVING, _CLOSING), ("caught",), ("gap = target", "cut off"),
           series=("gap",), target="wavy_gap", bound="monotonic"),
 {}"""
-SET_ROW = """    Event("set", ("set",), (_MOVING, _OPENING), ("set",), ("cut off",), series=("stretching",), target="wavy_gap"),
+SET_ROW = """    Event("set", ("set",), (_MOVING, _OPENING), ("set",), ("cut off",),
+          series=("stretching",), target="wavy_gap"),
 {}"""
 EVENTS = [  # two rows: a gap, and what the kernel has no series of; their words, and the definition of that series
     (

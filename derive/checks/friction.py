@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ..equations.friction import COMPLIANCE, DRY_SLIP, DRY_SLIPS, IMPULSE, LEAST_DIRECTION, ROLLING, SLIDING
+from ..equations.friction import COMPLIANCE, DRY_SLIP, DRY_SLIPS, GRIP, IMPULSE, LEAST_DIRECTION, ROLLING, SLIDING
 from ..equations.intermediates import MOMENTUM
 from ..equations.model import Model, derive
 from ..physics.contact_friction import beside_wall, equal_spheres, unequal_spheres
+from ..physics.forces import SHEAR
 from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.mechanics import arm
@@ -23,6 +24,7 @@ from .base import Check, Evidence, check, vanishing
 from .signs import nonnegative
 
 _PARTNERS: tuple[Partner, ...] = ("", "pair", "wall")
+_TURNING: tuple[Partner, ...] = ("", "pair", "space")  # partners beside which the line of centres turns
 _FREE = tuple(Structure(True, False, False, partner=partner, friction="solid") for partner in _PARTNERS)
 _share, _beyond = sp.Symbol("share", positive=True), sp.Symbol("z", nonnegative=True)
 
@@ -107,6 +109,23 @@ def resting_contact() -> tuple[Check, ...]:
     )
 
 
+@check("friction: reaction at rest", "dN/dt = -k N at rest without shear and strings, k finite")
+def reaction_is_never_exhausted() -> Evidence:
+    """Friction, proportional to the reaction N, is all that changes the rotation: N keeps its sign."""
+    for partner in _TURNING:
+        model = derive(Structure(True, True, False, attraction=True, partner=partner, friction="solid"))
+        opened = ("bridge_force", "attraction_force", GRIP.name)
+        rates = model.by_state("resting_rates", opened)
+        reaction = model.expanded(model["inward_force"]["inward_force"], opened)
+        changing = [s for s in model.states if rates[s] != 0]
+        change = sp.Add(*(reaction.diff(s) * rates[s].subs(SHEAR, 0) for s in changing))
+        if partner == "space":
+            change = on_the_sphere(change.subs(GRIP, 0), q.normal, q.orbital_momenta)
+        yield change.subs(GRIP, 0)
+        share = sp.cancel(model.expanded(GRIP, opened[:2]) / reaction)
+        yield from (share.diff(s) for s in model.states)
+
+
 def in_space() -> tuple[Check, ...]:
     """The slip lies across n, and the impulse along it, within the cone, with the plane's answer in each component.
 
@@ -149,5 +168,5 @@ def in_space() -> tuple[Check, ...]:
 
 CHECKS = (
     effective_mass, sticking_reverses_the_slip, energy_is_booked, never_gains, angular_momentum, resting_contact,
-    in_space,
+    reaction_is_never_exhausted, in_space,
 )  # fmt: skip

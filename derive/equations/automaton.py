@@ -162,6 +162,7 @@ class Event:
         structures: features of a structure that has the event, and "not" features of one that has not.
         dips: the function may become negative and positive again within one integration step.
         within_reach: watched only where its gap lies between contact and rupture and is not the film's edge.
+        driven: watched only where a tangential force other than that of the dry contact acts.
         scale: dimensionless group that gives the magnitude of the function; 1 if empty.
         chosen_by: what selects among the words: "motion" (closing, opening), "larger gap" (the criterion met first),
             "grip" (whether friction holds the surfaces).
@@ -180,6 +181,7 @@ class Event:
     structures: tuple[str, ...] = ()
     dips: bool = False
     within_reach: bool = False
+    driven: bool = False
     scale: str = ""
     chosen_by: str = ""
 
@@ -217,7 +219,8 @@ EVENTS = (
           ("gap = target", "cross tangential edge"), series=("gap",), target="tangential edge", direction=-1,
           follows="shear", bound="monotonic", structures=("oblique",), within_reach=True),
     Event("release", ("release",), (_RESTING,), ("released",), ("open",),  # beside a wall no force changes at rest
-          series=("acceleration",), direction=-1, bound="terms", structures=("oblique", "not wall"), dips=True),
+          series=("acceleration",), direction=-1, bound="terms", structures=("oblique", "not wall"), dips=True,
+          driven=True),
     Event("slipping", ("slipping",), (_RESTING, ("rolling", 0)), ("rolls", "slides"), ("roll or slide",),
           series=("slip",), follows="sliding", structures=("friction", "not space"), dips=True, chosen_by="grip"),
     Event("rolling", ("rolling",), (_RESTING, ("rolling", 1)), ("slides",), ("slide",),
@@ -255,7 +258,8 @@ RULES = (
          "it slides; if it has no slip (less than NO_SLIP) and friction can hold the surfaces, it rolls. In space "
          "it slides in the direction of the slip, which may turn, and rolls where that is less than CREEP", ("rolls",)),
     Rule("parting", "the doublet ruptures at a normal velocity below LEAST_PARTING", "no outcome is decided"),
-    Rule("opening", "the doublet opens on the edge of the film or of the tangential force", "it is beyond that edge"),
+    Rule("opening", "the doublet opens or rests on the edge of the film or of the tangential force",
+         "it is beyond that edge"),
     Rule("obliqueness", "the centrifugal force exceeds MOST_OBLIQUE times v0^2/x0", "the collision is refused"),
 )  # fmt: skip
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 afd898453c864d026527ebab411cd9da540547b373c5fbcf531b6bc82f75b90a
+ * Automaton sha256 cb6adeb834083f5a4cf6a39fe5574f10025d955826a8f4a8414ee9b2c17a2fcf
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 afd898453c864d026527ebab411cd9da540547b373c5fbcf531b6bc82f75b90a
+ * Automaton sha256 cb6adeb834083f5a4cf6a39fe5574f10025d955826a8f4a8414ee9b2c17a2fcf
  *
  * The search for the events of a step. Included behind what it calls. */
 
@@ -70,7 +70,7 @@ static first_event find_events(const series *s, const lanes *l, const fixed *f, 
     if (bits(close))
         look(&first, close, s->gap, gap, away, h, event);
 #if OBLIQUE && !WALL
-    close = rests;
+    close = rests & (STRINGS ? splat_mask(TRUTH) : l->shear != 0.0);
     if (bits(close))
         close &= NOT(-s->acceleration[0] > reach(s->acceleration, h));
     if (bits(close))
@@ -140,7 +140,8 @@ static mask guards_kept(const lanes *l, const fixed *f, const vec *from, const v
     kept &= NOT(moves & l->closing) | (2.0*(glass_clearance(&f->c, to)) > vec_max(glass_clearance(&f->c,
         from), zero));
 #if OBLIQUE && !WALL
-    kept &= NOT(rests) | (2.0*(inward_force(&f->c, to)) > vec_max(inward_force(&f->c, from), zero));
+    kept &= NOT(rests & (STRINGS ? splat_mask(TRUTH) : l->shear != 0.0)) | (2.0*(inward_force(&f->c, to)) >
+        vec_max(inward_force(&f->c, from), zero));
 #endif
 #if OBLIQUE && STRINGS
     kept &= (2.0*(splat(PI) - to[ROTATION]) > vec_max(splat(PI) - from[ROTATION], zero));

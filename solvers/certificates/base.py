@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from ...generated.automaton import CLOSING, STILL
+from ..model.model import Model
 from ..model.phases import Phase
 
 # added to SAFETY at the watched level, so that rounding does not leave the certificate undecided at the event
@@ -30,6 +31,14 @@ class Certainty(IntEnum):
 def at_maximum(y: np.ndarray, phase: Phase) -> bool:
     """True if a phase starts here from a maximum of the gap."""
     return not phase.resting and phase.motion == CLOSING and abs(y[1]) <= STILL
+
+
+def rests_for_good(model: Model, phase: Phase) -> bool:
+    """True if nothing drives the rotation of a resting doublet but dry friction, which is proportional to the reaction.
+
+    The reaction N obeys dN/dt = -k N with a finite k (`derive.checks.friction`), and never vanishes.
+    """
+    return phase.resting and (model.wall or not model.oblique or not (phase.shear or model.strings))
 
 
 class Certificate(Protocol):

@@ -15,7 +15,7 @@ from ..model.model import Model
 from ..model.phases import Phase
 from ..scene.contact import contact_gap
 from ..scene.user_model import OwnEvent
-from .base import Certainty, Certificate
+from .base import Certainty, Certificate, rests_for_good
 from .energy_barrier import Barrier, EnergyCertificate
 from .quadrature import panels
 
@@ -35,8 +35,7 @@ class EnergyBesideEvents(EnergyCertificate):
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
         """The verdict; in motion nothing is shown for a lever arm with which angular momentum drifts."""
         if phase.resting:  # declared events are watched in motion only
-            still = not self.model.oblique or self.model.wall or not (phase.shear or self.model.friction)
-            return Certainty.of(still or self.rests(y), self.theorem)
+            return Certainty.of(rests_for_good(self.model, phase) or self.rests(y), self.theorem)
         if not self.theorem:
             return Certainty.OPEN
         ahead = [barrier for barrier in self.barriers(y) if barrier.gap > y[0]]

@@ -18,7 +18,7 @@ from ..model.model import Model
 from ..model.phases import Phase
 from ..scene.contact import contact_gap
 from .approach import Approach, starts
-from .base import BEYOND, Certainty
+from .base import BEYOND, Certainty, rests_for_good
 from .floating import floats
 from .quadrature import panels
 
@@ -68,10 +68,7 @@ class EnergyCertificate:
         return Certainty.of(self._below(y, phase), self.theorem)
 
     def _below(self, y: np.ndarray, phase: Phase) -> bool:
-        unchanging = not phase.shear and not self.model.friction
-        if phase.resting and (not self.model.oblique or self.model.wall or unchanging):
-            return True  # no motion can separate the pair or change the rotation, and the force is inward
-        if phase.resting and self.rests(y):
+        if rests_for_good(self.model, phase) or (phase.resting and self.rests(y)):
             return True
         level = self._level(y, phase, SAFETY)
         return (level is not None and self.energy(y) < level) or self._held_on_approach(y, phase)

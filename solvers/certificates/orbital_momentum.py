@@ -13,7 +13,7 @@ import numpy as np
 from ...generated.automaton import CLOSING, SAFETY, STILL
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import Certainty, Certificate, at_maximum
+from .base import Certainty, Certificate, at_maximum, rests_for_good
 from .chatter import chatters
 from .quadrature import panels
 
@@ -55,7 +55,8 @@ class OrbitalMomentumCertificate:
         return self.beside.level(y, phase)
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        if not self._drifts and (certainty := self.beside.decided(y, phase, maxima)):
+        beside = not self._drifts or rests_for_good(self.model, phase)
+        if beside and (certainty := self.beside.decided(y, phase, maxima)):
             return certainty
         if self.model.strings:
             worth = at_maximum(y, phase) and chatters(maxima, slice(1), self.margin)

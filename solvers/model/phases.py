@@ -194,6 +194,7 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tupl
         for row in EVENTS
         if all(name in found for name in row.functions)
         and (watch.tangential_edge or not row.within_reach)
+        and (region.shear or model.strings or not row.driven)
         and all(
             getattr(region, part) == value
             for part, value in row.where

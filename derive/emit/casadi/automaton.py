@@ -15,7 +15,7 @@ _CRITERION_FIELDS = {
 EVENT_FIELDS = {
     "name": "str", "functions": "tuple[str, ...]", "where": "tuple[tuple[str, int], ...]", "words": "tuple[str, ...]",
     "actions": "tuple[str, ...]",
-    "target": "str", "follows": "str", "dips": "bool", "within_reach": "bool", "scale": "str",
+    "target": "str", "follows": "str", "dips": "bool", "within_reach": "bool", "driven": "bool", "scale": "str",
     "chosen_by": "str",
 }  # fmt: skip
 

@@ -82,7 +82,8 @@ def _guard(event: Event) -> str:
     value |= dict.fromkeys(("film", "shear"), f", {rises} beyond")
     series = " or ".join(f"`{name}`" for name in event.series)
     guard = f"{series} {falls} to {f'`{event.target}`' if event.target else 'zero'}{value[event.follows]}"
-    return f"{guard}, if that lies within reach" if event.within_reach else guard
+    guard += ", if that lies within reach" if event.within_reach else ""
+    return f"{guard}, if a tangential force acts besides dry friction" if event.driven else guard
 
 
 def watched(event: Event) -> str:

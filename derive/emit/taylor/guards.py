@@ -33,6 +33,7 @@ _TARGETS = {
     "half turn": ("splat(PI)", "", ""),
 }
 _REACH = "(f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, one))"
+_DRIVEN = "(STRINGS ? splat_mask(TRUTH) : l->shear != 0.0)"
 _LANES = {("resting", 0): "moves", ("resting", 1): "rests", ("motion", CLOSING): "l->closing",
           ("motion", OPENING): "NOT(l->closing)", ("film", 1): "inside", ("film", 0): "beyond",
           ("rolling", 0): "(l->rolling == 0.0)", ("rolling", 1): "(l->rolling != 0.0)"}  # fmt: skip
@@ -123,7 +124,7 @@ def _find_at_rest() -> list[str]:
 def _search(event: Event) -> list[str]:
     """The search for an event that does not happen at a gap, in the lanes in which it is not excluded."""
     lines, target = [], target_of(event)
-    watched = [_LANES[condition] for condition in event.where] or ["l->alive"]
+    watched = _watched(event) or ["l->alive"]
     sign = {"": "one", "motion": "-away"}.get(event.follows, f"l->{event.follows}")
     sign = sign if event.direction > 0 else f"-{sign}"
     if event.follows not in ("", "motion"):
@@ -146,6 +147,11 @@ def _search(event: Event) -> list[str]:
     return lines
 
 
+def _watched(event: Event) -> list[str]:
+    """Factors of the mask of the lanes in which an event is watched."""
+    return [_LANES[condition] for condition in event.where] + ([_DRIVEN] if event.driven else [])
+
+
 def _guard(event: Event, value: str) -> str:
     """The guard at a value of the series, where its direction follows nothing."""
     if not event.target:
@@ -158,7 +164,7 @@ def _kept() -> list[str]:
             "vec gap = next_gap(l, f, &event);",
             "mask kept = rests | (2.0*away*(to[GAP] - gap) > away*(from[GAP] - gap));"]  # fmt: skip
     for event in EVENTS:
-        (name, *_), watched = event.series, [_LANES[condition] for condition in event.where]
+        (name, *_), watched = event.series, _watched(event)
         if not event.at_gap and name not in _AT_REST and name != "normal_velocity":
             value = _SERIES.get(name, ("", f"{name}_at(&f->c, {{y}})"))[1]
             before, after = (_guard(event, value.format(y=y)) for y in ("from", "to"))

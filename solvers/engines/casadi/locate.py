@@ -475,7 +475,7 @@ class EventLocator:
             kinds += (KINDS[EventKind.RESTS],)
             self.path.dry_loss += float(self.y[1]) ** 2 / 2
             self.y[1] = 0.0
-            phase = self.phase.with_(resting=True, motion=OPENING)
+            phase = self._opening(self.phase).with_(resting=True)
             if self.model.friction:
                 phase = self._rubbing(phase)
                 kinds += (KINDS[EventKind.ROLLS],) if phase.rolling else ()

@@ -296,3 +296,54 @@ def test_sliding_a_million_times_faster_than_the_approach_keeps_the_gaps_digits(
     assert ours.outcome == kernel.outcome == "stick-rotate-separate"
     assert ours.restitution == pytest.approx(kernel.restitution, rel=1e-8)
     assert ours.energy is not None and ours.energy.initial > 1e6 * kernel.energy.normal_lubrication
+
+
+EXHAUSTED = {
+    "particles": {"reduced_radius": 1.08263e-5, "density": 2236.23, "roughness": 7.50108e-15, "friction": 0.0961143,
+                  "dry_restitution": 0.527421, "youngs_modulus": 8.42353e9, "poisson_ratio": 0.25034,
+                  "contact_tangential_restitution": 0.454073},
+    "liquid": {"viscosity": 541.824, "film_thickness": 3.05244e-9, "glass_transition_pressure": 1.92921e11},
+    "bridge": {"surface_tension": 1.46833e-3, "volume": 3.80431e-3, "contact_angle": 0.486209, "law": "lambert"},
+    "model": {"tangential": "film", "contact_friction": "all"},
+    "partner": {"radius": 9.91556e-5, "density": 3473.93},
+    "impact": {"stokes": 3.87337e-6, "angle": 0.0418748, "spin": 1109.49, "partner_spin": -27249.3},
+}  # fmt: skip
+ON_THE_EDGE = {
+    "particles": {"reduced_radius": 1.38822e-4, "density": 519.069, "roughness": 8.20202e-9, "dry_restitution": 0.0,
+                  "youngs_modulus": 1.21852e10, "poisson_ratio": 0.336057, "friction": 0.034162,
+                  "contact_tangential_restitution": 1.0},
+    "liquid": {"viscosity": 40.8259, "film_thickness": 8.8255e-6, "glass_transition_pressure": 11509.7},
+    "bridge": {"surface_tension": 1.19837e-4, "volume": 4.68131e-5, "contact_angle": 0.883566},
+    "model": {"arm": "surface", "tangential": "film"},
+    "impact": {"stokes": 524.211, "angle": 0.0, "spin": 2.06406e9},
+}  # fmt: skip
+UNCHANGING = {
+    "particles": {"reduced_radius": 6.78194e-5, "density": 1378.49, "roughness": 1.06987e-10,
+                  "dry_restitution": 0.586925, "youngs_modulus": 9.21033e9, "poisson_ratio": -0.198242},
+    "liquid": {"viscosity": 0.119039, "film_thickness": 2.74095e-9, "glass_transition_pressure": 1003.79},
+    "bridge": {"surface_tension": 0.55374, "volume": 1.45363e-5, "contact_angle": 0.744348, "law": "mikami-log10"},
+    "model": {"arm": "surface", "film": "cavitating", "tangential": "film"},
+    "impact": {"stokes": 0.0174034, "angle": 0.0790193, "spin": 593.109},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("rtol", [1e-6, 1e-9, 1e-11, 1e-12])
+@pytest.mark.parametrize("entries", [EXHAUSTED, ON_THE_EDGE, UNCHANGING])
+def test_a_contact_that_only_its_own_friction_turns_is_never_released(entries: dict[str, Any], rtol: float) -> None:
+    """Friction is proportional to the reaction, which it can lower to nothing but not reverse: a stick for each engine.
+
+    It is proved where angular momentum is kept, and one that rests on the edge of the shear, where it vanishes, too.
+    """
+    scene = Scene.from_dict(entries)
+    found = [collide(scene, engine=engine, rtol=rtol) for engine in ("taylor", "rosenbrock", "cvodes")]
+    assert [(each.outcome, each.events[-1].kind) for each in found] == [("stick", "rests")] * 3
+    assert {each.certified for each in found} == {scene.model.arm == "midgap"}
+    by_kernel = collide_many(scene, engine="taylor", rtol=rtol)
+    assert (by_kernel.outcome.item(), by_kernel.certified.item()) == (0, scene.model.arm == "midgap")
+
+
+def test_an_exhausted_contact_stays_when_followed_on() -> None:
+    """Long after the proof, with a reaction of rounding errors only, the contact still holds: nothing releases it."""
+    until = 100 * collide(Scene.from_dict(EXHAUSTED), engine="rosenbrock").until
+    found = collide(Scene.from_dict(EXHAUSTED), engine="rosenbrock", until=max(until, 10.0))
+    assert (found.outcome, found.events[-1].kind) == ("stick", "rests")

@@ -142,13 +142,13 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         book_rest(q->books + LANE(l->index, lane), l->y, lane);
 #endif
         LANE(l->y[NORMAL_VELOCITY], lane) = 0.0;
+        opens(l, f, lane);
         LANE(l->resting, lane) = TRUTH;
-        LANE(l->closing, lane) = 0;
 #if RUBS
         if (rubs(l, f, lane))
             note(q, LANE(l->index, lane), KIND_ROLLS, LANE(l->time, lane));
 #endif
-        if (!TURNS || (PROOF_BY_ENERGY && !FRICTION && LANE(l->shear, lane) == 0.0)) /* the forces no longer change */
+        if (!TURNS || (!STRINGS && LANE(l->shear, lane) == 0.0)) /* the reaction never vanishes (derive/checks/friction.py) */
             sticks_for_good(q, l, f, lane, 1);
     } else
         opens(l, f, lane);
