@@ -1,10 +1,11 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 cb6adeb834083f5a4cf6a39fe5574f10025d955826a8f4a8414ee9b2c17a2fcf
+# Automaton sha256 c7aa434f1526175bb7e9031b33fceeb622d5ab438cc3c97a480a9b68c87a3c5f
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
 
 from enum import IntEnum
+from math import sqrt
 from typing import NamedTuple
 
 CLOSING, OPENING = -1, 1
@@ -134,6 +135,41 @@ TURNLESS = 3.552713678800501e-15  # in space: a component that is a smaller part
 LEAST_SLIP = 1e-12  # in the scale of tangential speeds: below it at initial contact no ratio of slips is formed
 LEAST_PARTING = 1.4210854715202004e-14  # in the scale of tangential speeds times sqrt(x0/a): a slower separation is what rounding of the angular momentum alone sets off, and decides nothing
 LEAST_DEPTH = 1e-40  # least gap, relative to the present one, of the film certificate without contact
+
+
+def is_parted(gap: float, rupture_gap: float) -> bool:
+    """True if the gap is not below the rupture gap."""
+    return gap >= rupture_gap
+
+
+def is_too_weak(inward_force: float, normal_velocity: float, rtol: float, gap: float) -> bool:
+    """True if a rebound does not open the gap."""
+    return inward_force > 0 and (normal_velocity < REST_SPEED or normal_velocity*normal_velocity/(2*inward_force) < rtol*gap)
+
+
+def has_no_slip(slip: float) -> bool:
+    """True if the surfaces do not slip."""
+    return abs(slip) < NO_SLIP
+
+
+def friction_holds(holding: float, limit: float) -> bool:
+    """True if friction can hold the surfaces together."""
+    return abs(holding) <= limit
+
+
+def is_within_rounding(normal_velocity: float, obliquity: float, aspect: float) -> bool:
+    """True if rounding of the angular momentum could have opened the doublet."""
+    return normal_velocity < LEAST_PARTING*obliquity*sqrt(aspect)
+
+
+def is_on_edge(gap: float, edge: float) -> bool:
+    """True if the gap is on an edge."""
+    return gap == edge
+
+
+def is_too_oblique(obliquity: float, aspect: float) -> bool:
+    """True if the centrifugal force reverses the motion within rounding."""
+    return obliquity*obliquity*aspect/16 > MOST_OBLIQUE
 
 
 class Event(NamedTuple):

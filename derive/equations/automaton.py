@@ -8,6 +8,7 @@ the search for a root of a series and what the actions call. That both engines d
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 CLOSING, OPENING = -1, 1
@@ -234,12 +235,17 @@ EVENTS = (
 
 @dataclass(frozen=True)
 class Rule:
-    """A decision that is not taken at a zero of an event function. `words` are reported if the rule applies."""
+    """A decision that is not taken at a zero of an event function. `words` are reported if the rule applies.
+
+    Arguments:
+        tests: its condition as expressions, each with a name and its meaning: both engines have functions of that name.
+    """
 
     name: str
     condition: str
     effect: str
     words: tuple[str, ...] = ()
+    tests: tuple[tuple[str, str, str], ...] = ()
 
 
 RULES = (
@@ -247,21 +253,34 @@ RULES = (
          "a rebound by the first of these criteria, in their order", tuple(each.word for each in CRITERIA)),
     Rule("parted", "a rebound at a gap not below the rupture gap",
          "the collision ends: separated. Without a bridge this is a criterion that holds at initial contact",
-         ("rupture",)),
+         ("rupture",), (("is_parted", "the gap is not below the rupture gap", "gap >= rupture_gap"),)),
     Rule("rest", "after a rebound the net force points inward, and the rebound is slower than REST_SPEED or, "
          "without drag, would rise by less than the relative tolerance times the gap",
-         "the gap is held in contact; the energy of the rebound is booked as dry contact", ("rests",)),
+         "the gap is held in contact; the energy of the rebound is booked as dry contact", ("rests",),
+         (("is_too_weak", "a rebound does not open the gap", "inward_force > 0 and (normal_velocity < REST_SPEED or "
+            "normal_velocity*normal_velocity/(2*inward_force) < rtol*gap)"),)),
     Rule("friction", "a rebound of a scene with friction, by solid contact or, if asked for, by glass",
          "a tangential impulse that reverses the slip times contact_tangential_restitution (it sticks), or Coulomb's "
          "limit if that is less (it slides). If the doublet comes to rest, the limit is that of the approach alone"),
     Rule("grip", "a rebound of a scene with friction rests",
          "it slides; if it has no slip (less than NO_SLIP) and friction can hold the surfaces, it rolls. In space "
-         "it slides in the direction of the slip, which may turn, and rolls where that is less than CREEP", ("rolls",)),
-    Rule("parting", "the doublet ruptures at a normal velocity below LEAST_PARTING", "no outcome is decided"),
+         "it slides in the direction of the slip, which may turn, and rolls where that is less than CREEP", ("rolls",),
+         (("has_no_slip", "the surfaces do not slip", "abs(slip) < NO_SLIP"),
+          ("friction_holds", "friction can hold the surfaces together", "abs(holding) <= limit"))),
+    Rule("parting", "the doublet ruptures at a normal velocity below LEAST_PARTING", "no outcome is decided",
+         tests=(("is_within_rounding", "rounding of the angular momentum could have opened the doublet",
+                 "normal_velocity < LEAST_PARTING*obliquity*sqrt(aspect)"),)),
     Rule("opening", "the doublet opens or rests on the edge of the film or of the tangential force",
-         "it is beyond that edge"),
-    Rule("obliqueness", "the centrifugal force exceeds MOST_OBLIQUE times v0^2/x0", "the collision is refused"),
+         "it is beyond that edge", tests=(("is_on_edge", "the gap is on an edge", "gap == edge"),)),
+    Rule("obliqueness", "the centrifugal force exceeds MOST_OBLIQUE times v0^2/x0", "the collision is refused",
+         tests=(("is_too_oblique", "the centrifugal force reverses the motion within rounding",
+                 "obliquity*obliquity*aspect/16 > MOST_OBLIQUE"),)),
 )  # fmt: skip
+
+
+def arguments(test: str) -> tuple[str, ...]:
+    """The quantities in an expression of a rule, in order of appearance; constants are upper case."""
+    return tuple(dict.fromkeys(re.findall(r"\b(?!and\b|or\b|abs\b|sqrt\b)[a-z]\w*", test)))
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 cb6adeb834083f5a4cf6a39fe5574f10025d955826a8f4a8414ee9b2c17a2fcf
+ * Automaton sha256 c7aa434f1526175bb7e9031b33fceeb622d5ab438cc3c97a480a9b68c87a3c5f
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

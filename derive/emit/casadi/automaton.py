@@ -47,7 +47,7 @@ def automaton_module() -> str:
     words = [word.word for word in automaton.WORDS]
     lines = [f"# {line}" for line in provenance().splitlines()]
     lines += [f'"""{_DOC}"""', "", "from __future__ import annotations", ""]
-    lines += ["from enum import IntEnum", "from typing import NamedTuple", ""]
+    lines += ["from enum import IntEnum", "from math import sqrt", "from typing import NamedTuple", ""]
     lines += [f"CLOSING, OPENING = {automaton.CLOSING}, {automaton.OPENING}", ""]
     for each in automaton.OUTCOMES:
         lines.append(f'{each.name} = "{each.word}"  # {each.condition}')
@@ -65,7 +65,7 @@ def automaton_module() -> str:
     lines += ["", ""]
     for constant in automaton.CONSTANTS:
         lines += [f"{constant.name} = {constant.value!r}  # {constant.meaning}"]
-    lines += ["", *_events()]
+    lines += ["", *_tests(), *_events()]
     return "\n".join(lines) + "\n"
 
 
@@ -90,6 +90,16 @@ def _members(row: object, names: Iterable[str]) -> list[str]:
 def _numbers(name: str, doc: str, members: Sequence[tuple[str, str]]) -> list[str]:
     lines = ["", f"class {name}(IntEnum):", f'    """{doc}"""', ""]
     return lines + [f"    {member} = {number}  # {meaning}" for number, (member, meaning) in enumerate(members)]
+
+
+def _tests() -> list[str]:
+    """Functions of the conditions of the rules."""
+    lines = []
+    for rule in automaton.RULES:
+        for name, meaning, test in rule.tests:
+            passed = ", ".join(f"{each}: float" for each in automaton.arguments(test))
+            lines += ["", f"def {name}({passed}) -> bool:", f'    """True if {meaning}."""', f"    return {test}", ""]
+    return lines
 
 
 def _events() -> list[str]:

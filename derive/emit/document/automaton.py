@@ -44,7 +44,15 @@ def automaton_page(provenance: str) -> str:
     lines += ["", "## Rules", "", "Decisions that are not taken at a zero of an event function:", ""]
     lines += _table(
         ("rule", "if", "then", "reported as"),
-        [(each.name, each.condition, each.effect, _either(each.words)) for each in automaton.RULES],
+        [
+            (
+                each.name,
+                "; ".join([each.condition, *(f"`{test}`" for *_, test in each.tests)]),
+                each.effect,
+                _either(each.words),
+            )
+            for each in automaton.RULES
+        ],
     )
     lines += [
         "",

@@ -37,7 +37,7 @@ def automaton_header(provenance: str, own: Sequence[Event] = (), meanings: Seque
         own: events that a user's model declares, behind the library's; `meanings` are those of their words.
     """
     lines = comment(provenance)
-    lines += ["", "#ifndef AUTOMATON_H", "#define AUTOMATON_H", ""]
+    lines += ["", "#ifndef AUTOMATON_H", "#define AUTOMATON_H", "#include <math.h>", ""]
     lines += comment("What is watched for, in order of precedence among coincident events.")
     lines += _enumeration(event_name(event) for event in (*automaton.EVENTS, *own))
     lines += ["", *comment("What is reported.")]
@@ -58,6 +58,12 @@ def automaton_header(provenance: str, own: Sequence[Event] = (), meanings: Seque
             lines.append(f"enum {{ {constant.name} = {constant.value} }}; /* {constant.meaning} */")
         else:
             lines.append(f"static const double {constant.name} = {constant.value!r}; /* {constant.meaning} */")
+    for rule in automaton.RULES:
+        for name, meaning, test in rule.tests:
+            passed = ", ".join(f"double {each}" for each in automaton.arguments(test))
+            test = test.replace(" and ", " && ").replace(" or ", " || ").replace("abs(", "fabs(")
+            lines += ["", *comment(f"Whether {meaning}.")]
+            lines += function(f"static inline int {name}({passed})", [f"return {test};"])
     return "\n".join([*lines, "", "#endif"]) + "\n"
 
 

@@ -18,7 +18,7 @@ static int can_hold(const lanes *l, const fixed *f, int lane, double *sense)
     dry_forces(&f->c, l->y, l->film, l->shear, found);
     double holding = LANE(found[HOLDING], lane);
     *sense = holding > 0.0 ? 1.0 : holding < 0.0 ? -1.0 : 0.0;
-    return fabs(holding) <= LANE(found[GRIP_LIMIT], lane);
+    return friction_holds(holding, LANE(found[GRIP_LIMIT], lane));
 }
 
 /* Sliding from zero slip. */
@@ -46,7 +46,7 @@ static int rubs(lanes *l, const fixed *f, int lane)
     vec found[IMPULSES];
     dry_slip(&f->c, l->y, found);
     double slip = LANE(found[SLIP], lane);
-    if (fabs(slip) < NO_SLIP)
+    if (has_no_slip(slip))
         return grips(l, f, lane) == KIND_ROLLS;
     LANE(l->sliding, lane) = slip < 0.0 ? -1.0 : 1.0;
     LANE(l->rolling, lane) = 0.0;

@@ -21,8 +21,7 @@ static void separated(queue *q, lanes *l, fixed *f, int lane)
 static void parts(queue *q, lanes *l, fixed *f, int lane)
 {
 #if OBLIQUE
-    double least = LEAST_PARTING*LANE(f->c.obliquity, lane)*sqrt(LANE(f->c.aspect, lane));
-    if (LANE(l->y[NORMAL_VELOCITY], lane) < least) {
+    if (is_within_rounding(LANE(l->y[NORMAL_VELOCITY], lane), LANE(f->c.obliquity, lane), LANE(f->c.aspect, lane))) {
         finish(q, l, f, lane, WITHIN_ROUNDING, STICK, 0);
         return;
     }
@@ -35,9 +34,9 @@ static void opens(lanes *l, const fixed *f, int lane)
 {
     LANE(l->closing, lane) = 0;
     LANE(l->resting, lane) = 0;
-    if (!SPREAD && LANE(l->y[GAP], lane) == 1.0)
+    if (!SPREAD && is_on_edge(LANE(l->y[GAP], lane), 1.0))
         LANE(l->film, lane) = 0.0;
-    if (LANE(l->y[GAP], lane) == LANE(f->edge, lane))
+    if (is_on_edge(LANE(l->y[GAP], lane), LANE(f->edge, lane)))
         LANE(l->shear, lane) = 0.0;
 #if RUBS
     LANE(l->sliding, lane) = LANE(l->rolling, lane) = 0.0;
@@ -78,8 +77,8 @@ static void rub(queue *q, lanes *l, fixed *f, int lane, int kind, int rests)
 /* Whether a rebound to this state is too weak to open the gap. */
 static int too_weak(const queue *q, const fixed *f, const vec *after, int lane)
 {
-    double left = LANE(after[NORMAL_VELOCITY], lane), inward = in_lane(inward_force(&f->c, after), lane);
-    return inward > 0.0 && (left < REST_SPEED || left*left/(2.0*inward) < q->rtol*LANE(after[GAP], lane));
+    double inward = in_lane(inward_force(&f->c, after), lane);
+    return is_too_weak(inward, LANE(after[NORMAL_VELOCITY], lane), q->rtol, LANE(after[GAP], lane));
 }
 
 #if FRICTION
@@ -91,7 +90,7 @@ static int comes_to_rest(const queue *q, const lanes *l, const fixed *f, int lan
     rubbed(&f->c, l->y, splat(touched(&f->c, l->y, lane, kind, 0).impulse), slid);
     memcpy(after, slid, sizeof after);
     rebound(&f->c, slid, after);
-    return LANE(after[GAP], lane) < LANE(f->end, lane) && too_weak(q, f, after, lane);
+    return !is_parted(LANE(after[GAP], lane), LANE(f->end, lane)) && too_weak(q, f, after, lane);
 }
 #endif
 
@@ -119,7 +118,7 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         LANE(l->reversal, lane) = kind;
     new_phase(l, lane);
     note(q, LANE(l->index, lane), kind, LANE(l->time, lane));
-    if (LANE(l->y[GAP], lane) >= LANE(f->end, lane)) { /* the gap of separation */
+    if (is_parted(LANE(l->y[GAP], lane), LANE(f->end, lane))) {
         separated(q, l, f, lane);
         return;
     }
