@@ -257,8 +257,9 @@ RULES = (
     Rule("rest", "after a rebound the net force points inward, and the rebound is slower than REST_SPEED or, "
          "without drag, would rise by less than the relative tolerance times the gap",
          "the gap is held in contact; the energy of the rebound is booked as dry contact", ("rests",),
-         (("is_too_weak", "a rebound does not open the gap", "inward_force > 0 and (normal_velocity < REST_SPEED or "
-            "normal_velocity*normal_velocity/(2*inward_force) < rtol*gap)"),)),
+         (("is_too_weak", "a rebound does not open the gap",
+           ("inward_force > 0 and (normal_velocity < REST_SPEED or "
+            "normal_velocity*normal_velocity/(2*inward_force) < rtol*gap)")),)),
     Rule("friction", "a rebound of a scene with friction, by solid contact or, if asked for, by glass",
          "a tangential impulse that reverses the slip times contact_tangential_restitution (it sticks), or Coulomb's "
          "limit if that is less (it slides). If the doublet comes to rest, the limit is that of the approach alone"),
