@@ -56,14 +56,7 @@ def _first(model: Model, p: np.ndarray, rtol: float) -> Certificate:
 
 def energy_proof(proof: Certificate) -> EnergyCertificate | None:
     """The energy certificate contained in `proof`, or None."""
-    while isinstance(
-        proof,
-        AttractionCertificate
-        | OrbitalMomentumCertificate
-        | ChatterCertificate
-        | TumblingCertificate
-        | ReboundCertificate,
-    ):
+    while proof.beside is not None:
         proof = proof.beside
     return proof if isinstance(proof, EnergyCertificate) else None
 

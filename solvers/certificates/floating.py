@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..model.model import Model
+from .base import inward
 from .quadrature import panels
 
 _PANELS, _GAPS = 8, 49
@@ -35,14 +36,6 @@ def floats(model: Model, p: np.ndarray, y: np.ndarray, margin: float) -> bool:
     larger = gap + (end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
     outside = panels(lambda gaps: inward(model, p, gaps, y), larger)
     return bool(np.any(kinetic - np.cumsum(outside) < -margin * (kinetic + np.cumsum(np.abs(outside)))))
-
-
-def inward(model: Model, p: np.ndarray, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Inward force at these gaps, with the momenta of a state."""
-    states = np.repeat(y[: len(model.state), None], gaps.size, axis=1)
-    states[0] = gaps
-    force: np.ndarray = np.asarray(model.function("inward_force")(states, p).full())[0]
-    return force
 
 
 def works(model: Model, p: np.ndarray, y: np.ndarray, start: float, end: float) -> np.ndarray:

@@ -6,11 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
-from ..scene.contact import contact_gap
-from .base import Certainty
+from .base import Certificate
 
 
 def covers(model: Model) -> bool:
@@ -20,23 +18,12 @@ def covers(model: Model) -> bool:
     return usable and model.choice.law("arm") in (None, "midgap")
 
 
-class SpinDownCertificate:
+class SpinDownCertificate(Certificate):
     """Certificate for oblique collisions with a film alone and no angular momentum, or none that shear reaches."""
 
-    watches: str | None = None
-
-    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
-        self.model, self.p, self.margin = model, p, SAFETY * rtol
-        groups = dict(zip(model.groups, p, strict=True))
-        self._error = self.margin * max(groups["stokes"], 1.0)
-        self._nearest = contact_gap(groups) * (1 - self.margin)
-
-    def level(self, y: np.ndarray, phase: Phase) -> float | None:
-        return None
-
-    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        if not y[0] >= self._nearest:
-            return Certainty.OPEN  # the margins assume a gap above solid contact; initial contact may lie below it
-        found = self.model.values("spin_down_margins", y[: len(self.model.state)], self.p)
-        dies_out = found["momentum"] == 0 and found["rate"] > 0 and found["stays"] < -self._error
-        return Certainty.of(dies_out or (y[2] == 0 and found["inside"] < 0 and found["apart"] < -self._error))
+    def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
+        if not y[0] >= self.contact * (1 - self.margin):
+            return False  # the margins assume a gap above solid contact; initial contact may lie below it
+        margins, error = self.values("spin_down_margins", y), self.margin * max(self.groups["stokes"], 1.0)
+        dies_out = margins["momentum"] == 0 and margins["rate"] > 0 and margins["stays"] < -error
+        return dies_out or bool(y[2] == 0 and margins["inside"] < 0 and margins["apart"] < -error)

@@ -206,7 +206,7 @@ class EventLocator:
         if not (proof.holds(self.y) or proof.settles(self.y)):
             return False
         self._stop(PhaseRun(self.phase, 0.0, None, ()))
-        self.path.certified = proof.proves
+        self.path.certified = proof.theorem
         return True
 
     def _spend(self, steps: int) -> None:

@@ -263,8 +263,7 @@ static void take_back(const struct tape *t, sweep *r)
         if (!bits(r->active))
             return;
         unstep(r);
-        for (unsigned done = bits(forgotten(r)); done; done &= done - 1) {
-            int lane = first_of(done);
+        EACH_OF(lane, bits(forgotten(r))) {
             for (int state = 0; state < STATES; state++)
                 LANE(r->of[state], lane) = 0.0;
             put_derivatives(r, &t->found[r->end[lane]], lane);

@@ -124,8 +124,7 @@ OUTLINE void look(first_event *first, mask close, const vec *a, vec target, vec 
         }
         time = choose(one, t, time);
     }
-    for (unsigned left = bits(many); left; left &= left - 1) {
-        int lane = first_of(left);
+    EACH_OF(lane, bits(many)) {
         double own[TERMS + 1], bernstein[TERMS + 1];
         for (int k = 0; k <= ORDER; k++) {
             own[k] = LANE(g[k], lane);

@@ -125,19 +125,19 @@ static void advance(const slow *w, const eliminated *e, vec h, const vec *rate, 
 }
 
 /* Lanes in which no event can lie between two states. */
-static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const vec *from, const vec *to)
+static mask clear_of_events(const lanes *l, const fixed *f, const vec *from, const vec *to)
 {
     mask opens = from[NORMAL_VELOCITY] > 0.0;
     mask goes_on = (opens & (to[NORMAL_VELOCITY] > 0.0)) | (NOT(opens) & (to[NORMAL_VELOCITY] < 0.0));
     mask clear = (l->resting | (goes_on & (opens ^ l->closing))) & guards_kept(l, f, from, to);
 #if RUBS
     if (bits(l->resting))
-        clear &= NOT(l->resting) | keeps_rubbing(w->c, l, from, to);
+        clear &= NOT(l->resting) | keeps_rubbing(&f->c, l, from, to);
 #endif
 #if OWN_EVENTS
     vec before[OWN_EVENTS], after[OWN_EVENTS];
-    own_guards(w->c, from, before);
-    own_guards(w->c, to, after);
+    own_guards(&f->c, from, before);
+    own_guards(&f->c, to, after);
     for (int which = 0; which < OWN_EVENTS; which++)
         clear &= NOT(own_watched(from, which, l->closing, l->film)) | (2.0*after[which] > before[which]);
 #endif /* OWN_EVENTS */
@@ -165,7 +165,7 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
                 y[state] = l->y[state] + sum[state];
             }
             if (row == COLUMNS - 1)
-                *clear &= clear_of_events(w, l, f, l->y, y);
+                *clear &= clear_of_events(l, f, l->y, y);
             memcpy(last, y, sizeof last);
         }
         for (int state = 0; state < STATES; state++) {
@@ -195,7 +195,7 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
             allowed = carried;
         error = vec_larger(error, size_of(d, 1, state)/allowed);
     }
-    *clear &= clear_of_events(w, l, f, l->y, y);
+    *clear &= clear_of_events(l, f, l->y, y);
     return error;
 }
 
@@ -235,13 +235,13 @@ OUTLINE void crawl(queue *q)
             }
         }
 #endif
-        for (unsigned proved = bits(busy & sticks); proved; proved &= proved - 1)
-            settle(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
+        EACH_OF(lane, bits(busy & sticks))
+            settle(q, &l, &f, lane, DECIDED, STICK, 1);
         busy &= NOT(sticks);
 #if SPACE && PROOF_BY_ENERGY
         mask held = busy & tumbles(&f.c, l.y, &f.b, q->rtol);
-        for (unsigned left = bits(held); left; left &= left - 1)
-            settle(q, &l, &f, first_of(left), DECIDED, STICK, 0);
+        EACH_OF(lane, bits(held))
+            settle(q, &l, &f, lane, DECIDED, STICK, 0);
         busy &= NOT(held);
 #endif
         vec rate[STATES], change[STATES];
@@ -265,13 +265,12 @@ OUTLINE void crawl(queue *q)
         vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/COLUMNS));
         h *= choose(clear, vec_min(better, splat(4.0)), splat(0.25));
         mask leaves = busy & NOT(h > least_step);
-        for (unsigned left = bits(leaves); left; left &= left - 1) {
-            int lane = first_of(left);
+        EACH_OF(lane, bits(leaves)) {
             LANE(l.crept, lane) = LANE(taken, lane) ? 0 : -10*PATIENCE; /* without success: not again for a while */
             pack(q->resumed[q->resumes++], &l, &f, lane);
         }
         busy &= NOT(leaves);
     }
-    for (unsigned left = bits(busy); left; left &= left - 1)
-        pack(q->resumed[q->resumes++], &l, &f, first_of(left));
+    EACH_OF(lane, bits(busy))
+        pack(q->resumed[q->resumes++], &l, &f, lane);
 }

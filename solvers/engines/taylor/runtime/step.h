@@ -30,10 +30,8 @@ static inline mask room_of(const mask *magnitude, const vec (*a)[TERMS], int k, 
 static inline vec room(const mask *magnitude, const vec (*a)[TERMS], int k, double share, const tangents *along)
 {
     mask found = room_of(magnitude, a, k, share, splat_mask(INT64_MAX));
-    for (unsigned left = along->asked; left; left &= left - 1) {
-        int group = first_of(left);
+    EACH_OF(group, along->asked)
         found = room_of(along->scale[group], (const vec (*)[TERMS])along->t[group], k, share, found);
-    }
     return to_vec(found);
 }
 #define ROOM(k, share) room(magnitude, a, k, share, along)

@@ -211,8 +211,8 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
 #if GRADIENTS
     if (glass) {
         vec met = vec_abs(vec_log(1.0 - pressure_margin(&f->c, l->y)));
-        for (unsigned left = glass; left; left &= left - 1)
-            along_near(&l->along, first_of(left), LANE(met, first_of(left)), TOUCH);
+        EACH_OF(lane, glass)
+            along_near(&l->along, lane, LANE(met, lane), TOUCH);
     }
 #endif
     EACH_LANE(lane)
@@ -232,8 +232,8 @@ static int rests_ended(queue *q, lanes *l, fixed *f)
 #if WITH_TRAJECTORY
     proved &= provable(q, l->closing);
 #endif
-    for (unsigned left = bits(rests); left; left &= left - 1) {
-        int lane = first_of(left), sure = LANE(proved, lane) != 0;
+    EACH_OF(lane, bits(rests)) {
+        int sure = LANE(proved, lane) != 0;
         finish(q, l, f, lane, sure ? DECIDED : RESTS_IN_FRICTION, STICK, sure);
     }
     return 1;
@@ -257,8 +257,8 @@ static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
 #if WITH_TRAJECTORY
     still &= provable(q, l->closing);
 #endif
-    for (unsigned left = bits(still); left; left &= left - 1)
-        sticks_for_good(q, l, f, first_of(left), 0);
+    EACH_OF(lane, bits(still))
+        sticks_for_good(q, l, f, lane, 0);
     return bits(still) != 0;
 }
 #endif
