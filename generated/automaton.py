@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 c7aa434f1526175bb7e9031b33fceeb622d5ab438cc3c97a480a9b68c87a3c5f
+# Automaton sha256 ea02a661c99d5a7ed979e278ae6347f5c5a2031563c7fae20117f0e82dafbebd
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -170,6 +170,41 @@ def is_on_edge(gap: float, edge: float) -> bool:
 def is_too_oblique(obliquity: float, aspect: float) -> bool:
     """True if the centrifugal force reverses the motion within rounding."""
     return obliquity*obliquity*aspect/16 > MOST_OBLIQUE
+
+
+def is_below_barrier(energy: float, height: float, margin: float, largest: float, drift: float) -> bool:
+    """True if the energy is below a barrier ahead, lowered by what a drift of angular momentum may do."""
+    return energy < height - margin*(largest + abs(height)) - drift
+
+
+def attraction_holds(gap: float, contact: float, margin: float, hold: float, rebound: float, escape: float, energy: float) -> bool:
+    """True if the attraction lets no maximum of the gap exceed the one before."""
+    return gap >= contact*(1 - margin) and hold > 0 and rebound < -margin*hold and escape < -margin*energy
+
+
+def spins_down(gap: float, contact: float, margin: float, momentum: float, rate: float, stays: float, error: float, orbital_momentum: float, inside: float, apart: float) -> bool:
+    """True if without angular momentum, or without orbital momentum, the film keeps the doublet."""
+    return gap >= contact*(1 - margin) and (momentum == 0 and rate > 0 and stays < -error or orbital_momentum == 0 and inside < 0 and apart < -error)
+
+
+def rests_for_good(reaction: float, margin: float, largest: float) -> bool:
+    """True if the reaction of a resting doublet stays inward at the largest momentum that slip allows."""
+    return reaction > margin*largest
+
+
+def stays_below(needed: float, margin: float, size: float) -> bool:
+    """True if the energy does not suffice for a gap ahead."""
+    return needed < -margin*size
+
+
+def comes_back(outward: float, lost: float, margin: float) -> bool:
+    """True if a rebound loses more than the rotation gives on the way back to the maximum."""
+    return outward < lost*(1 - margin)
+
+
+def tumbles_for_good(rest: float, rigid: float, work: float, height: float, margin: float, largest: float) -> bool:
+    """True if a doublet that tumbles as one body is held with all momentum across the line of centres."""
+    return rest < TUMBLES*rigid and rest + rigid + work < height - margin*(largest + abs(height))
 
 
 class Event(NamedTuple):

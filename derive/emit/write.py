@@ -20,7 +20,7 @@ from .casadi.references import references_module
 from .document.automaton import DIAGRAM, automaton_page
 from .document.diagram import diagram
 from .shared import homes, with_shared_functions
-from .taylor.automaton import automaton_header, criteria_header, effects_header
+from .taylor.automaton import automaton_header, criteria_header, effects_header, proofs_header
 from .taylor.guards import guards_header
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
@@ -54,6 +54,7 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
         DIAGRAM: diagram(provenance()),
         "taylor/automaton.h": automaton_header(provenance()),
         "taylor/criteria.h": criteria_header(provenance()),
+        "taylor/proofs.h": proofs_header(provenance()),
         "taylor/guards.h": guards_header(provenance()),
         "taylor/effects.h": effects_header(provenance()),
         "py.typed": "",

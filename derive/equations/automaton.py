@@ -285,6 +285,36 @@ def arguments(test: str) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True)
+class Proof:
+    """The inequality of a stick proof between margins of the structures, the state and `margin`, their relative error.
+
+    Both engines have it as a function of the quantities in it. A comparison with NaN is false.
+    """
+
+    name: str
+    meaning: str
+    test: str
+
+
+PROOFS = (
+    Proof("is_below_barrier", "the energy is below a barrier ahead, lowered by what a drift of angular momentum may do",
+          "energy < height - margin*(largest + abs(height)) - drift"),
+    Proof("attraction_holds", "the attraction lets no maximum of the gap exceed the one before",
+          "gap >= contact*(1 - margin) and hold > 0 and rebound < -margin*hold and escape < -margin*energy"),
+    Proof("spins_down", "without angular momentum, or without orbital momentum, the film keeps the doublet",
+          ("gap >= contact*(1 - margin) and (momentum == 0 and rate > 0 and stays < -error"
+           " or orbital_momentum == 0 and inside < 0 and apart < -error)")),
+    Proof("rests_for_good", "the reaction of a resting doublet stays inward at the largest momentum that slip allows",
+          "reaction > margin*largest"),
+    Proof("stays_below", "the energy does not suffice for a gap ahead", "needed < -margin*size"),
+    Proof("comes_back", "a rebound loses more than the rotation gives on the way back to the maximum",
+          "outward < lost*(1 - margin)"),
+    Proof("tumbles_for_good", "a doublet that tumbles as one body is held with all momentum across the line of centres",
+          "rest < TUMBLES*rigid and rest + rigid + work < height - margin*(largest + abs(height))"),
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
 class Outcome:
     """A possible outcome of a collision. The position in OUTCOMES is its number in all results."""
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 c7aa434f1526175bb7e9031b33fceeb622d5ab438cc3c97a480a9b68c87a3c5f
+ * Automaton sha256 ea02a661c99d5a7ed979e278ae6347f5c5a2031563c7fae20117f0e82dafbebd
  *
  * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
  * known. */

@@ -33,7 +33,7 @@ def at_maximum(y: np.ndarray, phase: Phase) -> bool:
     return not phase.resting and phase.motion == CLOSING and abs(y[1]) <= STILL
 
 
-def rests_for_good(model: Model, phase: Phase) -> bool:
+def is_never_released(model: Model, phase: Phase) -> bool:
     """True if nothing drives the rotation of a resting doublet but dry friction, which is proportional to the reaction.
 
     The reaction N obeys dN/dt = -k N with a finite k (`derive.checks.friction`), and never vanishes.
@@ -109,5 +109,6 @@ def inward(
     model: Model, p: np.ndarray, gaps: np.ndarray, y: np.ndarray, orbital_momentum: float | None = None
 ) -> np.ndarray:
     """Inward force at these gaps, with the momenta of a state."""
-    force = model.function("inward_force")(states_at(model, gaps, y, orbital_momentum), p)
-    return np.asarray(force.full())[0]
+    states = states_at(model, gaps, y, orbital_momentum)
+    force: np.ndarray = np.asarray(model.function("inward_force")(states, p).full())[0]
+    return force

@@ -14,7 +14,7 @@ from ...generated.automaton import CLOSING, OPENING
 from ..model.model import Model
 from ..model.phases import Phase
 from ..scene.user_model import OwnEvent
-from .base import Certainty, Certificate, rests_for_good
+from .base import Certainty, Certificate, is_never_released
 from .energy_barrier import Barrier, EnergyCertificate
 from .quadrature import panels
 
@@ -37,7 +37,7 @@ class EnergyBesideEvents(EnergyCertificate):
     def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
         """The verdict; in motion nothing is shown for a lever arm with which angular momentum drifts."""
         if phase.resting:  # declared events are watched in motion only
-            return rests_for_good(self.model, phase) or self.rests(y)
+            return is_never_released(self.model, phase) or self.rests(y)
         ahead = self.ahead(y) if self.theorem else None
         if ahead is None:
             return False

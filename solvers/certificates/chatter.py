@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import CYCLES
+from ...generated.automaton import CYCLES, stays_below
 from ..model.phases import Phase
 from .base import Certificate, at_maximum, inward
 from .quadrature import panels
@@ -47,8 +47,9 @@ class ChatterCertificate(Certificate):
             return False
         pull = np.cumsum(panels(lambda x: inward(self.model, self.p, x, y), gaps))
         weight = np.cumsum(panels(lambda x: self._size(x, y), gaps))
-        return bool(np.any(pull > self.margin * weight))
+        return bool(np.any(stays_below(-pull, self.margin, weight)))
 
     def _size(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
         attraction = inward(self.model, self.p, gaps, y, 0.0)
-        return np.abs(attraction) + np.abs(attraction - inward(self.model, self.p, gaps, y))
+        size: np.ndarray = np.abs(attraction) + np.abs(attraction - inward(self.model, self.p, gaps, y))
+        return size

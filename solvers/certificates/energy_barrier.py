@@ -13,11 +13,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...generated.automaton import SAFETY
+from ...generated.automaton import SAFETY, is_below_barrier, rests_for_good
 from ..model.model import Model
 from ..model.phases import Phase
 from .approach import Approach, starts
-from .base import BEYOND, Certainty, Certificate, rests_for_good, states_at
+from .base import BEYOND, Certainty, Certificate, is_never_released, states_at
 from .floating import floats
 from .quadrature import panels
 
@@ -50,15 +50,12 @@ class EnergyCertificate(Certificate):
         self._searched = lru_cache(2)(lambda momenta: self._search(np.array([*start[:2], *momenta])))
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
-        return self._level(y, phase, SAFETY + BEYOND)
-
-    def _level(self, y: np.ndarray, phase: Phase, safety: float) -> float | None:
         ahead = self.ahead(y)
         if ahead is None:
             return None
         # constant along the trajectory, as the level must not depend on the event's own state
         scale = self.largest + abs(ahead.height)
-        return ahead.height - safety * self.rtol * scale - self._drift(y, phase, ahead.gap)
+        return ahead.height - (SAFETY + BEYOND) * self.rtol * scale - self._drift(y, phase, ahead.gap)
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
         if not phase.resting and floats(self.model, self.p, y, self.margin):
@@ -66,10 +63,13 @@ class EnergyCertificate(Certificate):
         return super().decided(y, phase, maxima)
 
     def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
-        if rests_for_good(self.model, phase) or (phase.resting and self.rests(y)):
+        if is_never_released(self.model, phase) or (phase.resting and self.rests(y)):
             return True
-        level = self._level(y, phase, SAFETY)
-        return (level is not None and self.energy(y) < level) or self._held_on_approach(y, phase)
+        if (ahead := self.ahead(y)) is not None:
+            drift = self._drift(y, phase, ahead.gap)
+            if is_below_barrier(self.energy(y), ahead.height, self.margin, self.largest, drift):
+                return True
+        return self._held_on_approach(y, phase)
 
     def _held_on_approach(self, y: np.ndarray, phase: Phase) -> bool:
         """True if the film takes enough energy from an approach from initial contact before it meets a criterion."""
@@ -95,7 +95,7 @@ class EnergyCertificate(Certificate):
         model = self.model
         if model.space:
             bound = self.values("resting_bound", y)
-            return bool(bound["inward"] - bound["outward"] > self.margin * bound["inward"])
+            return rests_for_good(bound["inward"] - bound["outward"], self.margin, bound["inward"])
         orbital_momentum = abs(self._rigid(y, float(y[0])))
         if model.reduced:  # a single slip, which decreases without changing sign: J stays between its ends
             orbital_momentum = max(abs(float(y[2])), orbital_momentum)
@@ -107,7 +107,7 @@ class EnergyCertificate(Certificate):
         held, still = (
             self.values("inward_force", self._turning(y, each))["inward_force"] for each in (orbital_momentum, 0.0)
         )
-        return bool(held > self.margin * still)
+        return rests_for_good(held, self.margin, still)
 
     def _kinetic(self, y: np.ndarray) -> float:
         return self.values("energies", y)["kinetic"]

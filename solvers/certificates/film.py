@@ -59,7 +59,9 @@ class FilmCertificate(Certificate):
 
     def _momentum_loss(self, grid: np.ndarray) -> np.ndarray:
         """Cumulative loss of u along a grid of gaps."""
-        losses: np.ndarray = np.concatenate([[0.0], np.cumsum(panels(self._resistance_at, grid))]) / self.stokes
+        losses: np.ndarray = (
+            np.concatenate([[0.0], np.cumsum(panels(self._resistance_at, grid))]) / self.groups["stokes"]
+        )
         return losses
 
     def _resistance_at(self, gaps: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...generated.automaton import stays_below
 from ..model.model import Model
 from .base import inward
 from .quadrature import panels
@@ -31,11 +32,11 @@ def floats(model: Model, p: np.ndarray, y: np.ndarray, margin: float) -> bool:
     if not edge < gap < end:
         return False
     inside = works(model, p, y, edge, gap)
-    if not kinetic + inside.sum() < -margin * (kinetic + np.abs(inside).sum()):
+    if not stays_below(kinetic + inside.sum(), margin, kinetic + np.abs(inside).sum()):
         return False
     larger = gap + (end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
     outside = panels(lambda gaps: inward(model, p, gaps, y), larger)
-    return bool(np.any(kinetic - np.cumsum(outside) < -margin * (kinetic + np.cumsum(np.abs(outside)))))
+    return bool(np.any(stays_below(kinetic - np.cumsum(outside), margin, kinetic + np.cumsum(np.abs(outside)))))
 
 
 def works(model: Model, p: np.ndarray, y: np.ndarray, start: float, end: float) -> np.ndarray:

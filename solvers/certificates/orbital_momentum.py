@@ -10,10 +10,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import CLOSING, STILL
+from ...generated.automaton import CLOSING, STILL, stays_below
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import Certainty, Certificate, at_maximum, inward, rests_for_good, states_at
+from .base import Certainty, Certificate, at_maximum, inward, is_never_released, states_at
 from .chatter import chatters
 from .quadrature import panels
 
@@ -53,7 +53,7 @@ class OrbitalMomentumCertificate(Certificate):
         return self.lever == "surface"
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        if self._drifts and not rests_for_good(self.model, phase):
+        if self._drifts and not is_never_released(self.model, phase):
             return Certainty.of(self.holds(y), self.theorem)
         return super().decided(y, phase, maxima)
 
@@ -94,7 +94,7 @@ class OrbitalMomentumCertificate(Certificate):
         size = abs(orbital_momentum) + np.abs(slips) * (4 + self.aspect * edges[1:]) ** 2
         turned = (self.obliquity**2 / 16) * size * np.where(exchanged > 0, np.abs(slips), 0.0)
         error = normal_velocity**2 + abs(normal_velocity) + 2 * np.abs(attraction) + np.abs(inward) + turned
-        return bool(np.any(needed < -self.margin * error))  # a comparison with NaN is false
+        return bool(np.any(stays_below(needed, self.margin, error)))
 
     def _margins(self, gaps: np.ndarray, y: np.ndarray, orbital_momentum: float) -> tuple[np.ndarray, np.ndarray]:
         """Slips at these gaps, and the energies that shear can transfer there."""

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...generated.automaton import comes_back
 from ..model.phases import Phase
 from .base import Certificate, at_maximum
 
@@ -33,5 +34,4 @@ class ReboundCertificate(Certificate):
         work = max(0.0, at_contact["inward"]) * (float(y[0]) - self.contact)
         far, near = (centres + aspect * gap for gap in (float(y[0]), self.contact))
         outward = (np.sqrt(here["outward"]) + np.sqrt(2 * work * aspect / far)) ** 2 * (far / near) ** 4
-        kept = self.groups["dry_restitution"] ** 2
-        return bool(outward < (1 - kept) * here["inward"] * (1 - self.margin))
+        return bool(comes_back(outward, (1 - self.groups["dry_restitution"] ** 2) * here["inward"], self.margin))

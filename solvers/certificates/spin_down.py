@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...generated.automaton import spins_down
 from ..model.model import Model
 from ..model.phases import Phase
 from .base import Certificate
@@ -22,8 +23,8 @@ class SpinDownCertificate(Certificate):
     """Certificate for oblique collisions with a film alone and no angular momentum, or none that shear reaches."""
 
     def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
-        if not y[0] >= self.contact * (1 - self.margin):
-            return False  # the margins assume a gap above solid contact; initial contact may lie below it
         margins, error = self.values("spin_down_margins", y), self.margin * max(self.groups["stokes"], 1.0)
-        dies_out = margins["momentum"] == 0 and margins["rate"] > 0 and margins["stays"] < -error
-        return dies_out or bool(y[2] == 0 and margins["inside"] < 0 and margins["apart"] < -error)
+        momentum, rate, stays, inside, apart = (
+            margins[name] for name in ("momentum", "rate", "stays", "inside", "apart")
+        )
+        return spins_down(y[0], self.contact, self.margin, momentum, rate, stays, error, y[2], inside, apart)

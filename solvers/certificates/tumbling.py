@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import TUMBLES
+from ...generated.automaton import tumbles_for_good
 from ..model.phases import Phase
 from .base import Certificate
 from .energy_barrier import EnergyCertificate
@@ -32,7 +32,5 @@ class TumblingCertificate(Certificate):
     def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
         rest, rigid = self.values("wobble", y)["wobble"], self.values("effective_potential", y)["energy"]
         ahead = self.beside.ahead(y)
-        if ahead is None or not rest < TUMBLES * rigid:
-            return False
-        margin = self.margin * (self.beside.largest + abs(ahead.height))
-        return bool(rest + rigid + self.beside.work(y) < ahead.height - margin)
+        work, largest = self.beside.work(y), self.beside.largest
+        return ahead is not None and tumbles_for_good(rest, rigid, work, ahead.height, self.margin, largest)

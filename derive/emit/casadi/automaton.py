@@ -29,6 +29,7 @@ def automaton_digest() -> str:
         "ACTIONS",
         "EVENTS",
         "RULES",
+        "PROOFS",
         "OUTCOMES",
         "STATUSES",
         "PURPOSES",
@@ -93,12 +94,11 @@ def _numbers(name: str, doc: str, members: Sequence[tuple[str, str]]) -> list[st
 
 
 def _tests() -> list[str]:
-    """Functions of the conditions of the rules."""
-    lines = []
-    for rule in automaton.RULES:
-        for name, meaning, test in rule.tests:
-            passed = ", ".join(f"{each}: float" for each in automaton.arguments(test))
-            lines += ["", f"def {name}({passed}) -> bool:", f'    """True if {meaning}."""', f"    return {test}", ""]
+    """Functions of the conditions of the rules, and of the inequalities of stick proofs."""
+    lines, proofs = [], [(each.name, each.meaning, each.test) for each in automaton.PROOFS]
+    for name, meaning, test in (*(test for rule in automaton.RULES for test in rule.tests), *proofs):
+        passed = ", ".join(f"{each}: float" for each in automaton.arguments(test))
+        lines += ["", f"def {name}({passed}) -> bool:", f'    """True if {meaning}."""', f"    return {test}", ""]
     return lines
 
 

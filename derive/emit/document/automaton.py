@@ -58,6 +58,15 @@ def automaton_page(provenance: str) -> str:
         "",
         "A collision also ends where a certificate excludes separation; the stick is then `certified`.",
     ]
+    lines += [
+        "",
+        "## Stick proofs",
+        "",
+        "The inequalities by which certificates exclude separation; the margins in them are",
+        "explained in [certificates](../explanation/certificates.md).",
+        "",
+    ]
+    lines += _table(("inequality", "holds where"), [(f"`{each.test}`", each.meaning) for each in automaton.PROOFS])
     lines += ["", "## Outcomes", ""]
     outcomes = [(f"`{each.word}`", str(k), each.condition) for k, each in enumerate(automaton.OUTCOMES)]
     lines += _table(("outcome", "number", "condition"), outcomes)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterable, Sequence
 
 from ...equations import automaton
@@ -65,6 +66,26 @@ def automaton_header(provenance: str, own: Sequence[Event] = (), meanings: Seque
             lines += ["", *comment(f"Whether {meaning}.")]
             lines += function(f"static inline int {name}({passed})", [f"return {test};"])
     return "\n".join([*lines, "", "#endif"]) + "\n"
+
+
+def proofs_header(provenance: str) -> str:
+    """Text of `generated/taylor/proofs.h`: the inequalities of stick proofs, in all lanes at once."""
+    lines = comment(f"{provenance}\n\nInequalities of stick proofs. Included where `vec` and `mask` are known.")
+    for each in automaton.PROOFS:
+        passed = ", ".join(
+            f"{'double' if name == 'margin' else 'vec'} {name}" for name in automaton.arguments(each.test)
+        )
+        body = [f"return {_in_lanes(ast.parse(each.test, mode='eval').body)};"]
+        lines += ["", *comment(f"Lanes in which {each.meaning}.")]
+        lines += function(f"static inline mask {each.name}({passed})", body)
+    return "\n".join(lines) + "\n"
+
+
+def _in_lanes(node: ast.expr) -> str:
+    if isinstance(node, ast.BoolOp):
+        joined = (" & " if isinstance(node.op, ast.And) else " | ").join(map(_in_lanes, node.values))
+        return f"({joined})"
+    return f"({ast.unparse(node).replace('abs(', 'vec_abs(').replace(' * ', '*')})"
 
 
 def criteria_header(provenance: str) -> str:

@@ -1,11 +1,11 @@
-/* The certificate of a model, chosen as in solvers/certificates/choice.py `proof_for`, and the lanes in which it holds.
- * */
+/* The certificate of a model, chosen as in solvers/certificates/choice.py, and the lanes in which it holds. */
 #pragma once
 
 #include "automaton.h"
 #include "criteria.h"
 #include "energy_barrier.h"
 #include "own_events.h"
+#include "proofs.h"
 
 #define TURNS (OBLIQUE && !WALL)
 #define PROOF_BY_ENERGY (TURNS ? ATTRACTS && !STRINGS : ATTRACTS || STRINGS)
@@ -164,12 +164,9 @@ static mask held_at_turn(const constants *c, const vec *y, mask asked, double to
  */
 static mask held_by_attraction(const constants *c, const vec *y, double tolerance)
 {
-    double margin = SAFETY*tolerance;
-    vec hold, escape, rebound;
+    vec hold, escape, rebound, energy = vec_larger(y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY], splat(1.0));
     attraction_margins(c, y, &hold, &escape, &rebound);
-    vec energy = vec_larger(y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY], splat(1.0));
-    mask outside = y[GAP] >= contact_gap(c)*(1.0 - margin);
-    return outside & (hold > 0.0) & (rebound < -margin*hold) & (escape < -margin*energy);
+    return attraction_holds(y[GAP], contact_gap(c), SAFETY*tolerance, hold, rebound, escape, energy);
 }
 #endif
 
@@ -183,13 +180,13 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
  */
 static inline mask spun_down(const constants *c, const vec *y, mask asked, double tolerance)
 {
-    mask still = y[ORBITAL_MOMENTUM] == 0.0, none = c->first_momentum == 0.0;
-    asked &= (none | still) & (y[GAP] >= contact_gap(c)*(1.0 - SAFETY*tolerance));
+    asked &= (c->first_momentum == 0.0) | (y[ORBITAL_MOMENTUM] == 0.0);
     if (!bits(asked))
         return asked;
     vec stays, rate, apart, inside, error = SAFETY*tolerance*vec_larger(c->stokes, splat(1.0));
     spin_down_margins(c, y, &stays, &rate, &apart, &inside);
-    return asked & ((none & (rate > 0.0) & (stays < -error)) | (still & (inside < 0.0) & (apart < -error)));
+    return asked & spins_down(y[GAP], contact_gap(c), SAFETY*tolerance, c->first_momentum, rate, stays, error,
+        y[ORBITAL_MOMENTUM], inside, apart);
 }
 #endif
 
@@ -214,23 +211,23 @@ static inline mask spun_down(const constants *c, const vec *y, mask asked, doubl
 /* Whether the test of chatter is a proof. */
 #define CHATTER_PROVES (SPACE || (ORBITAL_MARGINS && !STRINGS))
 
-#define RESTS_FOR_GOOD (TURNS && ATTRACTS && !STRINGS)
-#if RESTS_FOR_GOOD
+#define HELD_AT_REST (TURNS && ATTRACTS && !STRINGS)
+#if HELD_AT_REST
 #if SPACE
 /* Resting contact that persists: the slip energy never grows, which bounds the orbital momentum for good. */
-static mask rests_for_good(const constants *c, const vec *y, double tolerance)
+static mask held_at_rest(const constants *c, const vec *y, double tolerance)
 {
     vec bound[2]; /* outward, inward */
     resting_bound(c, y, bound);
-    return bound[1] - bound[0] > SAFETY*tolerance*bound[1];
+    return rests_for_good(bound[1] - bound[0], SAFETY*tolerance, bound[1]);
 }
 #else
 /* Resting contact that persists while the slip decays: |J| exceeds that of rigid rotation by no more than the slip
  * energy allows, or by twice that where angular momentum drifts (solvers/certificates/energy_barrier.py `rests`).
  */
-static mask rests_for_good(const constants *c, const vec *y, double tolerance)
+static mask held_at_rest(const constants *c, const vec *y, double tolerance)
 {
-    vec margin = splat(SAFETY*tolerance), momentum = vec_abs(rigid_momentum(c, y)), there[STATES];
+    vec momentum = vec_abs(rigid_momentum(c, y)), there[STATES];
     memset(there, 0, sizeof there);
     there[GAP] = y[GAP];
 #if OWN_EVENTS
@@ -251,7 +248,7 @@ static mask rests_for_good(const constants *c, const vec *y, double tolerance)
     there[ORBITAL_MOMENTUM] = splat(0.0);
     vec still = inward_force(c, there);
     there[ORBITAL_MOMENTUM] = momentum;
-    return inward_force(c, there) > margin*still;
+    return rests_for_good(inward_force(c, there), SAFETY*tolerance, still);
 }
 #endif
 #endif
@@ -265,9 +262,9 @@ static inline mask proved_sticks(
 #if PROOF_BY_ENERGY
     proved |= below_barrier(c, y, b, resting, tolerance);
 #endif
-#if RESTS_FOR_GOOD
+#if HELD_AT_REST
     if (bits(resting))
-        proved |= resting & rests_for_good(c, y, tolerance);
+        proved |= resting & held_at_rest(c, y, tolerance);
 #endif
 #if PROOF_BY_FILM
     proved |= NOT(resting) & stopped_by_film(c, y, contact, closing, tolerance);
@@ -293,8 +290,7 @@ static inline mask proved_sticks(
 static mask tumbles(const constants *c, const vec *y, const barrier *b, double tolerance)
 {
     vec rest = wobble(c, y), rigid = potential_energy(c, y), height = height_ahead(y, b);
-    vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
-    return (rest < TUMBLES*rigid) & (rest + rigid + work_done(c, y, b) < height - margin);
+    return tumbles_for_good(rest, rigid, work_done(c, y, b), height, SAFETY*tolerance, b->largest);
 }
 #endif
 

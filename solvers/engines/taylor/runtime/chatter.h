@@ -34,7 +34,7 @@ static mask floating(const lanes *l, const fixed *f, double tolerance)
         work += part*half;
         size += vec_abs(part*half);
     }
-    return asked & (work < -SAFETY*tolerance*size);
+    return asked & stays_below(work, SAFETY*tolerance, size);
 }
 #endif
 
@@ -53,8 +53,8 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
     vec centres = (1.0 + c->radius_ratio)*(1.0 + c->radius_ratio)/c->radius_ratio;
     vec far = centres + c->aspect*y[GAP], near = centres + c->aspect*contact, ratio = (far/near)*(far/near);
     vec sum = vec_sqrt(here[0]) + vec_sqrt(2.0*work*c->aspect/far);
-    vec left = (1.0 - c->dry_restitution*c->dry_restitution)*here[1]*(1.0 - SAFETY*tolerance);
-    return (contact > 0.0) & (contact < y[GAP]) & (sum*sum*ratio*ratio < left);
+    vec lost = (1.0 - c->dry_restitution*c->dry_restitution)*here[1];
+    return (contact > 0.0) & (contact < y[GAP]) & comes_back(sum*sum*ratio*ratio, lost, SAFETY*tolerance);
 }
 #else
 enum { AHEAD = 48 }; /* gaps ahead at which the margin is evaluated */
@@ -152,7 +152,7 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
         vec size = vec_abs(from[ORBITAL_MOMENTUM]) + slip*distance*distance;
         vec turned = c->obliquity*c->obliquity*(1.0/16.0)*size*only(gained > 0.0, slip);
         vec error = u*u + vec_abs(u) + 2.0*vec_abs(attraction) + vec_abs(inward) + turned;
-        held |= 0.5*u*u - inward + gained < -SAFETY*tolerance*error;
+        held |= stays_below(0.5*u*u - inward + gained, SAFETY*tolerance, error);
     }
     return asked & held;
 }
@@ -171,7 +171,7 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
         pulled += pull;
         weight += vec_abs(still) + vec_abs(still - pull);
         low = high;
-        held |= pulled > SAFETY*tolerance*weight;
+        held |= stays_below(-pulled, SAFETY*tolerance, weight);
     }
     return asked & held;
 }

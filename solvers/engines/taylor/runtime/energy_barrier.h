@@ -8,6 +8,7 @@
 #include "automaton.h"
 #include "friction.h"
 #include "model.h"
+#include "proofs.h"
 
 #define ATTRACTS (BRIDGE || ATTRACTION)
 #if !defined(BY_ORBITAL_MOMENTUM) /* the structure does not have the orbital-momentum certificate */
@@ -242,8 +243,8 @@ static inline mask below(const constants *c, const vec *y, const barrier *b, vec
     one[GAP] = y[GAP];
     one[ORBITAL_MOMENTUM] = splat(1.0);
     vec drift = 4.0*stored_energy(c, one)*vec_larger(vec_abs(y[ORBITAL_MOMENTUM]), vec_abs(rigid))*lost;
-    vec height = work + energy_at(c, y, gap), margin = SAFETY*tolerance*(b->largest + vec_abs(height));
-    return (gap > y[GAP]) & (stored_energy(c, y) + work_done(c, y, b) < height - margin - drift);
+    vec height = work + energy_at(c, y, gap), energy = stored_energy(c, y) + work_done(c, y, b);
+    return (gap > y[GAP]) & is_below_barrier(energy, height, SAFETY*tolerance, b->largest, drift);
 }
 
 static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
@@ -255,10 +256,9 @@ static inline mask below_barrier(const constants *c, const vec *y, const barrier
 /* Lanes whose mechanical energy is below the barrier ahead by more than its error. */
 static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
 {
-    vec height = height_ahead(y, b);
-    vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
+    vec energy = stored_energy(c, y) + work_done(c, y, b); /* the height is NaN without a barrier */
     (void)rests;
-    return stored_energy(c, y) + work_done(c, y, b) < height - margin; /* false without a barrier (NaN) */
+    return is_below_barrier(energy, height_ahead(y, b), SAFETY*tolerance, b->largest, splat(0.0));
 }
 #endif
 #endif

@@ -199,8 +199,7 @@ static mask own_events_due(const lanes *l, const fixed *f, mask *event)
     return due;
 }
 #endif /* OWN_EVENTS */
-/* Rebound in the lanes of `asked`, which start a closing phase, if a criterion is met already: the first in the table.
- * */
+/* Rebound by the first criterion of the table that is met already, in these lanes, which start a closing phase. */
 static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
 {
     unsigned glass = bits(asked & (glass_clearance(&f->c, l->y) <= 0.0));
