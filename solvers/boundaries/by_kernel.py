@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES, ROTATE, STICK, EventKind, Purpose, Status
+from ..collision.by_kernel import words_of
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.endless import limits
 from ..engines.taylor.record import Recorded, Steps, run_recorded
@@ -27,6 +28,8 @@ _ZOOMS = 4
 _EARLIER = 5  # the last state of chatter is compared with the state after this fraction (1/n) of its steps
 
 
+Happenings = list[tuple[str, float]]
+"""Events of a collision, their words and times (x0/v0)."""
 LOOK = np.dtype(
     [
         ("outcome", "i1"),  # 0 stick, 1 stick-rotate-separate, 2 bounce, -1 not completed by the kernel
@@ -105,6 +108,21 @@ def looked(
             _take_limits(part, impacts, answers, oblique, rtol, budget)
         found[which] = part
     return found
+
+
+def happenings(
+    scene: Scene, speed: np.ndarray, angle: float, rtol: float, budget: int = LOOK_BUDGET
+) -> list[Happenings] | None:
+    """The events of collisions at normal speeds (m/s) and an angle (rad); None if one is not completed."""
+    impacts = Impacts(scene, speed, np.full(speed.size, angle), {})
+    recorded = run_recorded(
+        impacts, scene.turns(angle), rtol, trajectory=True, budget=budget, keep=False, fold=False
+    )  # fmt: skip
+    if recorded is None or (recorded.answers["status"] > LAST_ANSWER).any():
+        return None
+    words = words_of(scene)
+    rows = [log[:count] for log, count in zip(recorded.events, recorded.answers["events"], strict=True)]
+    return [[(words[int(row["kind"])], float(row["time"])) for row in own] for own in rows]
 
 
 def _take_limits(

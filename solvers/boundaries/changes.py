@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
+from ...generated.automaton import BOUNCE, CRITERIA, OUTCOMES, ROTATE, STICK
 from ..errors import ComputationError
+from ..scene.contact import GAPS
 from .line import Line
 from .look import Look
 from .roots import Function, root, sample
@@ -27,6 +28,7 @@ _LOCATED = 1e-8  # the same for one located by a smooth function; otherwise it i
 _NARROW = 2e-9  # width in ln St to which outcomes bracket a change
 _ROUNDS = 48  # rounds of dividing brackets; 16 suffice where every collision is decided
 _PARTS = 16  # most subdivisions of a bracket in a round
+_TOGETHER = 0.1  # part of a phase within which contact and a turning point just above it happen
 _AT_ONCE = 16  # collisions of a round that are worth waiting for together: two for each lane of the kernel
 
 
@@ -334,28 +336,33 @@ def _enclosed_change(one: _Bracket) -> Change:
 
 
 def _kind(one: _Bracket) -> str:
-    """Kind of a change from its narrow bracket."""
-    if one.line.model.own_events:
-        return _kind_beside_events(one)
-    if STICK not in (one.before, one.after):
-        return GRAZE
-    stuck, at = (one.met[0], one.low) if one.before == STICK else (one.met[1], one.high)
-    rebounds = stuck >= 0 or (BOUNCE in (one.before, one.after) and one.line.criterion(at) >= 0)
-    if BOUNCE in (one.before, one.after):
-        return REVERSED if rebounds else GRAZE
-    return GRAZE if rebounds else FREE
-
-
-def _kind_beside_events(one: _Bracket) -> str:
-    """Kind of a change where a model declares events: named by the first that happens on one side only."""
-    sides = [one.line.words(stokes) for stokes in (one.low, one.high)]
+    """Kind of a change from its narrow bracket: by what happens first on one of its sides only."""
     declared = [each.word for each in one.line.model.own_events]
-    for word in (word for side in sides for word in side if word in declared):
-        if (word in sides[0]) != (word in sides[1]):
-            return f"{DECLARED} {word}"
-    if (one.met[0] < 0) != (one.met[1] < 0):
+    if STICK not in (one.before, one.after) and not declared:
         return GRAZE
-    return FREE if one.met[0] < 0 else REVERSED
+    try:
+        low, high = one.line.happenings(one.low, one.high)
+    except ComputationError:
+        return PLAIN
+    words = [[word for word, _ in side] for side in (low, high)]
+    for word in (word for side in words for word in side if word in declared):
+        if (word in words[0]) != (word in words[1]):
+            return f"{DECLARED} {word}"
+    k = next((k for k, (a, b) in enumerate(zip(*words)) if a != b), min(len(low), len(high)))
+    begin = low[k - 1][1] if k else 0.0
+    ends = [side[k] for side in (low, high) if len(side) > k]
+    if any(_just_met(word, time - begin, [other - begin for _, other in ends]) for word, time in ends):
+        return GRAZE
+    return REVERSED if any(word in CRITERIA for word in words[0][:k]) else FREE
+
+
+def _just_met(word: str, time: float, times: list[float]) -> bool:
+    """True if an event of one side only is a rebound criterion that is just met.
+
+    Contact is just met where the other side turns, at the same time. Where a saddle parts both sides, one is drawn into
+    contact, at another time.
+    """
+    return word in CRITERIA and not (word in GAPS and max(times) - min(times) > _TOGETHER * time)
 
 
 def _demand_agreement(changes: list[Change], samples: np.ndarray) -> None:

@@ -30,7 +30,7 @@ from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
 from ..settings import RTOL
 from . import by_kernel
-from .by_kernel import Escaping
+from .by_kernel import Escaping, Happenings
 from .resampled import resampled
 from .saddle import barrier_of, saddle_of
 
@@ -89,12 +89,17 @@ class Line:
     def model(self) -> Model:
         return load(select_model(self.scene, self.scene.turns(self.angle)))
 
-    def words(self, stokes: float) -> list[str]:
-        """What happens at a Stokes number, in order."""
-        self.collisions += 1
-        return (
-            EventLocator(self.model, self.numbers(stokes).groups, self.rtol, machine_code=self.machine_code).run().kinds
-        )
+    def happenings(self, *stokes: float) -> list[Happenings]:
+        """What happens at Stokes numbers: words and times (x0/v0)."""
+        self.collisions += len(stokes)
+        speeds = np.array([float(self.scene.speed_of(each)) for each in stokes])
+        found = by_kernel.happenings(self.scene, speeds, self.angle, self.rtol) if self.kernel else None
+        return found or [self._happening(each) for each in stokes]
+
+    def _happening(self, stokes: float) -> Happenings:
+        path = EventLocator(self.model, self.numbers(stokes).groups, self.rtol, machine_code=self.machine_code).run()
+        times = np.cumsum([step.duration for step in path.steps]).tolist()
+        return [(kind, time) for step, time in zip(path.steps, times, strict=True) for kind in step.kinds]
 
     def criterion(self, stokes: float) -> float:
         """Logarithm of the larger of maximum pressure over p_gt and contact gap over smallest gap, of the approach.

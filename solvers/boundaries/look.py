@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...generated.automaton import KINDS, OUTCOMES, Purpose
-from ..engines.casadi.locate import EventLocator
+from ..engines.casadi.locate import CHATTERS, EventLocator
 from ..engines.choice import collision_engine
 from ..errors import ComputationError, InputError
 from ..model.dimensionless import nondimensionalise
@@ -91,9 +91,11 @@ class Look:
     def _give_up(self, angle: float, stokes: float, told: np.void) -> None:
         n = nondimensionalise(self.scene, self.scene.speed_of(stokes), angle)
         self.reasons[angle, stokes] = (
-            f"{KERNEL_STEPS} steps do not decide the outcome: {told['events']} events by "
+            f"the doublet rebounds again and again: {KERNEL_STEPS} steps do not decide the outcome, "
+            f"{told['events']} events by "
             f"t = {told['time'] * n.time:.6g} s, "
-            f"now at a gap of {told['final_gap'] * n.length:.6g} m; try another --rtol, or a collision further off"
+            f"now at a gap of {told['final_gap'] * n.length:.6g} m, {CHATTERS}; "
+            "try another --rtol, or a collision further off"
         )
 
     def reason(self, angle: float, low: float, high: float) -> str:

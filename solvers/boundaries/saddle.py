@@ -59,23 +59,26 @@ class Saddle:
 
 def saddle_of(probe: EventLocator, barrier: Barrier) -> Saddle | None:
     """The saddle at a barrier for the trajectory's angular momentum; None without a growing mode."""
-    saddle = _saddle_state(probe, barrier, probe.y[: len(probe.model.state)])
     # an escaping doublet passes it while opening
     film = int(barrier.gap < 1 or not probe.model.edged)
     region = Region(film, int(barrier.gap < probe.edge), False, probe.model.cavitates)
-    matrix = np.asarray(_jacobian(probe.model, region)(saddle, probe.p).full())
+    return saddle_at(probe.model, barrier.gap, probe.y[: len(probe.model.state)], probe.p, region)
+
+
+def saddle_at(model: Model, gap: float, y: np.ndarray, p: np.ndarray, region: Region) -> Saddle | None:
+    """The saddle at a gap: rigid rotation with the angular momentum of a state; None without a growing mode.
+
+    Where the tangential force is cut off, nothing drives a doublet to rigid rotation: it is at rest in its gap.
+    """
+    rest = np.concatenate([[gap, 0.0], y[2:]])
+    rigid = np.array(list(model.values("rigid_rotation", rest, p).values())) if region.shear else rest
+    matrix = np.asarray(_jacobian(model, region)(rigid, p).full())
     values, vectors = np.linalg.eig(matrix)
     unstable = int(np.argmax(values.real))
     if values[unstable].real <= 0 or vectors[0, unstable] == 0:
         return None
     shapes = vectors / np.where(vectors[0] == 0, 1, vectors[0])
-    return Saddle(barrier.gap, saddle, np.linalg.inv(shapes), values, unstable)
-
-
-def _saddle_state(probe: EventLocator, barrier: Barrier, y: np.ndarray) -> np.ndarray:
-    """Rigid rotation at the barrier's gap with the state's angular momentum."""
-    at_barrier = np.concatenate([[barrier.gap], y[1:]])
-    return np.array(list(probe.model.values("rigid_rotation", at_barrier, probe.p).values()))
+    return Saddle(gap, rigid, np.linalg.inv(shapes), values, unstable)
 
 
 @own_cache(128)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Collection
 
+from ...generated.automaton import MOST_OBLIQUE
+from ..model.dimensionless import nondimensionalise
 from ..scene.groups import scaled
 from ..scene.scene import Scene
 
@@ -12,11 +14,14 @@ STOKES = (1e-4, 100.0)  # least range of Stokes numbers that is searched
 _ROOM = 3.0  # factor beyond the closed forms, which are exact head-on only
 _FARTHEST = 12  # most decades from St 1; collisions beyond it are not worth their time
 _SOFTEST = 1e-3  # dry restitution below which rebounds no longer matter
+_CLEAR = 1.1  # factor of the Stokes number beyond which the rotation does not reverse the approach within rounding
 _SHALLOW = 0.5  # of the film: a straight line that comes no nearer meets criteria near initial contact only
 
 
-def stokes_range(scene: Scene, angles: Iterable[float]) -> tuple[float, float]:
+def stokes_range(scene: Scene, angles: Collection[float]) -> tuple[float, float]:
     """Lowest and highest Stokes number of a search at angles (rad): `STOKES`, or more where the scene asks for it.
+
+    Where spins reverse the slowest approaches within rounding of the film thickness, it begins above them.
 
     Head-on, a rebound at the roughness escapes the film from St = (1 + 1/e) ln(x0/x_b) on, and attraction at a speed
     whose energy exceeds its work. Faster than a criterion is met at initial contact, nothing else changes.
@@ -37,7 +42,18 @@ def stokes_range(scene: Scene, angles: Iterable[float]) -> tuple[float, float]:
             lows.append(scene.stokes_of(math.sqrt(pull * a / m) / math.tan(angle)))
     low = max(math.floor(math.log10(min(*lows, 1.0) / _ROOM)), -_FARTHEST)
     high = min(math.ceil(math.log10(max(1.0, *(each for each in highs if each < math.inf)) * _ROOM)), _FARTHEST)
-    return min(10.0**low, STOKES[0]), max(10.0**high, STOKES[1])
+    lowest, highest = min(10.0**low, STOKES[0]), max(10.0**high, STOKES[1])
+    return lowest * max([1.0, *(_reversing(scene, lowest, angle) for angle in angles)]), highest
+
+
+def _reversing(scene: Scene, stokes: float, angle: float) -> float:
+    """Factor of a Stokes number below which the rotation reverses the approach within rounding, and nothing is decided.
+
+    So slow an impact turns by its spins alone: the centrifugal force over m v0^2/x0 is proportional to St^-2.
+    """
+    groups = nondimensionalise(scene, float(scene.speed_of(stokes)), angle).groups
+    force = groups["obliquity"] ** 2 * groups["aspect"] / 16
+    return _CLEAR * math.sqrt(force / MOST_OBLIQUE)
 
 
 def _at_contact(scene: Scene) -> float:

@@ -134,11 +134,15 @@ def expressions(flow: Flow) -> Expressions:
 
 
 def extra_units(model: Model, names: Sequence[str], p: Any) -> list[Any]:
-    """Units of a flow's extras in a ledger's m v0^2, for groups `p`: an energy that is lost in 1 + obliquity^2 of them.
+    """Units of a flow's extras in a ledger's m v0^2, for groups `p`.
 
-    Entries of an implicit integrator's matrix that are much larger than those of the motion spoil the motion's digits.
+    That of an energy that is lost is the sum of the approach, the sliding, and the work of the strings over x0. Entries
+    of an implicit integrator's matrix that are much larger than those of the motion spoil the motion's digits.
     """
-    lost = 1 + p[list(model.groups).index("obliquity")] ** 2 if "obliquity" in model.groups else 1.0
+    group = {name: p[k] for k, name in enumerate(model.groups)}
+    lost = 1 + group.get("obliquity", 0.0) ** 2
+    if model.strings:
+        lost += group["weight"] * group["aspect"] / group["string_ratio"]
     return [1.0 if name == "rotation" or name in model.works else lost for name in names]
 
 

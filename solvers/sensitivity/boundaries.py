@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..boundaries.boundary import Boundaries, boundary
-from ..boundaries.changes import Change
+from ..boundaries.changes import Change, changes_along
+from ..boundaries.line import Line
+from ..boundaries.look import Look
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function
 from ..scene.scene import Scene
-from ..scene.schema import SPEEDS
+from ..scene.schema import DEFAULTS, FIELDS, SPEEDS
 from ..settings import RTOL, check_rtol
 from .boundary_slope import slope
 from .parameters import check_wrt, kind_of, parameter_map, references
@@ -27,6 +29,9 @@ if TYPE_CHECKING:
 
 _OF = ("stokes", "speed", "relative_speed", "centrifugal")
 _SYMBOLS = {"stokes": "St*", "speed": "v*", "centrifugal": "Ce*"}
+_STEPS = (1e-3, 1e-4)  # in theta, at which derivatives are confirmed; the second where the boundary is strongly curved
+_REACH = 3e-3  # in ln St, about where it is expected
+_AGREES = 1e-4  # largest error of the confirmed derivative, in ln St per theta
 _SHARPEST = 1e-11  # tolerance of the differentiated trajectories, which pass the saddle
 
 
@@ -248,8 +253,6 @@ def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], r
         found = slope(scene, angle, change, min(rtol, _SHARPEST))
     except ComputationError as error:
         return Moving(change, reason=str(error))
-    if found is None:
-        return Moving(change, reason="no smooth function of its own: not differentiated")
     kind = kind_of(scene, "stokes")
     everything = (*names, "impact.stokes")
     via = parameter_map(kind, everything, found.groups)
@@ -259,6 +262,9 @@ def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], r
     if in_theta[-1] == 0:
         return Moving(change, reason="it does not depend on the Stokes number")
     along = -in_theta[:-1] / in_theta[-1]  # d ln St*/dtheta
+    steps = dict(zip(names, units.ravel().tolist(), strict=False))
+    if contradiction := _contradicted(scene, angle, change, steps, along, rtol):
+        return Moving(change, reason=contradiction)
     speed = scene.speed_of(change.stokes)
     values = {"stokes": change.stokes, "speed": speed, "relative_speed": speed / math.cos(angle)}
     groups: tuple[str, ...] = ("speed",)
@@ -279,3 +285,79 @@ def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], r
             for of, value in values.items()
         },
     )
+
+
+def _contradicted(
+    scene: Scene, angle: float, change: Change, units: dict[str, float], along: np.ndarray, rtol: float
+) -> str:
+    """The reason why changes located beside the reference contradict the derivatives; empty if they agree.
+
+    All parameters are moved at once, up and down, by parts that move the change by different amounts.
+
+    Arguments:
+        units: dp/dtheta of the parameters.
+        along: d ln St*/dtheta.
+    """
+    weights = {
+        name: (-1) ** k * (1 + k % 3 / 4) / (1 + abs(slope_))
+        for k, (name, slope_) in enumerate(zip(units, along.tolist()))
+        if _varies(scene, angle, name, units[name])
+    }
+    expected = sum(along[list(units).index(name)] * weight for name, weight in weights.items())
+    reason = ""
+    for step in _STEPS:
+        ends = []
+        for side in (-step, step) if weights else ():
+            moves = {name: side * weight * units[name] for name, weight in weights.items()}
+            try:
+                ends.append(_moved(scene, angle, change, moves, side * expected, rtol))
+            except (ComputationError, InputError) as error:
+                reason = f"the change beside it could not be located ({error}): its derivatives are not confirmed"
+                break
+        else:
+            measured = (ends[1] - ends[0]) / (2 * step) if ends else expected
+            if abs(measured - expected) < _AGREES:
+                return ""
+            reason = (
+                f"its derivatives are contradicted by collisions: moved parameters change ln St* by {measured:.6g}, "
+                f"predicted {expected:.6g}"
+            )
+    return reason
+
+
+def _varies(scene: Scene, angle: float, name: str, unit: float) -> bool:
+    """True if a parameter can be moved up and down."""
+    try:
+        for side in (-2 * _STEPS[0], 2 * _STEPS[0]):
+            _beside(scene, angle, {name: side * unit})
+    except InputError:
+        return False
+    return True
+
+
+def _beside(scene: Scene, angle: float, moves: dict[str, float]) -> tuple[Scene, float]:
+    """The scene with entries changed by amounts (SI), and the angle (rad)."""
+    values = DEFAULTS | dict(scene.entries)
+    changed = {name: float(values[name]) + move for name, move in moves.items() if name != "impact.angle"}
+    angle += moves.get("impact.angle", 0.0)
+    FIELDS["impact.angle"].number(angle)
+    return scene.with_entries(changed), angle
+
+
+def _moved(scene: Scene, angle: float, change: Change, moves: dict[str, float], expected: float, rtol: float) -> float:
+    """Logarithm of St* over that of the change, for changed entries, located about where it is expected.
+
+    Raises:
+        ComputationError: it is not there.
+    """
+    aside, angle = _beside(scene, angle, moves)
+    stokes = change.stokes * np.exp(expected + _REACH * np.linspace(-1, 1, 6))
+    look, line = Look(aside, rtol), Line(aside, angle, rtol)
+    [found] = changes_along([line], look, [look(np.full(stokes.size, angle), stokes)])
+    if isinstance(found, ComputationError):
+        raise found
+    same = [math.log(one.stokes / change.stokes) for one in found
+            if (one.before, one.after) == (change.before, change.after)]  # fmt: skip
+    if not same:
+        raise ComputationError("it is not where the derivatives predict it")
+    return min(same, key=lambda each: abs(each - expected))

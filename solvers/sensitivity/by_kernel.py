@@ -149,7 +149,7 @@ def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float,
     if not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
     impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
-    found = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharpened(rtol, near), order_for(rtol))
+    found = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharpened(rtol, near, path), order_for(rtol))
     if found is None:
         return None
     answer = found.run.answers[0]

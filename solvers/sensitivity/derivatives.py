@@ -14,6 +14,8 @@ from .trajectory_expression import TrajectoryExpression
 # Largest landing step relative to its phase. The error of a first derivative is the square of the step times the
 # amplification, near a saddle one over the distance; the error of a second derivative is linear in the step.
 LANDED, LANDED_WELL = 3e-7, 1e-10
+# The same in x0/v0, for long phases: what creeps to its event changes by as much in a step however long it took.
+_LONG, _ROUNDED = 1e-5, 1e-13
 _TRIES = 8
 
 
@@ -76,6 +78,11 @@ def _symbols(expression: TrajectoryExpression) -> tuple[MX, MX, MX, MX]:
     return p, durations, z, shifts
 
 
+def lands(shifts: np.ndarray, durations: np.ndarray, within: float) -> bool:
+    """True if landing steps relative to their phases (of these durations) are within a part, and short in x0/v0."""
+    return bool(np.all(np.abs(shifts) <= np.minimum(within, np.maximum(_LONG / durations, _ROUNDED))))
+
+
 def settled(
     expression: TrajectoryExpression, p: np.ndarray, durations: np.ndarray, landed: np.ndarray, within: float
 ) -> np.ndarray:
@@ -87,12 +94,15 @@ def settled(
     Raises:
         IntegrationFailed: the engine's solution misses an event.
     """
-    durations = durations.copy()
+    durations, settles = durations.copy(), False
     for _ in range(_TRIES):
         shifts = evaluate(expression.function, p, durations)[1].ravel()
-        if shifts.size == 0 or np.max(np.abs(shifts)) <= within:
+        if lands(shifts, durations[landed], within):
             return durations
         if np.max(np.abs(shifts)) > 0.5:
             break
+        settles = np.max(np.abs(shifts)) <= within
         durations[landed] *= 1 + shifts
+    if settles:  # as well as the tolerance lets it
+        return durations
     raise IntegrationFailed("its solution misses an event of the located trajectory")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .derivatives import LANDED, LANDED_WELL, adjoint, curvature, evaluate, forward, settled
+from .derivatives import LANDED, LANDED_WELL, adjoint, curvature, evaluate, forward, lands, settled
 from .trajectory_expression import Course, TrajectoryExpression
 
 Active = list[bool]
@@ -38,7 +38,7 @@ def differentiated(
     if amplified:
         durations = settled(whole, p, durations, landed(course), LANDED_WELL)
     z, shifts, dz = _once(whole, p, durations, dp, active, method)
-    if shifts.size and np.max(np.abs(shifts)) > LANDED:
+    if not lands(shifts, durations[landed(course)], LANDED):
         durations = settled(whole, p, durations, landed(course), LANDED_WELL)
         z, _, dz = _once(whole, p, durations, dp, active, method)
     return durations, z, dz

@@ -194,7 +194,7 @@ def _one(asked: _Asked, pair: Pairs, rtol: float) -> tuple[int, tuple[np.ndarray
     near = checked_by_estimates(finder, path, rtol)
     course = course_of(path, model.choice)
     active = influential(course, n.groups)
-    expression = _end(course, tolerance_for(sharpened(rtol, near), "rosenbrock", n.groups))
+    expression = _end(course, tolerance_for(sharpened(rtol, near, path), "rosenbrock", n.groups))
     durations = np.array([step.duration for step in path.steps])
     dp = dp * np.array(active)[:, None]
     try:

@@ -103,8 +103,14 @@ class Problem:
         """
         full = "energy.tangential_lubrication" in of
         course = course_of(path, select_model(self.scene, path.model.oblique, full=full))
-        rtol = sharpened(rtol, near)
+        rtol = sharpened(rtol, near, path)
         if plugin == "cvodes":
+            if near is not None and amplifies(near) and near.boundary == nearness.SADDLE:
+                raise ComputationError(
+                    f"no derivative by cvodes: its steps do not follow those of a trajectory that lies at the {near}, "
+                    f"nearer than {NEAR:g}",
+                    advice="--engine rosenbrock",
+                )
             rtol = max(rtol, _SHARPEST_CVODES)
         expression = trajectory_expression(course, of, plugin, tolerance_for(rtol, plugin, self.n.groups))
         mapping = parameter_map(self.kind, self.wrt, expression.groups)
@@ -150,9 +156,14 @@ class Problem:
         return float(self.reference[self.kind.entries.index(name)])
 
 
-def sharpened(rtol: float, near: Near | None) -> float:
-    """The tolerance reduced for a trajectory near a boundary, which amplifies errors by one over the distance."""
-    return min(rtol, max(rtol * near.distance / NEAR, SHARPEST)) if near is not None and amplifies(near) else rtol
+def sharpened(rtol: float, near: Near | None, path: EventSequence) -> float:
+    """The tolerance reduced for a trajectory that amplifies errors.
+
+    Near a boundary they grow by one over the distance, where it separates slowly by one over the remaining speed.
+    """
+    distances = [near.distance] if near is not None else []
+    least = min([NEAR, *distances, *([float(path.y[1])] if path.separated else [])])
+    return min(rtol, max(rtol * least / NEAR, SHARPEST))
 
 
 def amplifies(near: Near | None) -> bool:

@@ -45,7 +45,7 @@ from .integrators import EventHit, IntegrationFailed, Locator, locator, plain, t
 
 # why a collision stays undecided, in messages
 CREEPS, RESTS = "the gap changes too slowly", "the resting doublet turns for too long"
-CHATTERS, REVERSED = "the doublet rebounds again and again", "the rotation reverses the approach"
+CHATTERS, REVERSED = "the gap opens and closes again and again", "the rotation reverses the approach"
 ROUNDED = "rounding of its angular momentum decides"
 
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is abandoned after 16 * 8^21 of them

@@ -69,7 +69,7 @@ class Replay:
     def extra(self, name: str) -> float:
         """The final value of a quadrature, of an energy in m v0^2."""
         position = self.extras.index(name)
-        return self.units[position] * (float(self.y[len(self.y) - len(self.extras) + position]) - self.offset)
+        return float(self.units[position]) * (float(self.y[len(self.y) - len(self.extras) + position]) - self.offset)
 
 
 def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray) -> Replay:

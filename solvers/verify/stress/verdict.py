@@ -15,7 +15,7 @@ _REASONS = {  # physical explanations of engine failures, by pattern of the mess
     ROUNDED: "an angular momentum within rounding of its parts: a separation at less than 1e-14 of the speeds",
     CREEPS: "creeps, or is beside a separatrix, beyond the budget of steps",
     RESTS: "turns in resting contact, whose force hardly changes, beyond the budget of steps",
-    CHATTERS: "an attraction closes the gap again after every rebound, beyond any count: a cycle of the model",
+    CHATTERS: "an attraction closes the gap after every rebound or dip into the film, beyond any count: a cycle",
 }
 
 

@@ -17,6 +17,7 @@ from wetdoublet.solvers import (
     collide_pair,
     regime_map,
 )
+from wetdoublet.solvers.boundaries.by_kernel import looked
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
 from wetdoublet.solvers.export.law.kernels import SPACE, kernels
@@ -347,3 +348,47 @@ def test_an_exhausted_contact_stays_when_followed_on() -> None:
     until = 100 * collide(Scene.from_dict(EXHAUSTED), engine="rosenbrock").until
     found = collide(Scene.from_dict(EXHAUSTED), engine="rosenbrock", until=max(until, 10.0))
     assert (found.outcome, found.events[-1].kind) == ("stick", "rests")
+
+
+DRIFTS = {
+    "particles": {"reduced_radius": 6.5858439071894294e-06, "reduced_mass": 7.885188793581886e-10,
+                  "roughness": 1.954441426868879e-07, "dry_restitution": 0.4385837102046901,
+                  "youngs_modulus": 45731035291.698364, "poisson_ratio": 0.11875541592005756},
+    "liquid": {"viscosity": 1.8537423251193694, "film_thickness": 2.2456313989121176e-06,
+               "glass_transition_pressure": 4319575.19912164},
+    "bridge": {"surface_tension": 0.004418872537288039, "volume": 0.7120982190543771,
+               "contact_angle": 1.1366365874433157, "law": "soulie"},
+    "model": {"arm": "surface", "tangential": "film"},
+    "attraction": {"hamaker": 2.2759637560802806e-19},
+}  # fmt: skip
+
+
+def test_circling_on_the_surface_lever_arm_is_decided_by_its_limit() -> None:
+    """Where angular momentum drifts in the film its limit drifts with it: a million steps on either side agree."""
+    scene, angle = Scene.from_dict(DRIFTS), np.full(2, 1.4227617104312076)
+    speed = 0.0057660216 * np.array([1 - 3e-5, 1 + 3e-5]) / scene.stokes_per_speed
+    sample = looked(scene, speed, angle, 1e-9, budget=KERNEL_STEPS)
+    far = run_kernel(Impacts(scene, speed, angle, {}), 1e-9, budget=3_000_000)
+    if sample is not None and far is not None:  # there is a kernel
+        assert sample["chatters"].all()
+        assert sample["outcome"].tolist() == far["outcome"].tolist() == [0, 1]
+        assert far["status"].tolist() == [0, 0]
+
+
+def test_strings_that_pull_a_million_times_faster_than_the_approach_keep_the_ledger():
+    """Work of strings of 1e12 of the energy of the approach: Rosenbrock's ledger closes, and is CVODES'."""
+    scene = Scene.from_dict(
+        {
+            "particles": {"reduced_radius": 1.34394e-3, "density": 2617.44, "roughness": 5.51467e-6,
+                          "dry_restitution": 0.376264, "youngs_modulus": 2.71279e6, "poisson_ratio": 0.47309},
+            "liquid": {"viscosity": 9.27384e-5, "film_thickness": 9.06288e-4, "glass_transition_pressure": 9.92989e9},
+            "pendulum": {"length": 0.672202, "gravity": 0.39167, "law": "small-angle"},
+            "impact": {"stokes": 1.91989e-5, "angle": 0.0},
+        }
+    )  # fmt: skip
+    ours, other = (collide(scene, engine=engine, rtol=1e-9) for engine in ("rosenbrock", "cvodes"))
+    assert ours.outcome == other.outcome == "stick"
+    assert ours.energy is not None and other.energy is not None
+    lost, expected = ours.energy.normal_lubrication, other.energy.normal_lubrication
+    assert lost == pytest.approx(expected, rel=1e-7) and lost > 1e10 * ours.energy.initial
+    assert abs(ours.energy.residual) < 1e-9 * lost

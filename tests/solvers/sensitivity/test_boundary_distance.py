@@ -10,6 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from wetdoublet import solvers
 from wetdoublet.solvers import ComputationError, Scene, boundary, collide
 from wetdoublet.solvers.boundaries.changes import Change
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
@@ -106,6 +107,13 @@ def test_restitution_at_the_saddle() -> None:
     one, other = (each.elasticity["restitution"]["impact.stokes"] for each in found)
     # linear in the distance, 8 % a per cent of it measured
     assert one == pytest.approx(other, rel=1.5e-3)
+
+
+def test_cvodes_refuses_beside_a_saddle() -> None:
+    """Its derivatives of e_n differ from Rosenbrock's by 2e-3 of the largest there: an error names the saddle."""
+    stokes = change("granulation", 55, 0).stokes * (1 + 1e-4)
+    with pytest.raises(ComputationError, match="no derivative by cvodes.*saddle.*rosenbrock"):
+        solvers.sensitivities("granulation", stokes=stokes, angle=math.radians(55), engine="cvodes")
 
 
 def test_the_command_says_it_in_one_line() -> None:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities, sensitivities
 from wetdoublet.solvers.paper.factors import DOUBLED
-from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving
+from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving, moving
 
 from ...helpers.command import run
 from ...helpers.sensitive import HARD, cancelling
@@ -27,6 +28,25 @@ LINES = {
     "graze, strings": ("pendulum", {}, 45, (1.25, 1.6)),
     "rim of a constant force": ("granulation", HARD | {"bridge.law": "constant"}, 45, (0.03, 0.1)),
 }
+DRAWN_IN = {  # attraction at small gaps: beside both changes one doublet turns while the other is drawn into contact
+    "particles": {"radius": 0.000561750095, "mass": 4.54970879e-07, "roughness": 9.10281584e-08,
+                  "dry_restitution": 0.490339098},
+    "liquid": {"viscosity": 0.00226797994, "film_thickness": 4.33890186e-06,
+               "glass_transition_pressure": 534035.9224693321},
+    "impact": {"angle": 0.737017206, "spin": -676.823893, "partner_spin": 0.0},
+    "bridge": {"surface_tension": 1.07487873e-06, "volume": 0.0159955616, "rupture": "own"},
+    "attraction": {"hamaker": 1.87878726e-15},
+    "model": {"film": "infinite", "tangential": "film"},
+}  # fmt: skip
+TURNS_TWICE = {  # it turns, falls back, turns again, and leaves the film with too much spin for rigid rotation
+    "particles": {"radius": 0.000150467284, "mass": 4.09734487e-08, "roughness": 2.79074582e-09,
+                  "dry_restitution": 0.841650549},
+    "liquid": {"viscosity": 0.0198806804, "film_thickness": 1.40513549e-07},
+    "impact": {"angle": 1.45188141, "spin": -33444.5068, "partner_spin": 18766.634},
+    "partner": {"radius": 0.000177232893, "mass": 4.89652134e-08},
+    "bridge": {"surface_tension": 0.000733545652, "volume": 0.000382948768},
+    "model": {"arm": "surface", "tangential": "film"},
+}  # fmt: skip
 NAMES = ("liquid.film_thickness", "liquid.viscosity", "particles.reduced_radius")
 _STEP = 2e-3
 
@@ -62,6 +82,54 @@ def test_boundaries_move_as_traced(line: str) -> None:
     assert found.elasticity["speed"][name] == pytest.approx(slopes[2], abs=1e-5)
     if found.change.centrifugal:
         assert found.elasticity["centrifugal"][name] == pytest.approx(slopes[1], abs=2e-5)
+
+
+@pytest.mark.parametrize(
+    ("tables", "span", "kind", "name"),
+    [
+        (DRAWN_IN, (1.8, 2.1), "escape", "liquid.viscosity"),
+        (DRAWN_IN, (1.8, 2.1), "escape", "particles.roughness"),
+        (DRAWN_IN, (4.0, 4.6), "escape reversed", "particles.dry_restitution"),
+        (TURNS_TWICE, (0.115, 0.13), "escape", "liquid.film_thickness"),
+    ],
+)
+def test_what_parts_both_sides_is_differentiated(
+    tables: dict[str, dict[str, object]], span: tuple[float, float], kind: str, name: str
+) -> None:
+    """Where the first criteria of both sides do not tell: the slope is that of boundaries traced 0.2 and 0.4 % off."""
+    scene = Scene.from_dict({table: dict(entries) for table, entries in tables.items()})
+    found = only(moved(scene, math.degrees(scene.angle), span, wrt=[name], rtol=1e-10))
+
+    def traced(part: float) -> float:
+        changed = scene.with_entries({name: float(scene.entries[name]) * (1 + part)})
+        [[one]] = boundary(changed, stokes=span, rtol=1e-10).changes
+        return math.log(one.stokes)
+
+    near, far = (traced(step) - traced(-step) for step in (_STEP, 2 * _STEP))
+    # St* located to 1e-9 over the step
+    assert found.elasticity["stokes"][name] == pytest.approx((8 * near - far) / (12 * _STEP), abs=2e-6)
+    assert found.change.kind == kind
+
+
+def test_a_criterion_met_at_initial_contact() -> None:
+    """From the pressure p_gt on that a doublet brings, it rebounds at once: St* ~ p_gt x0^2/(mu a v0) alone."""
+    scene = Scene.from_dict(DRAWN_IN | {"liquid": DRAWN_IN["liquid"] | {"glass_transition_pressure": 500.0}})
+    names = ["liquid.viscosity", "liquid.glass_transition_pressure", "particles.dry_restitution"]
+    # u = v0 and x = x0 there: p_gt = 3 mu a v0/x0^2, and St = m v0/(6 pi mu a^2)
+    liquid, a, m = scene.liquid, scene.reduced_radius, scene.reduced_mass
+    expected = 500.0 * liquid.film_thickness**2 * m / (18 * math.pi * liquid.viscosity**2 * a**3)
+    found = only(moved(scene, 42.228, (0.5 * expected, 2 * expected), wrt=names))
+    assert found.change.stokes == pytest.approx(expected, rel=1e-8)
+    assert list(found.elasticity["stokes"].values()) == pytest.approx([-2.0, 1.0, 0.0], abs=1e-9)
+
+
+def test_a_change_that_is_none_has_no_slope() -> None:
+    """Beside a Stokes number at which nothing changes, the outcomes contradict the change: its reason says so."""
+    scene = Scene.load("granulation")
+    [[one, *_]] = boundary(scene, angle=math.radians(55), stokes=(0.02, 0.07)).changes
+    wrong = moving(scene, math.radians(55), replace(one, stokes=one.stokes * 1.01), ("liquid.viscosity",))
+    assert not wrong.gradient
+    assert "end in" in wrong.reason
 
 
 @pytest.mark.parametrize("key", ["factor_film", "factor_radius"])

@@ -383,3 +383,27 @@ def test_what_the_kernel_does_not_differentiate() -> None:
         sensitivities("granulation", engine="taylor", hessian=True)
     with pytest.raises(InputError, match="cvodes, rosenbrock"):
         trajectory_sensitivities("granulation", "liquid.viscosity", engine="taylor")
+
+
+def test_a_doublet_that_creeps_out_of_its_film() -> None:
+    """After 1e7 x0/v0 it leaves at 6e-5 of v0: the derivative by the angle is that of fourth-order differences.
+
+    Landing steps of 4e-9 of so long a phase had left errors of 5e-4.
+    """
+    creeping = Scene.from_dict(
+        {
+            "particles": {"radius": 0.000316458727, "mass": 8.44803781e-08, "roughness": 2e-9, "dry_restitution": 1.0},
+            "liquid": {"viscosity": 0.043439762, "film_thickness": 5.11359218e-07},
+            "model": {"tangential": "film"},
+            "partner": {"radius": 0.000316458727, "mass": 8.44803781e-08},
+            "impact": {"speed": 0.08544905532225146, "spin": 14.8623407, "partner_spin": -14.8623407},
+        }
+    )
+    angle, step = 0.0149952395, 1e-3
+    [found] = sensitivities(creeping, wrt=["impact.angle"], angle=angle, engine="rosenbrock").gradient.values()
+    values = [
+        collide(creeping, angle=angle * (1 + k * step), rtol=1e-12, engine="rosenbrock", ledger=False).restitution
+        for k in (-2, -1, 1, 2)
+    ]
+    slope = (8 * (values[2] - values[1]) - (values[3] - values[0])) / (12 * step * angle)
+    assert found["impact.angle"] == pytest.approx(slope, rel=1e-6)
