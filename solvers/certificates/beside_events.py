@@ -70,8 +70,8 @@ class EnergyBesideEvents(EnergyCertificate):
         rotating = self._potential(np.asarray(gaps), y)[0]
         attracted = rotating[PARTS] + risen - risen[PARTS] - rotating
         floors = np.minimum(rotating[1:], rotating[:-1]) + np.minimum(attracted[1:], attracted[:-1])
-        found: list[float] = (floors - np.abs(np.diff(attracted))).tolist()
-        return found
+        lowest: list[float] = (floors - np.abs(np.diff(attracted))).tolist()
+        return lowest
 
     def attracts(self, y: np.ndarray) -> bool:
         """True if the potential of the attractions varies with the gap, at the marks as they are."""

@@ -180,9 +180,9 @@ class EnergyCertificate(Certificate):
             tops.append(float(grid[-1]))
         at_touch = np.array([1.0, *y[1:]])
         base = self.values("effective_potential", at_touch)["energy"]
-        found = [Barrier(top, base + self._rise(top, y)) for top in tops]
+        maxima = [Barrier(top, base + self._rise(top, y)) for top in tops]
         highest_after: list[Barrier] = []
-        for barrier in reversed(found):
+        for barrier in reversed(maxima):
             if not highest_after or barrier.height > highest_after[-1].height:
                 highest_after.append(barrier)
         return tuple(reversed(highest_after))

@@ -48,8 +48,8 @@ class FilmCertificate(Certificate):
 
     def slowed(self, speed: float, grid: np.ndarray) -> np.ndarray:
         """Closing speed along decreasing gaps (losses are negative there); negative beyond the stop."""
-        found: np.ndarray = speed + self._momentum_loss(grid)
-        return found
+        slowed: np.ndarray = speed + self._momentum_loss(grid)
+        return slowed
 
     def clear(self, gaps: np.ndarray, speeds: np.ndarray) -> bool:
         """True if the glass pressure is not reached at these gaps and closing speeds."""

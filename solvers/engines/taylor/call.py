@@ -82,32 +82,32 @@ def run_kernel(
         jumps: what the slow manifold may replace: 0 nothing, 1 what follows the turn (times are not needed), 2 the
             approach as well (nor is the smallest gap).
     """
-    found = np.zeros(impacts.angle.size, ANSWER)
+    answers = np.zeros(impacts.angle.size, ANSWER)
     turns = impacts.oblique
     for oblique, those in ((True, turns), (False, ~turns)):
         count = int(np.count_nonzero(those))
         if count and not _fill(
-            found, impacts, those, count, _plain(impacts, oblique, rtol, rotation, budget, jumps), threads
+            answers, impacts, those, count, _plain(impacts, oblique, rtol, rotation, budget, jumps), threads
         ):
             return None
-    return found
+    return answers
 
 
 def _fill(
-    found: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, run: RunKernel | None, threads: int
+    answers: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, run: RunKernel | None, threads: int
 ) -> bool:
     if run is None:
         return False
-    whole = count == found.size  # no copy in this case
+    whole = count == answers.size  # no copy in this case
     which = those if whole else np.flatnonzero(those)
 
     def chunk(first: int) -> None:
         last = min(first + CHUNK, count)
         part = slice(first, last) if whole else which[first:last]
-        made = found[first:last] if whole else np.zeros(last - first, ANSWER)
+        made = answers[first:last] if whole else np.zeros(last - first, ANSWER)
         run(impacts.part(part), made)
         if not whole:
-            found[part] = made
+            answers[part] = made
 
     in_chunks(count, chunk, threads)
     return True
@@ -138,14 +138,14 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made:
     Arguments:
         made: array for the answers, zeros of ANSWER.
     """
-    asked = Task(library, impacts.angle.size, min(rtol, LOOSEST), budget)
-    asked.number("jumps", jumps)
-    given: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET}
-    given |= si_values(impacts.scene, None, None)
-    given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
-    asked.columns([_column(given[name]) for name in names(library, "quantity_names")])
-    asked.buffer("answers", made)
-    return asked
+    one = Task(library, impacts.angle.size, min(rtol, LOOSEST), budget)
+    one.number("jumps", jumps)
+    values: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET}
+    values |= si_values(impacts.scene, None, None)
+    values |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
+    one.columns([_column(values[name]) for name in names(library, "quantity_names")])
+    one.buffer("answers", made)
+    return one
 
 
 def _column(values: np.ndarray | float) -> np.ndarray | float:

@@ -60,7 +60,7 @@ TASK = np.dtype(
             "jumps",
             "i8",
         ),  # the slow manifold may replace: 0 nothing, 1 what follows the turn, 2 the approach as well
-        ("asked", "i8"),  # groups by which derivatives are computed, as bits
+        ("requested", "i8"),  # groups by which derivatives are computed, as bits
         ("steps", "i8"),  # returned: number of steps of all trajectories, including those without room
         ("rtol", "f8"),
         ("quantities", BUFFER),  # one BUFFER for each of `quantity_names`: `count` doubles in SI, or a single one
@@ -119,11 +119,11 @@ def step_row(library: ctypes.CDLL) -> np.dtype:
     """The type of a step's row in this kernel, from its exported states and terms."""
     states, terms, size = (number(library, name) for name in ("row_states", "row_terms", "row_bytes"))
     flags = [(name, "i4") for name in ("phase", "closing", "resting", "film")]
-    found = np.dtype(
+    row = np.dtype(
         [("time", "f8"), ("length", "f8"), ("collision", "i8"), *flags, ("series", "f8", (states, terms))], align=True
     )
-    assert found.itemsize == size
-    return found
+    assert row.itemsize == size
+    return row
 
 
 @cache
@@ -178,7 +178,7 @@ class Task:
         Raises:
             MemoryError: the kernel finds a buffer too small, or cannot allocate memory.
         """
-        said: bytes | None = self._library.collide(self._task.ctypes.data)
-        if said is not None:
-            raise MemoryError(f"the kernel was not run: {said.decode()}")
+        message: bytes | None = self._library.collide(self._task.ctypes.data)
+        if message is not None:
+            raise MemoryError(f"the kernel was not run: {message.decode()}")
         return int(self._task["steps"])

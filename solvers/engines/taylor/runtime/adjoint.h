@@ -152,7 +152,7 @@ static void unend(sweep *r, const taped_end *own, int lane)
 
 static void undo_rebound(sweep *r, const taped_rebound *own, int lane)
 {
-    vec y[STATES], at[STATES], behind[STATES], found[STATES];
+    vec y[STATES], at[STATES], behind[STATES], before[STATES];
     for (int state = 0; state < STATES; state++)
         y[state] = splat(own->y[state]);
 #if FRICTION
@@ -172,12 +172,12 @@ static void undo_rebound(sweep *r, const taped_rebound *own, int lane)
         for (int state = 0; state < STATES; state++)
             sum += r->of[state]*behind[state];
         if (by < STATES)
-            found[by] = sum;
+            before[by] = sum;
         else
             LANE(r->by_group[by - STATES], lane) += LANE(sum, lane);
     }
     for (int state = 0; state < STATES; state++)
-        LANE(r->of[state], lane) = LANE(found[state], lane);
+        LANE(r->of[state], lane) = LANE(before[state], lane);
 }
 
 /* The derivatives of a lane's trajectory are complete. */
@@ -252,7 +252,7 @@ static void take_back(const struct tape *t, sweep *r)
                 LANE(r->active, lane) = TRUTH;
             }
             while (!read_step(r, t, lane)) {
-                put_derivatives(r, &t->found[r->end[lane]], lane);
+                put_derivatives(r, &t->derivatives[r->end[lane]], lane);
                 if (taken == t->ended) {
                     LANE(r->active, lane) = 0;
                     break;
@@ -266,7 +266,7 @@ static void take_back(const struct tape *t, sweep *r)
         EACH_OF(lane, bits(forgotten(r))) {
             for (int state = 0; state < STATES; state++)
                 LANE(r->of[state], lane) = 0.0;
-            put_derivatives(r, &t->found[r->end[lane]], lane);
+            put_derivatives(r, &t->derivatives[r->end[lane]], lane);
             LANE(r->active, lane) = 0;
         }
     }
@@ -286,7 +286,7 @@ static void in_groups(const queue *q)
             for (int k = 0; k < QUANTITIES; k++)
                 LANE(given[k], lane) = quantity(q, k, t->ends[own].index);
             for (unsigned place = 0; place < sizeof turned/sizeof *turned; place++)
-                LANE(turned[place], lane) = ((const double *)(t->found + own))[place];
+                LANE(turned[place], lane) = ((const double *)(t->derivatives + own))[place];
         }
         scale(&f.c, given);
         vec *of = turned, *constant = of + STATES, *events = constant + CONSTANTS, *by_group = events + MOVING_GAPS;
@@ -316,10 +316,10 @@ static int there_and_back(queue *q)
     t.rebounds = malloc(REBOUND_ROOM*sizeof(taped_rebound));
     t.ends = malloc(BATCH*sizeof(taped_end));
     t.rows = malloc(BATCH*sizeof *t.rows);
-    t.found = malloc(BATCH*sizeof(struct derivatives));
-    int found = t.steps && t.rebounds && t.ends && t.rows && t.found;
+    t.derivatives = malloc(BATCH*sizeof(struct derivatives));
+    int allocated = t.steps && t.rebounds && t.ends && t.rows && t.derivatives;
     q->tape = &t;
-    for (long first = 0; found && first < count; first += BATCH) {
+    for (long first = 0; allocated && first < count; first += BATCH) {
         q->next = first;
         q->count = count - first < BATCH ? count : first + BATCH;
         t.stepped = t.rebounded = t.ended = t.full = 0;
@@ -332,7 +332,7 @@ static int there_and_back(queue *q)
     free(t.rebounds);
     free(t.ends);
     free(t.rows);
-    free(t.found);
-    return found;
+    free(t.derivatives);
+    return allocated;
 }
 #endif

@@ -144,15 +144,15 @@ static mask held_by_strings(const constants *c, const vec *y, double tolerance)
 }
 
 /* The same at a turn, with the impulse of the rotation allowed for. */
-static mask held_at_turn(const constants *c, const vec *y, mask asked, double tolerance)
+static mask held_at_turn(const constants *c, const vec *y, mask candidates, double tolerance)
 {
     vec film, recoil;
-    asked &= vec_abs(y[NORMAL_VELOCITY]) <= STILL;
-    if (!bits(asked))
-        return asked;
+    candidates &= vec_abs(y[NORMAL_VELOCITY]) <= STILL;
+    if (!bits(candidates))
+        return candidates;
     vec slack = pendulum_slack(c, y, SAFETY*tolerance);
     pendulum_stops(c, y, &film, &recoil);
-    return asked & (film + slack < 0.0) & (recoil + slack < 0.0);
+    return candidates & (film + slack < 0.0) & (recoil + slack < 0.0);
 }
 #endif
 
@@ -178,14 +178,14 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
  * (derive/equations/certificates/spin_down.py). Rate is not positive beyond the edge of the shear, where without J
  * nothing turns.
  */
-static inline mask spun_down(const constants *c, const vec *y, mask asked, double tolerance)
+static inline mask spun_down(const constants *c, const vec *y, mask candidates, double tolerance)
 {
-    asked &= (c->first_momentum == 0.0) | (y[ORBITAL_MOMENTUM] == 0.0);
-    if (!bits(asked))
-        return asked;
+    candidates &= (c->first_momentum == 0.0) | (y[ORBITAL_MOMENTUM] == 0.0);
+    if (!bits(candidates))
+        return candidates;
     vec stays, rate, apart, inside, error = SAFETY*tolerance*vec_larger(c->stokes, splat(1.0));
     spin_down_margins(c, y, &stays, &rate, &apart, &inside);
-    return asked & spins_down(y[GAP], contact_gap(c), SAFETY*tolerance, c->first_momentum, rate, stays, error,
+    return candidates & spins_down(y[GAP], contact_gap(c), SAFETY*tolerance, c->first_momentum, rate, stays, error,
         y[ORBITAL_MOMENTUM], inside, apart);
 }
 #endif
@@ -305,25 +305,25 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
 }
 
 /* Lanes in which a certificate that is checked at intervals excludes separation. */
-static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
+static inline mask held_sticks(const constants *c, const vec *y, mask candidates, double tolerance)
 {
-    (void)c; (void)y; (void)asked; (void)tolerance;
+    (void)c; (void)y; (void)candidates; (void)tolerance;
 #if OWN_EVENTS
 #if OWN_PROOFS
-    return bits(asked) ? held_beside_events(c, y, asked, tolerance) : asked;
+    return bits(candidates) ? held_beside_events(c, y, candidates, tolerance) : candidates;
 #else
     return splat_mask(0);
 #endif
 #endif /* OWN_EVENTS */
 #if SPIN_DOWN
-    return spun_down(c, y, asked, tolerance);
+    return spun_down(c, y, candidates, tolerance);
 #endif
 #if PENDULUM
-    return held_at_turn(c, y, asked, tolerance);
+    return held_at_turn(c, y, candidates, tolerance);
 #endif
 #if ATTRACTION_MARGINS
-    if (bits(asked))
-        return asked & held_by_attraction(c, y, tolerance);
+    if (bits(candidates))
+        return candidates & held_by_attraction(c, y, tolerance);
 #endif
     return splat_mask(0);
 }

@@ -138,11 +138,11 @@ static vec length_of_step(queue *q, expansion *e, const lanes *l, const fixed *f
     vec (*a)[TERMS] = (vec (*)[TERMS])&e->s;
     (void)q;
 #if GRADIENTS && !BACKWARD
-    if (q->asked)
-        expand_slopes(&e->d, &f->slopes, &e->s, &f->c, acting(l), l->shear, q->asked);
-    expand_along(&e->t, l, f, &e->s, &e->d, q->asked);
+    if (q->requested)
+        expand_slopes(&e->d, &f->slopes, &e->s, &f->c, acting(l), l->shear, q->requested);
+    expand_along(&e->t, l, f, &e->s, &e->d, q->requested);
     vec h = only(l->alive, step_size(&e->s, f, creeps, &e->t));
-    EACH_OF(group, bits(*creeps) ? e->t.asked : 0)
+    EACH_OF(group, bits(*creeps) ? e->t.requested : 0)
         damp(e->t.t[group], *creeps);
 #else
     vec h = only(l->alive, step_size(&e->s, f, creeps));
@@ -189,8 +189,8 @@ static void keep_step(queue *q, expansion *e, lanes *l, const fixed *f, vec h, m
 #if BACKWARD
     keep_on_tape(q, l, h, creeps, falls, event);
 #elif GRADIENTS
-    if (q->asked)
-        carry(l, f, &e->s, &e->t, h, falls, event, q->asked);
+    if (q->requested)
+        carry(l, f, &e->s, &e->t, h, falls, event, q->requested);
 #endif
 #if WITH_TRAJECTORY
     keep_steps(q, l, (vec (*)[TERMS])&e->s, h);
@@ -229,7 +229,7 @@ static void leave_to_others(queue *q, lanes *l, fixed *f, mask lost, mask falls)
     spent |= only_if_full(q, l->alive);
     slow = 0;
 #elif GRADIENTS
-    slow = q->asked ? 0 : slow; /* implicit.h does not compute derivatives */
+    slow = q->requested ? 0 : slow; /* implicit.h does not compute derivatives */
 #endif
 #if WITH_TRAJECTORY
     /* only steps of series are recorded, and implicit.h ignores the purpose */

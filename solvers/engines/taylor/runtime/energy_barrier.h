@@ -114,7 +114,7 @@ static vec summit(const constants *c, const vec *y, vec low, vec high)
     return 0.5*(low + high);
 }
 
-static void find_barriers(const constants *c, const vec *y, vec contact, vec end, barrier *found)
+static void find_barriers(const constants *c, const vec *y, vec contact, vec end, barrier *b)
 {
     vec none = splat(-INFINITY);
     vec start = vec_min(vec_max(contact, splat(1e-6)), splat(0.5));
@@ -129,7 +129,7 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
         mask own = top & NOT(first);
         lower[0] = choose(own, low, lower[0]);
         upper[0] = choose(own, high, upper[0]);
-        mask other = top & first; /* the last one found is kept */
+        mask other = top & first; /* the last one b is kept */
         lower[1] = choose(other, low, lower[1]);
         upper[1] = choose(other, high, upper[1]);
         first |= top;
@@ -138,29 +138,29 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
         slope = next;
     }
     mask rim = slope > 0.0;
-    found->near_gap = found->far_gap = splat(0.0);
-    found->near_height = found->far_height = none;
+    b->near_gap = b->far_gap = splat(0.0);
+    b->near_height = b->far_height = none;
     if (bits(first)) {
-        found->near_gap = summit(c, y, lower[0], upper[0]);
-        found->near_height = choose(first, height_at(c, y, vec_max(found->near_gap, start)), none);
+        b->near_gap = summit(c, y, lower[0], upper[0]);
+        b->near_height = choose(first, height_at(c, y, vec_max(b->near_gap, start)), none);
     }
     if (bits(second)) {
         vec gap = summit(c, y, lower[1], upper[1]);
-        found->far_gap = gap;
-        found->far_height = choose(second, height_at(c, y, vec_max(gap, start)), none);
+        b->far_gap = gap;
+        b->far_height = choose(second, height_at(c, y, vec_max(gap, start)), none);
     }
     if (bits(rim)) { /* the rim is the outermost: it replaces the second maximum unless that is higher */
         vec height = choose(rim, height_at(c, y, end), none);
-        mask higher = height > found->far_height;
-        found->far_gap = choose(higher, end, found->far_gap);
-        found->far_height = choose(higher, height, found->far_height);
+        mask higher = height > b->far_height;
+        b->far_gap = choose(higher, end, b->far_gap);
+        b->far_height = choose(higher, height, b->far_height);
     }
-    mask hidden = NOT(found->near_height > found->far_height);
-    found->near_gap = choose(hidden, found->far_gap, found->near_gap);
-    found->near_height = choose(hidden, found->far_height, found->near_height);
+    mask hidden = NOT(b->near_height > b->far_height);
+    b->near_gap = choose(hidden, b->far_gap, b->near_gap);
+    b->near_height = choose(hidden, b->far_height, b->near_height);
 #if SURFACE_ARM
-    found->near_work = found->near_height - energy_at(c, y, found->near_gap);
-    found->far_work = found->far_height - energy_at(c, y, found->far_gap);
+    b->near_work = b->near_height - energy_at(c, y, b->near_gap);
+    b->far_work = b->far_height - energy_at(c, y, b->far_gap);
 #endif
 }
 

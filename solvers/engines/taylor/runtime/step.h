@@ -27,10 +27,10 @@ static inline mask room_of(const mask *magnitude, const vec (*a)[TERMS], int k, 
 #if GRADIENTS && !BACKWARD
 static inline vec room(const mask *magnitude, const vec (*a)[TERMS], int k, double share, const tangents *along)
 {
-    mask found = room_of(magnitude, a, k, share, splat_mask(INT64_MAX));
-    EACH_OF(group, along->asked)
-        found = room_of(along->scale[group], (const vec (*)[TERMS])along->t[group], k, share, found);
-    return to_vec(found);
+    mask least_so_far = room_of(magnitude, a, k, share, splat_mask(INT64_MAX));
+    EACH_OF(group, along->requested)
+        least_so_far = room_of(along->scale[group], (const vec (*)[TERMS])along->t[group], k, share, least_so_far);
+    return to_vec(least_so_far);
 }
 #define ROOM(k, share) room(magnitude, a, k, share, along)
 #else

@@ -200,13 +200,13 @@ static mask own_events_due(const lanes *l, const fixed *f, mask *event)
 }
 #endif /* OWN_EVENTS */
 /* Rebound by the first criterion of the table that is met already, in these lanes, which start a closing phase. */
-static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
+static void criteria_met_by(queue *q, lanes *l, fixed *f, mask candidates)
 {
-    unsigned glass = bits(asked & (glass_clearance(&f->c, l->y) <= 0.0));
+    unsigned glass = bits(candidates & (glass_clearance(&f->c, l->y) <= 0.0));
 #if WITH_TRAJECTORY
     glass = q->t->purpose == APPROACH ? 0 : glass;
 #endif
-    unsigned any = glass | bits(asked & (l->y[GAP] <= f->contact));
+    unsigned any = glass | bits(candidates & (l->y[GAP] <= f->contact));
 #if GRADIENTS
     if (glass) {
         vec met = vec_abs(vec_log(1.0 - pressure_margin(&f->c, l->y)));
@@ -232,8 +232,8 @@ static int rests_ended(queue *q, lanes *l, fixed *f)
     proved &= provable(q, l->closing);
 #endif
     EACH_OF(lane, bits(rests)) {
-        int sure = LANE(proved, lane) != 0;
-        finish(q, l, f, lane, sure ? DECIDED : RESTS_IN_FRICTION, STICK, sure);
+        int certain = LANE(proved, lane) != 0;
+        finish(q, l, f, lane, certain ? DECIDED : RESTS_IN_FRICTION, STICK, certain);
     }
     return 1;
 }
@@ -268,11 +268,11 @@ static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
  */
 static void criteria_met(queue *q, lanes *l, fixed *f)
 {
-    mask asked = l->fresh & l->alive & l->closing & NOT(l->resting);
+    mask candidates = l->fresh & l->alive & l->closing & NOT(l->resting);
     l->fresh = splat_mask(0);
-    while (bits(asked)) {
-        criteria_met_by(q, l, f, asked);
-        asked = l->fresh & l->alive & l->closing & NOT(l->resting);
-        l->fresh &= NOT(asked);
+    while (bits(candidates)) {
+        criteria_met_by(q, l, f, candidates);
+        candidates = l->fresh & l->alive & l->closing & NOT(l->resting);
+        l->fresh &= NOT(candidates);
     }
 }
