@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 from math import sqrt
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 CLOSING, OPENING = -1, 1
 
@@ -172,37 +172,37 @@ def is_too_oblique(obliquity: float, aspect: float) -> bool:
     return obliquity*obliquity*aspect/16 > MOST_OBLIQUE
 
 
-def is_below_barrier(energy: float, height: float, margin: float, largest: float, drift: float) -> bool:
+def is_below_barrier(energy: Any, height: Any, margin: Any, largest: Any, drift: Any) -> bool:
     """True if the energy is below a barrier ahead, lowered by what a drift of angular momentum may do."""
     return energy < height - margin*(largest + abs(height)) - drift
 
 
-def attraction_holds(gap: float, contact: float, margin: float, hold: float, rebound: float, escape: float, energy: float) -> bool:
+def attraction_holds(gap: Any, contact: Any, margin: Any, hold: Any, rebound: Any, escape: Any, energy: Any) -> bool:
     """True if the attraction lets no maximum of the gap exceed the one before."""
     return gap >= contact*(1 - margin) and hold > 0 and rebound < -margin*hold and escape < -margin*energy
 
 
-def spins_down(gap: float, contact: float, margin: float, momentum: float, rate: float, stays: float, error: float, orbital_momentum: float, inside: float, apart: float) -> bool:
+def spins_down(gap: Any, contact: Any, margin: Any, momentum: Any, rate: Any, stays: Any, error: Any, orbital_momentum: Any, inside: Any, apart: Any) -> bool:
     """True if without angular momentum, or without orbital momentum, the film keeps the doublet."""
     return gap >= contact*(1 - margin) and (momentum == 0 and rate > 0 and stays < -error or orbital_momentum == 0 and inside < 0 and apart < -error)
 
 
-def rests_for_good(reaction: float, margin: float, largest: float) -> bool:
+def rests_for_good(reaction: Any, margin: Any, largest: Any) -> bool:
     """True if the reaction of a resting doublet stays inward at the largest momentum that slip allows."""
     return reaction > margin*largest
 
 
-def stays_below(needed: float, margin: float, size: float) -> bool:
+def stays_below(needed: Any, margin: Any, size: Any) -> bool:
     """True if the energy does not suffice for a gap ahead."""
     return needed < -margin*size
 
 
-def comes_back(outward: float, lost: float, margin: float) -> bool:
+def comes_back(outward: Any, lost: Any, margin: Any) -> bool:
     """True if a rebound loses more than the rotation gives on the way back to the maximum."""
     return outward < lost*(1 - margin)
 
 
-def tumbles_for_good(rest: float, rigid: float, work: float, height: float, margin: float, largest: float) -> bool:
+def tumbles_for_good(rest: Any, rigid: Any, work: Any, height: Any, margin: Any, largest: Any) -> bool:
     """True if a doublet that tumbles as one body is held with all momentum across the line of centres."""
     return rest < TUMBLES*rigid and rest + rigid + work < height - margin*(largest + abs(height))
 

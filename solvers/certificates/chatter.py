@@ -9,9 +9,7 @@ import numpy as np
 from ...generated.automaton import CYCLES, stays_below
 from ..model.phases import Phase
 from .base import Certificate, at_maximum, inward
-from .quadrature import panels
-
-_GAPS = 49  # number of gaps ahead at which the margin is evaluated
+from .quadrature import gaps_ahead, panels
 
 
 def chatters(maxima: Sequence[np.ndarray], kept: slice, margin: float) -> bool:
@@ -41,7 +39,7 @@ class ChatterCertificate(Certificate):
     def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
         if not (at_maximum(y, phase) and chatters(maxima, slice(0, 3, 2), self.margin)):
             return False
-        gaps = float(y[0]) + (self.end - float(y[0])) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
+        gaps = gaps_ahead(float(y[0]), self.end)
         rigid = self.values("rigid_rotation", np.array([self.end, *y[1:]]))["orbital_momentum"]
         if abs(y[2]) < abs(rigid):
             return False

@@ -12,9 +12,9 @@ import numpy as np
 from ...generated.automaton import stays_below
 from ..model.model import Model
 from .base import inward
-from .quadrature import panels
+from .quadrature import gaps_ahead, panels
 
-_PANELS, _GAPS = 8, 49
+_PANELS = 8
 
 
 def floats(model: Model, p: np.ndarray, y: np.ndarray, margin: float) -> bool:
@@ -34,8 +34,7 @@ def floats(model: Model, p: np.ndarray, y: np.ndarray, margin: float) -> bool:
     inside = works(model, p, y, edge, gap)
     if not stays_below(kinetic + inside.sum(), margin, kinetic + np.abs(inside).sum()):
         return False
-    larger = gap + (end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
-    outside = panels(lambda gaps: inward(model, p, gaps, y), larger)
+    outside = panels(lambda gaps: inward(model, p, gaps, y), gaps_ahead(gap, end))
     return bool(np.any(stays_below(kinetic - np.cumsum(outside), margin, kinetic + np.cumsum(np.abs(outside)))))
 
 

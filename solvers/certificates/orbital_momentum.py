@@ -15,10 +15,9 @@ from ..model.model import Model
 from ..model.phases import Phase
 from .base import Certainty, Certificate, at_maximum, inward, is_never_released, states_at
 from .chatter import chatters
-from .quadrature import panels
+from .quadrature import gaps_ahead, panels
 
 _LEVERS = ("midgap", "surface")
-_GAPS = 49  # number of gaps ahead at which the margin is evaluated
 
 
 def covers(model: Model) -> bool:
@@ -86,7 +85,7 @@ class OrbitalMomentumCertificate(Certificate):
         turning = orbital_momentum / (4 + self.aspect * gap) ** 2 - self.values("orbital_margins", y)["slip"]
         if self._drifts and not self.model.strings and not 0 <= 16 * turning <= orbital_momentum:
             return False  # the bound for the surface lever arm is proved only for rho < 4 a
-        edges = gap + (self.end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
+        edges = gaps_ahead(gap, self.end)
         inward, attraction = self._work(edges, y, orbital_momentum), self._work(edges, y, 0.0)
         slips, energy = self._margins(edges[1:], y, orbital_momentum)
         exchanged = self._exchange(edges[1:], y, slips, energy, settled or not self._drifts)

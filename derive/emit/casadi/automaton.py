@@ -48,7 +48,7 @@ def automaton_module() -> str:
     words = [word.word for word in automaton.WORDS]
     lines = [f"# {line}" for line in provenance().splitlines()]
     lines += [f'"""{_DOC}"""', "", "from __future__ import annotations", ""]
-    lines += ["from enum import IntEnum", "from math import sqrt", "from typing import NamedTuple", ""]
+    lines += ["from enum import IntEnum", "from math import sqrt", "from typing import Any, NamedTuple", ""]
     lines += [f"CLOSING, OPENING = {automaton.CLOSING}, {automaton.OPENING}", ""]
     for each in automaton.OUTCOMES:
         lines.append(f'{each.name} = "{each.word}"  # {each.condition}')
@@ -97,7 +97,8 @@ def _tests() -> list[str]:
     """Functions of the conditions of the rules, and of the inequalities of stick proofs."""
     lines, proofs = [], [(each.name, each.meaning, each.test) for each in automaton.PROOFS]
     for name, meaning, test in (*(test for rule in automaton.RULES for test in rule.tests), *proofs):
-        passed = ", ".join(f"{each}: float" for each in automaton.arguments(test))
+        kind = "Any" if (name, meaning, test) in proofs else "float"  # proofs are tested in arrays of gaps as well
+        passed = ", ".join(f"{each}: {kind}" for each in automaton.arguments(test))
         lines += ["", f"def {name}({passed}) -> bool:", f'    """True if {meaning}."""', f"    return {test}", ""]
     return lines
 

@@ -82,35 +82,24 @@ def run_kernel(
         jumps: what the slow manifold may replace: 0 nothing, 1 what follows the turn (times are not needed), 2 the
             approach as well (nor is the smallest gap).
     """
-    answers = np.zeros(impacts.angle.size, ANSWER)
-    turns = impacts.oblique
-    for oblique, those in ((True, turns), (False, ~turns)):
-        count = int(np.count_nonzero(those))
-        if count and not _fill(
-            answers, impacts, those, count, _plain(impacts, oblique, rtol, rotation, budget, jumps), threads
-        ):
+    answers, turns = np.zeros(impacts.angle.size, ANSWER), impacts.oblique
+    for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns))):
+        if which.size == 0:
+            continue
+        library = kernel(variant_for_many(impacts.scene, oblique, rtol, rotation, fold=not impacts.others))
+        if library is None:
             return None
+        run, whole = bind_kernel(library, rtol, budget, jumps), which.size == answers.size  # no copy in this case
+
+        def chunk(first: int, run: RunKernel = run, which: np.ndarray = which, whole: bool = whole) -> None:
+            part = slice(first, min(first + CHUNK, which.size)) if whole else which[first : first + CHUNK]
+            some = answers[part]
+            run(impacts.part(part), some)
+            if not whole:
+                answers[part] = some
+
+        in_chunks(which.size, chunk, threads)
     return answers
-
-
-def _fill(
-    answers: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, run: RunKernel | None, threads: int
-) -> bool:
-    if run is None:
-        return False
-    whole = count == answers.size  # no copy in this case
-    which = those if whole else np.flatnonzero(those)
-
-    def chunk(first: int) -> None:
-        last = min(first + CHUNK, count)
-        part = slice(first, last) if whole else which[first:last]
-        made = answers[first:last] if whole else np.zeros(last - first, ANSWER)
-        run(impacts.part(part), made)
-        if not whole:
-            answers[part] = made
-
-    in_chunks(count, chunk, threads)
-    return True
 
 
 def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
@@ -122,14 +111,6 @@ def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
     else:
         with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
             list(pool.map(run, firsts))
-
-
-def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, jumps: int) -> RunKernel | None:
-    """The kernel of these impacts; None if none is available."""
-    library = kernel(variant_for_many(those.scene, oblique, rtol, rotation, fold=not those.others))
-    if library is None:
-        return None
-    return bind_kernel(library, rtol, budget, jumps)
 
 
 def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made: np.ndarray, jumps: int = 0) -> Task:

@@ -31,24 +31,9 @@ _ANSWER = [
 ANSWER = np.dtype(_ANSWER, align=True)
 ANSWER_IN_SPACE = np.dtype([("shown", "f8", SHOWN_IN_SPACE), *_ANSWER[1:]], align=True)
 HAPPENING = np.dtype([("kind", "f8"), ("time", "f8")], align=True)
-LEDGER = np.dtype(
-    [
-        (name, "f8")
-        for name in (
-            "initial",
-            "final",
-            "lifted",
-            "normal",
-            "tangential",
-            "capillary",
-            "attraction",
-            "dry",
-            "friction",
-            "momentum",  # angular momentum over its initial value
-        )
-    ],
-    align=True,
-)
+_TERMS = "initial final lifted normal tangential capillary attraction dry friction"
+# then the angular momentum over its initial value
+LEDGER = np.dtype([(name, "f8") for name in (*_TERMS.split(), "momentum")], align=True)
 NEARNESS = np.dtype([("least", "f8"), ("boundary", "f8"), ("hint", "f8")], align=True)
 # A task for a kernel: numbers, then buffers; those not needed are empty.
 TASK = np.dtype(
@@ -56,10 +41,7 @@ TASK = np.dtype(
         ("count", "i8"),
         ("budget", "i8"),  # steps of a trajectory
         ("purpose", "i8"),  # used by kernels with a trajectory
-        (
-            "jumps",
-            "i8",
-        ),  # the slow manifold may replace: 0 nothing, 1 what follows the turn, 2 the approach as well
+        ("jumps", "i8"),  # the slow manifold may replace: 0 nothing, 1 what follows the turn, 2 the approach too
         ("requested", "i8"),  # groups by which derivatives are computed, as bits
         ("steps", "i8"),  # returned: number of steps of all trajectories, including those without room
         ("rtol", "f8"),
