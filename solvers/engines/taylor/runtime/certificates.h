@@ -174,9 +174,9 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
 #define SPIN_DOWN 0
 #endif
 #if SPIN_DOWN
-/* Spin-down certificate: without angular momentum the rotation dies out, and the film alone keeps the doublet
- * (derive/equations/certificates/spin_down.py). Rate is not positive beyond the edge of the shear, where without J
- * nothing turns.
+/* Spin-down certificate: without angular momentum the rotation dies out, and the film alone holds the doublet
+ * (derive/equations/certificates/spin_down.py). Beyond the edge of the shear, where nothing turns without orbital
+ * momentum, `rate` is not positive.
  */
 static inline mask spun_down(const constants *c, const vec *y, mask candidates, double tolerance)
 {
@@ -253,7 +253,7 @@ static mask held_at_rest(const constants *c, const vec *y, double tolerance)
 #endif
 #endif
 
-/* Lanes in which a certificate excludes separation, of those certificates checked at every step. */
+/* Lanes in which one of the certificates that are tested at every step excludes separation. */
 static inline mask proved_sticks(
     const constants *c, const vec *y, const barrier *b, vec contact, mask closing, mask resting, double tolerance)
 {
@@ -294,8 +294,8 @@ static mask tumbles(const constants *c, const vec *y, const barrier *b, double t
 }
 #endif
 
-/* Lanes in which the attraction certificate is checked: at the start of a phase, and after a number of steps. With an
- * energy certificate, which covers most sticks earlier, only in long trajectories.
+/* Lanes in which the certificates of `held_sticks` are tested: at the start of a phase, and after each INTERVAL of steps.
+ * Where an energy certificate decides most sticks before, only from the fourth phase on.
  */
 enum { EARLIEST_PHASE = PROOF_BY_ENERGY ? 4 : 1, INTERVAL = PROOF_BY_ENERGY ? 64 : 16 };
 
@@ -304,7 +304,7 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
     return (fresh & (phases >= splat_mask(EARLIEST_PHASE))) | ((steps & (INTERVAL - 1)) == INTERVAL - 1);
 }
 
-/* Lanes in which a certificate that is checked at intervals excludes separation. */
+/* Lanes in which one of the certificates that are tested at intervals excludes separation. */
 static inline mask held_sticks(const constants *c, const vec *y, mask candidates, double tolerance)
 {
     (void)c; (void)y; (void)candidates; (void)tolerance;
