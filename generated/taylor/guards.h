@@ -49,7 +49,9 @@ static first_event find_events(const series *s, const lanes *l, const fixed *f, 
     const vec zero = splat(0.0), one = splat(1.0), away = choose(l->closing, one, -one);
     const mask moves = l->alive & NOT(l->resting), rests = l->alive & l->resting;
     (void)zero; (void)moves; (void)rests; (void)inside; (void)beyond;
-    first_event first = {.time = splat(NO_ROOT), .event = splat_mask(0)};
+    first_event first;
+    first.time = splat(NO_ROOT);
+    first.event = splat_mask(0);
     vec part = one;
     mask close, event;
     vec gap = next_gap(l, f, &event);

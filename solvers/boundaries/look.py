@@ -91,11 +91,9 @@ class Look:
     def _give_up(self, angle: float, stokes: float, told: np.void) -> None:
         n = nondimensionalise(self.scene, self.scene.speed_of(stokes), angle)
         self.reasons[angle, stokes] = (
-            f"the doublet rebounds again and again: {KERNEL_STEPS} steps do not decide the outcome, "
-            f"{told['events']} events by "
+            f"{CHATTERS}: {KERNEL_STEPS} steps do not decide the outcome, {told['events']} events by "
             f"t = {told['time'] * n.time:.6g} s, "
-            f"now at a gap of {told['final_gap'] * n.length:.6g} m, {CHATTERS}; "
-            "try another --rtol, or a collision further off"
+            f"now at a gap of {told['final_gap'] * n.length:.6g} m; try another --rtol, or a collision further off"
         )
 
     def reason(self, angle: float, low: float, high: float) -> str:

@@ -60,7 +60,11 @@ def draw(found: Fitted) -> Figure:
 
 
 def _samples(found: Fitted) -> np.ndarray:
-    """Values of the entries within their joint 95 % region, the estimates first; bands are the range over them."""
+    """Values of the entries within their joint 95 % region, the estimates first; bands are the range over them.
+
+    The ends of the intervals are among them: where the likelihood falls faster to one side than its curvature says, all
+    that is drawn on that side may be less likely.
+    """
     free, objective = found.free, found.objective
     white = whitening(objective, found.best)
     ends = [(each.low, each.high) for each in found.estimates.values()]
@@ -70,7 +74,8 @@ def _samples(found: Fitted) -> np.ndarray:
     normal = np.random.default_rng(0).standard_normal((_TRIED, free.size))
     normal *= radius * np.linspace(0.4, 1.0, _TRIED)[:, None] / np.linalg.norm(normal, axis=1)[:, None]
     least = objective.value(found.best) - radius**2 / 2
-    inside = [found.best]
+    ends_inside = [point for both in found.ends for point in both if np.isfinite(objective.value(point))]
+    inside = [found.best, *ends_inside]
     tried = np.clip(found.best + normal @ white.T, low, high)
     inside += [each for each in tried if objective.value(each) >= least]
     return np.array([free.values(each) for each in inside])

@@ -54,9 +54,8 @@ def draw(design: Planned) -> Figure:
     scene = design.window.scene
     figure.suptitle(f"{plain_text(name_of(scene, 40))}{against(scene)}: what an impact tells")
     of_what = "all entries" if design.target is None else design.target
-    note = (
-        f"numbers: planned impacts for {plain_text(of_what)} ({design.size}); lines: changes of outcome without scatter"
-    )
+    note = (f"numbers: planned impacts for {plain_text(of_what)} ({design.size})"
+            f"{'; ' if len(names) > 1 else chr(10)}lines: changes of outcome without scatter")  # fmt: skip
     figure.supxlabel(note, color=NOTE)
     return figure
 

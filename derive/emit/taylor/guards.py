@@ -83,7 +83,7 @@ def _next_gap() -> list[str]:
 
 def _find() -> list[str]:
     body = [*_film(), _AWAY, "const mask moves = l->alive & NOT(l->resting), rests = l->alive & l->resting;", _UNUSED,
-            "first_event first = {.time = splat(NO_ROOT), .event = splat_mask(0)};", "vec part = one;",
+            "first_event first;", "first.time = splat(NO_ROOT);", "first.event = splat_mask(0);", "vec part = one;",
             "mask close, event;", "vec gap = next_gap(l, f, &event);"]  # fmt: skip
     gaps = ["close = moves & NOT(away*(first.gap - gap) > 0.0);", "if (bits(close))",
             "    look(&first, close, s->gap, gap, away, h, event);"]  # fmt: skip

@@ -74,12 +74,13 @@ def test_builds_and_checks(compiler: str, pendulum: Path, tmp_path: Path):
     assert {each.name for each in folder.iterdir()} == {each.name for each in pendulum.iterdir()}
 
 
+@pytest.mark.parametrize("standard", ["c++11", "c++20"])
 @pytest.mark.parametrize("compiler", COMPILERS.values())
-def test_spheres_that_spin_are_cpp_in_lanes(compiler: str, granulation: Path):
-    """A law with a bridge and spins is C++ in vector lanes as well, to either compiler."""
+def test_spheres_that_spin_are_cpp_in_lanes(compiler: str, standard: str, granulation: Path):
+    """A law with a bridge and spins is C++ in vector lanes as well, to either compiler and by either standard."""
     if shutil.which(compiler) is None:
         pytest.skip(f"{compiler} is missing")
-    flags = "-x c++ -std=c++11 -pedantic -Wall -Wextra -Werror -DGRANULATION_LANES=2 -fsyntax-only granulation.c"
+    flags = f"-x c++ -std={standard} -pedantic -Wall -Wextra -Werror -DGRANULATION_LANES=2 -fsyntax-only granulation.c"
     subprocess.run([compiler, *flags.split()], cwd=granulation, check=True)
 
 

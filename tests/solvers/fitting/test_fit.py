@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, fit, log_likelihood
+from wetdoublet.solvers import InputError, Scene, collide_many, fit, log_likelihood
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
 from wetdoublet.solvers.fitting.synthetic import drawn
 from wetdoublet.solvers.fitting.verdicts import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE
@@ -81,6 +81,40 @@ def test_drawn_profiles_cross_the_ends_of_the_intervals(pendulum):
     x, y = axes.lines[0].get_data()
     estimate = found.estimates[VISCOSITY]
     assert np.interp([estimate.low, estimate.high], x, y) == pytest.approx(-1.92, abs=0.3)
+
+
+def test_the_drawn_band_reaches_to_the_ends_of_the_interval():
+    """Where the likelihood falls faster to one side than its curvature says, the band has both ends of the interval."""
+    scene = Scene.from_toml("""
+[particles]
+radius = "310 um"
+density = "3.1 g/cm3"
+roughness = "1.1 um"
+dry_restitution = 0.83
+[liquid]
+viscosity = "0.31 Pa s"
+film_thickness = "21 um"
+[bridge]
+surface_tension = "0.041 N/m"
+volume = 0.021
+contact_angle = "12 deg"
+law = "willett"
+""")
+    speed, angle = np.array([1.597, 2.177, 2.54, 3.266]), np.radians(40)
+    measured = np.array([0.2902, 0.3108, 0.3126, 0.418]), np.full(4, 0.01)
+    scatter = 0.02 * speed, np.full(4, np.radians(1))
+    data = Measurements(speed, np.full(4, angle), *scatter, np.full(4, 2), {"restitution": measured})
+    found = fit(scene, data, [VISCOSITY], starts=0)
+    (axes,) = [each for each in found.plot().axes if each.get_ylabel() == "restitution $e_n$"]
+    corners = axes.collections[0].get_paths()[0].vertices
+    at = corners[np.argmin(np.abs(corners[:, 0] - 3.0)), 0]
+    band = corners[corners[:, 0] == at, 1]
+    estimate = found.estimates[VISCOSITY]
+    ends = collide_many(
+        scene, speed=at, angle=angle, vary={VISCOSITY: [estimate.low, estimate.high]}
+    ).restitution.values
+    assert band.min() <= ends.min() + 1e-9
+    assert band.max() >= ends.max() - 1e-9
 
 
 def test_choices_to_compare_are_checked_first():

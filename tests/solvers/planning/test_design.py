@@ -112,6 +112,15 @@ def test_a_prior_is_known_before() -> None:
     assert made.draws == 2
 
 
+def test_a_picture_for_one_entry_shows_all_its_words() -> None:
+    """No text of the narrowest picture reaches beyond its edges."""
+    figure = design("granulation", FREE[:1], {"stokes": (0.06, 0.3), "angle": 0.0}, 2).plot()
+    figure.draw_without_rendering()
+    for words in figure.texts:
+        extent = words.get_window_extent()
+        assert 0 <= extent.x0 < extent.x1 <= figure.bbox.width, words.get_text()
+
+
 def test_the_table_is_what_a_fit_reads(found: Design, tmp_path: Path) -> None:
     """Filled in, it is read with the speeds, angles and scatter that were planned."""
     lines = found.to_csv().splitlines()

@@ -294,7 +294,7 @@ static mask tumbles(const constants *c, const vec *y, const barrier *b, double t
 }
 #endif
 
-/* Lanes in which the certificates of `held_sticks` are tested: at the start of a phase, and after each INTERVAL of steps.
+/* Lanes in which the certificates of `held_sticks` are tested: at the start of a phase and after each INTERVAL of steps.
  * Where an energy certificate decides most sticks before, only from the fourth phase on.
  */
 enum { EARLIEST_PHASE = PROOF_BY_ENERGY ? 4 : 1, INTERVAL = PROOF_BY_ENERGY ? 64 : 16 };

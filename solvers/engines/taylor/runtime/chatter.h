@@ -137,7 +137,7 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
     candidates &= (spins >= 0.0) & (spins <= from[ORBITAL_MOMENTUM]);
 #endif
     for (int k = 1; k <= AHEAD; k++) {
-        double part = (double)k/AHEAD;
+        double part = (double)k/(int)AHEAD;
         vec high = y[GAP] + (end - y[GAP])*(part*part*part), pull, still; /* denser at small distances */
         works_ahead(c, from, low, high, &pull, &still);
         inward += pull;
@@ -165,7 +165,7 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
     there[GAP] = end;
     mask candidates = (low < end) & (vec_abs(y[ORBITAL_MOMENTUM]) >= vec_abs(rigid_momentum(c, there))), held = splat_mask(0);
     for (int k = 1; k <= AHEAD && bits(candidates); k++) {
-        double part = (double)k/AHEAD;
+        double part = (double)k/(int)AHEAD;
         vec high = y[GAP] + (end - y[GAP])*(part*part*part), pull, still;
         works_ahead(c, y, low, high, &pull, &still);
         pulled += pull;

@@ -118,7 +118,7 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
 {
     vec none = splat(-INFINITY);
     vec start = vec_min(vec_max(contact, splat(1e-6)), splat(0.5));
-    vec ratio = vec_exp(vec_log(start)*(-1.0/INNER)), width = (end - 1.0)*(1.0/OUTER);
+    vec ratio = vec_exp(vec_log(start)*(-1.0/(int)INNER)), width = (end - 1.0)*(1.0/(int)OUTER);
     vec low = start, slope = slope_at(c, y, start);
     vec lower[2] = {start, start}, upper[2] = {start, start};
     mask first = splat_mask(0), second = splat_mask(0);

@@ -262,7 +262,7 @@ OUTLINE void crawl(queue *q)
         l.time += only(taken, h);
         l.smallest = vec_min(l.smallest, l.y[GAP]);
         l.steps += splat_mask(COST);
-        vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/COLUMNS));
+        vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/(int)COLUMNS));
         h *= choose(clear, vec_min(better, splat(4.0)), splat(0.25));
         mask leaves = busy & NOT(h > least_step);
         EACH_OF(lane, bits(leaves)) {
