@@ -87,15 +87,15 @@ class OrbitalMomentumCertificate(Certificate):
             return False  # the bound for the surface lever arm is proved only for rho < 4 a
         edges = gaps_ahead(gap, self.end)
         inward, attraction = self._work(edges, y, orbital_momentum), self._work(edges, y, 0.0)
-        slips, energy = self._margins(edges[1:], y, orbital_momentum)
-        exchanged = self._exchange(edges[1:], y, slips, energy, settled or not self._drifts)
+        slips, energy = self.margins(edges[1:], y, orbital_momentum)
+        exchanged = self.exchange(edges[1:], y, slips, energy, settled or not self._drifts)
         needed = normal_velocity**2 / 2 - inward + exchanged
         size = abs(orbital_momentum) + np.abs(slips) * (4 + self.aspect * edges[1:]) ** 2
         turned = (self.obliquity**2 / 16) * size * np.where(exchanged > 0, np.abs(slips), 0.0)
         error = normal_velocity**2 + abs(normal_velocity) + 2 * np.abs(attraction) + np.abs(inward) + turned
         return bool(np.any(stays_below(needed, self.margin, error)))
 
-    def _margins(self, gaps: np.ndarray, y: np.ndarray, orbital_momentum: float) -> tuple[np.ndarray, np.ndarray]:
+    def margins(self, gaps: np.ndarray, y: np.ndarray, orbital_momentum: float) -> tuple[np.ndarray, np.ndarray]:
         """Slips at these gaps, and the energies that shear can transfer there."""
         states = states_at(self.model, gaps, y, orbital_momentum)
         margins = dict(
@@ -103,7 +103,7 @@ class OrbitalMomentumCertificate(Certificate):
         )
         return margins["slip"], margins[self.lever]
 
-    def _exchange(
+    def exchange(
         self, gaps: np.ndarray, y: np.ndarray, slips: np.ndarray, energy: np.ndarray, settled: bool
     ) -> np.ndarray:
         """Energy that the tangential force can still transfer from spin to orbit before each of these gaps.
@@ -118,7 +118,7 @@ class OrbitalMomentumCertificate(Certificate):
         if y[2] * np.sign(rigid["orbital_momentum"]) >= abs(rigid["orbital_momentum"]):
             return np.where(beyond, 0.0, possible)
         at_edge = np.array([self.edge, 0.0, *list(rigid.values())[2:]])  # orbital momentum, and spin if it is a state
-        _, left = self._margins(gaps, at_edge, rigid["orbital_momentum"])
+        _, left = self.margins(gaps, at_edge, rigid["orbital_momentum"])
         return np.where(beyond, energy - left, possible)  # of J at most, or of J = 0
 
     def _work(self, edges: np.ndarray, y: np.ndarray, orbital_momentum: float) -> np.ndarray:
