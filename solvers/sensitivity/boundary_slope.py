@@ -289,7 +289,8 @@ def _moving(model: Model, shear: int) -> Function:
     held = SX.sym("held", len(model.state))
     foot = substitute([gap - slope_ / jacobian(slope_, gap)], [model.column], [held])[0]
     there = [foot, *(held[k] for k in range(1, len(model.state)))]
-    values = model("rigid_rotation").values() if shear else (gap, 0, *(list(model.state.values())[2:]))
+    values = list(model("rigid_rotation").values() if shear else model.state.values())
+    values = values if shear else [gap, SX(0), *values[2:]]
     column = vertcat(*(SX(each) for each in values))
     state = substitute([column], [model.column], [vertcat(*there)])[0]
     slopes = [densify(jacobian(state, each)) for each in (held, model.parameters)]
