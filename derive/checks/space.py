@@ -117,13 +117,32 @@ def least_energy_in_space() -> Evidence:
     yield apart
 
 
+@check("space: excess of J", "|J - r^2 L/I|^2 <= 2 D r^2 (I_1 + I_2)/I, D the slip energy")
+def excess_of_orbital_momentum() -> Evidence:
+    """What J and spins deviate from rotation at L/I by has no angular momentum: the spins have a share of its energy.
+
+    The lack of the bound is r^2 I_1 I_2/I times the square of the difference of both spins.
+    """
+    model = derive(_SPACE)
+    inertias = (space.SPIN_INERTIA, space.PARTNER_INERTIA)
+    excess = sp.Matrix(q.orbital_momenta) - DISTANCE**2 * sp.Matrix(space.MOMENTA) / INERTIA_RATIO
+    apart = sp.Matrix(q.spins) - sp.Matrix(q.partner_spins)
+    bound = 2 * space.slip_energy() * DISTANCE**2 * sum(inertias) / INERTIA_RATIO
+    spare = DISTANCE**2 * sp.Mul(*inertias) / INERTIA_RATIO * vectors.dot(apart, apart)
+    kept = (DISTANCE.name, *(each.name for each in inertias))
+    yield model.expanded(bound - vectors.dot(excess, excess) - spare, kept)
+    rigid = DISTANCE**2 * sp.sqrt(space.MOMENTUM_SQUARE) / INERTIA_RATIO
+    yield space.outward_at_most() - space.centrifugal((rigid + sp.sqrt(bound)) ** 2)
+
+
 @check("space: rebounds", "C' <= (sqrt C + sqrt(2 work/r))^2 (r/r')^4 for a smaller distance r'")
 def outward_at_smaller_gaps() -> Evidence:
     """The bound of the centrifugal force by which `solvers.certificates.rebounds` excludes that a gap is reached again.
 
-    It is J^2/r^3 with |J| <= |L| r^2/I + r sqrt(2 D), D the slip energy. While the gap closes from r to a smaller r', D
-    grows by the work of the attractions at most, as L^2/(2 I) grows: the root of the bound then grows by
-    sqrt(2 work/r). At r' its two parts, |L| sqrt(r)/I and sqrt(2 D/r), are at most (r/r')^2 times those at r.
+    It is J^2/r^3 with |J| <= |L| r^2/I + r sqrt(2 D s), D the slip energy and s = (I_1 + I_2)/I < 1. While the gap
+    closes from r to a smaller r', D grows by the work of the attractions at most, as L^2/(2 I) grows: the root of the
+    bound then grows by sqrt(2 work/r) at most. At r' its two parts, |L| sqrt(r)/I and sqrt(2 D s/r), are at most
+    (r/r')^2 times those at r.
     """
     near, apart, work = sp.symbols("near apart work", positive=True)
     far = near + apart
@@ -132,7 +151,7 @@ def outward_at_smaller_gaps() -> Evidence:
     here, there = inertia.subs(DISTANCE, far), inertia.subs(DISTANCE, near)
     falls = [
         sp.expand(far**2 * there - near**2 * here),  # I/I' <= (r/r')^2, and sqrt(r') <= sqrt(r)
-        sp.expand(far**3 - near**3),  # sqrt(r/r') <= (r/r')^2
+        sp.expand(far**3 * there - near**3 * here),  # r I/(r' I') <= (r/r')^4
         sp.expand(here - there),  # L^2/(2 I) is no smaller at r'
     ]
     positive = all(each.is_positive for each in falls)

@@ -162,9 +162,13 @@ def rigid_rotation() -> dict[str, sp.Expr]:
 
 
 def outward_at_most() -> sp.Expr:
-    """Centrifugal force on a resting doublet from now on, at most: its slip energy never grows, so |J| is bounded."""
+    """Centrifugal force on a resting doublet from now on, at most: its slip energy never grows, so |J| is bounded.
+
+    What J exceeds rigid rotation by, the spins fall short of, as L is conserved: both have a part of the slip energy.
+    """
+    spins = (SPIN_INERTIA + PARTNER_INERTIA) / INERTIA_RATIO
     rigid = DISTANCE**2 * sp.sqrt(MOMENTUM_SQUARE) / INERTIA_RATIO
-    return centrifugal((rigid + DISTANCE * sp.sqrt(2 * slip_energy())) ** 2)
+    return centrifugal((rigid + DISTANCE * sp.sqrt(2 * spins * slip_energy())) ** 2)
 
 
 def surface_slips() -> list[sp.Expr]:

@@ -1,4 +1,4 @@
-"""Chatter in space: the certificate by rebounds, beside the trajectory followed without it."""
+"""Chatter and rest in space: their certificates, beside the trajectory followed without them."""
 
 import numpy as np
 import pytest
@@ -67,3 +67,47 @@ def test_an_elastic_rebound_proves_nothing() -> None:
     elastic = EventLocator(model, {**groups, "dry_restitution": 1.0}, 1e-8, ("rotation",)).proof
     assert proved.proof.decided(y, proved.phase)
     assert not elastic.decided(y, proved.phase)
+
+
+RESTING = Scene.from_dict(
+    {
+        "particles": {"radius": 2.3e-4, "density": 2700.0, "roughness": 9e-7, "dry_restitution": 0.77}
+        | {"friction": 0.21, "contact_tangential_restitution": 0.3},
+        "liquid": {"viscosity": 0.031, "film_thickness": 1.7e-5},
+        "bridge": {"law": "rabinovich", "surface_tension": 0.048, "volume": 0.004, "contact_angle": 0.3665},
+        "attraction": {"hamaker": 3e-19},
+    }
+)
+TWISTED = (  # pairs that come to rest with friction, and turn on with twist
+    ([-0.784, 0.235, -0.574], [[-0.003, 0.225, 0.018], [0.476, 0.62, -0.195]], [[39, 144, -721], [1002, 232, 782]]),
+    ([-0.46, -0.707, -0.537], [[-0.037, -0.587, -1], [0.151, -0.843, -0.564]], [[88, -344, 638], [-971, -1360, -550]]),
+)
+
+
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_rest_with_friction_and_twist_is_a_proved_stick(engine: str) -> None:
+    """Where the slip energy without the share of the spins would do to release the doublet."""
+    found = collide_pair(RESTING, *map(np.array, zip(*TWISTED, strict=True)), engine=engine)
+    assert found.outcome.values.tolist() == [0, 0], found.reason.values.tolist()
+    assert found.certified.values.all()
+
+
+def test_the_centrifugal_force_at_rest_stays_below_its_bound() -> None:
+    """Followed without certificates from the start of rest, through sliding, while the slip falls by a third."""
+    for normal, velocities, spins in TWISTED:
+        pair = checked(RESTING, np.array(normal), np.array(velocities), np.array(spins, float))
+        model = load(select_model(RESTING, True, space=True))
+        groups = groups_of(pair, own_axes(pair)).groups
+        path = EventLocator(model, groups, 1e-8, ("rotation",)).run()
+        states = [path.y] + [
+            WithoutCertificate(model, groups, 1e-8, ("rotation",)).on(path.time + later).y for later in (0.2, 0.4, 0.6)
+        ]
+        bounds = [model.values("resting_bound", y, path.p) for y in states]
+        forces = [model.values("inward_force", y, path.p)["inward_force"] for y in states]
+        outward = [bound["inward"] - force for bound, force in zip(bounds, forces, strict=True)]
+        most = [bound["outward"] for bound in bounds]
+        assert all(force > 0 for force in forces)
+        assert max(outward) < most[0] < bounds[0]["inward"]
+        assert most == sorted(most, reverse=True)  # the slip energy never grows
+        slips = [model.values("surface_slip", y, path.p)["surface_slip"] for y in states]
+        assert slips[-1] < slips[0] / 1.5
