@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 ffaf8bca325f59a66c77c4bf6964e0dd11e3ad44313eca788b157e4b99917de4
+# Automaton sha256 be4f2435aa3cb6ecdabfc008448d4f1a861aeae3032ae568fddf5f43d56b3caa
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ class Status(IntEnum):
     TOO_OBLIQUE = 5  # the centrifugal force is beyond MOST_OBLIQUE
     RESTS_IN_FRICTION = 6  # resting contact with friction, whose modes this kernel does not integrate
     ESCAPED = 7  # a stick that is proved separates when it is followed on: a defect
-    WITHIN_ROUNDING = 8  # the doublet separates at less than LEAST_PARTING
+    WITHIN_ROUNDING = 8  # the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM
 
 
 LAST_ANSWER = Status.PROVED_AT_TOUCH
@@ -133,6 +133,7 @@ TUMBLES = 0.001  # in space: a doublet tumbles as one body where all other motio
 TURNLESS = 3.552713678800501e-15  # in space: a component that is a smaller part of the largest vector of its kind is rounding, and where all are, nothing rotates
 LEAST_SLIP = 1e-12  # in the scale of tangential speeds: below it at initial contact no ratio of slips is formed
 LEAST_PARTING = 1.4210854715202004e-14  # in the scale of tangential speeds times sqrt(x0/a): a slower separation is what rounding of the angular momentum alone sets off, and decides nothing
+LEAST_MOMENTUM = 5.960464477539063e-08  # of the parts of the angular momentum: rounding of less changes what it sets off by more than as much
 LEAST_DEPTH = 1e-40  # least gap, relative to the present one, of the film certificate without contact
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e
+# Equations sha256 e5ce12d13392f1c421590f9e11ec092dfad53301656fe2c16d92a0ecf669549d
 """Oblique doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -45,7 +45,7 @@ FUNCTIONS = (
     "spin_down_margins", "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e"
+DIGEST = "e5ce12d13392f1c421590f9e11ec092dfad53301656fe2c16d92a0ecf669549d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -297,10 +297,10 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
-    < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. So do apart
-    < 0 and inside < 0 where J = 0.
+    < 0 and rate > 0 exclude separation; momentum is |L| over its parts at the start, beyond rounding. So do
+    apart < 0 and inside < 0 where J = 0.
 
-    Total operations: 96
+    Total operations: 95
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -328,7 +328,7 @@ def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any
         "rate": rate,
         "apart": fmax(stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) - laws.film.stopping(gap), laws.film.stopping(gap) - normal_velocity*stokes - laws.film.stopping(shear_end)),
         "inside": shear_end - gap,
-        "momentum": fmax(0, fmax(-6.4*initial_spin - initial_turning*(aspect + 4)**2, 6.4*initial_spin + initial_turning*(aspect + 4)**2) - 3.552713678800501e-15*initial_turning*(aspect + 4)**2 - 3.552713678800501e-15*fmax(-6.4*initial_spin, 6.4*initial_spin)),
+        "momentum": fmax(0, fmax(-6.4*initial_spin - initial_turning*(aspect + 4)**2, 6.4*initial_spin + initial_turning*(aspect + 4)**2)/(initial_turning*(aspect + 4)**2 + fmax(-6.4*initial_spin, 6.4*initial_spin)) - 3.552713678800501e-15),
     }
 
 

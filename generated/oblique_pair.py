@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 b8bd93d9db22856269702d38b244efc5cdf170896cbc75cac32eaa65342c753c
+# Equations sha256 130a4e4d7914f957a89e18104d31f2f53b5217c6d363087ca222d566842dc4bf
 """Oblique unequal doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -49,7 +49,7 @@ FUNCTIONS = (
     "spin_down_margins", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "b8bd93d9db22856269702d38b244efc5cdf170896cbc75cac32eaa65342c753c"
+DIGEST = "130a4e4d7914f957a89e18104d31f2f53b5217c6d363087ca222d566842dc4bf"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -367,10 +367,10 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
-    < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. So do apart
-    < 0 and inside < 0 where J = 0.
+    < 0 and rate > 0 exclude separation; momentum is |L| over its parts at the start, beyond rounding. So do
+    apart < 0 and inside < 0 where J = 0.
 
-    Total operations: 167
+    Total operations: 165
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -409,7 +409,7 @@ def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any
         "rate": rate,
         "apart": fmax(stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) - laws.film.stopping(gap), laws.film.stopping(gap) - normal_velocity*stokes - laws.film.stopping(shear_end)),
         "inside": shear_end - gap,
-        "momentum": fmax(0, fmax(-initial_partner_spin*partner_inertia - initial_spin*spin_inertia - initial_turning*(aspect + centres)**2, initial_partner_spin*partner_inertia + initial_spin*spin_inertia + initial_turning*(aspect + centres)**2) - 3.552713678800501e-15*initial_turning*(aspect + centres)**2 - 3.552713678800501e-15*fmax(-initial_partner_spin*partner_inertia, initial_partner_spin*partner_inertia) - 3.552713678800501e-15*fmax(-initial_spin*spin_inertia, initial_spin*spin_inertia)),
+        "momentum": fmax(0, fmax(-initial_partner_spin*partner_inertia - initial_spin*spin_inertia - initial_turning*(aspect + centres)**2, initial_partner_spin*partner_inertia + initial_spin*spin_inertia + initial_turning*(aspect + centres)**2)/(initial_turning*(aspect + centres)**2 + fmax(-initial_partner_spin*partner_inertia, initial_partner_spin*partner_inertia) + fmax(-initial_spin*spin_inertia, initial_spin*spin_inertia)) - 3.552713678800501e-15),
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34
+# Equations sha256 de795b184bfe31ee06f0c444ec86e38266237401cc741b9f716172f4472f31b3
 """Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -45,7 +45,7 @@ FUNCTIONS = (
     "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34"
+DIGEST = "de795b184bfe31ee06f0c444ec86e38266237401cc741b9f716172f4472f31b3"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -200,10 +200,10 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
-    < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. So do apart
-    < 0 and inside < 0 where J = 0.
+    < 0 and rate > 0 exclude separation; momentum is |L| over its parts at the start, beyond rounding. So do
+    apart < 0 and inside < 0 where J = 0.
 
-    Total operations: 107
+    Total operations: 106
     """
     gap = state["gap"]
     normal_velocity = state["normal_velocity"]
@@ -232,7 +232,7 @@ def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any
         "rate": rate,
         "apart": fmax(stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) - laws.film.stopping(gap), laws.film.stopping(gap) - normal_velocity*stokes - laws.film.stopping(shear_end)),
         "inside": shear_end - gap,
-        "momentum": fmax(0, fmax(-6.4*initial_spin - initial_turning*(aspect + 4)**2, 6.4*initial_spin + initial_turning*(aspect + 4)**2) - 3.552713678800501e-15*initial_turning*(aspect + 4)**2 - 3.552713678800501e-15*fmax(-6.4*initial_spin, 6.4*initial_spin)),
+        "momentum": fmax(0, fmax(-6.4*initial_spin - initial_turning*(aspect + 4)**2, 6.4*initial_spin + initial_turning*(aspect + 4)**2)/(initial_turning*(aspect + 4)**2 + fmax(-6.4*initial_spin, 6.4*initial_spin)) - 3.552713678800501e-15),
     }
 
 

@@ -238,7 +238,8 @@ RULES = (
     Rule("grip", "a rebound of a scene with friction rests",
          "it slides; if it has no slip (less than NO_SLIP) and friction can hold the surfaces, it rolls. In space "
          "it slides in the direction of the slip, which may turn, and rolls where that is less than CREEP", ("rolls",)),
-    Rule("parting", "the doublet ruptures at a normal velocity below LEAST_PARTING", "no outcome is decided"),
+    Rule("parting", "the doublet ruptures at a normal velocity below LEAST_PARTING, or a film alone would keep it but "
+         "for an angular momentum below LEAST_MOMENTUM", "no outcome is decided"),
     Rule("opening", "the doublet opens or rests on the edge of the film or of the tangential force",
          "it is beyond that edge"),
     Rule("obliqueness", "the centrifugal force exceeds MOST_OBLIQUE times v0^2/x0", "the collision is refused"),
@@ -283,7 +284,7 @@ STATUSES = (
     Status("TOO_OBLIQUE", "the centrifugal force is beyond MOST_OBLIQUE"),
     Status("RESTS_IN_FRICTION", "resting contact with friction, whose modes this kernel does not integrate"),
     Status("ESCAPED", "a stick that is proved separates when it is followed on: a defect"),
-    Status("WITHIN_ROUNDING", "the doublet separates at less than LEAST_PARTING"),
+    Status("WITHIN_ROUNDING", "the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM"),
 )  # fmt: skip
 
 
@@ -340,5 +341,7 @@ CONSTANTS = (
              "formed"),
     Constant("LEAST_PARTING", 2.0**-46, "in the scale of tangential speeds times sqrt(x0/a): a slower separation is "
              "what rounding of the angular momentum alone sets off, and decides nothing"),
+    Constant("LEAST_MOMENTUM", 2.0**-24, "of the parts of the angular momentum: rounding of less changes what it sets "
+             "off by more than as much"),
     Constant("LEAST_DEPTH", 1e-40, "least gap, relative to the present one, of the film certificate without contact"),
 )  # fmt: skip

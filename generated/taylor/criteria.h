@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 ffaf8bca325f59a66c77c4bf6964e0dd11e3ad44313eca788b157e4b99917de4
+ * Automaton sha256 be4f2435aa3cb6ecdabfc008448d4f1a861aeae3032ae568fddf5f43d56b3caa
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

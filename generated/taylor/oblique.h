@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e */
+ * Equations sha256 e5ce12d13392f1c421590f9e11ec092dfad53301656fe2c16d92a0ecf669549d */
 
 /* Oblique doublet with a film only.
  *
@@ -136,8 +136,8 @@ static inline void prepare(constants *c)
         6.4*vec_abs(c->initial_spin));
     c->first_momentum = vec_larger(splat(0.0), vec_larger(6.4*c->initial_spin + c->initial_turning*((c->aspect
         + 4.0)*(c->aspect + 4.0)), -6.4*c->initial_spin - c->initial_turning*((c->aspect + 4.0)*(c->aspect +
-        4.0))) - 3.552713678800501e-15*c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0)) -
-        3.552713678800501e-15*vec_larger(-6.4*c->initial_spin, 6.4*c->initial_spin));
+        4.0)))/(c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0)) + vec_larger(-6.4*c->initial_spin,
+        6.4*c->initial_spin)) - 3.552713678800501e-15);
     c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
@@ -324,8 +324,8 @@ static inline vec potential_slope(const constants *c, const vec *y)
 #if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)
 #define SPIN_DOWN MIDGAP_ARM
 /* Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
- * < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. So do apart
- * < 0 and inside < 0 where J = 0. */
+ * < 0 and rate > 0 exclude separation; momentum is |L| over its parts at the start, beyond rounding. So do
+ * apart < 0 and inside < 0 where J = 0. */
 static inline void spin_down_margins(const constants *c, const vec *y, vec *stays, vec *rate_margin, vec
     *apart, vec *inside)
 {

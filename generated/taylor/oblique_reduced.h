@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34 */
+ * Equations sha256 de795b184bfe31ee06f0c444ec86e38266237401cc741b9f716172f4472f31b3 */
 
 /* Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
  *
@@ -114,8 +114,8 @@ static inline void prepare(constants *c)
         -0.0625*c->aspect*(c->momentum*c->momentum)*(c->obliquity*c->obliquity);
     c->first_momentum = vec_larger(splat(0.0), vec_larger(6.4*c->initial_spin + c->initial_turning*((c->aspect
         + 4.0)*(c->aspect + 4.0)), -6.4*c->initial_spin - c->initial_turning*((c->aspect + 4.0)*(c->aspect +
-        4.0))) - 3.552713678800501e-15*c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0)) -
-        3.552713678800501e-15*vec_larger(-6.4*c->initial_spin, 6.4*c->initial_spin));
+        4.0)))/(c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0)) + vec_larger(-6.4*c->initial_spin,
+        6.4*c->initial_spin)) - 3.552713678800501e-15);
     c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->relaxation_per_combination_by_shear_log_factor_law_over_distance =
         0.041666666666666664*c->aspect/c->stokes;
@@ -259,8 +259,8 @@ static inline vec potential_slope(const constants *c, const vec *y)
 #if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)
 #define SPIN_DOWN 1
 /* Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
- * < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. So do apart
- * < 0 and inside < 0 where J = 0. */
+ * < 0 and rate > 0 exclude separation; momentum is |L| over its parts at the start, beyond rounding. So do
+ * apart < 0 and inside < 0 where J = 0. */
 static inline void spin_down_margins(const constants *c, const vec *y, vec *stays, vec *rate_margin, vec
     *apart, vec *inside)
 {

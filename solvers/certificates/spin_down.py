@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import SAFETY
+from ...generated.automaton import LEAST_MOMENTUM, SAFETY
 from ..model.model import Model
 from ..model.phases import Phase
 from ..scene.contact import contact_gap
@@ -35,8 +35,24 @@ class SpinDownCertificate:
         return None
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        if not y[0] >= self._nearest:
-            return Certainty.OPEN  # the margins assume a gap above solid contact; initial contact may lie below it
-        found = self.model.values("spin_down_margins", y[: len(self.model.state)], self.p)
-        dies_out = found["momentum"] == 0 and found["rate"] > 0 and found["stays"] < -self._error
-        return Certainty.of(dies_out or (y[2] == 0 and found["inside"] < 0 and found["apart"] < -self._error))
+        if self._dies_out(y, 0.0):
+            return Certainty.PROVED
+        found = self._margins(y)
+        still = y[0] >= self._nearest and y[2] == 0
+        return Certainty.of(bool(still and found["inside"] < 0 and found["apart"] < -self._error))
+
+    def rounded(self, y: np.ndarray) -> bool:
+        """True if the doublet separates only by an angular momentum that rounding changes too much for its figures."""
+        return self._dies_out(y, LEAST_MOMENTUM)
+
+    def _dies_out(self, y: np.ndarray, most: float) -> bool:
+        """True if the film keeps the doublet where an angular momentum up to `most` of its parts is none.
+
+        The margins assume a gap above solid contact; initial contact may lie below it.
+        """
+        found = self._margins(y)
+        none = y[0] >= self._nearest and found["momentum"] <= most
+        return bool(none and found["rate"] > 0 and found["stays"] < -self._error)
+
+    def _margins(self, y: np.ndarray) -> dict[str, float]:
+        return self.model.values("spin_down_margins", y[: len(self.model.state)], self.p)

@@ -17,7 +17,8 @@ unit mass, with the lever arm at mid-gap and neither strings nor attractions, fo
    most one rebound, from a gap x' <= x, with e_dry (St |u| - S(x') + S(x)) over St at most, which is largest in excess
    of S(x') at x' = x. Both cases are one test: St max(u, -e_dry u) + St impulse < S(x) - S(d) (`stays` < 0).
 
-L counts as zero below its own rounding error: it is the sum of an orbital part and of those of the spins.
+L counts as zero below its own rounding error: it is the sum of an orbital part and of those of the spins. A little more
+of it opens the film after all, but by no more than a force ~ L^2: a separation whose figures rounding of L decides.
 
 Beyond the edge of the shear nothing changes J. So with J = 0 there, for any spins, a doublet stays head-on until it has
 closed to the edge. The film stops it before if St |u| < S(edge) - S(x), and what opens, at once or after a rebound, if
@@ -118,7 +119,7 @@ def functions(structure: Structure) -> Functions:
     """The margins."""
     doc = (
         "Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): "
-        "stays < 0 and rate > 0 exclude separation; momentum is |L| at initial contact beyond rounding error. "
+        "stays < 0 and rate > 0 exclude separation; momentum is |L| over its parts at the start, beyond rounding. "
         "So do apart < 0 and inside < 0 where J = 0."
     )
     film = slot_call("film", "stopping", q.gap)
@@ -137,11 +138,11 @@ def functions(structure: Structure) -> Functions:
 
 
 def first_momentum(structure: Structure) -> sp.Expr:
-    """|L| at initial contact in excess of its rounding error, over m a^2 times the scale of rates."""
+    """|L| at initial contact over the sum of its parts, in excess of its rounding error."""
     first, known = start(_full(structure)), dict(intermediates(_full(structure)))
     (whole,) = (sp.expand(value) for symbol, value in known.items() if symbol.name == "momentum")
     parts = [
         whole.coeff(state) * first[state] for state in (q.orbital_momentum, q.spin, q.partner_spin) if whole.has(state)
     ]
-    size = sp.Max(sp.Add(*parts), -sp.Add(*parts))
-    return sp.Max(size - ROUNDING * sp.Add(*(sp.Max(part, -part) for part in parts)), 0)
+    size, sizes = (sp.Add(*(sp.Max(each, -each) for each in those)) for those in ((sp.Add(*parts),), parts))
+    return sp.Max(size / sizes - ROUNDING, 0)

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 250d142a4099a3c867e88eb32624ed29b8aab1e85a2d415721d8062c1bfe1a4e */
+ * Equations sha256 e5ce12d13392f1c421590f9e11ec092dfad53301656fe2c16d92a0ecf669549d */
 
 /* Tangent of oblique.h: derivatives of the states by the groups.
  *

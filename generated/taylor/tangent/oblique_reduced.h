@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 0946cfb6b7fad4109ce276cdcf9131dd66336d1cea7221dddd0e642ccabe3c34 */
+ * Equations sha256 de795b184bfe31ee06f0c444ec86e38266237401cc741b9f716172f4472f31b3 */
 
 /* Tangent of oblique_reduced.h: derivatives of the states by the groups.
  *

@@ -17,6 +17,7 @@ from ....generated.automaton import (
     ENDS,
     EVENTS,
     KINDS,
+    LEAST_MOMENTUM,
     LEAST_PARTING,
     LOOSEST,
     MOST_OBLIQUE,
@@ -30,7 +31,15 @@ from ....generated.automaton import (
     Event,
     EventKind,
 )
-from ...certificates import Certainty, Certificate, NoCertificate, OrbitalMomentumCertificate, at_maximum, proof_for
+from ...certificates import (
+    Certainty,
+    Certificate,
+    NoCertificate,
+    OrbitalMomentumCertificate,
+    SpinDownCertificate,
+    at_maximum,
+    proof_for,
+)
 from ...errors import CheckFailed, ComputationError
 from ...model.model import Model
 from ...model.phases import Flow, Phase, WatchedEvents
@@ -247,6 +256,12 @@ class EventLocator:
         if certainty:
             self._stop(PhaseRun(self.phase, elapsed, None, ()))
             self.path.certified = certainty is Certainty.PROVED
+        elif isinstance(self.proof, SpinDownCertificate) and self.proof.rounded(self.y):
+            raise self._error(
+                f"orbit and spins cancel to {LEAST_MOMENTUM:.0e} of their angular momentum or less, and the doublet "
+                f"separates so slowly that {ROUNDED}",
+                "try spins with another angular momentum",
+            )
         return bool(certainty)
 
     def _level(self) -> float | None:

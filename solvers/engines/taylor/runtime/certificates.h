@@ -180,10 +180,12 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
 /* Spin-down certificate: without angular momentum the rotation dies out, and the film alone keeps the doublet
  * (derive/equations/certificates/spin_down.py). Rate is not positive beyond the edge of the shear, where without J
  * nothing turns.
+ *
+ * `most` is the largest angular momentum that counts as none.
  */
-static inline mask spun_down(const constants *c, const vec *y, mask asked, double tolerance)
+static inline mask spun_down(const constants *c, const vec *y, mask asked, double tolerance, double most)
 {
-    mask still = y[ORBITAL_MOMENTUM] == 0.0, none = c->first_momentum == 0.0;
+    mask still = y[ORBITAL_MOMENTUM] == 0.0, none = c->first_momentum <= most;
     asked &= (none | still) & (y[GAP] >= contact_gap(c)*(1.0 - SAFETY*tolerance));
     if (!bits(asked))
         return asked;
@@ -308,6 +310,17 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
     return (fresh & (phases >= splat_mask(EARLIEST_PHASE))) | ((steps & (INTERVAL - 1)) == INTERVAL - 1);
 }
 
+/* Lanes that separate only by an angular momentum that rounding changes too much for their figures. */
+static inline mask rounded_separations(const constants *c, const vec *y, mask asked, double tolerance)
+{
+#if SPIN_DOWN && !OWN_EVENTS
+    return spun_down(c, y, asked & (c->first_momentum > 0.0), tolerance, LEAST_MOMENTUM);
+#else
+    (void)c; (void)y; (void)asked; (void)tolerance;
+    return splat_mask(0);
+#endif
+}
+
 /* Lanes in which a certificate that is checked at intervals excludes separation. */
 static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
 {
@@ -320,7 +333,7 @@ static inline mask held_sticks(const constants *c, const vec *y, mask asked, dou
 #endif
 #endif /* OWN_EVENTS */
 #if SPIN_DOWN
-    return spun_down(c, y, asked, tolerance);
+    return spun_down(c, y, asked, tolerance, 0.0);
 #endif
 #if PENDULUM
     return held_at_turn(c, y, asked, tolerance);

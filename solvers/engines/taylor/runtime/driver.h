@@ -67,16 +67,21 @@ static void run(queue *q)
 #endif
         if (!bits(l.alive))
             break;
-        mask sticks = held_sticks(&f.c, l.y, l.alive & now_and_then(l.fresh, l.phases, l.steps), q->rtol);
+        mask checked = l.alive & now_and_then(l.fresh, l.phases, l.steps);
+        mask sticks = held_sticks(&f.c, l.y, checked, q->rtol);
         sticks |= proved_underway(&l, &f, q->rtol);
+        mask rounded = rounded_separations(&f.c, l.y, checked & NOT(sticks), q->rtol);
 #if FLOATS
         sticks |= floating(&l, &f, q->rtol);
 #endif
 #if WITH_TRAJECTORY
         sticks &= provable(q, l.closing);
+        rounded &= provable(q, l.closing);
 #endif
         for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
             sticks_for_good(q, &l, &f, first_of(proved), 1);
+        for (unsigned lost = bits(rounded); lost; lost &= lost - 1)
+            finish(q, &l, &f, first_of(lost), WITHIN_ROUNDING, STICK, 0);
 #if CHATTER_TESTS
         mask stays = held_in_chatter(&l, &f, q->rtol);
 #if WITH_TRAJECTORY

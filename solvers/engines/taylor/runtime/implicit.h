@@ -259,6 +259,10 @@ OUTLINE void crawl(queue *q)
         for (unsigned proved = bits(busy & sticks); proved; proved &= proved - 1)
             settle(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
         busy &= NOT(sticks);
+        mask rounded = rounded_separations(&f.c, l.y, busy, q->rtol);
+        for (unsigned lost = bits(rounded); lost; lost &= lost - 1)
+            settle(q, &l, &f, first_of(lost), WITHIN_ROUNDING, STICK, 0);
+        busy &= NOT(rounded);
 #if SPACE && PROOF_BY_ENERGY
         mask held = busy & tumbles(&f.c, l.y, &f.b, q->rtol);
         for (unsigned left = bits(held); left; left &= left - 1)
