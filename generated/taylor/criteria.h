@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 be4f2435aa3cb6ecdabfc008448d4f1a861aeae3032ae568fddf5f43d56b3caa
+ * Automaton sha256 e89334728bcf96799578dc222063336df5112b75a15b7055c7b4e9926b51e0b9
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 
