@@ -321,7 +321,7 @@ class EventLocator:
             self._spend(find.steps)
             if stop.dipped and stop.event:
                 stop = self._refined(find, stop, stop.event, level)
-            return self._overshot(find, stop, level) if stop.event in (None, "turning") else stop
+            return self._overshot(find, stop, level)
         except IntegrationFailed as error:
             self._spend(find.steps + 1)
             if looser := self.tolerance.loosened(self.rtol):
@@ -332,16 +332,17 @@ class EventLocator:
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
 
     def _overshot(self, find: Locator, stop: EventHit, level: float) -> EventHit:
-        """The first event that was crossed before a turning point within one step.
+        """The first event that was crossed before a stop, where one step crosses several.
 
-        The gap is monotone up to `turning`, so every function that is negative there has one earlier zero. If no event
-        was reported but a function is negative at the end, its zero was masked by the minimum of another function.
+        CasADi may report a later one, or none beside the minimum of another function. The gap is monotone within a
+        phase, so every function of it that is negative at the stop has one earlier zero.
         """
         crossed = [
             self._refined(find, stop, row.name, level)
             for row in self.model.events
             if (not row.dips or row not in EVENTS)
             and row.name in find.events
+            and row.name != stop.event
             and find.value(row.name, stop.y, self.p, self.phase.motion, level) < 0
         ]
         return min(crossed, key=lambda found: found.time, default=stop)
