@@ -44,7 +44,7 @@ def events(structure: Structure) -> dict[str, sp.Expr]:
         functions["release"] = inward_force(structure)
     if structure.friction and structure.partner != "space":
         functions["slipping"] = friction.DRY_SLIP
-        functions["rolling"] = friction.GRIP**2 - friction.HOLDING_FORCE**2
+        functions["rolling"] = friction.GRIP - sp.Abs(friction.HOLDING_FORCE)  # negative also beyond release
     if structure.oblique and structure.strings:
         functions["half_turn"] = sp.pi - q.beta
         functions["unwinding"] = q.orbital_momentum
