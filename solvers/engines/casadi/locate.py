@@ -57,6 +57,7 @@ ROUNDED = "rounding of its angular momentum decides"
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is abandoned after 16 * 8^21 of them
 _DOUBLED, _MORE = 2.0, 64  # the same where a certificate is tried after each, as no event of it is watched
 _NOW_AND_THEN = 20  # phases of chatter between two checks of the certificate
+_STANDSTILL = 1e-100  # in v0; CasADi's Rosenbrock divides by squares of slopes, which underflow
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _EVENT_OF = {event.name: event for event in EVENTS}
 _GAP, _VELOCITY = 0, 1  # indices in the state
@@ -297,6 +298,8 @@ class EventLocator:
                 return True
             elif self._proved(elapsed):
                 return True
+            elif not self.phase.resting and abs(self.y[_VELOCITY]) < _STANDSTILL:
+                break
             else:
                 stretch *= growth
         if self.phase.resting and np.allclose(before, self.y[: before.size], rtol=self.rtol, atol=0.0):

@@ -74,6 +74,10 @@ static void run(queue *q)
 #if FLOATS
         sticks |= floating(&l, &f, q->rtol);
 #endif
+#if WELLS
+        mask late = l.alive & ((l.steps & (INTERVAL - 1)) == INTERVAL - 1);
+        sticks |= in_a_well(&f.c, l.y, f.end, late, q->rtol);
+#endif
 #if WITH_TRAJECTORY
         sticks &= provable(q, l.closing);
         rounded &= provable(q, l.closing);
@@ -91,7 +95,6 @@ static void run(queue *q)
             sticks_for_good(q, &l, &f, first_of(held), CHATTER_PROVES);
 #endif
 #if SPACE && PROOF_BY_ENERGY
-        mask late = l.alive & ((l.steps & (INTERVAL - 1)) == INTERVAL - 1);
         for (unsigned held = bits(late) ? bits(late & tumbles(&f.c, l.y, &f.b, q->rtol)) : 0; held; held &= held - 1)
             sticks_for_good(q, &l, &f, first_of(held), 0);
 #endif
