@@ -73,8 +73,8 @@ def _compute(
 
     Both tolerances are tightened while the engine misses a located event, that is while its error exceeds the distance
     to a boundary; one that was tightened for a grazing start is loosened where the engine cannot meet it. Where no
-    tolerance helps, the trajectory of the event location at `rtol` is the result. Also returns the engine and the tolerance that
-    were used.
+    tolerance helps, the trajectory of the event location at `rtol` is the result. Also returns the engine and the
+    tolerance that were used.
     """
     small = load(select_model(scene, n.oblique, fold=True))
     choice = select_model(scene, n.oblique, full=ledger or trajectory, fold=True)

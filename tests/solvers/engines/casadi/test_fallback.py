@@ -87,7 +87,9 @@ def test_the_requested_tolerance_answers_where_no_tighter_one_does() -> None:
             "liquid": {
                 "viscosity": 2.37774e-4, "film_thickness": 1.39208e-4, "glass_transition_pressure": 3.24086e8,
             },
-            "bridge": {"surface_tension": 2.33658e-3, "volume": 0.276518, "contact_angle": 0.0, "law": "willett-simple"},
+            "bridge": {
+                "surface_tension": 2.33658e-3, "volume": 0.276518, "contact_angle": 0.0, "law": "willett-simple",
+            },
             "pendulum": {"length": 103.195, "gravity": 5.03466},
             "model": {"film": "infinite", "glass": "film-corrected"},
         }
