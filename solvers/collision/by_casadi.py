@@ -73,8 +73,8 @@ def _compute(
 
     Both tolerances are tightened while the engine misses a located event, that is while its error exceeds the distance
     to a boundary; one that was tightened for a grazing start is loosened where the engine cannot meet it. Where no
-    tolerance helps, the trajectory of the event location is the result. Also returns the engine and the tolerance that
-    were used.
+    tolerance helps, the trajectory of the event location at `rtol` is the result. Also returns the engine and the
+    tolerance that were used.
     """
     small = load(select_model(scene, n.oblique, fold=True))
     choice = select_model(scene, n.oblique, full=ledger or trajectory, fold=True)
@@ -96,10 +96,10 @@ def _compute(
                 asked, looser = asked * 1e-2 if asked > 200 * _TIGHTEST else _TIGHTEST, None
                 continue
             try:
-                located = find(flow.model, n.groups, asked, flow.extras)
+                located = find(flow.model, n.groups, rtol, flow.extras)
             except ComputationError:
                 raise n.in_si(_failure(failure, flow.model, plugin)) from None
-            return located, as_located(located, choice), flow, "rosenbrock", asked
+            return located, as_located(located, choice), flow, "rosenbrock", rtol
         return located, replayed, flow, plugin, asked
 
 
