@@ -159,8 +159,10 @@ OUTLINE void find_rubbing_events(const rubbing *r, const lanes *l, vec h, first_
     mask rests = l->alive & l->resting, rolls = rests & (l->rolling != 0.0);
     mask close = rests & (l->sliding != 0.0);
     close &= NOT(least_of(r->rest_slip, h) > 0.0);
+    /* sliding that has just begun has no slip yet: its sign, and that of its rate, are rounding */
+    vec least = only(l->sliding*r->rest_slip[0] < NO_SLIP, -NO_SLIP*l->sliding);
     if (bits(close))
-        look(found, close, r->rest_slip, splat(0.0), l->sliding, h, splat_mask(AT_SLIPPING));
+        look(found, close, r->rest_slip, least, l->sliding, h, splat_mask(AT_SLIPPING));
     for (double way = -1.0; bits(rolls) && way <= 1.0; way += 2.0) {
         vec left[TERMS];
         for (int k = 0; k <= ORDER; k++)
