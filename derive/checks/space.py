@@ -12,7 +12,7 @@ from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.partners import space, vectors
-from ..physics.partners.pair import INERTIA_RATIO
+from ..physics.partners.pair import INERTIA_RATIO, PARTNER_INERTIA, SPIN_INERTIA
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
@@ -124,7 +124,7 @@ def excess_of_orbital_momentum() -> Evidence:
     The lack of the bound is r^2 I_1 I_2/I times the square of the difference of both spins.
     """
     model = derive(_SPACE)
-    inertias = (space.SPIN_INERTIA, space.PARTNER_INERTIA)
+    inertias = (SPIN_INERTIA, PARTNER_INERTIA)
     excess = sp.Matrix(q.orbital_momenta) - DISTANCE**2 * sp.Matrix(space.MOMENTA) / INERTIA_RATIO
     apart = sp.Matrix(q.spins) - sp.Matrix(q.partner_spins)
     bound = 2 * space.slip_energy() * DISTANCE**2 * sum(inertias) / INERTIA_RATIO

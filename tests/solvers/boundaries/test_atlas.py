@@ -205,7 +205,7 @@ def test_json_of_a_plane(tmp_path: Path) -> None:
         (["--over", "liquid.viscosity=1 Pa s:2 Pa s", "--angle", "10:20"], "--angle"),
         (["--over", "impact.angle=10 deg:20 deg"], "--over"),
         (["--over", "bridge.law=1:2"], "--over"),
-        (["--over", "pendulum.length=1 m:2 m"], "over"),
+        (["--over", "pendulum.length=1 m:2 m"], "--over"),
         (["--over", "liquid.film_thickness=5 um:9 mm"], "bridge.volume"),
         (["--over", "liquid.viscosity=1 Pa s:2 Pa s", "--set", "liquid.viscosity=1 Pa s"], "--over"),
     ],

@@ -143,7 +143,7 @@ AGAIN_AND_AGAIN = {
 
 def test_a_pair_that_rebounds_again_and_again_is_given_up() -> None:
     """In space too a collision takes no more steps than its budget, and says how many, where and when they ended."""
-    velocities, spins = [[0.1297, -0.01152, 0.08369], [0, 0, 0]], [[-49.7, -50.1, -8.92], [-7.87, 8.8, 251.0]]
+    velocities, spins = [[0.1297, -0.01152, 0.08369], [0, 0, 0]], [[-74.6, -75.2, -13.4], [-11.8, 13.2, 376.5]]
     found = collide_pair(Scene.from_dict(AGAIN_AND_AGAIN), [0, 0, 1], velocities, spins, engine="rosenbrock")
     reason = str(found.reason.values)
     assert (int(found.outcome), math.isnan(float(found.restitution))) == (-1, True)
