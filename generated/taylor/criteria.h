@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 e89334728bcf96799578dc222063336df5112b75a15b7055c7b4e9926b51e0b9
+ * Automaton sha256 1853abe51a314a9bd8d6d5094658308d2add2b86e4547aafce258c3c193403c3
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 e89334728bcf96799578dc222063336df5112b75a15b7055c7b4e9926b51e0b9
+ * Automaton sha256 1853abe51a314a9bd8d6d5094658308d2add2b86e4547aafce258c3c193403c3
  *
  * The search for the events of a step. Included behind what it calls. */
 
@@ -110,7 +110,8 @@ OUTLINE void find_events_at_rest(const rubbing *r, const lanes *l, vec h, first_
     if (bits(close))
         close &= NOT(least_of(r->rest_slip, h) > 0.0);
     if (bits(close))
-        look(first, close, r->rest_slip, zero, l->sliding, h, splat_mask(AT_SLIPPING));
+        look(first, close, r->rest_slip, only(l->sliding*r->rest_slip[0] < NO_SLIP, -NO_SLIP*l->sliding),
+        l->sliding, h, splat_mask(AT_SLIPPING));
     close = rests & (l->rolling != 0.0);
     if (bits(close))
         close &= NOT((r->rest_grip_backward[0] > 0.0) & (least_of(r->rest_grip_backward, h) > 0.0));
