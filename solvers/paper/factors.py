@@ -7,12 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
+from ..formatting.document import Table
 from ..formatting.style import LETTERS
 from ..scene.scene import Scene
 from ..sensitivity.boundaries import moving
 from .desk import PRESSURE, Desk, Line, change_at, outcomes, printed_pressure
 from .fig4a import centrifugal, near_printed
-from .parts import Comparison, Part, Table, degrees, number
+from .parts import Comparison, Part, degrees, number
 from .printed import PRINTED
 from .variants import BRIDGED, described, variant
 

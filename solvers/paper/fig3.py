@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...generated.automaton import ROTATE
+from ..formatting.document import Picture, Table
 from ..formatting.style import halo
 from ..scene.scene import Scene
 from . import regimes
 from .desk import Desk, Job, Line, change_at, criterion_met, printed_pressure, shown
-from .parts import Comparison, Part, Picture, Table, number
+from .parts import Comparison, Part, number
 from .printed import PRINTED
 from .style import ANGLE, COLUMN, GREY, STOKES, sheet
 from .variants import PENDULUM, STRING_VARIANTS, described, variant

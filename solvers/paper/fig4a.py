@@ -12,12 +12,13 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import ComputationError
+from ..formatting.document import Picture, Table
 from ..formatting.style import INK, halo
 from ..model.dimensionless import nondimensionalise
 from ..scene.scene import Scene
 from . import regimes
 from .desk import Desk, Job, Line, change_at, outcomes, printed_pressure, shown
-from .parts import Comparison, Part, Picture, Table, degrees, number
+from .parts import Comparison, Part, degrees, number
 from .printed import PRINTED
 from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, sheet
 from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant

@@ -11,11 +11,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ...generated.automaton import BOUNCE, ROTATE
+from ..formatting.document import Picture, Table
 from ..formatting.style import INK
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from .desk import Desk, Line, outcomes
-from .parts import Comparison, Part, Picture, Table, degrees, number
+from .parts import Comparison, Part, degrees, number
 from .printed import CURVES, PRINTED
 from .style import BLUE, COLUMN, GREEN, ORANGE, PURPLE, SKY, STOKES, sheet
 from .variants import BRIDGED, described, variant

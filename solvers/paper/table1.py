@@ -7,11 +7,12 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..formatting.document import Picture
 from ..formatting.style import INK
 from ..host import files
 from ..scene.scene import Scene
 from .desk import Desk
-from .parts import Part, Picture
+from .parts import Part
 from .style import GREY, sheet
 from .variants import BRIDGED, PENDULUM, described
 
