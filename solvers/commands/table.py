@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-from itertools import count
 from pathlib import Path
 from typing import Annotated
 
@@ -65,13 +64,7 @@ def command(
     if output is None:
         raise InputError("-o", None, "a file to write, ending in " + ", ".join(_SUFFIXES))
     with Bar("steps") as progress:
-        steps = count(1)
-
-        def note(step: str) -> None:
-            progress(next(steps), None)
-            progress.note(step)
-
-        law = table(scene, over=ranges, progress=note, **passed(error=error, of=of, rtol=rtol, attack=attack))
+        law = table(scene, over=ranges, progress=progress.step, **passed(error=error, of=of, rtol=rtol, attack=attack))
     law.save(output)
     if plot is not None:
         law.plot(plot)

@@ -17,7 +17,7 @@ from ..formatting.style import INK, halo
 from ..model.dimensionless import nondimensionalise
 from ..scene.scene import Scene
 from . import regimes
-from .desk import Desk, Job, Line, change_at, outcomes, printed_pressure, shown
+from .desk import Desk, Job, Line, change_at, outcomes, printed_pressure, shown, sticks_to
 from .parts import Comparison, Part, degrees, number
 from .printed import PRINTED
 from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, sheet
@@ -45,12 +45,12 @@ def make(desk: Desk, folder: Path) -> Part:
     moved = _moved(desk)  # traces all variants together
     criticals = [centrifugal(line) for line in desk.lines(scene, critical)]
     ours = centrifugal(desk.lines(scene, (_AT,))[0])
-    stokes = _sticks_to(head_on)
+    stokes = sticks_to(head_on)
     with sheet(folder / "fig4a.png", 7.6) as figure:
         axes = figure.add_subplot()
         regimes.draw(axes, whole)
         _critical_lines(axes, scene, ours, _TAIL * stokes)
-        _dry(axes, dry_oblique, _sticks_to(dry_head_on))
+        _dry(axes, dry_oblique, sticks_to(dry_head_on))
     sides = {dry_oblique.background}.union(*((curve.before, curve.after) for curve in dry_oblique.curves))
     only_head_on = "stick" not in sides and "stick" in outcomes(dry_head_on)
     caption = (
@@ -73,10 +73,6 @@ def centrifugal(line: Line) -> float:
     if found is None:
         raise ComputationError(_NO_BRIDGE)
     return found
-
-
-def _sticks_to(line: Line) -> float:
-    return change_at(line, "stick").stokes
 
 
 def per_stokes_squared(scene: Scene, angle: float) -> float:
@@ -106,10 +102,8 @@ def _compared(
     pressure, fitted = printed_pressure(scene), desk.pressure_for(scene, PRINTED["stokes_4"].value)
     surface = variant(BRIDGED, BRIDGE_VARIANTS["arm surface"])
     found = _spread(desk.detail.critical, criticals)
-    leading = _spread(
-        desk.detail.critical,
-        [centrifugal(line) for [line] in desk.many([near_printed(surface, angle) for angle in desk.detail.critical])],
-    )
+    lines = desk.many([near_printed(surface, angle) for angle in desk.detail.critical])
+    leading = _spread(desk.detail.critical, [centrifugal(line) for [line] in lines])
     return (
         Comparison(
             "stokes_4",
@@ -149,7 +143,7 @@ def _moved(desk: Desk) -> Table:
     rows = []
     for name, [line] in zip(scenes, head_on):
         cells = [shown(partial(centrifugal, *next(oblique))) for _ in critical]
-        rows.append([name, shown(partial(_sticks_to, line)), *cells])
+        rows.append([name, shown(partial(sticks_to, line)), *cells])
     rows.append(["paper", PRINTED["stokes_4"].text, *(PRINTED["centrifugal"].text for _ in critical)])
     head = ["variant", "St* at 0°", *(f"Ce* at {degrees(angle)}" for angle in critical)]
     return Table("Granules: St* and Ce* under the variants", head, rows)

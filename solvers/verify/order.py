@@ -91,5 +91,5 @@ def fit(tolerances: Sequence[float], errors: Sequence[float]) -> tuple[float, fl
     kept = [(math.log10(rtol), math.log10(error)) for rtol, error in zip(tolerances, errors) if error > _FLOOR]
     if not all(map(math.isfinite, errors)) or len(kept) < 3:
         return math.nan, math.inf  # too few points for a fit
-    slope = float(np.polyfit(*np.array(kept).T, 1)[0])
-    return slope, max(max(after, _FLOOR) / max(before, _FLOOR) for before, after in pairwise(errors))
+    x, y = np.array(kept).T
+    return float(np.polyfit(x, y, 1)[0]), max(max(after, _FLOOR) / max(before, _FLOOR) for before, after in pairwise(errors))

@@ -109,25 +109,21 @@ def judge_lines(case: Case) -> Verdict:
     start = time.process_time()
     found = boundary(case.scene, angle=np.array(case.angles), stokes=SPAN, rtol=RTOL)
     cpu = time.process_time() - start
-    by_rosenbrock = number_of(case.name) % _BY_ROSENBROCK == 0
+    by_rosenbrock = int(case.name.rpartition("-")[2]) % _BY_ROSENBROCK == 0
     for angle, changes, failure in zip(found.angles, found.changes, found.failures, strict=True):
         if failure:
             issues.append(Issue("failure", ("boundary",), failure, physical_reason(failure)))
             continue
         at = np.array([one.stokes for one in changes])
         outcomes = [changes[0].before, *(one.after for one in changes)] if changes else None
-        beside = np.concatenate([at * (1 - _ASIDE), at * (1 + _ASIDE)]) if _apart(at) else np.zeros(0)
+        apart = at.size < 2 or bool(np.min(np.diff(np.log(at))) > 4 * _ASIDE)  # no change lies within another's reach
+        beside = np.concatenate([at * (1 - _ASIDE), at * (1 + _ASIDE)]) if apart else np.zeros(0)
         scans = [(FAST, np.concatenate([np.geomspace(*SPAN, SAMPLES), beside]))]
         if by_rosenbrock:
             scans.append(("rosenbrock", np.concatenate([np.geomspace(*SPAN, _SOME), beside])))
         for engine, stokes in scans:
             issues += _denied(case.scene, angle, at, outcomes, engine, np.clip(stokes, *SPAN))
     return Verdict(case, {"boundary": Result(cpu=cpu)}, tuple(issues), None, None)
-
-
-def _apart(at: np.ndarray) -> bool:
-    """True if no two changes are closer than the distance at which outcomes are compared."""
-    return at.size < 2 or bool(np.min(np.diff(np.log(at))) > 4 * _ASIDE)
 
 
 def _denied(
@@ -147,8 +143,3 @@ def _denied(
         f"where the traced line has {OUTCOMES[expected[k]]} ({wrong.size} of {stokes.size} such)"
     )
     return [Issue("boundary", ("boundary", engine), said)]
-
-
-def number_of(name: str) -> int:
-    """The number at the end of a case's name."""
-    return int(name.rpartition("-")[2])
