@@ -91,17 +91,6 @@ def _collided(fit: Fit, values: np.ndarray, speed: np.ndarray, angle: np.ndarray
     return collide_many(fit.first, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
 
 
-def _emptiest_corner(axes: Axes, x: np.ndarray, y: np.ndarray) -> str:
-    """The corner in which a legend covers the fewest points, in words of matplotlib."""
-    across, up = axes.transAxes.inverted().transform(axes.transData.transform(np.column_stack([x, y]))).T
-    covered = {
-        "upper right": (across > 0.65) & (up > 0.7), "upper left": (across < 0.35) & (up > 0.7),
-        "lower right": (across > 0.65) & (up < 0.3), "lower left": (across < 0.35) & (up < 0.3),
-        "upper center": (np.abs(across - 0.5) < 0.18) & (up > 0.7),
-    }  # fmt: skip
-    return min(covered, key=lambda place: int(covered[place].sum()))
-
-
 def _map(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
     data = fit.data
     low, high = data.speed.min(), data.speed.max()
@@ -148,8 +137,7 @@ def _map(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
     plain(axes.yaxis)
     axes.set_xlabel("impact angle (deg)")
     axes.set_ylabel(AXIS_LABELS[data.speed_name])
-    corner: Any = _emptiest_corner(axes, np.degrees(data.angle), data.speed)
-    axes.legend(handles=present + handles, fontsize=6.5, loc=corner, frameon=True, framealpha=0.9)
+    axes.legend(handles=present + handles, fontsize=6.5, loc="best", frameon=True, framealpha=0.9)
     axes.set_title(
         "impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _caveat(fit), fontsize=9
     )

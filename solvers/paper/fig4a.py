@@ -69,18 +69,18 @@ def make(desk: Desk, folder: Path) -> Part:
 
 def centrifugal(line: Line) -> float:
     """Ce* of a line of constant angle: Ce at the end of sticking."""
-    found = change_at(line, "stick").centrifugal
-    if found is None:
+    value = change_at(line, "stick").centrifugal
+    if value is None:
         raise ComputationError(_NO_BRIDGE)
-    return found
+    return value
 
 
 def per_stokes_squared(scene: Scene, angle: float) -> float:
     """Ce over St^2 of a scene at an angle (rad)."""
-    found = nondimensionalise(scene, scene.speed_of(1.0), angle).centrifugal
-    if found is None:
+    value = nondimensionalise(scene, scene.speed_of(1.0), angle).centrifugal
+    if value is None:
         raise ComputationError(_NO_BRIDGE)
-    return found
+    return value
 
 
 def near_printed(scene: Scene, angle: float) -> Job:
@@ -101,7 +101,7 @@ def _compared(
     desk.say("fig. 4a: glass-transition pressure of the printed St*")
     pressure, fitted = printed_pressure(scene), desk.pressure_for(scene, PRINTED["stokes_4"].value)
     surface = variant(BRIDGED, BRIDGE_VARIANTS["arm surface"])
-    found = _spread(desk.detail.critical, criticals)
+    ours_over_angles = _spread(desk.detail.critical, criticals)
     lines = desk.many([near_printed(surface, angle) for angle in desk.detail.critical])
     leading = _spread(desk.detail.critical, [centrifugal(line) for [line] in lines])
     return (
@@ -117,7 +117,7 @@ def _compared(
             "centrifugal",
             ours,
             described(scene),
-            f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {found}. With the "
+            f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {ours_over_angles}. With the "
             f"leading-order lever arm of the tangential force, which the paper may have used: {leading}",
         ),
         Comparison(

@@ -95,16 +95,16 @@ def terms(one: Collision) -> dict[str, float]:
     if one.outcome == "stick" or one.energy is None or (one.events and one.events[-1].kind in parting):
         return {"restitution": one.restitution}  # a declared event parts them at a gap that is no result
     unit = one.scene.particles.reduced_mass * one.speed**2 / 2
-    found = {
+    budget = {
         "restitution": one.restitution,
         "excess": one.restitution**2 - 1,
         "rotation_released": _released(one) / unit,
         "residual": one.energy.residual / unit,
         "ceiling": ceiling(one),
     } | {name: getattr(one.energy, name) / unit for name in LOSSES}
-    found["dry_contact"] += (one.energy.dry_friction or 0.0) / unit  # all that the solids take
-    lost = sum(found[name] for name in LOSSES) + found["residual"] + (one.energy.own_events or 0.0) / unit
-    return found | {"gap": found["excess"] - found["rotation_released"] + lost}
+    budget["dry_contact"] += (one.energy.dry_friction or 0.0) / unit  # all that the solids take
+    lost = sum(budget[name] for name in LOSSES) + budget["residual"] + (one.energy.own_events or 0.0) / unit
+    return budget | {"gap": budget["excess"] - budget["rotation_released"] + lost}
 
 
 def _released(one: Collision) -> float:

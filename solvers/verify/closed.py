@@ -107,11 +107,11 @@ def film_alone(scene: Scene, engine: str, plain: Integrators = plain, collide: C
         if gap == 1 or expected < _SMALLEST or bounced == _BOUNCES:
             continue
         bounced += 1
-        found = collide(bare, stokes=stokes, angle=0.0, rtol=RTOL, engine=engine)
-        error = abs(found.restitution - expected)
-        if found.smallest_gap is not None:
-            error = max(error, abs(found.smallest_gap / n.length / gap - 1))
-        worst = max(worst, (error, place(stokes, 0.0, engine, found.reversal or "")))
+        collision = collide(bare, stokes=stokes, angle=0.0, rtol=RTOL, engine=engine)
+        error = abs(collision.restitution - expected)
+        if collision.smallest_gap is not None:
+            error = max(error, abs(collision.smallest_gap / n.length / gap - 1))
+        worst = max(worst, (error, place(stokes, 0.0, engine, collision.reversal or "")))
     return worst
 
 

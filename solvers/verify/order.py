@@ -22,6 +22,7 @@ RISE = 10.0  # largest factor by which the error may grow from one decade of rto
 SMALL = 0.05  # in units of rtol; if all errors are smaller, the slope is not tested
 _FLOOR = 3e-13  # relative error of rounding and of the reference
 _SMALLEST = 0.05  # smallest e_n of a tested trajectory
+_Judged = tuple[float, bool, str, str, tuple[str, ...]]
 
 
 def convergence(
@@ -53,9 +54,10 @@ def convergence(
                 truth = restitution(k, REFERENCE, _TRUTH)
                 errors = [abs(restitution(k, engine, rtol) / truth - 1) for rtol in accepted]
             except WetDoubletError as failure:
-                severity, ok, figure, bound, about = math.inf, False, f"not completed: {failure}", "", ()
+                judged: _Judged = math.inf, False, f"not completed: {failure}", "", ()
             else:
-                severity, ok, figure, bound, about = _judged(accepted, errors)
+                judged = _judged(accepted, errors)
+            severity, ok, figure, bound, about = judged
             statement = (
                 f"error of e_n against rtol {_TRUTH:.0e}, over rtol {tolerances[0]:.0e} to {tolerances[-1]:.0e}: its "
                 f"slope is within {SLOPES[0]} to {SLOPES[1]}, and it rises by no more than {RISE:.0f} times on the way;"
@@ -66,7 +68,7 @@ def convergence(
         yield max(findings, key=lambda entry: entry[0])[1]
 
 
-def _judged(tolerances: Sequence[float], errors: Sequence[float]) -> tuple[float, bool, str, str, tuple[str, ...]]:
+def _judged(tolerances: Sequence[float], errors: Sequence[float]) -> _Judged:
     """Severity, success, figure, bound and table of the errors of one trajectory."""
 
     def below(share: float) -> bool:
@@ -92,4 +94,6 @@ def fit(tolerances: Sequence[float], errors: Sequence[float]) -> tuple[float, fl
     if not all(map(math.isfinite, errors)) or len(kept) < 3:
         return math.nan, math.inf  # too few points for a fit
     x, y = np.array(kept).T
-    return float(np.polyfit(x, y, 1)[0]), max(max(after, _FLOOR) / max(before, _FLOOR) for before, after in pairwise(errors))
+    return float(np.polyfit(x, y, 1)[0]), max(
+        max(after, _FLOOR) / max(before, _FLOOR) for before, after in pairwise(errors)
+    )

@@ -189,7 +189,7 @@ def work_precision(
                 expensive = expensive or (each is not None and each * batch > _DEAR)
                 rows.append(_row(scene, known, expected, engine, rtol, each))
                 progress(1 + len(rows), total)
-    own = _errors(pairs)
+    differences = _errors(pairs)
     return WorkPrecision(
         scene=scene,
         sample=sample,
@@ -198,8 +198,8 @@ def work_precision(
         separate=sum(one.outcome != "stick" for one, _ in pairs),
         left_out=len(some) - len(known),
         references=tuple(tight.items()),
-        uncertainty=max((e for e, _ in own), default=0.0),
-        time_uncertainty=max((t for _, t in own), default=0.0),
+        uncertainty=max((e for e, _ in differences), default=0.0),
+        time_uncertainty=max((t for _, t in differences), default=0.0),
         rows=tuple(rows),
     )
 

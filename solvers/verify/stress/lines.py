@@ -40,19 +40,19 @@ def drawn(count: int, models: int, seed: int) -> Iterator[Case]:
     """
     random = np.random.default_rng(seed)
     kinds = [_model(random) for _ in range(max(1, models))]
-    made = tries = 0
-    while made < count:
+    drawn_so_far = tries = 0
+    while drawn_so_far < count:
         kind = kinds[tries % len(kinds)]
         tries += 1
         try:
-            scene = _scene(f"line-{seed}-{made}", kind, random)
+            scene = _scene(f"line-{seed}-{drawn_so_far}", kind, random)
         except InputError:
             continue  # an impossible scene, such as a film thicker than its bridge
         steep = [
             float(random.choice([0.0, random.uniform(0.0, 1.5), random.uniform(0.0, 1.55)])) for _ in range(_ANGLES)
         ]
         yield Case(scene.name, scene, "lines", angles=tuple(steep))
-        made += 1
+        drawn_so_far += 1
 
 
 def _model(random: np.random.Generator) -> Model:
@@ -107,10 +107,10 @@ def judge_lines(case: Case) -> Verdict:
     """Trace the lines of a case and compare them with collisions."""
     issues: list[Issue] = []
     start = time.process_time()
-    found = boundary(case.scene, angle=np.array(case.angles), stokes=SPAN, rtol=RTOL)
+    traced = boundary(case.scene, angle=np.array(case.angles), stokes=SPAN, rtol=RTOL)
     cpu = time.process_time() - start
     by_rosenbrock = int(case.name.rpartition("-")[2]) % _BY_ROSENBROCK == 0
-    for angle, changes, failure in zip(found.angles, found.changes, found.failures, strict=True):
+    for angle, changes, failure in zip(traced.angles, traced.changes, traced.failures, strict=True):
         if failure:
             issues.append(Issue("failure", ("boundary",), failure, physical_reason(failure)))
             continue
@@ -138,8 +138,8 @@ def _denied(
     if not wrong.size:
         return []
     k = wrong[0]
-    said = (
+    text = (
         f"at {np.degrees(angle):.8g} deg, St {stokes[k]:.10g}: {OUTCOMES[seen[k]]} by {engine}, "
         f"where the traced line has {OUTCOMES[expected[k]]} ({wrong.size} of {stokes.size} such)"
     )
-    return [Issue("boundary", ("boundary", engine), said)]
+    return [Issue("boundary", ("boundary", engine), text)]

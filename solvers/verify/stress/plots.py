@@ -53,7 +53,10 @@ def over_impacts(stress: Stress) -> Figure:
             here.sort(key=lambda k: values[k])  # the worst on top
             style: Any = {"norm": norm, "cmap": "viridis_r", "linewidths": 0.3, "edgecolors": "#606060"}
             coloured = [values[k] for k in here]
-            drawn = axes.scatter(*_places(sampled, here), c=coloured, marker=marker, s=_size(len(sampled)), **style)
+            scenes: Any = [sampled[k].case.scene for k in here]
+            places = [each.stokes for each in scenes], [math.degrees(each.angle) for each in scenes]
+            size = float(np.clip(9000.0 / max(len(sampled), 1), 2.0, 20.0))  # smaller for many points
+            drawn = axes.scatter(*places, c=coloured, marker=marker, s=size, **style)
             axes.scatter([], [], marker=marker, s=20, color="#808080", label=outcome)
             shown = drawn if here or shown is None else shown
         bar = figure.colorbar(shown, ax=axes, label=label, pad=0.01, extend="both")
@@ -67,16 +70,6 @@ def over_impacts(stress: Stress) -> Figure:
     handles, labels = left.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=5)
     return figure
-
-
-def _size(count: int) -> float:
-    """Area of a mark, smaller for many points."""
-    return float(np.clip(9000.0 / max(count, 1), 2.0, 20.0))
-
-
-def _places(sampled: list[Any], here: list[int]) -> tuple[list[float], list[float]]:
-    scenes = [sampled[k].case.scene for k in here]
-    return [float(each.stokes) for each in scenes], [float(np.degrees(each.angle)) for each in scenes]
 
 
 def _ends(values: list[float]) -> tuple[float, float]:
