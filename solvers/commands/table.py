@@ -20,16 +20,12 @@ _ACCEPTED = "stokes=LO:HI,angle=LO:HI[,NAME=LO:HI]"
 _SUFFIXES = (".nc", ".h")
 
 
-def _queries(text: str) -> int:
-    return int(texts.number("a whole number such as 1e6", text))
-
-
 @as_command("The collision law as a table with a tested error: NetCDF or C.")
 def command(
     over: str | None,
     error: Annotated[float | None, partial(texts.number, "a number such as 1e-4")],
     of: list[str] | None,
-    attack: Annotated[int | None, _queries],
+    attack: Annotated[int | None, lambda text: int(texts.number("a whole number such as 1e6", text))],
     request: options.EntriesRequest,
     rtol: options.Rtol,
     plot: options.Picture,

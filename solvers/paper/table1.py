@@ -33,15 +33,8 @@ def make(desk: Desk, folder: Path) -> Part:
     from ...derive.emit.document.theory import theory  # imports sympy
 
     model = bridged.model
-    lines = theory(
-        {
-            "arm": model.arm,
-            "shear": model.tangential,
-            "glass": model.glass,
-            "bridge": bridged.bridge.law,
-            "strings": hung.pendulum.law,
-        }
-    )
+    laws = {"arm": model.arm, "shear": model.tangential, "glass": model.glass}
+    lines = theory(laws | {"bridge": bridged.bridge.law, "strings": hung.pendulum.law})
     _draw(lines, folder / "table1.png")
     files.write(folder / "table1.tex", document(lines))
     words = (

@@ -25,11 +25,10 @@ _MARKERS = dict(zip(OUTCOMES, ("o", "^", "s"), strict=True))
 
 def draw(stress: Stress, folder: Path) -> list[Path]:
     """Draw stress-map.png and stress-near.png; returns their paths."""
-    files = []
-    for name, make in (("stress-map.png", over_impacts), ("stress-near.png", near)):
-        files.append(folder / name)
-        save(make(stress), files[-1], dpi=160)
-    return files
+    figures = {folder / "stress-map.png": over_impacts(stress), folder / "stress-near.png": near(stress)}
+    for file, figure in figures.items():
+        save(figure, file, dpi=160)
+    return list(figures)
 
 
 @picture
@@ -106,12 +105,8 @@ def near(stress: Stress) -> Figure:
         colour = _COLOURS.get(name, "#202020")
         axes.plot(*np.array(points).T, ".", color=colour, alpha=0.25, markersize=4, markeredgewidth=0)
         axes.plot(at, middle, "-o", color=colour, markersize=4, linewidth=1.5, label=f"{name}, median")
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="relative distance from where a doublet begins to escape, in St",
-        ylabel="CPU time (ms)",
-    )
+    axes.set(xscale="log", yscale="log", ylabel="CPU time (ms)")
+    axes.set_xlabel("relative distance from where a doublet begins to escape, in St")
     figure.suptitle("Cost of a collision beside the boundary of escape")
     axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     if beside:
