@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -192,10 +193,7 @@ def _again(
         there = (label(left, low) == before[left]) & (label(left, high) == after[left])
         which = left[there]
         if which.size:
-
-            def is_before(at: np.ndarray, which: np.ndarray = which) -> np.ndarray:
-                return np.equal(label(which, at), before[which])
-
+            is_before = partial(lambda which, at: label(which, at) == before[which], which)
             ends = bisect(is_before, low[there], high[there], _ENCLOSED * step)
             places[which] = (ends[0] + ends[1]) / 2
         left = left[~there]

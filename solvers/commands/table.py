@@ -74,10 +74,7 @@ def _ranges(over: str | None, request: options.SceneRequest) -> dict[str, texts.
     known = fields(request.package)
     ranges: dict[str, texts.Range] = {}
     for part in over.split(","):
-        name, equals, ends = part.partition("=")
-        name = name.strip()
-        if not equals:
-            raise InputError("--over", part, _ACCEPTED, "has no =")
+        name, ends = texts.assignment(_ACCEPTED, part, "--over")
         entry = known.get(_SHORT.get(name, name))
         if entry is None:
             raise InputError("--over", name, _ACCEPTED, "is not known" + did_you_mean(name, [*_SHORT, *known]))
