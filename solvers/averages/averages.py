@@ -16,8 +16,8 @@ from ..host.arguments import check_function, check_name, check_names
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
 from ..many.batch import checked_numbers
-from ..many.dataset import fill
 from ..many.journal import Journal, checked_journal
+from ..many.results import fill
 from ..many.scan import software
 from ..model.validity import warn
 from ..scene.scene import Scene

@@ -19,9 +19,8 @@ from ..engines.taylor.tangent import COLUMNS, differentiates, run_tangent
 from ..errors import ComputationError
 from ..many.batch import Batch
 from ..many.by_kernel import admissible
-from ..many.compute import compute
-from ..many.dataset import empty, fill
-from ..many.results import Block
+from ..many.compute import complete
+from ..many.results import Block, empty
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPINS
@@ -209,7 +208,7 @@ class Experiment:
                 vary[name] = np.asarray(spin)
         request = Batch(self.scene, None, impacts.speed, impacts.angle, vary, self.rtol, "rosenbrock", names)
         block = empty(request.size, names)
-        compute(request, np.arange(request.size), lambda where, part: fill(block, where, part))
+        complete(request, block)
         return block
 
     def plain(self, names: tuple[str, ...], row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
