@@ -124,8 +124,7 @@ def _some(wrong: np.ndarray, points: np.ndarray) -> np.ndarray:
     if wrong.size <= _MORE:
         return wrong
     ordered = wrong[np.argsort(points[wrong, 0], kind="stable")]
-    some: np.ndarray = ordered[np.linspace(0, ordered.size - 1, _MORE).round().astype(int)]
-    return some
+    return np.asarray(ordered[np.linspace(0, ordered.size - 1, _MORE).round().astype(int)])
 
 
 def _against_lines(plane: Plane, arcs: list[Arc], x: np.ndarray, traced: Traced) -> list[tuple[np.ndarray, str]]:

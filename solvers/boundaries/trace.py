@@ -148,5 +148,4 @@ def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) 
 
 def _spaced(samples: np.ndarray, grid: np.ndarray) -> np.ndarray:
     """Logarithms of the Stokes numbers of known samples, with the first and last of the grid."""
-    spaced: np.ndarray = np.log(np.concatenate([grid[:1], known(samples)["stokes"], grid[-1:]]))
-    return spaced
+    return np.asarray(np.log(np.concatenate([grid[:1], known(samples)["stokes"], grid[-1:]])))

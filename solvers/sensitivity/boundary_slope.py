@@ -269,8 +269,7 @@ def _maxima(side: _Side, y: np.ndarray, low: float, high: float, shear: int) -> 
     def slopes(at: np.ndarray) -> np.ndarray:
         states = np.repeat(y[:, None], at.size, axis=1)
         states[0] = at
-        values: np.ndarray = np.asarray(function(states, side.path.p).full())[row]
-        return values
+        return np.asarray(np.asarray(function(states, side.path.p).full())[row])
 
     values = slopes(gaps)
     places = np.flatnonzero((values[:-1] > 0) & (values[1:] <= 0))

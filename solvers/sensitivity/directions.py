@@ -79,8 +79,7 @@ def inverse(seeds: np.ndarray) -> np.ndarray:
     sized = seeds / rows[:, None]
     columns = np.linalg.norm(sized, axis=0)
     columns[columns == 0] = 1.0
-    found: np.ndarray = np.linalg.pinv(sized / columns) / columns[:, None] / rows
-    return found
+    return np.asarray(np.linalg.pinv(sized / columns) / columns[:, None] / rows)
 
 
 def second_derivatives(

@@ -59,8 +59,7 @@ class Signatures:
 
     def of(self, codes: np.ndarray) -> np.ndarray:
         """Outcomes of codes, by number; -1 where the code is UNKNOWN."""
-        found: np.ndarray = np.array([*self.outcomes, -1])[codes]
-        return found
+        return np.asarray(np.array([*self.outcomes, -1])[codes])
 
     def said(self, code: int) -> str:
         """A signature in words."""
@@ -193,8 +192,7 @@ def _packed(kinds: np.ndarray, number: np.ndarray) -> np.ndarray:
 def _at_once(recorded: Recorded) -> np.ndarray:
     """Mask of collisions that meet a rebound criterion at initial contact."""
     first = recorded.events[:, 0]
-    met: np.ndarray = (recorded.answers["reversal"] >= 0) & (first["time"] == 0) & (recorded.answers["events"] > 0)
-    return met
+    return np.asarray((recorded.answers["reversal"] >= 0) & (first["time"] == 0) & (recorded.answers["events"] > 0))
 
 
 def _slides(impacts: Impacts, oblique: bool, rtol: float, found: np.ndarray) -> np.ndarray:

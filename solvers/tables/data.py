@@ -51,5 +51,4 @@ class Data:
         own = sum(getattr(self, name).nbytes for name in ("slices", "first_panel", "cuts", "maps", "first_edge",
                   "edges", "outcome", "criterion", "cell_map", "root", "of_stick"))  # fmt: skip
         parts = ("axis", "cut", "child", "box", "size", "start", "coefficients")
-        found: int = own + sum(getattr(trees, name).nbytes for trees in (self.shapes, self.results) for name in parts)
-        return found
+        return int(own + sum(getattr(trees, name).nbytes for trees in (self.shapes, self.results) for name in parts))

@@ -24,8 +24,7 @@ def queries(data: Data, count: int, random: np.random.Generator) -> np.ndarray:
     axis = random.integers(0, 3, edge.size)
     ends = np.where(random.random(edge.size) < 0.5, data.low[axis], data.high[axis])
     at[axis, edge] = ends
-    inside: np.ndarray = np.clip(at, low, high)
-    return inside
+    return np.asarray(np.clip(at, low, high))
 
 
 def _beside(random: np.random.Generator, places: np.ndarray, count: np.ndarray) -> np.ndarray:
@@ -33,8 +32,7 @@ def _beside(random: np.random.Generator, places: np.ndarray, count: np.ndarray) 
     size = count.size
     which = (random.random(size) * count).astype(int)
     sign = np.where(random.random(size) < 0.5, -1.0, 1.0)
-    found: np.ndarray = places[which, np.arange(size)] + sign * 10 ** random.uniform(_NEAREST, _FARTHEST, size)
-    return found
+    return np.asarray(places[which, np.arange(size)] + sign * 10 ** random.uniform(_NEAREST, _FARTHEST, size))
 
 
 def _slice(data: Data, third: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -75,5 +73,4 @@ def coordinate(data: Data, t: np.ndarray, panel: np.ndarray, angle: np.ndarray) 
     low = data.shapes.values(data.cuts[panel, 0], t, none, none)[0][:, 0]
     high = data.shapes.values(data.cuts[panel, 1], t, none, none)[0][:, 0]
     x = forward(data.maps[panel], np.clip((angle - low) / (high - low), 0, 1), 0.0)[0]
-    found: np.ndarray = np.clip(x, 0.0, 1.0)
-    return found
+    return np.asarray(np.clip(x, 0.0, 1.0))

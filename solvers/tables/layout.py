@@ -72,8 +72,7 @@ class Layout:
             up = np.tile([0.0, 1.0], (left.size, 1))
             ends = np.full(left.size, low), np.full(left.size, high)
             found[left] = crossings(plane.labels, centre[left], up, np.full(left.size, reach), *ends, _LOCATED)[:, 1]
-        height: np.ndarray = np.log(plane.stokes[0]) + found * plane.decades
-        return height
+        return np.asarray(np.log(plane.stokes[0]) + found * plane.decades)
 
 
 def layout_of(plane: Collisions, doubts: np.ndarray | None = None) -> Layout:
