@@ -77,12 +77,9 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
 
 def _files(scene: Scene) -> dict[str, str]:
     """The other files by name, and where their texts are."""
-    names = ("Makefile", "README.md", "check.c", "example.f90")
+    names = ("Makefile", "README.md", "check.c", "example.c", "example.f90")
     found = {**{name: name for name in names}, "example.py": "example.py.in"}
-    if not only_in_a_plane(scene):
-        return {**found, "example.c": "example-space.c", "pairs.py": "pairs.py.in"}
-    plain = scene.wall or scene.pendulum is not None
-    return {**found, "example.c": "example-plain.c" if plain else "example.c"}
+    return found | ({} if only_in_a_plane(scene) else {"example.c": "example-space.c", "pairs.py": "pairs.py.in"})
 
 
 def _filled(file: str, scene: Scene, own: tuple[Kernel, ...]) -> str:

@@ -13,8 +13,8 @@ from ...engines.taylor.call import Impacts, bind_kernel
 from ...engines.taylor.layout import ANSWER
 from ...errors import ComputationError
 from ...host.compiler import compiler
-from ...model.model import load
-from ...scene.groups import rate_scales, si_values
+from ...many.batch import Batch
+from ...many.by_kernel import block_of
 from ...scene.scene import Scene
 from ...settings import STEPS
 from .kernels import HEAD_ON, IMPACT, Kernel, only_in_a_plane
@@ -28,22 +28,17 @@ _CANDIDATES, _WANTED = 512, 64
 _DIMENSIONS = (0.7548776662466927, 0.5698402909980532, 0.4301597090019468, 0.3247179572447461)
 _RESULTS = (
     "restitution", "tangential_restitution", "slip_restitution", "contact_time", "rotation", "smallest_gap",
-    "final_gap", "final_spin", "final_partner_spin", "final_rotation_rate",
+    "final_gap", "final_spin", "final_spin_partner", "final_rotation_rate",
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Vector:
-    """An impact (in the order of `IMPACT`), and its results: whole numbers, then those of `_RESULTS`."""
+    """An impact (in the order of `IMPACT`); outcome, `certified` and rebound criterion; the results of `_RESULTS`."""
 
     impact: tuple[float, ...]
-    whole: tuple[int, int, int, int]
+    codes: tuple[int, ...]
     numbers: tuple[float, ...]
-
-    @property
-    def outcome(self) -> int:
-        """Number of the outcome."""
-        return self.whole[1]
 
 
 def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
@@ -64,7 +59,7 @@ def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
         oblique = bool(impacts["angle"][0] > 0)
         own = next(one for one in kernels if (one.prefix != HEAD_ON) == oblique)
         found += _computed(own, impacts)
-    by_outcome = {outcome: [one for one in found if one.outcome == outcome] for outcome in range(3)}
+    by_outcome = {outcome: [one for one in found if one.codes[0] == outcome] for outcome in range(3)}
     present = [group for group in by_outcome.values() if group]
     share = -(-_WANTED // len(present))
     chosen = [one for group in present for one in group[:share]]
@@ -74,7 +69,7 @@ def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
 def table(scene: Scene, kernels: Sequence[Kernel]) -> str:
     """The text of vectors.h."""
     rows = [
-        f"    {{{{{_list(one.impact)}}},\n     {{{', '.join(map(str, one.whole))}, {_list(one.numbers)}}}}},"
+        f"    {{{{{_list(one.impact)}}},\n     {{0, {', '.join(map(str, one.codes))}, {_list(one.numbers)}}}}},"
         for one in vectors(scene, kernels)
     ]
     lines = [
@@ -134,53 +129,26 @@ def _computed(own: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
     library = kernel(own.variant)
     if library is None:
         raise ComputationError("the kernel for the test vectors cannot be compiled")
-    both = []
+    spins = {name: values for name, values in impacts.items() if name.endswith("spin")}
+    if own.scene.wall:
+        del spins["impact_partner_spin"]
+    given = Impacts(own.scene, impacts["speed"], impacts["angle"], spins)
+    codes, numbers, sound = [], [], np.ones(given.speed.size, bool)
     for rtol in (RTOL, _TIGHTER * RTOL):
-        answers = np.zeros(impacts["speed"].size, ANSWER)
-        others = {name: values for name, values in impacts.items() if name not in ("speed", "angle")}
-        if own.scene.wall:
-            del others["impact_partner_spin"]
-        bind_kernel(library, rtol, STEPS)(Impacts(own.scene, impacts["speed"], impacts["angle"], others), answers)
-        both.append(_in_si(own, impacts, answers))
-    plain, tight = both
-    found = []
-    for k, (one, other) in enumerate(zip(plain, tight, strict=True)):
-        if one is None or other is None or one.whole[1:] != other.whole[1:]:
-            continue
-        a, b = np.array(one.numbers), np.array(other.numbers)
-        if np.all(np.isnan(a) | (np.abs(a - b) <= 0.1 * TOLERANCE * np.abs(b))):
-            found.append(Vector(tuple(float(impacts[name][k]) for name in IMPACT), other.whole, other.numbers))
-    return found
-
-
-def _in_si(own: Kernel, impacts: dict[str, np.ndarray], answers: np.ndarray) -> list[Vector | None]:
-    """Answers of the kernel as vectors in SI, with the impacts left out; None for what it hands over."""
-    scene, oblique = own.scene, own.prefix != HEAD_ON
-    x0, names = scene.liquid.film_thickness, load(own.choice).names("outputs")
-    unit = rate_scales(scene, si_values(scene, None, None) | impacts) if oblique else np.zeros(answers.size)
-    found: list[Vector | None] = []
-    for k, answer in enumerate(answers):
-        if answer["status"] > LAST_ANSWER:
-            found.append(None)
-            continue
-        whole = (0, int(answer["outcome"]), int(answer["certified"]), int(answer["reversal"]))
-        numbers = dict.fromkeys(_RESULTS, np.nan) | {"restitution": 0.0}
-        if answer["outcome"]:
-            shown = dict(zip(names, answer["shown"].tolist(), strict=False))
-            time = x0 / impacts["speed"][k]
-            numbers |= {
-                "restitution": shown["restitution"],
-                "tangential_restitution": shown["tangential_restitution"] if impacts["angle"][k] > 0 else np.nan,
-                "slip_restitution": float(answer["slip"]) if oblique else np.nan,
-                "contact_time": float(answer["time"]) * time,
-                "rotation": float(answer["turned"]),
-                "smallest_gap": float(answer["smallest_gap"]) * x0,
-                "final_gap": float(answer["final_gap"]) * x0,
-            }
-            spin = shown.get("final_spin", 0.0) * unit[k]
-            partner = 0.0 if scene.wall else shown.get("final_spin_partner", np.nan) * unit[k]
-            numbers |= {"final_spin": spin, "final_partner_spin": spin if np.isnan(partner) else partner}
-            turning = shown.get("final_rotation_rate", np.nan) * unit[k]
-            numbers["final_rotation_rate"] = 0.0 if not oblique else turning
-        found.append(Vector((), whole, tuple(float(numbers[name]) for name in _RESULTS)))
-    return found
+        answers = np.zeros(given.speed.size, ANSWER)
+        bind_kernel(library, rtol, STEPS)(given, answers)
+        batch = Batch(own.scene, None, given.speed, given.angle, {}, rtol, "taylor", _RESULTS)
+        block, separated = block_of(batch, answers, given, None), answers["outcome"] > 0
+        block["final_gap"] = np.where(separated, answers["final_gap"] * own.scene.liquid.film_thickness, np.nan)
+        partner, spin = block["final_spin_partner"], block["final_spin"]
+        block["final_spin_partner"] = np.where(np.isnan(partner), spin, partner)
+        if own.prefix == HEAD_ON:
+            block["final_rotation_rate"] = np.where(separated, 0.0, np.nan)
+        numbers.append(np.column_stack([block[name] for name in _RESULTS]))
+        codes.append(np.column_stack([answers[name] for name in ("outcome", "certified", "reversal")]))
+        sound &= answers["status"] <= LAST_ANSWER
+    plain, tight = numbers
+    sound &= (codes[0] == codes[1]).all(axis=1)
+    sound &= (np.isnan(plain) | (np.abs(plain - tight) <= 0.1 * TOLERANCE * np.abs(tight))).all(axis=1)
+    inputs = np.column_stack([impacts[name] for name in IMPACT])
+    return [Vector(*(tuple(each[k].tolist()) for each in (inputs, codes[1], tight))) for k in np.flatnonzero(sound)]
