@@ -49,11 +49,7 @@ def _lines(plane: Plane, x: np.ndarray, tell: Callable[[int, int], None]) -> Tra
     whole = Traced([], [], 0, 0.0)
     for one in x.tolist():
         scene, angle = plane.scene_at(one)
-        part = trace(scene, np.array([angle]), plane.stokes, plane.rtol)
-        whole.changes += part.changes
-        whole.failures += part.failures
-        whole.collisions += part.collisions
-        whole.resolution = max(whole.resolution, part.resolution)
+        whole.add(trace(scene, np.array([angle]), plane.stokes, plane.rtol))
         tell(len(whole.changes), x.size)
     return whole
 

@@ -145,10 +145,7 @@ def boundary(
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0, 0.0)
     for part in traces(loaded, parts, (low, high), rtol, tell):
-        whole.changes += part.changes
-        whole.failures += part.failures
-        whole.collisions += part.collisions
-        whole.resolution = max(whole.resolution, part.resolution)
+        whole.add(part)
         tell(len(whole.changes))
     back = np.argsort(order, kind="stable")
     return Boundaries(

@@ -38,6 +38,13 @@ class Traced:
     collisions: int
     resolution: float
 
+    def add(self, part: Traced) -> None:
+        """Append the lines of another."""
+        self.changes += part.changes
+        self.failures += part.failures
+        self.collisions += part.collisions
+        self.resolution = max(self.resolution, part.resolution)
+
 
 def traces(
     scene: Scene, parts: Sequence[np.ndarray], span: tuple[float, float], rtol: float, tell: Callable[[int], None]
