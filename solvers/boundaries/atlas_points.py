@@ -214,7 +214,7 @@ def _joined(parts: list[Stretch], point: Meeting) -> tuple[list[Stretch], str]:
     """Name of the change where two curves meet; they are joined if there is none."""
     ending = [one for one in parts if _touches(one.arc, point.place)]
     if len(ending) != 2:
-        return parts, CORNER
+        return parts, CORNER if ending else ""  # none ends there where another curve passes it
     one, other = ending
     if one.kind != other.kind:
         return parts, KIND
