@@ -17,9 +17,9 @@ from .arcs import CHORD, Arc, monotone, refined
 from .atlas_points import FOLD, Stretch, named, stretches
 from .changes import Change
 from .continuation import crossings
-from .found import LATTICE, Curve, Curves, Point
 from .plane import ANGLE, Plane
 from .regions import Slab, apart, labelled, slabs
+from .result import LATTICE, Curve, Curves, Point
 from .survey import Survey, lattice, passes, surveyed
 from .trace import Traced, trace
 

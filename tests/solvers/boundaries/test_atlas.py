@@ -68,7 +68,7 @@ def test_every_random_collision_lies_in_its_region(name: str) -> None:
 
 
 def test_each_curve_is_returned_once() -> None:
-    """Where a curve turns sharply, so that it is followed from both sides and through, it is one curve on either side."""
+    """Where a curve turns sharply, so that it is followed from both sides and through, it is one on either side."""
     found = atlas("pendulum", span=("0 deg", "89 deg"), stokes=(0.0025, 2.5))
     assert sorted((one.before, one.after, one.kind) for one in found.curves) == [
         ("stick", "bounce", "escape reversed"),
