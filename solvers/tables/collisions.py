@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...generated.automaton import KINDS, LAST_ANSWER, OUTCOMES
-from ..boundaries.plane import ANGLE, Plane
+from ..boundaries.plane import Plane
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, run_recorded
 from ..errors import ComputationError
@@ -111,18 +111,6 @@ class Collisions(Plane):
         """Signatures (n) and results (n x m, NaN where undefined) at angles (rad) and Stokes numbers."""
         self.collisions += angle.size
         return collisions(self.scene, angle, stokes, self.rtol, self.of if of is None else of, self.signatures)
-
-
-def plane_of(
-    scene: Scene,
-    span: tuple[float, float],
-    stokes: tuple[float, float],
-    rtol: float,
-    of: tuple[str, ...],
-    known: Signatures,
-) -> Collisions:
-    """The plane of a scene over angles (rad) and Stokes numbers."""
-    return Collisions(scene, ANGLE, span, stokes, rtol, of=of, signatures=known)
 
 
 def collisions(
