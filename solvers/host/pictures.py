@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 _HOMES = {  # a variable that only one kind of result has -> what draws it
     "first_order": "sensitivity.uncertainty.draw",
-    "d_event_time": "sensitivity.trajectory_plot.draw",
+    "d_event_time": "sensitivity.plots.draw_trajectory",
     "rotation_released": "verify.plot.draw_budget",
-    "total_within": "sensitivity.sobol_plot.draw",
-    "engine": "sensitivity.gradients_plot.draw",
+    "total_within": "sensitivity.plots.draw_indices",
+    "engine": "sensitivity.plots.draw_gradients",
     "outcome": "many.plot_map.draw",
 }
 _RESULTS = {"Design": "planning.plot.draw", "Fit": "fitting.plot.draw"}  # results that are no Dataset, by class
