@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,7 @@ from ..model.dimensionless import DimensionlessGroups
 from ..model.model import Model, load, select_model, slip_restitution
 from ..model.phases import Flow, Region
 from ..scene.scene import Scene
+from ..settings import casadi_steps
 from .assemble import assembled
 from .outcome import Energy
 from .result import Collision
@@ -45,7 +47,7 @@ def by_casadi(
 
     Both tolerances are tightened while the engine misses a located event, that is while its error exceeds the distance
     to a boundary; one that was tightened for a grazing start is loosened where the engine cannot meet it. Where no
-    tolerance helps, the trajectory of the event location is the result.
+    tolerance helps within the steps of the requested one, the trajectory of the event location is the result.
 
     Arguments:
         find: locates the sequence of events; the same for both engines.
@@ -54,8 +56,9 @@ def by_casadi(
         until: time (s) to which a stick is followed on after its proof, located as usual.
         steps: most steps to locate the events; None for those of `settings`.
     """
-    if until is not None or steps is not None:
-        find = partial(locate, until=0.0 if until is None else until / n.time, steps=steps)
+    budget = casadi_steps(rtol)
+    if find is locate:
+        find = partial(locate, until=0.0 if until is None else until / n.time, steps=steps or budget)
     small, choice = (select_model(scene, n.oblique, full, fold=True) for full in (False, ledger or trajectory))
     model, used = load(choice), rtol
     flow, p = Flow(choice, Region(1, 1, False), _quadratures(model, ledger)), model.group_values(n.groups)
@@ -63,28 +66,35 @@ def by_casadi(
     replayed: Replay | None = None
     try:
         while replayed is None:
-            path = find(load(small), n.groups, used, ())
             tolerance = looser or control(used, plugin, n.groups)
+            if plugin != "cvodes":
+                tolerance = replace(tolerance, steps=min(tolerance.steps, budget))
             try:
+                path = find(load(small), n.groups, used, ())
                 replayed = replay(path, plugin, tolerance, flow, model.start(p))
-            except Stopped as failure:
-                if not failure.missed and (looser := tolerance.loosened(used)):
+                continue
+            except Stopped as stopped:
+                if not stopped.missed and (looser := tolerance.loosened(used)):
                     continue
-                if failure.missed and used > _TIGHTEST:
+                if stopped.missed and used > _TIGHTEST:
                     used, looser = used * 1e-2 if used > 200 * _TIGHTEST else _TIGHTEST, None
                     continue
-                try:
-                    path, used = find(model, n.groups, rtol, flow.extras), rtol
-                except ComputationError:
-                    advice = "--engine rosenbrock" if plugin == "cvodes" else "--rtol 1e-8, or another impact"
-                    raise ComputationError(
-                        f"{plugin} {failure.why}",
-                        phase=str(failure.step.phase),
-                        time=failure.time,
-                        state=dict(zip(model.state, map(float, failure.y), strict=False)),
-                        advice=f"try {advice}",
-                    ) from None
-                replayed, plugin = as_located(path, choice), "rosenbrock"
+                failure = ComputationError(
+                    f"{plugin} {stopped.why}",
+                    phase=str(stopped.step.phase),
+                    time=stopped.time,
+                    state=dict(zip(model.state, map(float, stopped.y), strict=False)),
+                    advice=f"try {'--engine rosenbrock' if plugin == 'cvodes' else '--rtol 1e-8, or another impact'}",
+                )
+            except ComputationError as error:
+                if used == rtol:
+                    raise
+                failure = error
+            try:
+                path, used = find(model, n.groups, rtol, flow.extras), rtol
+            except ComputationError:
+                raise failure from None
+            replayed, plugin = as_located(path, choice), "rosenbrock"
     except ComputationError as error:
         raise n.in_si(error) from None
     energy = _energy(model, replayed, p, n) if ledger else None

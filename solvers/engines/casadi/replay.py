@@ -16,7 +16,6 @@ from ...host.thread_caches import own_cache
 from ...model.model import ModelKey
 from ...model.phases import Flow, WatchedEvents, event_table, expressions, extra_units
 from ...model.rebound import rebounded
-from ...settings import STEPS
 from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
 from .locate import EventSequence, PhaseRun, own_loss
 
@@ -93,7 +92,7 @@ def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, s
         if step.duration > 0:
             engine = plain(flow, plugin, tolerance)
             before = replayed.y
-            duration, replayed.y = _integrate_onto_event(engine, flow, path.watch, step, replayed, p)
+            duration, replayed.y = _integrate_onto_event(engine, flow, path.watch, step, replayed, p, tolerance.steps)
             replayed.pieces.append(Piece(str(step.phase), flow, before, replayed.time, duration))
             replayed.time += duration
         replayed.events += [(kind, replayed.time) for kind in step.kinds]
@@ -132,7 +131,7 @@ def as_located(path: EventSequence, choice: ModelKey) -> Replay:
 
 
 def _integrate_onto_event(
-    engine: Plain, flow: Flow, watch: WatchedEvents, step: PhaseRun, replayed: Replay, p: np.ndarray
+    engine: Plain, flow: Flow, watch: WatchedEvents, step: PhaseRun, replayed: Replay, p: np.ndarray, most: int
 ) -> tuple[float, np.ndarray]:
     """Duration and final state of one phase, on the event's surface."""
 
@@ -142,8 +141,8 @@ def _integrate_onto_event(
         except IntegrationFailed as failure:
             raise Stopped(f"gave up ({failure})", step, replayed.time, replayed.y) from None
         replayed.steps += engine.steps
-        if replayed.steps > STEPS:
-            raise Stopped(f"has not finished in {STEPS} steps", step, replayed.time, replayed.y)
+        if replayed.steps > most:
+            raise Stopped(f"has not finished in {most} steps", step, replayed.time, replayed.y)
         return y
 
     y = integrate(step.duration)
