@@ -56,7 +56,9 @@ def stretches(plane: Plane, arcs: Sequence[Arc]) -> tuple[list[Stretch], list[tu
             codes = _filled(_codes(plane, arc, arc.points.mean(axis=0)[None]))
         codes = np.concatenate([codes[:1], codes, codes[-1:]])[: len(arc.points)]
         for part, code in _cut(plane, arc, codes, points):
-            found += _at_barriers(plane, Stretch(part, *_decoded(code)), points)
+            kind = FREE if code <= 0 else REVERSED if code > 3 else GRAZE
+            criterion = -1 if code <= 0 else (code - 1) % 3
+            found += _at_barriers(plane, Stretch(part, kind, criterion), points)
     return found, points
 
 
@@ -74,12 +76,6 @@ def _codes(plane: Plane, arc: Arc, at: np.ndarray) -> np.ndarray:
         codes += 3 * (before >= 0)
         known &= before > -2
     return np.where(known, codes, _NONE)
-
-
-def _decoded(code: int) -> tuple[str, int]:
-    if code <= 0:
-        return FREE, -1
-    return (REVERSED if code > 3 else GRAZE), (code - 1) % 3
 
 
 def _normals(arc: Arc, at: np.ndarray) -> np.ndarray:
@@ -212,7 +208,7 @@ def named(
 
 def _joined(parts: list[Stretch], point: Meeting) -> tuple[list[Stretch], str]:
     """Name of the change where two curves meet; they are joined if there is none."""
-    ending = [one for one in parts if _touches(one.arc, point.place)]
+    ending = [one for one in parts if min(np.linalg.norm(one.arc.points[[0, -1]] - point.place, axis=1)) < _AT]
     if len(ending) != 2:
         return parts, CORNER if ending else ""  # none ends there where another curve passes it
     one, other = ending
@@ -220,22 +216,14 @@ def _joined(parts: list[Stretch], point: Meeting) -> tuple[list[Stretch], str]:
         return parts, KIND
     if one.criterion != other.criterion:
         return parts, CRITERION
-    if abs(math.pi - _between_branches(point)) > _STRAIGHT:
+    apart = abs(point.leaving[0].direction - point.leaving[1].direction) % math.tau
+    if abs(math.pi - min(apart, math.tau - apart)) > _STRAIGHT:
         return parts, CORNER
     first, last = sorted(ending, key=lambda part: part.arc.points[0, 0])
     if not np.allclose(first.arc.points[-1], last.arc.points[0], rtol=0, atol=_AT):
         return parts, FOLD
     whole = Arc(np.vstack([first.arc.points, last.arc.points[1:]]), first.arc.right, first.arc.left)
     return [part for part in parts if part is not one and part is not other] + [replace(first, arc=whole)], ""
-
-
-def _between_branches(point: Meeting) -> float:
-    apart = abs(point.leaving[0].direction - point.leaving[1].direction) % math.tau
-    return min(apart, math.tau - apart)
-
-
-def _touches(arc: Arc, place: np.ndarray) -> bool:
-    return bool(min(np.linalg.norm(arc.points[[0, -1]] - place, axis=1)) < _AT)
 
 
 def _reaches_head_on(parts: Sequence[Stretch], place: np.ndarray) -> bool:

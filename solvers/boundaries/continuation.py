@@ -155,8 +155,7 @@ def _step(
     """Points after half a step and a full step, and True if the latter is on an edge; None if the curve is lost."""
     last = points[-1]
     places = [_predicted(points, heading, part * step) for part in (0.5, 1.0)]
-    at_edge = not _in_square(places[1])
-    if at_edge:
+    if np.any((places[1] < 0) | (places[1] > 1)):
         found = _to_edge(labels, last, places[1], step, branch)
         return None if found is None else ([found], True)
     normals = np.array([[-heading[1], heading[0]]] * 2)
@@ -169,7 +168,7 @@ def _step(
     turns = abs(_angle(heading, chords[0])), abs(_angle(chords[0], chords[1]))
     if step > 2 * SHORTEST and max(turns) > _TURN:
         return None
-    return [found[0], found[1]], not _in_open_square(found[1])
+    return [found[0], found[1]], bool(np.any((found[1] <= 0) | (found[1] >= 1)))
 
 
 def _predicted(points: list[np.ndarray], heading: np.ndarray, ahead: float) -> np.ndarray:
@@ -218,14 +217,6 @@ def _to_edge(labels: Labels, last: np.ndarray, beyond: np.ndarray, step: float, 
         labels, np.clip(place, 0, 1)[None], along[None], reach, np.array([branch.right]), np.array([branch.left])
     )[0]
     return None if np.isnan(found).any() else found
-
-
-def _in_square(point: np.ndarray) -> bool:
-    return bool(np.all((point >= 0) & (point <= 1)))
-
-
-def _in_open_square(point: np.ndarray) -> bool:
-    return bool(np.all((point > 0) & (point < 1)))
 
 
 def _angle(one: np.ndarray, other: np.ndarray) -> float:
@@ -290,8 +281,13 @@ def meeting(
         inner, outer = branches(labels, centre, size, ahead), branches(labels, centre, 2 * size, ahead)
         if not _alike(inner, found) or not _alike(outer, found) or len(inner) < 2:
             break
-        ways = np.array([_way(one, _same(one, outer), size) for one in inner])
-        at = centre + size * np.array([[math.cos(one.direction), math.sin(one.direction)] for one in inner])
+        at, ways = np.zeros((len(inner), 2)), np.zeros((len(inner), 2))
+        for k, one in enumerate(inner):
+            alike = [each for each in outer if (each.right, each.left) == (one.right, one.left)]
+            beyond = min(alike, key=lambda each: 1 - math.cos(each.direction - one.direction)).direction
+            here, there = (np.array([math.cos(angle), math.sin(angle)]) for angle in (one.direction, beyond))
+            at[k], way = centre + size * here, size * (2 * there - here)
+            ways[k] = way / np.linalg.norm(way)
         across = np.column_stack([-ways[:, 1], ways[:, 0]])
         place, _, rank, _ = np.linalg.lstsq(across, np.sum(across * at, axis=1), rcond=1e-6)
         if rank < 2 or np.linalg.norm(place - centre) > 2 * radius:
@@ -305,19 +301,3 @@ def _alike(some: list[Branch], others: list[Branch]) -> bool:
     pairs = [(one.right, one.left) for one in some]
     wanted = [(one.right, one.left) for one in others]
     return len(pairs) == len(wanted) and sorted(pairs) == sorted(wanted)
-
-
-def _same(branch: Branch, others: list[Branch]) -> Branch:
-    """The branch between the same labels with the nearest direction."""
-    alike = [one for one in others if (one.right, one.left) == (branch.right, branch.left)]
-    return min(alike, key=lambda one: 1 - math.cos(one.direction - branch.direction))
-
-
-def _way(inner: Branch, outer: Branch, radius: float) -> np.ndarray:
-    way = radius * np.array(
-        [
-            2 * math.cos(outer.direction) - math.cos(inner.direction),
-            2 * math.sin(outer.direction) - math.sin(inner.direction),
-        ]
-    )
-    return np.asarray(way / np.linalg.norm(way))

@@ -59,7 +59,10 @@ class Plane:
         self.kernel = collision_engine(self.scene) == "taylor"
         self.edge = self.span[0]
         if self.over == ANGLE:
-            self.span = max(self.edge, min(_least(self.scene), 0.5 * self.span[1])), self.span[1]
+            scene = self.scene
+            bound = scene.bridge is not None or scene.pendulum is not None or scene.attraction is not None
+            least = LEAST_ANGLE if bound else LEAST_UNBOUND
+            self.span = max(self.edge, min(least, 0.5 * self.span[1])), self.span[1]
 
     def x(self, points: np.ndarray) -> np.ndarray:
         """Values of the entry at points, rad or SI."""
@@ -158,12 +161,6 @@ def _middles(unknown: np.ndarray) -> np.ndarray:
     runs = edges.reshape(-1, 2)
     long = runs[runs[:, 1] - runs[:, 0] >= min(_RUN, unknown.size)]
     return np.asarray(long.sum(axis=1) // 2)
-
-
-def _least(scene: Scene) -> float:
-    """The smallest angle (rad) of the plane."""
-    bound = scene.bridge is not None or scene.pendulum is not None or scene.attraction is not None
-    return LEAST_ANGLE if bound else LEAST_UNBOUND
 
 
 def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, label: str = "over") -> Plane:

@@ -64,13 +64,14 @@ def draw(scene: Scene, found: Lines) -> Figure:
     _fill(axes, regions, factor)
     for one in regions.curves:
         axes.plot(np.array(one.x) / factor, one.stokes, color=INK, linewidth=1.5, solid_capstyle="round", zorder=3)
-    if dots:
-        _dots(axes, found)
-    handles = _handles(regions)
+    changes = zip(found.angles, found.changes, strict=True) if dots else ()
+    if pairs := [(math.degrees(at), one.stokes) for at, line in changes for one in line]:
+        axes.plot(*zip(*pairs), "o", color=INK, markersize=2.6, zorder=4, clip_on=False)
+    handles: list[Any] = [patch(OUTCOMES[k]) for k in sorted({k for slab in regions.slabs() for k in slab.labels})]
     handles += _mark(axes, whole.points, factor, low, high)
     handles += _doubts(axes, found, whole, factor)
     figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(handles)), handleheight=1.1)
-    place_names(figure, axes, _raster(regions, factor))
+    place_names(figure, axes, lambda x, stokes: regions.region(np.clip(x * factor, *regions.span), stokes))
     return figure
 
 
@@ -156,24 +157,6 @@ def _fill(axes: Axes, whole: Curves, factor: float) -> None:
             if HATCHES[name]:
                 look: Any = {"facecolor": "none", "edgecolor": EDGES[name], "hatch": HATCHES[name], "linewidth": 0}
                 axes.fill(x, stokes, zorder=1.5, **look)
-
-
-def _raster(whole: Curves, factor: float) -> Any:
-    """Outcomes at places of the figure: x as drawn, and Stokes numbers."""
-    return lambda x, stokes: whole.region(np.clip(x * factor, *whole.span), stokes)
-
-
-def _dots(axes: Axes, found: Lines) -> None:
-    """Draw the changes on the requested lines."""
-    pairs = [(math.degrees(at), one.stokes) for at, line in zip(found.angles, found.changes) for one in line]
-    if pairs:
-        axes.plot(*zip(*pairs), "o", color=INK, markersize=2.6, zorder=4, clip_on=False)
-
-
-def _handles(whole: Curves) -> list[Any]:
-    """Legend entries of the outcomes in the figure."""
-    seen = {label for slab in whole.slabs() for label in slab.labels}
-    return [patch(OUTCOMES[label]) for label in sorted(seen)]
 
 
 def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: float) -> list[Any]:

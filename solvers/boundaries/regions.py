@@ -27,7 +27,6 @@ class Slab:
     high: float
     arcs: tuple[Arc, ...]
     labels: tuple[int, ...]
-    consistent: bool
 
 
 def slabs(arcs: Sequence[Arc], column: np.ndarray, labels: np.ndarray) -> list[Slab]:
@@ -46,10 +45,9 @@ def slabs(arcs: Sequence[Arc], column: np.ndarray, labels: np.ndarray) -> list[S
         own.sort(key=lambda arc: float(np.interp(middle, arc.points[:, 0], arc.points[:, 1])))
         if own:
             between = [own[0].right, *(arc.left for arc in own)]
-            consistent = all(below.left == above.right for below, above in pairwise(own))
         else:
-            between, consistent = [int(labels[int(np.argmin(np.abs(column - middle)))])], True
-        found.append(Slab(low, high, tuple(own), tuple(between), consistent))
+            between = [int(labels[int(np.argmin(np.abs(column - middle)))])]
+        found.append(Slab(low, high, tuple(own), tuple(between)))
     return found
 
 

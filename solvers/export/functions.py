@@ -42,13 +42,9 @@ def functions(model: Model, prefix: str) -> list[Function]:
             regional = name in (*model.structure.REGIONAL, "jacobian", "event_rates")
             if not suffix or regional:
                 full = f"{prefix}_{name}{suffix}"
-                found[full] = _renamed(function, full)
+                inputs = function.sx_in()
+                found[full] = Function(full, inputs, [function(*inputs)], function.name_in(), [full])
     return list(found.values())
-
-
-def _renamed(function: Function, name: str) -> Function:
-    inputs = function.sx_in()
-    return Function(name, inputs, [function(*inputs)], function.name_in(), [name])
 
 
 def _comment(scene: Scene, model: Model, values: DimensionlessGroups | None) -> str:

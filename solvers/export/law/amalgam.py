@@ -105,21 +105,17 @@ def _parsed(source: Source) -> _Kernel:
         if name in seen:
             return
         seen.add(name)
-        text = source.made[name] if name in source.made else _read(name)
+        own = OWN / name
+        text = source.made[name] if name in source.made else (own if own.exists() else RUNTIME / name).read_text()
         for other in included(text):
             put(other)
         text = re.sub(r'^#include "[^"]+"\n', "", text, flags=re.MULTILINE)
-        heads[name], own = items(name, conditions.resolved(_unmarked(text)))
-        found.extend(own)
+        heads[name], parts = items(name, conditions.resolved(_unmarked(text)))
+        found.extend(parts)
 
     for root in source.roots:
         put(root)
     return _Kernel(source.prefix, found, heads)
-
-
-def _read(name: str) -> str:
-    own = OWN / name
-    return (own if own.exists() else RUNTIME / name).read_text()
 
 
 def _unmarked(text: str) -> str:

@@ -11,7 +11,8 @@ from .contact import contact_header
 from .material import LARGEST, Number, Result
 from .space import declarations
 
-_OUTCOMES = tuple(word.upper().replace("-", "_") for word in OUTCOMES)
+_MEANINGS = ("no separation", "separated, and no rebound criterion was met", "separated after a rebound")
+_OUTCOMES = [(word.upper().replace("-", "_"), k, _MEANINGS[k]) for k, word in enumerate(OUTCOMES)]
 RESULTS = (
     ("int", "status", "LAW_OK, or why there is no answer"),
     ("int", "outcome", "LAW_STICK, LAW_STICK_ROTATE_SEPARATE, LAW_BOUNCE; LAW_UNDECIDED without an answer"),
@@ -46,10 +47,7 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
         *comment(_frame(scene)),
         *_structure("law_impact", of_impact),
         *comment("Outcomes."),
-        *_enumeration(
-            [("UNDECIDED", -1, "there is no answer; `status` says why")]
-            + [(name, k, _said(name)) for k, name in enumerate(_OUTCOMES)]
-        ),
+        *_enumeration([("UNDECIDED", -1, "there is no answer; `status` says why")] + _OUTCOMES),
         *comment("Rebound criteria."),
         *_enumeration(
             [("NO_REBOUND", -1, "none was met")]
@@ -131,14 +129,6 @@ def _frame(scene: Scene) -> str:
         "relative to the sphere with restitution speed n' + final_rotation_rate (R + final_gap) w x n'; the pair's "
         "momentum is what it was."
     )
-
-
-def _said(name: str) -> str:
-    return {
-        "STICK": "no separation",
-        "STICK_ROTATE_SEPARATE": "separated, and no rebound criterion was met",
-        "BOUNCE": "separated after a rebound",
-    }[name]
 
 
 def _structure(name: str, numbers: Iterable[Number]) -> list[str]:

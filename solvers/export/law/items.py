@@ -138,12 +138,15 @@ def _item(file: str, comment: str, code: str) -> Item:
         names += re.findall(r"^typedef struct (\w+)", bare)
     elif re.match(r"(enum|struct)\b[^=(]*\{", bare):
         kind = "type"
-        names = re.findall(r"struct (\w+)", bare) if bare.startswith("struct") else _constants(bare)
+        names = re.findall(r"struct (\w+)", bare)
+        if not bare.startswith("struct"):
+            inside = bare[bare.index("{") + 1 : bare.rindex("}")]
+            names = [part.split("=")[0].strip() for part in _parts(inside) if part.strip()]
     elif _is_function(bare):
         found = re.search(r"(\w+)\s*\(", bare)
         names, kind = ([found[1]] if found else []), "function"
     else:
-        names, kind = _variables(bare), "data"
+        names, kind = _declared(bare.rstrip().rstrip(";")), "data"
     if not names:
         raise CheckFailed(f"C text that is not understood: {code}")
     item = Item(file, kind, comment, code, tuple(names))
@@ -151,15 +154,6 @@ def _item(file: str, comment: str, code: str) -> Item:
     called = set(re.findall(r"\b([A-Za-z_]\w*)\s*\(", used))
     item.uses = frozenset(set(_NAME.findall(used)) - (own_names(item) - called) - {*names})
     return item
-
-
-def _constants(bare: str) -> list[str]:
-    inside = bare[bare.index("{") + 1 : bare.rindex("}")]
-    return [part.split("=")[0].strip() for part in _parts(inside) if part.strip()]
-
-
-def _variables(bare: str) -> list[str]:
-    return _declared(bare.rstrip().rstrip(";"))
 
 
 def _declared(text: str) -> list[str]:

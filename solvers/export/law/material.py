@@ -151,7 +151,8 @@ def checks(scene: Scene, of_material: Iterable[Number], of_impact: Iterable[Numb
     """C functions that refuse a material, an impact and a tolerance."""
     tolerance = Number("rtol", "1", "", TOLERANCE.range, 1e-9)
     body = [line for number in of_material for line in _refusal(number, "m->")]
-    stops = " && ".join(_never(name, value) for name, value in NEVER_MET.items())
+    never = [f"m->{name} {'>=' if value > 1 else '<='} {value!r}" for name, value in NEVER_MET.items()]
+    stops = " && ".join(never)
     if scene.attraction is not None:
         stops += " && m->hamaker > 0.0"
     else:
@@ -173,10 +174,6 @@ def checks(scene: Scene, of_material: Iterable[Number], of_impact: Iterable[Numb
         ),
     ]
     return intro + "\n".join([*usual, *lines])
-
-
-def _never(name: str, value: float) -> str:
-    return f"m->{name} {'>=' if value > 1 else '<='} {value!r}"
 
 
 def _refusal(number: Number, of: str) -> list[str]:

@@ -65,7 +65,8 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
     """
     name = law_name(scene)
     own = kernels(scene, rtol)
-    declared = _header(scene, own)
+    of_material, of_impact = material(scene, own), impact(scene)
+    declared = header(scene, of_material, of_impact, _results(scene, (*of_material, *of_impact)))
     found = {
         f"{name}.h": _head(scene, own) + declared,
         f"{name}.c": _law(scene, own),
@@ -104,11 +105,6 @@ def _sizes(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
         bodies = Bodies.of(scene)
         return bodies.radius, bodies.mass
     return (float(scene.material["reduced_radius"]), 0.0), (float(scene.material["reduced_mass"]), 0.0)
-
-
-def _header(scene: Scene, own: tuple[Kernel, ...]) -> str:
-    of_material, of_impact = material(scene, own), impact(scene)
-    return header(scene, of_material, of_impact, _results(scene, (*of_material, *of_impact)))
 
 
 def _law(scene: Scene, own: tuple[Kernel, ...]) -> str:
