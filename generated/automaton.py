@@ -1,11 +1,12 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 be4f2435aa3cb6ecdabfc008448d4f1a861aeae3032ae568fddf5f43d56b3caa
+# Automaton sha256 1853abe51a314a9bd8d6d5094658308d2add2b86e4547aafce258c3c193403c3
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import NamedTuple
+from math import sqrt
+from typing import Any, NamedTuple
 
 CLOSING, OPENING = -1, 1
 
@@ -137,6 +138,76 @@ LEAST_MOMENTUM = 5.960464477539063e-08  # of the parts of the angular momentum: 
 LEAST_DEPTH = 1e-40  # least gap, relative to the present one, of the film certificate without contact
 
 
+def is_parted(gap: float, rupture_gap: float) -> bool:
+    """True if the gap is not below the rupture gap."""
+    return gap >= rupture_gap
+
+
+def is_too_weak(inward_force: float, normal_velocity: float, rtol: float, gap: float) -> bool:
+    """True if a rebound does not open the gap."""
+    return inward_force > 0 and (normal_velocity < REST_SPEED or normal_velocity*normal_velocity/(2*inward_force) < rtol*gap)
+
+
+def has_no_slip(slip: float) -> bool:
+    """True if the surfaces do not slip."""
+    return abs(slip) < NO_SLIP
+
+
+def friction_holds(holding: float, limit: float) -> bool:
+    """True if friction can hold the surfaces together."""
+    return abs(holding) <= limit
+
+
+def is_within_rounding(normal_velocity: float, obliquity: float, aspect: float) -> bool:
+    """True if rounding of the angular momentum could have opened the doublet."""
+    return normal_velocity < LEAST_PARTING*obliquity*sqrt(aspect)
+
+
+def is_on_edge(gap: float, edge: float) -> bool:
+    """True if the gap is on an edge."""
+    return gap == edge
+
+
+def is_too_oblique(obliquity: float, aspect: float) -> bool:
+    """True if the centrifugal force reverses the motion within rounding."""
+    return obliquity*obliquity*aspect/16 > MOST_OBLIQUE
+
+
+def is_below_barrier(energy: Any, height: Any, margin: Any, largest: Any, drift: Any) -> Any:
+    """True if the energy is below a barrier ahead, lowered by what a drift of angular momentum may do."""
+    return energy < height - margin*(largest + abs(height)) - drift
+
+
+def attraction_holds(gap: Any, contact: Any, margin: Any, hold: Any, rebound: Any, escape: Any, energy: Any) -> Any:
+    """True if the attraction lets no maximum of the gap exceed the one before."""
+    return gap >= contact*(1 - margin) and hold > 0 and rebound < -margin*hold and escape < -margin*energy
+
+
+def spins_down(gap: Any, contact: Any, margin: Any, momentum: Any, negligible: Any, rate: Any, stays: Any, error: Any, orbital_momentum: Any, inside: Any, apart: Any) -> Any:
+    """True if without angular momentum, or without orbital momentum, the film keeps the doublet."""
+    return gap >= contact*(1 - margin) and (momentum <= negligible and rate > 0 and stays < -error or orbital_momentum == 0 and inside < 0 and apart < -error)
+
+
+def rests_for_good(reaction: Any, margin: Any, largest: Any) -> Any:
+    """True if the reaction of a resting doublet stays inward at the largest momentum that slip allows."""
+    return reaction > margin*largest
+
+
+def stays_below(needed: Any, margin: Any, size: Any) -> Any:
+    """True if the energy does not suffice for a gap ahead."""
+    return needed < -margin*size
+
+
+def comes_back(outward: Any, lost: Any, margin: Any) -> Any:
+    """True if a rebound loses more than the rotation gives on the way back to the maximum."""
+    return outward < lost*(1 - margin)
+
+
+def tumbles_for_good(rest: Any, rigid: Any, work: Any, height: Any, margin: Any, largest: Any) -> Any:
+    """True if a doublet that tumbles as one body is held with all momentum across the line of centres."""
+    return rest < TUMBLES*rigid and rest + rigid + work < height - margin*(largest + abs(height))
+
+
 class Event(NamedTuple):
     """An event: its guard and its effect; `generated/automaton.md` explains them."""
 
@@ -145,6 +216,7 @@ class Event(NamedTuple):
     where: tuple[tuple[str, int], ...]
     words: tuple[str, ...]
     actions: tuple[str, ...]
+    target: str
     follows: str
     dips: bool
     within_reach: bool
@@ -169,6 +241,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(("resting", 0),),
         words=("turned", "fell back"),
         actions=("velocity = 0", "turn"),
+        target="",
         follows="motion",
         dips=True,
         within_reach=False,
@@ -182,6 +255,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(("resting", 0), ("motion", -1)),
         words=("glass",),
         actions=("rebound",),
+        target="",
         follows="",
         dips=True,
         within_reach=False,
@@ -194,7 +268,8 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("elastic", "rough"),
         where=(("resting", 0), ("motion", -1)),
         words=("elastic", "rough"),
-        actions=("gap = contact", "rebound"),
+        actions=("gap = target", "rebound"),
+        target="contact",
         follows="",
         dips=False,
         within_reach=False,
@@ -207,7 +282,8 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("rupture",),
         where=(("resting", 0), ("motion", 1), ("film", 0)),
         words=("rupture",),
-        actions=("gap = rupture", "separate"),
+        actions=("gap = target", "separate"),
+        target="rupture",
         follows="",
         dips=False,
         within_reach=False,
@@ -220,7 +296,8 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("film_edge",),
         where=(("resting", 0),),
         words=("film edge",),
-        actions=("gap = film edge", "cross film edge"),
+        actions=("gap = target", "cross film edge"),
+        target="film edge",
         follows="film",
         dips=False,
         within_reach=False,
@@ -233,7 +310,8 @@ EVENTS = (  # in order of precedence among coincident ones
         functions=("tangential_edge",),
         where=(("resting", 0),),
         words=("tangential edge",),
-        actions=("gap = tangential edge", "cross tangential edge"),
+        actions=("gap = target", "cross tangential edge"),
+        target="tangential edge",
         follows="shear",
         dips=False,
         within_reach=True,
@@ -247,6 +325,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(("resting", 1),),
         words=("released",),
         actions=("open",),
+        target="",
         follows="",
         dips=True,
         within_reach=False,
@@ -260,6 +339,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(("resting", 1), ("rolling", 0)),
         words=("rolls", "slides"),
         actions=("roll or slide",),
+        target="",
         follows="sliding",
         dips=True,
         within_reach=False,
@@ -273,6 +353,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(("resting", 1), ("rolling", 1)),
         words=("slides",),
         actions=("slide",),
+        target="",
         follows="",
         dips=True,
         within_reach=False,
@@ -286,6 +367,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(),
         words=("half turn",),
         actions=("cut off",),
+        target="half turn",
         follows="",
         dips=False,
         within_reach=False,
@@ -299,6 +381,7 @@ EVENTS = (  # in order of precedence among coincident ones
         where=(),
         words=("rotation reverses",),
         actions=("cut off",),
+        target="",
         follows="",
         dips=True,
         within_reach=False,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 058933c41ce7287e2db675c6f95672ca89e785ad57f0cb7f690177b963310ada
+# Equations sha256 5bb85b7457d42805a0bc607bb05b818a64a138863ee7dcc49b2d16aff121d307
 """Head-on doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -32,7 +32,7 @@ FUNCTIONS = (
     "rebound_loss", "outputs", "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "058933c41ce7287e2db675c6f95672ca89e785ad57f0cb7f690177b963310ada"
+DIGEST = "5bb85b7457d42805a0bc607bb05b818a64a138863ee7dcc49b2d16aff121d307"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -74,10 +74,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": 1 - gap,
     }
 

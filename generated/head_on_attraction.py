@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a4a77fe52e3381817e3ee2f288fb1969a2ce9c9c85b8d103b52fa97c3830a502
+# Equations sha256 60197623b057cc840cf6d5086e09cb8cdd00dcad9290bc40cd1da02abd0ede5d
 """Head-on doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -39,7 +39,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "a4a77fe52e3381817e3ee2f288fb1969a2ce9c9c85b8d103b52fa97c3830a502"
+DIGEST = "60197623b057cc840cf6d5086e09cb8cdd00dcad9290bc40cd1da02abd0ede5d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 90ba89bc99bc8e6503c09c6d821d9ecbd0f46f1a40354a3bef5976bfb337da42
+# Equations sha256 aa8a6a49ed3092c707d32a696bc8ab778106044d2bcd515b445a573c63cc1b6d
 """Head-on doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -44,7 +44,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "90ba89bc99bc8e6503c09c6d821d9ecbd0f46f1a40354a3bef5976bfb337da42"
+DIGEST = "aa8a6a49ed3092c707d32a696bc8ab778106044d2bcd515b445a573c63cc1b6d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -99,10 +99,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rough_gap = groups["rough_gap"]
     rupture_gap = groups["rupture_gap"]
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "film_edge": 1 - gap,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 ecab4f34e8ae0345fdde68b4f5165e8cd07ec7f287b12f2e7e2880bb8540d94b
+# Equations sha256 8bcb15982ee6a13e5f01a59bcc2dd3366f1a502f1022a631c0005de1c8c4e704
 """Head-on doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -46,7 +46,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "ecab4f34e8ae0345fdde68b4f5165e8cd07ec7f287b12f2e7e2880bb8540d94b"
+DIGEST = "8bcb15982ee6a13e5f01a59bcc2dd3366f1a502f1022a631c0005de1c8c4e704"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 95938d01c40c0c5041d3e48ad44255161c7e54d7b7235ee5a28caab094b39260
+# Equations sha256 3c04831f7bfa91bb38951f67d68c794c5f93ad2fa51f08eb371301858303f887
 """Head-on doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -45,7 +45,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "95938d01c40c0c5041d3e48ad44255161c7e54d7b7235ee5a28caab094b39260"
+DIGEST = "3c04831f7bfa91bb38951f67d68c794c5f93ad2fa51f08eb371301858303f887"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -83,10 +83,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rough_gap = groups["rough_gap"]
     rupture_gap = groups["rupture_gap"]
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
     }
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 8217d49a2987033ea8c6b205dd70e1d5aee5d203720eb4ea80465efe075486b7
+# Equations sha256 c778c6494f8f28b5c799d49f8248dadac6ee6692172c9c360d9ff87bb3a10f64
 """Head-on doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -46,7 +46,7 @@ FUNCTIONS = (
     "rebound_loss", "outputs", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "8217d49a2987033ea8c6b205dd70e1d5aee5d203720eb4ea80465efe075486b7"
+DIGEST = "c778c6494f8f28b5c799d49f8248dadac6ee6692172c9c360d9ff87bb3a10f64"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 41a716c9e3d0fcdcac83698db3c68146d3db2f42a582257c8ccb7ae427f9f538
+# Equations sha256 f28e8cc4792a48c36b88dd16465fbe754866335ac5f30cbfec3a05a1aecfd715
 """Head-on doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -40,7 +40,7 @@ FUNCTIONS = (
     "rebound_loss", "outputs", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "41a716c9e3d0fcdcac83698db3c68146d3db2f42a582257c8ccb7ae427f9f538"
+DIGEST = "f28e8cc4792a48c36b88dd16465fbe754866335ac5f30cbfec3a05a1aecfd715"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 e5ce12d13392f1c421590f9e11ec092dfad53301656fe2c16d92a0ecf669549d
+# Equations sha256 d68b1f7509fb15f9965792079c3472947e8f89a562656ee118741d7c1ecd4306
 """Oblique doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -45,7 +45,7 @@ FUNCTIONS = (
     "spin_down_margins", "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "e5ce12d13392f1c421590f9e11ec092dfad53301656fe2c16d92a0ecf669549d"
+DIGEST = "d68b1f7509fb15f9965792079c3472947e8f89a562656ee118741d7c1ecd4306"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -153,10 +153,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     orbital_rate = orbital_momentum/distance**2
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": -centrifugal_force,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 bc7addc5b9c764ed8af49d51d21d98d0e7ef2aefe7b345f5808b9de27bf17167
+# Equations sha256 7336215e05f71ed618fd9cee8f58ddaad304eb1f6e26dae537d61c7331df20d4
 """Oblique doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -53,7 +53,7 @@ FUNCTIONS = (
     "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "bc7addc5b9c764ed8af49d51d21d98d0e7ef2aefe7b345f5808b9de27bf17167"
+DIGEST = "7336215e05f71ed618fd9cee8f58ddaad304eb1f6e26dae537d61c7331df20d4"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -128,10 +128,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": attraction_force - centrifugal_force,

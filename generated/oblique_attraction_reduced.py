@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 f622f686fbfd6f739068904e843ff480e23ebd51a2bd1ed2b8993fa9e2f7693a
+# Equations sha256 9d479958789f6ffff1b7d661d362f1416158cd71c1eb996a87f6d46d3260a0bc
 """Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -51,7 +51,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "f622f686fbfd6f739068904e843ff480e23ebd51a2bd1ed2b8993fa9e2f7693a"
+DIGEST = "9d479958789f6ffff1b7d661d362f1416158cd71c1eb996a87f6d46d3260a0bc"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 c2a2ee4d64a71660be8d74f3ec8fe14c2ec83a223073cc161fe4444defc4f0b2
+# Equations sha256 cb1ee1eed30e33b404948f6630632543dd7d9630970d04a988b79a3498b3a893
 """Oblique doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -55,7 +55,7 @@ FUNCTIONS = (
     "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "c2a2ee4d64a71660be8d74f3ec8fe14c2ec83a223073cc161fe4444defc4f0b2"
+DIGEST = "cb1ee1eed30e33b404948f6630632543dd7d9630970d04a988b79a3498b3a893"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -137,10 +137,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "film_edge": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 d88fd772846763ab2705b1eff3429d08b4cd8dd723b473cc1e5a4f1b3af3da3e
+# Equations sha256 476685cc3a7854977253c175ca6d6fcf74cd4a4a7408bcbc571fb019d7bd495e
 """Oblique doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -57,7 +57,7 @@ FUNCTIONS = (
     "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "d88fd772846763ab2705b1eff3429d08b4cd8dd723b473cc1e5a4f1b3af3da3e"
+DIGEST = "476685cc3a7854977253c175ca6d6fcf74cd4a4a7408bcbc571fb019d7bd495e"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -145,10 +145,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "film_edge": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a7a4c4141733e5b275433623a8f39c5e06c9a0918d8aa07a202ef94a785ccaba
+# Equations sha256 2912fac0d830ec615c2f7e3016358883b0794d7a3f9ecb984b3e852c1fa5b090
 """Oblique doublet with a liquid bridge and another attraction, spin eliminated through the conserved angular
 momentum.
 
@@ -56,7 +56,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "a7a4c4141733e5b275433623a8f39c5e06c9a0918d8aa07a202ef94a785ccaba"
+DIGEST = "2912fac0d830ec615c2f7e3016358883b0794d7a3f9ecb984b3e852c1fa5b090"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

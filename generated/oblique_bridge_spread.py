@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 1025570ce086d4bece41f9775583512d8841b3bd53a719f5526797af4bb46109
+# Equations sha256 72bab10ce103c94a1703d05ea2a5a909d9443606586d20b213573e5ee60075f1
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -57,7 +57,7 @@ FUNCTIONS = (
     "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "1025570ce086d4bece41f9775583512d8841b3bd53a719f5526797af4bb46109"
+DIGEST = "72bab10ce103c94a1703d05ea2a5a909d9443606586d20b213573e5ee60075f1"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -117,10 +117,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     centrifugal_force = aspect*distance*obliquity**2*orbital_rate**2/16
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": bridge_force - centrifugal_force,

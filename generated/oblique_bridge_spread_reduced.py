@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 8abebdcdf3e4885f4f0955e986821ee178439a58f48c0f127587031d9fcb284e
+# Equations sha256 7cae8a73a04655944682cd8886846d068328a235c08bfcbd5ca7e80585818903
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume, spin eliminated through
 the conserved angular momentum.
 
@@ -55,7 +55,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "8abebdcdf3e4885f4f0955e986821ee178439a58f48c0f127587031d9fcb284e"
+DIGEST = "7cae8a73a04655944682cd8886846d068328a235c08bfcbd5ca7e80585818903"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

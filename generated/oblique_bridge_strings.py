@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 41d6f17f063acb7097ac0d5bfd50e561c0205c4d6484b471559b5ee9edb4740d
+# Equations sha256 6ef5ae5d15c1f31eccf68fa7535e00fb5b79fe274ff68373a3da6ac741aee032
 """Oblique doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -56,7 +56,7 @@ FUNCTIONS = (
     "attraction_margins", "orbital_margins",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "41d6f17f063acb7097ac0d5bfd50e561c0205c4d6484b471559b5ee9edb4740d"
+DIGEST = "6ef5ae5d15c1f31eccf68fa7535e00fb5b79fe274ff68373a3da6ac741aee032"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -161,10 +161,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         weight*(aspect*gap + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, offset_squared)
     )
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "film_edge": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,

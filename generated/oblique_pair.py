@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 130a4e4d7914f957a89e18104d31f2f53b5217c6d363087ca222d566842dc4bf
+# Equations sha256 c749bab93ec6d395ce2f0c14a1ffbd4e1a6110275a20a5b9969f786cedf7e8f1
 """Oblique unequal doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -49,7 +49,7 @@ FUNCTIONS = (
     "spin_down_margins", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "130a4e4d7914f957a89e18104d31f2f53b5217c6d363087ca222d566842dc4bf"
+DIGEST = "c749bab93ec6d395ce2f0c14a1ffbd4e1a6110275a20a5b9969f786cedf7e8f1"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -186,10 +186,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     distance = aspect*gap + centres
     orbital_rate = orbital_momentum/distance**2
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": -aspect*distance*obliquity**2*orbital_rate**2/centres**2,

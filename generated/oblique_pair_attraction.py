@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 b98d29c8788cb1b2a816db423b7b8e58575ad61c5b3dd2e0c6c8b5db4025413a
+# Equations sha256 e8e4e1de3a98363cf3265025c9849e727610ca14c79b01971bbc3ea75dd7c839
 """Oblique unequal doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -55,7 +55,7 @@ FUNCTIONS = (
     "approach_step", "approach_force", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "b98d29c8788cb1b2a816db423b7b8e58575ad61c5b3dd2e0c6c8b5db4025413a"
+DIGEST = "e8e4e1de3a98363cf3265025c9849e727610ca14c79b01971bbc3ea75dd7c839"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -144,10 +144,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     orbital_rate = orbital_momentum/distance**2
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": attraction_force - aspect*distance*obliquity**2*orbital_rate**2/centres**2,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 3add5317b91d35ba617192e63bf8cf5f56c4b33b60af0085d7f0e915312010b0
+# Equations sha256 2d9c65af5e74fb948a6a135cce87e1d39544f97357dec9985b1a5beb9c7c1bbd
 """Oblique unequal doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -59,7 +59,7 @@ FUNCTIONS = (
     "approach_step", "approach_force", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "3add5317b91d35ba617192e63bf8cf5f56c4b33b60af0085d7f0e915312010b0"
+DIGEST = "2d9c65af5e74fb948a6a135cce87e1d39544f97357dec9985b1a5beb9c7c1bbd"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -155,10 +155,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     orbital_rate = orbital_momentum/distance**2
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "film_edge": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 d60202416e45937cb6b801219aea2afb3979228bd6fb8210700cab08113b058d
+# Equations sha256 44327ddb15260f0de424f66f007fa153ea9e40ecf33c3253b03cabf4366850c6
 """Oblique unequal doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -60,7 +60,7 @@ FUNCTIONS = (
     "approach_step", "approach_force", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "d60202416e45937cb6b801219aea2afb3979228bd6fb8210700cab08113b058d"
+DIGEST = "44327ddb15260f0de424f66f007fa153ea9e40ecf33c3253b03cabf4366850c6"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -162,10 +162,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     attraction_force = adhesion*laws.attraction.force(gap)/stokes
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "film_edge": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 3dea9cf9d4813b8d92c20ecb07ee8a42d28ac2440a3e7d07de72fe504ab95a0d
+# Equations sha256 e02115d0fe8ba7b40891b6bb0e1264f3062e62dc191cef33f9b341f5b749af2d
 """Oblique unequal doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -59,7 +59,7 @@ FUNCTIONS = (
     "approach_step", "approach_force", "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "3dea9cf9d4813b8d92c20ecb07ee8a42d28ac2440a3e7d07de72fe504ab95a0d"
+DIGEST = "e02115d0fe8ba7b40891b6bb0e1264f3062e62dc191cef33f9b341f5b749af2d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -132,10 +132,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     orbital_rate = orbital_momentum/distance**2
     bridge_force = laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": bridge_force - aspect*distance*obliquity**2*orbital_rate**2/centres**2,

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 9b375d9c055b31fe9c7425d4020956ae98781f125cbf3b4ca045e44ae0894ecf
+# Equations sha256 6ce305c15b59230d4b04284e190e678e35f3ea94c216971d5cc1cf1e7934f57f
 """Oblique doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -49,7 +49,7 @@ FUNCTIONS = (
     "pendulum_margins", "approach_step",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "9b375d9c055b31fe9c7425d4020956ae98781f125cbf3b4ca045e44ae0894ecf"
+DIGEST = "6ce305c15b59230d4b04284e190e678e35f3ea94c216971d5cc1cf1e7934f57f"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -171,10 +171,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         weight*(aspect*gap + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, offset_squared)
     )
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
         "release": string_pull - centrifugal_force,

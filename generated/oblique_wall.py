@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 7517700f13da3d25e6655b43da4e1c1b2610fb290be3f1965c3493fce584d52a
+# Equations sha256 58fc0d1540d7345abe7da8eed61187f41c4cf9cff7fc21bf1bd49ee53838258e
 """Oblique sphere-wall doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -44,7 +44,7 @@ FUNCTIONS = (
     "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "7517700f13da3d25e6655b43da4e1c1b2610fb290be3f1965c3493fce584d52a"
+DIGEST = "58fc0d1540d7345abe7da8eed61187f41c4cf9cff7fc21bf1bd49ee53838258e"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -96,10 +96,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     elastic_gap = groups["elastic_gap"]
     rough_gap = groups["rough_gap"]
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 25f0c9d8ad68fa1a4493010006e1ce63a405853e40e6d19760eacbac041df10a
+# Equations sha256 622d1f69c1595aa4e6628dc7cfe82cd4674f857f5362ce95b2a3a2d9c926ca70
 """Oblique sphere-wall doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -49,7 +49,7 @@ FUNCTIONS = (
     "effective_potential", "rigid_rotation", "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "25f0c9d8ad68fa1a4493010006e1ce63a405853e40e6d19760eacbac041df10a"
+DIGEST = "622d1f69c1595aa4e6628dc7cfe82cd4674f857f5362ce95b2a3a2d9c926ca70"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

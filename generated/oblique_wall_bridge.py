@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 bad14bd44d0ee6429cbd38d10d9b90a16fa8796de49587794a01b8de50e68700
+# Equations sha256 8d1a1f3ade6664b031cbea385ec316aeb84fc09b67a5347fec31659f918a215d
 """Oblique sphere-wall doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -52,7 +52,7 @@ FUNCTIONS = (
     "effective_potential", "rigid_rotation", "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "bad14bd44d0ee6429cbd38d10d9b90a16fa8796de49587794a01b8de50e68700"
+DIGEST = "8d1a1f3ade6664b031cbea385ec316aeb84fc09b67a5347fec31659f918a215d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -92,10 +92,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rough_gap = groups["rough_gap"]
     rupture_gap = groups["rupture_gap"]
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "film_edge": 1 - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,

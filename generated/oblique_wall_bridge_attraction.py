@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a259a3c991bac1f44666b54b8cc44fd7ee3cc132af3124835e8c54734c07b0e5
+# Equations sha256 e7ac2d3693fe3edca4c25e16b46cfe2594b4f5d8ad66fb47f56e5fc594db7d50
 """Oblique sphere-wall doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -54,7 +54,7 @@ FUNCTIONS = (
     "effective_potential", "rigid_rotation", "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "a259a3c991bac1f44666b54b8cc44fd7ee3cc132af3124835e8c54734c07b0e5"
+DIGEST = "e7ac2d3693fe3edca4c25e16b46cfe2594b4f5d8ad66fb47f56e5fc594db7d50"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

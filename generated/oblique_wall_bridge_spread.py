@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 e599cfc88ae93b232302e7892a75648d2670b2dd664ac086b93a1c6a2c614b83
+# Equations sha256 ac90372d69b3e489304ecb1d0aee2ada68dddcbc419121382316b4881a8d853b
 """Oblique sphere-wall doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -53,7 +53,7 @@ FUNCTIONS = (
     "effective_potential", "rigid_rotation", "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "e599cfc88ae93b232302e7892a75648d2670b2dd664ac086b93a1c6a2c614b83"
+DIGEST = "ac90372d69b3e489304ecb1d0aee2ada68dddcbc419121382316b4881a8d853b"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -93,10 +93,10 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     rough_gap = groups["rough_gap"]
     rupture_gap = groups["rupture_gap"]
     return {
+        "turning": normal_velocity,
         "glass": glass_number - laws.glass.pressure(gap, -normal_velocity),
         "elastic": gap - elastic_gap,
         "rough": gap - rough_gap,
-        "turning": normal_velocity,
         "rupture": rupture_gap - gap,
         "tangential_edge": laws.shear.edge(aspect) - gap,
     }

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
 from wetdoublet.solvers import Scene, collide, sensitivities
 from wetdoublet.solvers.host.compiler import compiler
 
@@ -49,6 +53,22 @@ CRITERION = [  # a row of the automaton
         '    Criterion("rough"',
         '    Criterion("wavy", "wavy_gap", "waviness", "the gap is down to w", "w", "w", ("waviness", 0.0)),\n{}',
     )
+]
+CAUGHT_ROW = """    Event("caught", ("caught",), (_MOVING, _CLOSING), ("caught",), ("gap = target", "cut off"),
+          series=("gap",), target="wavy_gap", bound="monotonic"),
+{}"""
+SET_ROW = """    Event("set", ("set",), (_MOVING, _OPENING), ("set",), ("cut off",),
+          series=("stretching",), target="wavy_gap"),
+{}"""
+EVENTS = [  # two rows: a gap, and what the kernel has no series of; their words, and the definition of that series
+    (
+        AUTOMATON,
+        '    Word("turned"',
+        '    Word("caught", "the waves interlock"),\n    Word("set", "the film sets"),\n{}',
+    ),
+    (AUTOMATON, '    Event("film_edge"', CAUGHT_ROW),
+    (AUTOMATON, '    Event("release"', SET_ROW),
+    ("derive/equations/events.py", '    "slip": lambda', '    "stretching": lambda _: q.normal_velocity / q.gap,\n{}'),
 ]
 LAW = [  # an entry of BRIDGES, and its name among the scene's
     (
@@ -111,16 +131,16 @@ write_all_in(write.GENERATED, write.emitted(()))  # structures are derived on fi
 
 
 class Tree:
-    """A copy of the tree with all recipes applied, its own cache, and its laws and tables emitted."""
+    """A copy of the tree with recipes applied, its own cache, and its laws and tables emitted."""
 
-    def __init__(self, work: Path) -> None:
+    def __init__(self, work: Path, edits: list[tuple[str, str, str]]) -> None:
         self.package = work / "wetdoublet"
         for folder in ("derive", "solvers"):
             shutil.copytree(ROOT / folder, self.package / folder, ignore=shutil.ignore_patterns("__pycache__"))
         (self.package / "generated").mkdir()
         # a package without __init__ would give way to the installed one, which has it
         shutil.copy(ROOT / "solvers" / "package" / "__init__.py", self.package)
-        for path, old, new in (*ENTRY, *GROUP, *CRITERION, *LAW, *RESULT, *COMMAND):
+        for path, old, new in edits:
             file = self.package / path
             before, found, after = file.read_text().rpartition(old)
             assert found, f"{path} has no {old}"
@@ -149,12 +169,27 @@ class Tree:
 
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
-    return Tree(tmp_path_factory.mktemp("recipes"))
+    return Tree(tmp_path_factory.mktemp("recipes"), [*ENTRY, *GROUP, *CRITERION, *LAW, *RESULT, *COMMAND])
+
+
+@pytest.fixture(scope="module")
+def eventful(tmp_path_factory: pytest.TempPathFactory) -> Tree:
+    return Tree(tmp_path_factory.mktemp("events"), [*ENTRY, *GROUP, *EVENTS])
 
 
 HARD = {"liquid.glass_transition_pressure": "1e6 GPa", "particles.roughness": "0.1 um"}
 FAST = {"stokes": 5.0, "angle": 0.0}
 ROUGH, WAVY = HARD | {"particles.roughness": "2 um"}, HARD | {"particles.waviness": "2 um"}
+
+
+CAUGHT = {"particles.roughness": "0.1 um", "particles.waviness": "4 um"}  # x0 is 8 um
+SET = {"particles.roughness": "2 um", "particles.waviness": "1.6 um"}
+
+
+def duration(start: float, end: float, speed: Callable[[float], float]) -> float:
+    """Time (s) from one gap to another, over x0, at a speed over v0 that depends on the gap."""
+    scene = Scene.load("granulation")
+    return abs(quad(lambda x: 1 / speed(x), start, end)[0]) * 8e-6 * scene.stokes_per_speed / STOKES
 
 
 def options(entries: dict[str, str], stokes: float, engine: str) -> list[str]:
@@ -172,6 +207,39 @@ def test_a_new_rebound_criterion(tree: Tree, engine: str) -> None:
     wavy = tree.told("collide", "granulation", *options(WAVY, 5.0, engine))
     assert (rough.reversal, wavy["reversal"]) == ("rough", "wavy")
     assert wavy["restitution"] == pytest.approx(rough.restitution, rel=1e-13)
+
+
+# head-on in an infinite film the speed falls by ln(x)/St; the bridge is negligible
+ANALYTIC = {"liquid.glass_transition_pressure": "1e6 GPa", "bridge.surface_tension": "1e-12 N/m",
+            "model.film": "infinite", "particles.dry_restitution": "0.6"}  # fmt: skip
+STOKES = 5.0
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
+def test_a_new_event_at_a_gap(eventful: Tree, engine: str) -> None:
+    """It ends the collision when the gap is down to its group, by either engine."""
+    if engine == "taylor" and compiler() is None:
+        pytest.skip("no C compiler")
+    told = eventful.told("collide", "granulation", *options(ANALYTIC | CAUGHT, STOKES, engine))
+    assert [event["kind"] for event in told["events"]] == ["caught"]
+    assert told["outcome"] == "stick"
+    assert told["events"][0]["time"] == pytest.approx(duration(1.0, 0.5, lambda x: 1 + math.log(x) / STOKES), rel=1e-8)
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
+def test_a_new_event_of_another_series(eventful: Tree, engine: str) -> None:
+    """It happens where u/x is down to its group while opening: the kernel's recurrences of u/x are emitted."""
+    if engine == "taylor" and compiler() is None:
+        pytest.skip("no C compiler")
+    told = eventful.told("collide", "granulation", *options(ANALYTIC | SET, STOKES, engine))
+    assert [event["kind"] for event in told["events"]] == ["rough", "set"]
+
+    def opening(x: float) -> float:
+        return 0.6 * (1 + math.log(0.25) / STOKES) - math.log(x / 0.25) / STOKES
+
+    end = brentq(lambda x: opening(x) / x - 0.2, 0.25, 1.0)
+    elapsed = told["events"][1]["time"] - told["events"][0]["time"]
+    assert elapsed == pytest.approx(duration(0.25, end, opening), rel=1e-8)
 
 
 def test_a_new_rebound_criterion_is_drawn_printed_and_checked(tree: Tree, tmp_path: Path) -> None:

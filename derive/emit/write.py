@@ -23,7 +23,8 @@ from .casadi.references import references_module
 from .document.automaton import DIAGRAM, automaton_page
 from .document.diagram import diagram
 from .provenance import PROVENANCE, law_digest, model_digest
-from .taylor.automaton import automaton_header, criteria_header, effects_header
+from .taylor.automaton import automaton_header, criteria_header, effects_header, proofs_header
+from .taylor.guards import guards_header
 from .taylor.header import structure_header
 from .taylor.law_header import law_header
 from .taylor.law_slopes import slopes_header
@@ -59,6 +60,8 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
         DIAGRAM: diagram(provenance()),
         "taylor/automaton.h": automaton_header(provenance()),
         "taylor/criteria.h": criteria_header(provenance()),
+        "taylor/proofs.h": proofs_header(provenance()),
+        "taylor/guards.h": guards_header(provenance()),
         "taylor/effects.h": effects_header(provenance()),
         "py.typed": "",
     }

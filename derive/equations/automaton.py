@@ -1,14 +1,14 @@
 """A collision as a hybrid automaton: modes, events with their guards and effects, rules, ends and report words.
 
 Plain data, which `derive/emit/` writes for the CasADi engine, for the kernel and for the documentation. An event is a
-guard (functions of the emitted structures, where they are watched), a word and a list of actions. The CasADi engine
-interprets all of it. In the kernel numbers, words and effects are emitted; its guards are written by hand in `events.h`
-and its rules in `transitions.h`. Tests hold them to this table: where each event is watched, which of coincident ones
-counts, and that both engines decide alike.
+guard (what reaches which target, and where it is watched), a word and a list of actions. The CasADi engine interprets
+the table. The kernel's search for events, their effects and their derivatives are emitted from it; written by hand are
+the search for a root of a series and what the actions call. That both engines decide alike is tested.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 CLOSING, OPENING = -1, 1
@@ -129,10 +129,7 @@ class Action:
 
 
 ACTIONS = (
-    Action("gap = contact", "put the gap on the largest at which a criterion is met"),
-    Action("gap = film edge", "put the gap on x0"),
-    Action("gap = tangential edge", "put the gap on the reach of the tangential force"),
-    Action("gap = rupture", "put the gap on the rupture gap"),
+    Action("gap = target", "put the gap on the gap of the event"),
     Action("velocity = 0", "the normal velocity is zero"),
     Action("rebound", "the solids rebound; the rules of a rebound decide the next phase"),
     Action("turn", "closing becomes opening, and opening becomes closing"),
@@ -153,16 +150,25 @@ class Event:
     Arguments:
         functions: event functions of the structures; if several, the first to vanish triggers the event.
         where: mode components and the values for which it is watched.
-        follows: the guard is the function times this component: the sign of the motion or of the slip, or +1 inside
-            and -1 beyond.
+        words: names under which it may be reported.
+        actions: the effect, in order.
+        series: what reaches the target, as defined in `events.py`; of several, the first that does.
+        target: a gap or an angle that `events.py` defines, or the name of a dimensionless group; zero if empty.
+        direction: 1 if the series falls to its target, -1 if it rises to it.
+        follows: the direction is multiplied by this component: the sign of the motion or of the slip, or +1 inside and
+            -1 beyond.
+        bound: by which the kernel excludes the event within a step: "monotonic" (the value at the end; for the gap,
+            which is monotonic up to a turn), "terms" (the sum of the magnitudes of all terms but the first) or
+            "parabola" (the minimum of the first three terms less the magnitudes of the others).
+        structures: features of a structure that has the event, and "not" features of one that has not.
         dips: the function may become negative and positive again within one integration step.
         within_reach: watched only where its gap lies between contact and rupture and is not the film's edge.
         driven: watched only where a tangential force other than that of the dry contact acts.
         scale: dimensionless group that gives the magnitude of the function; 1 if empty.
-        words: names under which it may be reported.
+        least: constant below which the series is zero at first: its sign there is rounding, and the event happens where
+            the series is below minus this constant.
         chosen_by: what selects among the words: "motion" (closing, opening), "larger gap" (the criterion met first),
             "grip" (whether friction holds the surfaces).
-        actions: the effect, in order.
     """
 
     name: str
@@ -170,11 +176,17 @@ class Event:
     where: tuple[tuple[str, int], ...]
     words: tuple[str, ...]
     actions: tuple[str, ...]
+    series: tuple[str, ...]
+    target: str = ""
+    direction: int = 1
     follows: str = ""
+    bound: str = "parabola"
+    structures: tuple[str, ...] = ()
     dips: bool = False
     within_reach: bool = False
     driven: bool = False
     scale: str = ""
+    least: str = ""
     chosen_by: str = ""
 
     @property
@@ -183,44 +195,61 @@ class Event:
         return self.actions[-1] in ENDS
 
     @property
-    def rebounds(self) -> bool:
-        """True if the event is a rebound."""
-        return self.actions[-1] == "rebound"
+    def at_gap(self) -> bool:
+        """True if the event happens at a gap."""
+        return self.series == ("gap",)
 
 
 ENDS = ("separate", "cut off")
 _MOVING, _RESTING = ("resting", 0), ("resting", 1)
 _CLOSING, _OPENING = ("motion", CLOSING), ("motion", OPENING)
 
-# Turning comes first: at zero normal velocity there is no approach, so touching a contact gap is no rebound.
+# Turning comes first: at zero normal velocity there is no approach, so touching a contact gap is no rebound. Events at
+# a gap stand together: the kernel searches for the nearest gap ahead.
 EVENTS = (
     Event("turning", ("turning",), (_MOVING,), ("turned", "fell back"), ("velocity = 0", "turn"),
-          follows="motion", dips=True, chosen_by="motion"),
-    Event("glass", ("glass",), (_MOVING, _CLOSING), ("glass",), ("rebound",), dips=True, scale="glass_number"),
+          series=("normal_velocity",), follows="motion", dips=True, chosen_by="motion"),
+    Event("glass", ("glass",), (_MOVING, _CLOSING), ("glass",), ("rebound",),
+          series=("glass_clearance",), dips=True, scale="glass_number"),
     Event("contact", tuple(each.word for each in CONTACTS), (_MOVING, _CLOSING),
-          tuple(each.word for each in CONTACTS), ("gap = contact", "rebound"), chosen_by="larger gap"),
-    Event("rupture", ("rupture",), (_MOVING, _OPENING, ("film", 0)), ("rupture",), ("gap = rupture", "separate")),
-    Event("film_edge", ("film_edge",), (_MOVING,), ("film edge",), ("gap = film edge", "cross film edge"),
-          follows="film"),
+          tuple(each.word for each in CONTACTS), ("gap = target", "rebound"),
+          series=("gap",), target="contact", bound="monotonic", chosen_by="larger gap"),
+    Event("rupture", ("rupture",), (_MOVING, _OPENING, ("film", 0)), ("rupture",), ("gap = target", "separate"),
+          series=("gap",), target="rupture", direction=-1, bound="monotonic"),
+    Event("film_edge", ("film_edge",), (_MOVING,), ("film edge",), ("gap = target", "cross film edge"),
+          series=("gap",), target="film edge", direction=-1, follows="film", bound="monotonic",
+          structures=("bridge", "not spread")),
     Event("tangential_edge", ("tangential_edge",), (_MOVING,), ("tangential edge",),
-          ("gap = tangential edge", "cross tangential edge"), follows="shear", within_reach=True),
-    Event("release", ("release",), (_RESTING,), ("released",), ("open",), dips=True, driven=True),
+          ("gap = target", "cross tangential edge"), series=("gap",), target="tangential edge", direction=-1,
+          follows="shear", bound="monotonic", structures=("oblique",), within_reach=True),
+    Event("release", ("release",), (_RESTING,), ("released",), ("open",),  # beside a wall no force changes at rest
+          series=("acceleration",), direction=-1, bound="terms", structures=("oblique", "not wall"), dips=True,
+          driven=True),
     Event("slipping", ("slipping",), (_RESTING, ("rolling", 0)), ("rolls", "slides"), ("roll or slide",),
-          follows="sliding", dips=True, chosen_by="grip"),
-    Event("rolling", ("rolling",), (_RESTING, ("rolling", 1)), ("slides",), ("slide",), dips=True),
-    Event("half_turn", ("half_turn",), (), ("half turn",), ("cut off",)),
-    Event("unwinding", ("unwinding",), (), ("rotation reverses",), ("cut off",), dips=True),
+          series=("slip",), follows="sliding", structures=("friction", "not space"), dips=True, least="NO_SLIP",
+          chosen_by="grip"),
+    Event("rolling", ("rolling",), (_RESTING, ("rolling", 1)), ("slides",), ("slide",),
+          series=("grip_backward", "grip_forward"), structures=("friction", "not space"), dips=True),
+    Event("half_turn", ("half_turn",), (), ("half turn",), ("cut off",),
+          series=("rotation",), target="half turn", direction=-1, bound="terms", structures=("oblique", "strings")),
+    Event("unwinding", ("unwinding",), (), ("rotation reverses",), ("cut off",),
+          series=("orbital_momentum",), bound="terms", structures=("oblique", "strings"), dips=True),
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Rule:
-    """A decision that is not taken at a zero of an event function. `words` are reported if the rule applies."""
+    """A decision that is not taken at a zero of an event function. `words` are reported if the rule applies.
+
+    Arguments:
+        tests: its condition as expressions, each with a name and its meaning: both engines have functions of that name.
+    """
 
     name: str
     condition: str
     effect: str
     words: tuple[str, ...] = ()
+    tests: tuple[tuple[str, str, str], ...] = ()
 
 
 RULES = (
@@ -228,21 +257,65 @@ RULES = (
          "a rebound by the first of these criteria, in their order", tuple(each.word for each in CRITERIA)),
     Rule("parted", "a rebound at a gap not below the rupture gap",
          "the collision ends: separated. Without a bridge this is a criterion that holds at initial contact",
-         ("rupture",)),
+         ("rupture",), (("is_parted", "the gap is not below the rupture gap", "gap >= rupture_gap"),)),
     Rule("rest", "after a rebound the net force points inward, and the rebound is slower than REST_SPEED or, "
          "without drag, would rise by less than the relative tolerance times the gap",
-         "the gap is held in contact; the energy of the rebound is booked as dry contact", ("rests",)),
+         "the gap is held in contact; the energy of the rebound is booked as dry contact", ("rests",),
+         (("is_too_weak", "a rebound does not open the gap",
+           ("inward_force > 0 and (normal_velocity < REST_SPEED or "
+            "normal_velocity*normal_velocity/(2*inward_force) < rtol*gap)")),)),
     Rule("friction", "a rebound of a scene with friction, by solid contact or, if asked for, by glass",
          "a tangential impulse that reverses the slip times contact_tangential_restitution (it sticks), or Coulomb's "
          "limit if that is less (it slides). If the doublet comes to rest, the limit is that of the approach alone"),
     Rule("grip", "a rebound of a scene with friction rests",
          "it slides; if it has no slip (less than NO_SLIP) and friction can hold the surfaces, it rolls. In space "
-         "it slides in the direction of the slip, which may turn, and rolls where that is less than CREEP", ("rolls",)),
+         "it slides in the direction of the slip, which may turn, and rolls where that is less than CREEP", ("rolls",),
+         (("has_no_slip", "the surfaces do not slip", "abs(slip) < NO_SLIP"),
+          ("friction_holds", "friction can hold the surfaces together", "abs(holding) <= limit"))),
     Rule("parting", "the doublet ruptures at a normal velocity below LEAST_PARTING, or a film alone would keep it but "
-         "for an angular momentum below LEAST_MOMENTUM", "no outcome is decided"),
+         "for an angular momentum below LEAST_MOMENTUM", "no outcome is decided",
+         tests=(("is_within_rounding", "rounding of the angular momentum could have opened the doublet",
+                 "normal_velocity < LEAST_PARTING*obliquity*sqrt(aspect)"),)),
     Rule("opening", "the doublet opens or rests on the edge of the film or of the tangential force",
-         "it is beyond that edge"),
-    Rule("obliqueness", "the centrifugal force exceeds MOST_OBLIQUE times v0^2/x0", "the collision is refused"),
+         "it is beyond that edge", tests=(("is_on_edge", "the gap is on an edge", "gap == edge"),)),
+    Rule("obliqueness", "the centrifugal force exceeds MOST_OBLIQUE times v0^2/x0", "the collision is refused",
+         tests=(("is_too_oblique", "the centrifugal force reverses the motion within rounding",
+                 "obliquity*obliquity*aspect/16 > MOST_OBLIQUE"),)),
+)  # fmt: skip
+
+
+def arguments(test: str) -> tuple[str, ...]:
+    """The quantities in an expression of a rule, in order of appearance; constants are upper case."""
+    return tuple(dict.fromkeys(re.findall(r"\b(?!and\b|or\b|abs\b|sqrt\b)[a-z]\w*", test)))
+
+
+@dataclass(frozen=True)
+class Proof:
+    """The inequality of a stick proof between margins of the structures, the state and `margin`, their relative error.
+
+    Both engines have it as a function of the quantities in it. A comparison with NaN is false.
+    """
+
+    name: str
+    meaning: str
+    test: str
+
+
+PROOFS = (
+    Proof("is_below_barrier", "the energy is below a barrier ahead, lowered by what a drift of angular momentum may do",
+          "energy < height - margin*(largest + abs(height)) - drift"),
+    Proof("attraction_holds", "the attraction lets no maximum of the gap exceed the one before",
+          "gap >= contact*(1 - margin) and hold > 0 and rebound < -margin*hold and escape < -margin*energy"),
+    Proof("spins_down", "without angular momentum, or without orbital momentum, the film keeps the doublet",
+          ("gap >= contact*(1 - margin) and (momentum <= negligible and rate > 0 and stays < -error"
+           " or orbital_momentum == 0 and inside < 0 and apart < -error)")),
+    Proof("rests_for_good", "the reaction of a resting doublet stays inward at the largest momentum that slip allows",
+          "reaction > margin*largest"),
+    Proof("stays_below", "the energy does not suffice for a gap ahead", "needed < -margin*size"),
+    Proof("comes_back", "a rebound loses more than the rotation gives on the way back to the maximum",
+          "outward < lost*(1 - margin)"),
+    Proof("tumbles_for_good", "a doublet that tumbles as one body is held with all momentum across the line of centres",
+          "rest < TUMBLES*rigid and rest + rigid + work < height - margin*(largest + abs(height))"),
 )  # fmt: skip
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import sympy as sp
 
 from ..physics.laws import slot_call
@@ -9,7 +11,7 @@ from ..physics.partners import rotation
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from . import friction
-from .automaton import CONTACTS
+from .automaton import CONTACTS, EVENTS, Event
 from .intermediates import inward_force
 
 CONTACT_GAPS = {each.word: q.VOCABULARY[each.limit].symbol for each in CONTACTS}
@@ -28,27 +30,40 @@ def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     }
 
 
+# What the events of the table watch, and the targets that are no groups
+SERIES: dict[str, Callable[[Structure], sp.Expr]] = {
+    "gap": lambda _: q.gap,
+    "normal_velocity": lambda _: q.normal_velocity,
+    "glass_clearance": lambda _: q.glass_number - slot_call("glass", "pressure", q.gap, -q.normal_velocity),
+    "acceleration": lambda structure: -inward_force(structure),
+    "slip": lambda _: friction.DRY_SLIP,
+    "grip_backward": lambda _: friction.GRIP - friction.HOLDING_FORCE,
+    "grip_forward": lambda _: friction.GRIP + friction.HOLDING_FORCE,
+    "rotation": lambda _: q.beta,
+    "orbital_momentum": lambda _: q.orbital_momentum,
+}
+_TARGETS: dict[str, Callable[[Structure], sp.Expr]] = {
+    "": lambda _: sp.Integer(0),
+    "rupture": lambda structure: q.rupture_gap if structure.bridge else sp.Integer(1),
+    "film edge": lambda _: sp.Integer(1),
+    "tangential edge": lambda _: slot_call("shear", "edge", q.aspect),
+    "half turn": lambda _: sp.pi,
+}
+TARGET_GROUPS = tuple(q.VOCABULARY[event.target].symbol for event in EVENTS if event.target in q.VOCABULARY)
+
+
 def events(structure: Structure) -> dict[str, sp.Expr]:
-    """Event functions by name, each positive before its event."""
-    functions: dict[str, sp.Expr] = {
-        "glass": q.glass_number - slot_call("glass", "pressure", q.gap, -q.normal_velocity),
-        **{word: q.gap - limit for word, limit in CONTACT_GAPS.items()},
-        "turning": q.normal_velocity,
-        "rupture": (q.rupture_gap if structure.bridge else 1) - q.gap,
-    }
-    if structure.bridge and not structure.spread:
-        functions["film_edge"] = 1 - q.gap
-    if structure.oblique:
-        functions["tangential_edge"] = slot_call("shear", "edge", q.aspect) - q.gap
-    if structure.oblique and structure.partner != "wall":  # beside a wall there is no centrifugal force
-        functions["release"] = inward_force(structure)
-    if structure.friction and structure.partner != "space":
-        functions["slipping"] = friction.DRY_SLIP
-        functions["rolling"] = friction.GRIP**2 - friction.HOLDING_FORCE**2
-    if structure.oblique and structure.strings:
-        functions["half_turn"] = sp.pi - q.beta
-        functions["unwinding"] = q.orbital_momentum
-    return functions
+    """Event functions by name, each positive before its event (but for the sign of what its direction follows)."""
+    present = [event for event in EVENTS if structure.has(*event.structures)]
+    return {name: _function(event, name, structure) for event in present for name in event.functions}
+
+
+def _function(event: Event, name: str, structure: Structure) -> sp.Expr:
+    target = CONTACT_GAPS.get(name) or (
+        _TARGETS[event.target](structure) if event.target in _TARGETS else q.VOCABULARY[event.target].symbol
+    )
+    margins = (sp.expand(event.direction * (SERIES[each](structure) - target)) for each in event.series)
+    return sp.Min(*margins)  # of several, the first to vanish is the event; a product would be positive beyond both
 
 
 def rebound(states: tuple[sp.Symbol, ...]) -> dict[sp.Symbol, sp.Expr]:

@@ -20,7 +20,7 @@ from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from . import friction
 from .certificates.table import CERTIFICATES
-from .events import CONTACT_GAPS, start
+from .events import CONTACT_GAPS, TARGET_GROUPS, start
 from .functions import ModelFunction, functions
 from .intermediates import intermediates, inward_force
 from .invariants import Invariant, conserved_components, conserved_momentum
@@ -101,7 +101,7 @@ GROUPS = (
     q.stokes, q.aspect, q.obliquity, q.initial_turning, q.initial_spin, q.initial_partner_spin, q.capillary, q.volume,
     q.contact_angle, q.adhesion, q.weight, q.string_ratio, q.radius_ratio, q.mass_ratio, *q.initial_normals,
     *q.initial_turnings, *q.initial_spins, *q.initial_partner_spins, q.glass_number, *CONTACT_GAPS.values(),
-    q.rupture_gap, q.e_dry, q.mu_f, q.beta_0,
+    q.rupture_gap, *TARGET_GROUPS, q.e_dry, q.mu_f, q.beta_0,
 )  # fmt: skip
 
 

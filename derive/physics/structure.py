@@ -56,6 +56,14 @@ class Structure:
         parts += {"": [], "solid": ["friction"], "all": ["friction", "all"]}[self.friction]
         return "_".join(parts)
 
+    def has(self, *features: str) -> bool:
+        """True if the structure has these features: a field, or a partner; "not" in front: has it not."""
+        return all(
+            (self.partner == name or bool(getattr(self, name, False))) != each.startswith("not ")
+            for each in features
+            for name in [each.removeprefix("not ")]
+        )
+
 
 def structures() -> tuple[Structure, ...]:
     """The structures of the paper: head-on or oblique, with or without bridge and strings, reduced where possible."""

@@ -72,7 +72,7 @@ class Proposed:
         watched = {"resting": 0, "motion": MOTIONS[motion] or None, "film": REGIONS[region]}
         where = tuple((component, value) for component, value in watched.items() if value is not None)
         actions = (f"jump {self.name}", ENDINGS[self.ends])
-        return Event(self.name, (self.name,), where, (self.word,), actions, dips=True)
+        return Event(self.name, (self.name,), where, (self.word,), actions, (), dips=True)
 
 
 @dataclass(frozen=True)

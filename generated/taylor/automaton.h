@@ -1,8 +1,9 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 be4f2435aa3cb6ecdabfc008448d4f1a861aeae3032ae568fddf5f43d56b3caa */
+ * Automaton sha256 1853abe51a314a9bd8d6d5094658308d2add2b86e4547aafce258c3c193403c3 */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H
+#include <math.h>
 
 /* What is watched for, in order of precedence among coincident events. */
 enum {
@@ -85,5 +86,48 @@ static const double LEAST_SLIP = 1e-12; /* in the scale of tangential speeds: be
 static const double LEAST_PARTING = 1.4210854715202004e-14; /* in the scale of tangential speeds times sqrt(x0/a): a slower separation is what rounding of the angular momentum alone sets off, and decides nothing */
 static const double LEAST_MOMENTUM = 5.960464477539063e-08; /* of the parts of the angular momentum: rounding of less changes what it sets off by more than as much */
 static const double LEAST_DEPTH = 1e-40; /* least gap, relative to the present one, of the film certificate without contact */
+
+/* Whether the gap is not below the rupture gap. */
+static inline int is_parted(double gap, double rupture_gap)
+{
+    return gap >= rupture_gap;
+}
+
+/* Whether a rebound does not open the gap. */
+static inline int is_too_weak(double inward_force, double normal_velocity, double rtol, double gap)
+{
+    return inward_force > 0 && (normal_velocity < REST_SPEED ||
+        normal_velocity*normal_velocity/(2*inward_force) < rtol*gap);
+}
+
+/* Whether the surfaces do not slip. */
+static inline int has_no_slip(double slip)
+{
+    return fabs(slip) < NO_SLIP;
+}
+
+/* Whether friction can hold the surfaces together. */
+static inline int friction_holds(double holding, double limit)
+{
+    return fabs(holding) <= limit;
+}
+
+/* Whether rounding of the angular momentum could have opened the doublet. */
+static inline int is_within_rounding(double normal_velocity, double obliquity, double aspect)
+{
+    return normal_velocity < LEAST_PARTING*obliquity*sqrt(aspect);
+}
+
+/* Whether the gap is on an edge. */
+static inline int is_on_edge(double gap, double edge)
+{
+    return gap == edge;
+}
+
+/* Whether the centrifugal force reverses the motion within rounding. */
+static inline int is_too_oblique(double obliquity, double aspect)
+{
+    return obliquity*obliquity*aspect/16 > MOST_OBLIQUE;
+}
 
 #endif

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 058933c41ce7287e2db675c6f95672ca89e785ad57f0cb7f690177b963310ada */
+ * Equations sha256 5bb85b7457d42805a0bc607bb05b818a64a138863ee7dcc49b2d16aff121d307 */
 
 /* Head-on doublet with a film only.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 90ba89bc99bc8e6503c09c6d821d9ecbd0f46f1a40354a3bef5976bfb337da42 */
+ * Equations sha256 aa8a6a49ed3092c707d32a696bc8ab778106044d2bcd515b445a573c63cc1b6d */
 
 /* Head-on doublet with a liquid bridge.
  *

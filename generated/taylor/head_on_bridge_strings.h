@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 8217d49a2987033ea8c6b205dd70e1d5aee5d203720eb4ea80465efe075486b7 */
+ * Equations sha256 c778c6494f8f28b5c799d49f8248dadac6ee6692172c9c360d9ff87bb3a10f64 */
 
 /* Head-on doublet with a liquid bridge and pendulum strings.
  *

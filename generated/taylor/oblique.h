@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 e5ce12d13392f1c421590f9e11ec092dfad53301656fe2c16d92a0ecf669549d */
+ * Equations sha256 d68b1f7509fb15f9965792079c3472947e8f89a562656ee118741d7c1ecd4306 */
 
 /* Oblique doublet with a film only.
  *

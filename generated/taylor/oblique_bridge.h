@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 c2a2ee4d64a71660be8d74f3ec8fe14c2ec83a223073cc161fe4444defc4f0b2 */
+ * Equations sha256 cb1ee1eed30e33b404948f6630632543dd7d9630970d04a988b79a3498b3a893 */
 
 /* Oblique doublet with a liquid bridge.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 a92fe9b4be5308c7f8575a6ec97281d513fe0ae27d86204fcaa218592589f687 */
+ * Equations sha256 25c484a24a6a0fbf82301420e8260e0ce1e8764791cd47e9acfbcd775e9d3ec1 */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 9b375d9c055b31fe9c7425d4020956ae98781f125cbf3b4ca045e44ae0894ecf */
+ * Equations sha256 6ce305c15b59230d4b04284e190e678e35f3ea94c216971d5cc1cf1e7934f57f */
 
 /* Oblique doublet with pendulum strings.
  *

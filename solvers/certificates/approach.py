@@ -62,8 +62,8 @@ class Approach:
             return
         bounds = np.array(y[: len(self.model.state)])
         for _ in range(APPROACH_PARTS):
-            found = self.model.values("approach_step", bounds, self.p)
-            part = Part(float(bounds[0]), found["deeper_gap"], found["slowed"], found["fastest"])
+            step = self.model.values("approach_step", bounds, self.p)
+            part = Part(float(bounds[0]), step["deeper_gap"], step["slowed"], step["fastest"])
             yield part
             bounds[:2] = part.gap, -part.slowed
 

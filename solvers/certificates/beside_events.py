@@ -10,12 +10,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import CLOSING, OPENING, SAFETY
+from ...generated.automaton import CLOSING, OPENING
 from ..model.model import Model
 from ..model.phases import Phase
-from ..scene.contact import contact_gap
 from ..scene.user_model import OwnEvent
-from .base import Certainty, Certificate, rests_for_good
+from .base import Certainty, Certificate, is_never_released
 from .energy_barrier import Barrier, EnergyCertificate
 from .quadrature import panels
 
@@ -33,17 +32,18 @@ class EnergyBesideEvents(EnergyCertificate):
         return None
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+        return Certificate.decided(self, y, phase, maxima)  # floating knows of no declared event
+
+    def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
         """The verdict; in motion nothing is shown for a lever arm with which angular momentum drifts."""
         if phase.resting:  # declared events are watched in motion only
-            return Certainty.of(rests_for_good(self.model, phase) or self.rests(y), self.theorem)
-        if not self.theorem:
-            return Certainty.OPEN
-        ahead = [barrier for barrier in self.barriers(y) if barrier.gap > y[0]]
-        if not ahead:
-            return Certainty.OPEN
-        energy, height = self.energy(y), ahead[0].height
-        margin = SAFETY * self.rtol * (max(self.largest, abs(energy)) + abs(height))
-        return Certainty.of(energy < height - margin and self.excluded(y, energy + margin, _BOTH))
+            return is_never_released(self.model, phase) or self.rests(y)
+        ahead = self.ahead(y) if self.theorem else None
+        if ahead is None:
+            return False
+        energy = self.energy(y)
+        margin = self.margin * (max(self.largest, abs(energy)) + abs(ahead.height))
+        return energy < ahead.height - margin and self.excluded(y, energy + margin, _BOTH)
 
     def barriers(self, y: np.ndarray) -> tuple[Barrier, ...]:
         return self._searched(tuple(y[2 : len(self.model.state)].tolist()))
@@ -70,13 +70,12 @@ class EnergyBesideEvents(EnergyCertificate):
         rotating = self._potential(np.asarray(gaps), y)[0]
         attracted = rotating[PARTS] + risen - risen[PARTS] - rotating
         floors = np.minimum(rotating[1:], rotating[:-1]) + np.minimum(attracted[1:], attracted[:-1])
-        found: list[float] = (floors - np.abs(np.diff(attracted))).tolist()
-        return found
+        lowest: list[float] = (floors - np.abs(np.diff(attracted))).tolist()
+        return lowest
 
     def attracts(self, y: np.ndarray) -> bool:
         """True if the potential of the attractions varies with the gap, at the marks as they are."""
-        end = self.groups["rupture_gap"] if self.model.bridge else 1.0
-        gaps = np.concatenate([np.geomspace(_LEAST, 1.0, PARTS), np.linspace(1.0, end, PARTS)])
+        gaps = np.concatenate([np.geomspace(_LEAST, 1.0, PARTS), np.linspace(1.0, self.end, PARTS)])
         return bool(self.model.works) and bool(np.any(self._slope(gaps, y) != 0))
 
     def _least(self, y: np.ndarray, gap: float) -> float:
@@ -106,10 +105,8 @@ class EnergyBesideEvents(EnergyCertificate):
         ]
         if not left:
             return True
-        groups = self.groups
-        contact, end = contact_gap(groups), groups["rupture_gap"] if model.bridge else 1.0
-        start = min(max(contact, _LEAST), 0.5)
-        if any(each.reach is None or (_film(each) != 0 and contact < start) for each in left):
+        end, start = self.end, min(max(self.contact, _LEAST), 0.5)
+        if any(each.reach is None or (_film(each) != 0 and self.contact < start) for each in left):
             return False
         gaps = [*np.geomspace(start, 1.0, PARTS + 1).tolist(), *np.linspace(1.0, end, PARTS + 1)[1:].tolist()]
         there = y[: len(model.state)]
@@ -141,29 +138,24 @@ class EnergyBesideEvents(EnergyCertificate):
         return True
 
 
-class FilmBesideEvents:
+class FilmBesideEvents(Certificate):
     """The film certificate of a model with declared events, where energy excludes those of the present direction.
 
     It holds while nothing attracts: without attractions, or after the event that ends them. Else energy decides.
     """
 
-    watches: str | None = None
-
-    def __init__(self, inner: Certificate, beside: EnergyBesideEvents) -> None:
-        self.inner, self.beside = inner, beside
-
-    def level(self, y: np.ndarray, phase: Phase) -> float | None:
-        return None
+    def __init__(self, film: Certificate, energy: EnergyBesideEvents) -> None:
+        self.film, self.energy = film, energy
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
         """The verdict; a doublet that the film stops while closing never opens."""
-        if self.beside.attracts(y):
-            return self.beside.decided(y, phase, maxima)
-        found = self.inner.decided(y, phase, maxima)
-        if not found or phase.resting:
-            return found
-        energy = self.beside.energy(y) * (1 + SAFETY * self.beside.rtol)
-        return found if self.beside.excluded(y, energy, (phase.motion,), inside=True) else Certainty.OPEN
+        if self.energy.attracts(y):
+            return self.energy.decided(y, phase, maxima)
+        certainty = self.film.decided(y, phase, maxima)
+        if not certainty or phase.resting:
+            return certainty
+        energy = self.energy.energy(y) * (1 + self.energy.margin)
+        return certainty if self.energy.excluded(y, energy, (phase.motion,), inside=True) else Certainty.OPEN
 
 
 def _film(each: OwnEvent) -> int | None:

@@ -26,14 +26,14 @@ def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:
         alone = not model.strings and (not model.oblique or model.wall) and (model.edged or not model.works)
         film = FilmCertificate(model, p, rtol) if alone and _momentum(model) else None
         return beside_events(model, p, rtol, film) or NoCertificate()
-    found = _first(model, p, rtol)
+    first = _first(model, p, rtol)
     if covers(model):
-        return OrbitalMomentumCertificate(model, p, rtol, found)
-    if model.space and isinstance(found, EnergyCertificate):
-        held = TumblingCertificate(model, p, rtol, found)
+        return OrbitalMomentumCertificate(model, p, rtol, first)
+    if model.space and isinstance(first, EnergyCertificate):
+        held = TumblingCertificate(model, p, rtol, first)
         return ReboundCertificate(model, p, rtol, held) if _falling(model) else held
     chatters = model.oblique and not model.wall and not model.space and not model.strings and model.works
-    return ChatterCertificate(model, p, rtol, found) if chatters else found
+    return ChatterCertificate(model, p, rtol, first) if chatters else first
 
 
 def _first(model: Model, p: np.ndarray, rtol: float) -> Certificate:
@@ -56,14 +56,7 @@ def _first(model: Model, p: np.ndarray, rtol: float) -> Certificate:
 
 def energy_proof(proof: Certificate) -> EnergyCertificate | None:
     """The energy certificate contained in `proof`, or None."""
-    while isinstance(
-        proof,
-        AttractionCertificate
-        | OrbitalMomentumCertificate
-        | ChatterCertificate
-        | TumblingCertificate
-        | ReboundCertificate,
-    ):
+    while proof.beside is not None:
         proof = proof.beside
     return proof if isinstance(proof, EnergyCertificate) else None
 

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..scene.contact import contact_gap
-from .floating import inward, works
+from .base import inward
+from .floating import works
 from .orbital_momentum import OrbitalMomentumCertificate
 from .quadrature import panels
 
@@ -60,9 +60,8 @@ def _turn(proof: OrbitalMomentumCertificate, y: np.ndarray) -> _Turn | None:
         return None
     settled = _settled(proof, np.array([edge, 0.0, *y[2 : len(model.state)]]))
     outward = -inward(model, proof.p, np.array([edge]), settled)[0]
-    contact = contact_gap(proof.groups)
     radial = float(y[1]) ** 2 / 2 - _work(proof, y, float(y[0]), edge)
-    if not outward > 0 or not 0 <= radial < _SHALLOW * outward * (edge - contact):
+    if not outward > 0 or not 0 <= radial < _SHALLOW * outward * (edge - proof.contact):
         return None
     barrier = _barrier(proof, settled, edge)
     return _Turn(radial, barrier, _barrier(proof, y, edge) - barrier)

@@ -13,14 +13,15 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...generated.automaton import SAFETY
+from ...generated.automaton import SAFETY, is_below_barrier, rests_for_good
 from ..model.model import Model
 from ..model.phases import Phase
-from ..scene.contact import contact_gap
 from .approach import Approach, starts
-from .base import BEYOND, Certainty, rests_for_good
+from .base import BEYOND, Certainty, Certificate, is_never_released, states_at
 from .floating import floats
 from .quadrature import panels
+
+_GAPS = 49  # number of gaps ahead up to which the potential's rise is integrated
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Barrier:
     height: float
 
 
-class EnergyCertificate:
+class EnergyCertificate(Certificate):
     """Certificate that the energy is below a barrier of the effective potential at a larger gap.
 
     For the surface lever arm the angular momentum drifts (dL/dt = -x F_t) and the tangential rate is not sign-definite.
@@ -42,36 +43,53 @@ class EnergyCertificate:
     watches: str | None = "energy"
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
-        self.model, self.p, self.rtol = model, p, rtol
-        self.groups = dict(zip(model.groups, p, strict=True))
+        super().__init__(model, p, rtol)
         self.theorem = model.choice.law("arm") != "surface"
         self.largest = float(sum(model.values(model.escape, model.start(p), p).values()))
-        self._approach = Approach(model, p, SAFETY * rtol)
+        self._approach = Approach(model, p, self.margin)
         start = model.start(p)
         self._conserved = self._search(start) if self.theorem else ()
         self._searched = lru_cache(2)(lambda momenta: self._search(np.array([*start[:2], *momenta])))
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
-        return self._level(y, phase, SAFETY + BEYOND)
-
-    def _level(self, y: np.ndarray, phase: Phase, safety: float) -> float | None:
-        ahead = [barrier for barrier in self.barriers(y) if barrier.gap > y[0]]
-        if not ahead:
+        ahead = self.ahead(y)
+        if ahead is None:
             return None
         # constant along the trajectory, as the level must not depend on the event's own state
-        scale = self.largest + abs(ahead[0].height)
-        return ahead[0].height - safety * self.rtol * scale - self._drift(y, phase, ahead[0].gap)
+        scale = self.largest + abs(ahead.height)
+        return ahead.height - (SAFETY + BEYOND) * self.rtol * scale - self._drift(y, phase, ahead.gap)
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        if not phase.resting and floats(self.model, self.p, y, SAFETY * self.rtol):
+        if not phase.resting and floats(self.model, self.p, y, self.margin):
             return Certainty.PROVED
-        return Certainty.of(self._below(y, phase), self.theorem)
+        return super().decided(y, phase, maxima)
 
-    def _below(self, y: np.ndarray, phase: Phase) -> bool:
-        if rests_for_good(self.model, phase) or (phase.resting and self.rests(y)):
+    def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
+        if is_never_released(self.model, phase) or (phase.resting and self.rests(y)):
             return True
-        level = self._level(y, phase, SAFETY)
-        return (level is not None and self.energy(y) < level) or self._held_on_approach(y, phase)
+        if (ahead := self.ahead(y)) is not None:
+            drift = self._drift(y, phase, ahead.gap)
+            if is_below_barrier(self.energy(y), ahead.height, self.margin, self.largest, drift):
+                return True
+        return self._held_on_approach(y, phase) or self._in_a_well(y)
+
+    def _in_a_well(self, y: np.ndarray) -> bool:
+        """True if the effective potential rises, up to some gap ahead, by more than the energy above it.
+
+        Near the gap at which a minimum and the maximum after it merge, the rise is less than the error of the energies.
+        It is integrated here from the present gap, whose error is that of the slope: so only a doublet whose
+        equilibrium an error of the momenta could remove stays undecided.
+        """
+        gap, end = float(y[0]), self.groups.get("rupture_gap", 1.0)
+        if not (self.theorem and gap < end):
+            return False
+        gaps = gap + (end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
+        kinetic = float(sum(self.model.values(self.model.escape, y, self.p).values()))
+        turning, slopes = self._potential(gaps, y)
+        above, released = kinetic - turning[0], turning[0] - turning[1:]
+        rise = np.cumsum(panels(lambda at: self._slope(at, y), gaps))
+        size = np.sqrt(abs(above) * kinetic) + self.margin * kinetic + np.abs(released) + np.abs(rise + released)
+        return bool(np.any(above - rise < -self.margin * (size + gap * abs(slopes[0]))))
 
     def _held_on_approach(self, y: np.ndarray, phase: Phase) -> bool:
         """True if the film takes enough energy from an approach from initial contact before it meets a criterion."""
@@ -80,7 +98,7 @@ class EnergyCertificate:
         beyond = [barrier.height for barrier in self.barriers(y) if barrier.gap >= y[0]]
         if not beyond:
             return False
-        limit = beyond[0] - SAFETY * self.rtol * (self.largest + abs(beyond[0]))
+        limit = beyond[0] - self.margin * (self.largest + abs(beyond[0]))
         rest = self.energy(y) - float(y[1]) ** 2 / 2
         outward = self._approach.outward(y)
         return any(
@@ -94,26 +112,25 @@ class EnergyCertificate:
         that of the deviation from it (`derive.checks.partners.slip_energy_adds`). The slip energy thus bounds the
         excess of the orbital momentum over its rigid value. Twice this bound is used where angular momentum drifts.
         """
-        model, margin = self.model, SAFETY * self.rtol
+        model = self.model
         if model.space:
-            bound = model.values("resting_bound", y, self.p)
-            return bool(bound["inward"] - bound["outward"] > margin * bound["inward"])
+            bound = self.values("resting_bound", y)
+            return bool(rests_for_good(bound["inward"] - bound["outward"], self.margin, bound["inward"]))
         orbital_momentum = abs(self._rigid(y, float(y[0])))
         if model.reduced:  # a single slip, which decreases without changing sign: J stays between its ends
             orbital_momentum = max(abs(float(y[2])), orbital_momentum)
         else:
-            rigid = list(model.values("rigid_rotation", y, self.p).values())
+            rigid = list(self.values("rigid_rotation", y).values())
             deviation = np.array([y[0], 0.0, *(y[2 : len(model.state)] - rigid[2:])])
             excess = float(np.sqrt(self._kinetic(deviation) / self._kinetic(self._turning(y, 1.0))))
             orbital_momentum += excess if self.theorem else 2 * excess
         held, still = (
-            model.values("inward_force", self._turning(y, each), self.p)["inward_force"]
-            for each in (orbital_momentum, 0.0)
+            self.values("inward_force", self._turning(y, each))["inward_force"] for each in (orbital_momentum, 0.0)
         )
-        return bool(held > margin * still)
+        return bool(rests_for_good(held, self.margin, still))
 
     def _kinetic(self, y: np.ndarray) -> float:
-        return self.model.values("energies", y, self.p)["kinetic"]
+        return self.values("energies", y)["kinetic"]
 
     def _turning(self, y: np.ndarray, orbital_momentum: float) -> np.ndarray:
         """A state with zero normal velocity at this gap, and momentum only in the orbital motion."""
@@ -123,8 +140,15 @@ class EnergyCertificate:
 
     def energy(self, y: np.ndarray) -> float:
         """Mechanical energy over m v0^2."""
-        work = sum(y[y.size - len(self.model.works) :])
-        return float(sum(self.model.values(self.model.escape, y, self.p).values()) + work)
+        return float(sum(self.values(self.model.escape, y).values()) + self.work(y))
+
+    def work(self, y: np.ndarray) -> float:
+        """Work against the attractions since initial contact, over m v0^2."""
+        return float(sum(y[y.size - len(self.model.works) :]))
+
+    def ahead(self, y: np.ndarray) -> Barrier | None:
+        """The first barrier at a larger gap."""
+        return next((barrier for barrier in self.barriers(y) if barrier.gap > y[0]), None)
 
     def barriers(self, y: np.ndarray) -> tuple[Barrier, ...]:
         """Maxima not exceeded at larger gaps, in order of the gap, for the angular momentum of `y`."""
@@ -155,7 +179,7 @@ class EnergyCertificate:
 
     def _rigid(self, y: np.ndarray, gap: float) -> float:
         """Orbital angular momentum of rigid rotation at this gap, with the total angular momentum of `y`."""
-        return self.model.values("rigid_rotation", np.array([gap, *y[1:]]), self.p)["orbital_momentum"]
+        return self.values("rigid_rotation", np.array([gap, *y[1:]]))["orbital_momentum"]
 
     def _slope(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
         slope: np.ndarray = self._potential(gaps, y)[1]
@@ -163,26 +187,22 @@ class EnergyCertificate:
 
     def _potential(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Least energy of rotation at these gaps, and the slope of the effective potential: two rows."""
-        states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)
-        states[0] = gaps
+        states = states_at(self.model, gaps, y)
         return np.asarray(self.model.function("effective_potential")(states, self.p).full())
 
     def _search(self, y: np.ndarray) -> tuple[Barrier, ...]:
         """Local maxima from the sign of the slope on a grid in ln(gap), refined by bisection, heights by quadrature."""
-        end = self.groups.get("rupture_gap", 1.0)
-        contact = contact_gap(self.groups)
-        start = min(max(contact, 1e-6), 0.5)
-        inside = np.geomspace(start, 1.0, 81)
-        grid = np.unique(np.concatenate([inside, np.linspace(1.0, end, 81)])) if end > 1 else inside
+        inside = np.geomspace(min(max(self.contact, 1e-6), 0.5), 1.0, 81)
+        grid = np.unique(np.concatenate([inside, np.linspace(1.0, self.end, 81)])) if self.end > 1 else inside
         slope = self._slope(grid, y)
         tops = [self._root(grid[k], grid[k + 1], y) for k in range(grid.size - 1) if slope[k] > 0 >= slope[k + 1]]
         if slope[-1] > 0:
             tops.append(float(grid[-1]))
         at_touch = np.array([1.0, *y[1:]])
-        base = self.model.values("effective_potential", at_touch, self.p)["energy"]
-        found = [Barrier(top, base + self._rise(top, y)) for top in tops]
+        base = self.values("effective_potential", at_touch)["energy"]
+        maxima = [Barrier(top, base + self._rise(top, y)) for top in tops]
         highest_after: list[Barrier] = []
-        for barrier in reversed(found):
+        for barrier in reversed(maxima):
             if not highest_after or barrier.height > highest_after[-1].height:
                 highest_after.append(barrier)
         return tuple(reversed(highest_after))

@@ -7,37 +7,20 @@ from collections.abc import Sequence
 import numpy as np
 from casadi import SX, Function
 
-from ...generated.automaton import CLOSING, FILM_DEPTHS, LEAST_DEPTH, SAFETY
+from ...generated.automaton import CLOSING, FILM_DEPTHS, LEAST_DEPTH
 from ..host.thread_caches import own_cache
 from ..model.model import Model
 from ..model.phases import Phase
-from ..scene.contact import contact_gap
-from .base import Certainty
+from .base import Certificate
 from .quadrature import panels
 
 PARTS = 50  # panels of the quadrature between two depths
 
 
-class FilmCertificate:
+class FilmCertificate(Certificate):
     """Certificate for a head-on film alone: du/dx = -(6 pi mu a^2/m) resistance gives the velocity at every gap."""
 
-    watches: str | None = None
-
-    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
-        self.model, self.p = model, p
-        groups = dict(zip(model.groups, p, strict=True))
-        self.stokes = groups["stokes"]
-        self.contact = contact_gap(groups)
-        self.glass = groups["glass_number"]
-        self.margin = SAFETY * rtol
-
-    def level(self, y: np.ndarray, phase: Phase) -> float | None:
-        return None
-
-    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        return Certainty.of(self._stops(y, phase))
-
-    def _stops(self, y: np.ndarray, phase: Phase) -> bool:
+    def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
         gap, normal_velocity = float(y[0]), float(y[1])
         if phase.resting:
             return True
@@ -65,18 +48,20 @@ class FilmCertificate:
 
     def slowed(self, speed: float, grid: np.ndarray) -> np.ndarray:
         """Closing speed along decreasing gaps (losses are negative there); negative beyond the stop."""
-        found: np.ndarray = speed + self._momentum_loss(grid)
-        return found
+        slowed: np.ndarray = speed + self._momentum_loss(grid)
+        return slowed
 
     def clear(self, gaps: np.ndarray, speeds: np.ndarray) -> bool:
         """True if the glass pressure is not reached at these gaps and closing speeds."""
         beside = np.zeros((len(self.model.state) - 2, gaps.size))  # the tangential states, zero
         clearance = np.asarray(_glass(self.model)(np.vstack([gaps, -speeds, beside]), self.p).full())
-        return bool(np.min(clearance) > self.margin * self.glass)
+        return bool(np.min(clearance) > self.margin * self.groups["glass_number"])
 
     def _momentum_loss(self, grid: np.ndarray) -> np.ndarray:
         """Cumulative loss of u along a grid of gaps."""
-        losses: np.ndarray = np.concatenate([[0.0], np.cumsum(panels(self._resistance_at, grid))]) / self.stokes
+        losses: np.ndarray = (
+            np.concatenate([[0.0], np.cumsum(panels(self._resistance_at, grid))]) / self.groups["stokes"]
+        )
         return losses
 
     def _resistance_at(self, gaps: np.ndarray) -> np.ndarray:

@@ -9,7 +9,6 @@ import numpy as np
 from ...generated.automaton import ATTRACTED_FILM_DEPTHS, CLOSING
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import Certainty
 from .energy_barrier import EnergyCertificate
 from .film import PARTS, FilmCertificate
 from .quadrature import panels
@@ -31,10 +30,9 @@ class FilmAndAttractionCertificate(EnergyCertificate):
         super().__init__(model, p, rtol)
         self._film = FilmCertificate(model, p, rtol)
 
-    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        return super().decided(y, phase, maxima) or Certainty.of(
-            not phase.resting and self._weak(y) and self._stopped(y, phase)
-        )
+    def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
+        by_energy = super().sticks(y, phase, maxima)
+        return by_energy or (not phase.resting and self._weak(y) and self._stopped(y, phase))
 
     def _weak(self, y: np.ndarray) -> bool:
         """True if the barriers beyond x0 are too low for the energy to decide; saves the quadrature otherwise."""

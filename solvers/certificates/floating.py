@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...generated.automaton import stays_below
 from ..model.model import Model
-from .quadrature import panels
+from .base import inward
+from .quadrature import gaps_ahead, panels
 
-_PANELS, _GAPS = 8, 49
+_PANELS = 8
 
 
 def floats(model: Model, p: np.ndarray, y: np.ndarray, margin: float) -> bool:
@@ -30,19 +32,10 @@ def floats(model: Model, p: np.ndarray, y: np.ndarray, margin: float) -> bool:
     if not edge < gap < end:
         return False
     inside = works(model, p, y, edge, gap)
-    if not kinetic + inside.sum() < -margin * (kinetic + np.abs(inside).sum()):
+    if not stays_below(kinetic + inside.sum(), margin, kinetic + np.abs(inside).sum()):
         return False
-    larger = gap + (end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
-    outside = panels(lambda gaps: inward(model, p, gaps, y), larger)
-    return bool(np.any(kinetic - np.cumsum(outside) < -margin * (kinetic + np.cumsum(np.abs(outside)))))
-
-
-def inward(model: Model, p: np.ndarray, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Inward force at these gaps, with the momenta of a state."""
-    states = np.repeat(y[: len(model.state), None], gaps.size, axis=1)
-    states[0] = gaps
-    force: np.ndarray = np.asarray(model.function("inward_force")(states, p).full())[0]
-    return force
+    outside = panels(lambda gaps: inward(model, p, gaps, y), gaps_ahead(gap, end))
+    return bool(np.any(stays_below(kinetic - np.cumsum(outside), margin, kinetic + np.cumsum(np.abs(outside)))))
 
 
 def works(model: Model, p: np.ndarray, y: np.ndarray, start: float, end: float) -> np.ndarray:

@@ -10,15 +10,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import CLOSING, SAFETY, STILL
+from ...generated.automaton import CLOSING, STILL, stays_below
 from ..model.model import Model
 from ..model.phases import Phase
-from .base import Certainty, Certificate, at_maximum, rests_for_good
+from .base import Certainty, Certificate, at_maximum, inward, is_never_released, states_at
 from .chatter import chatters
-from .quadrature import panels
+from .quadrature import gaps_ahead, panels
 
 _LEVERS = ("midgap", "surface")
-_GAPS = 49  # number of gaps ahead at which the margin is evaluated
 
 
 def covers(model: Model) -> bool:
@@ -26,7 +25,7 @@ def covers(model: Model) -> bool:
     return model.has("orbital_margins") and model.choice.package is None and model.choice.law("arm") in (None, *_LEVERS)
 
 
-class OrbitalMomentumCertificate:
+class OrbitalMomentumCertificate(Certificate):
     """Certificate, tried after another one, that some larger gap can never be reached.
 
     With strings no proof covers the slip caused by their torque. There it ends chatter after some cycles whose maxima
@@ -38,36 +37,31 @@ class OrbitalMomentumCertificate:
     """
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: Certificate) -> None:
-        self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside
-        self.groups = groups = dict(zip(model.groups, p, strict=True))
-        self.end = groups.get("rupture_gap", 1.0)
+        super().__init__(model, p, rtol, beside)
+        groups = self.groups
         self.aspect, self.obliquity = groups["aspect"], groups["obliquity"]
         self.lever = model.choice.law("arm") or "midgap"
         more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
         self.edge = float(model.laws.shear.edge(self.aspect, *more))
-        self.watches = None if self._drifts else beside.watches
+        self.theorem = not (self._drifts or model.strings)
+        if self._drifts:
+            self.watches = None
 
     @property
     def _drifts(self) -> bool:
         return self.lever == "surface"
 
-    def level(self, y: np.ndarray, phase: Phase) -> float | None:
-        return self.beside.level(y, phase)
-
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        beside = not self._drifts or rests_for_good(self.model, phase)
-        if beside and (certainty := self.beside.decided(y, phase, maxima)):
-            return certainty
+        if self._drifts and not is_never_released(self.model, phase):
+            return Certainty.of(self.holds(y), self.theorem)
+        return super().decided(y, phase, maxima)
+
+    def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
         if self.model.strings:
             worth = at_maximum(y, phase) and chatters(maxima, slice(1), self.margin)
         else:
             worth = self._drifts or phase.resting or (phase.motion == CLOSING and y[1] > -STILL)
-        return Certainty.of(worth and self.holds(y), self.proves)
-
-    @property
-    def proves(self) -> bool:
-        """True if `holds` is a theorem for this model."""
-        return not (self._drifts or self.model.strings)
+        return worth and self.holds(y)
 
     def settles(self, y: np.ndarray) -> bool:
         """True if a doublet with the surface lever arm sticks once it rotates rigidly at the tangential edge.
@@ -88,55 +82,45 @@ class OrbitalMomentumCertificate:
         gap, normal_velocity, orbital_momentum = map(float, y[:3])
         if not gap < self.end:
             return False
-        turning = (
-            orbital_momentum / (4 + self.aspect * gap) ** 2 - self.model.values("orbital_margins", y, self.p)["slip"]
-        )
+        turning = orbital_momentum / (4 + self.aspect * gap) ** 2 - self.values("orbital_margins", y)["slip"]
         if self._drifts and not self.model.strings and not 0 <= 16 * turning <= orbital_momentum:
             return False  # the bound for the surface lever arm is proved only for rho < 4 a
-        edges = gap + (self.end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
+        edges = gaps_ahead(gap, self.end)
         inward, attraction = self._work(edges, y, orbital_momentum), self._work(edges, y, 0.0)
-        found = np.asarray(
-            self.model.function("orbital_margins")(self._states(edges[1:], y, orbital_momentum), self.p).full()
-        )
-        slips = found[self.model.names("orbital_margins").index("slip")]
-        exchanged = self._exchange(edges[1:], y, found, settled or not self._drifts)
+        slips, energy = self.margins(edges[1:], y, orbital_momentum)
+        exchanged = self.exchange(edges[1:], y, slips, energy, settled or not self._drifts)
         needed = normal_velocity**2 / 2 - inward + exchanged
         size = abs(orbital_momentum) + np.abs(slips) * (4 + self.aspect * edges[1:]) ** 2
         turned = (self.obliquity**2 / 16) * size * np.where(exchanged > 0, np.abs(slips), 0.0)
         error = normal_velocity**2 + abs(normal_velocity) + 2 * np.abs(attraction) + np.abs(inward) + turned
-        return bool(np.any(needed < -self.margin * error))  # a comparison with NaN is false
+        return bool(np.any(stays_below(needed, self.margin, error)))
 
-    def _exchange(self, gaps: np.ndarray, y: np.ndarray, found: np.ndarray, settled: bool) -> np.ndarray:
+    def margins(self, gaps: np.ndarray, y: np.ndarray, orbital_momentum: float) -> tuple[np.ndarray, np.ndarray]:
+        """Slips at these gaps, and the energies that shear can transfer there."""
+        states = states_at(self.model, gaps, y, orbital_momentum)
+        margins = dict(
+            zip(self.model.names("orbital_margins"), self.model.function("orbital_margins")(states, self.p).full())
+        )
+        return margins["slip"], margins[self.lever]
+
+    def exchange(
+        self, gaps: np.ndarray, y: np.ndarray, slips: np.ndarray, energy: np.ndarray, settled: bool
+    ) -> np.ndarray:
         """Energy that the tangential force can still transfer from spin to orbit before each of these gaps.
 
         Beyond the edge of that force, only the transfer until omega = xi at the edge.
         """
-        names = self.model.names("orbital_margins")
-        slips, energy = found[names.index("slip")], found[names.index(self.lever)]
         possible: np.ndarray = np.where(slips < 0, energy, 0.0) if self._drifts else energy
         beyond = gaps > self.edge
         if not settled or self.model.strings or not beyond.any():
             return possible
-        rigid = self.model.values("rigid_rotation", np.array([self.edge, *y[1:]]), self.p)
+        rigid = self.values("rigid_rotation", np.array([self.edge, *y[1:]]))
         if y[2] * np.sign(rigid["orbital_momentum"]) >= abs(rigid["orbital_momentum"]):
             return np.where(beyond, 0.0, possible)
         at_edge = np.array([self.edge, 0.0, *list(rigid.values())[2:]])  # orbital momentum, and spin if it is a state
-        left = np.asarray(
-            self.model.function("orbital_margins")(
-                self._states(gaps, at_edge, rigid["orbital_momentum"]), self.p
-            ).full()
-        )
-        return np.where(beyond, energy - left[names.index(self.lever)], possible)  # of J at most, or of J = 0
+        _, left = self.margins(gaps, at_edge, rigid["orbital_momentum"])
+        return np.where(beyond, energy - left, possible)  # of J at most, or of J = 0
 
     def _work(self, edges: np.ndarray, y: np.ndarray, orbital_momentum: float) -> np.ndarray:
         """Work against the inward force from the first gap to each of the others, at the given orbital momentum."""
-        force = self.model.function("inward_force")
-        work: np.ndarray = np.cumsum(
-            panels(lambda gaps: np.asarray(force(self._states(gaps, y, orbital_momentum), self.p).full()), edges)
-        )
-        return work
-
-    def _states(self, gaps: np.ndarray, y: np.ndarray, orbital_momentum: float) -> np.ndarray:
-        states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)
-        states[0], states[2] = gaps, orbital_momentum
-        return states
+        return np.cumsum(panels(lambda gaps: inward(self.model, self.p, gaps, y, orbital_momentum), edges))

@@ -12,36 +12,34 @@ from ..host.thread_caches import own_cache
 from ..model.model import Model
 from ..model.phases import Phase, pendulum_impulse, pendulum_margin
 from .approach import Approach, starts
-from .base import BEYOND, Certainty
+from .base import BEYOND, Certificate
 
 
-class PendulumCertificate:
+class PendulumCertificate(Certificate):
     """Certificate for an oblique pendulum with a film and no bridge."""
 
     watches: str | None = "pendulum"
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
-        self.model, self.p, self.rtol = model, p, rtol
-        self._stokes = dict(zip(model.groups, p, strict=True))["stokes"]
-        self._approach = Approach(model, p, SAFETY * rtol)
+        super().__init__(model, p, rtol)
+        self._stokes, self._approach = self.groups["stokes"], Approach(model, p, self.margin)
 
     def level(self, y: np.ndarray, phase: Phase) -> float | None:
         return (SAFETY + BEYOND) * self.rtol
 
-    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
+    def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
         turning = abs(y[1]) <= STILL  # the engines allow for the impulse at the same states: at a turn
-        margin = _pendulum(self.model, turning)
-        held = float(margin(y[: len(self.model.state)], self.p, SAFETY * self.rtol)) < 0
-        return Certainty.of(held or self._held_on_approach(y, phase))
+        margin = _pendulum(self.model, turning)(y[: len(self.model.state)], self.p, self.margin)
+        return float(margin) < 0 or self._held_on_approach(y, phase)
 
     def _held_on_approach(self, y: np.ndarray, phase: Phase) -> bool:
         """True if the film stops the doublet after an approach from initial contact, and every rebound on the way."""
         if not self._approach.covers or not starts(y, phase):
             return False
-        margin, states = SAFETY * self.rtol, y[: len(self.model.state)]
-        found = self.model.values("pendulum_margins", states, self.p)
-        slack = self._stokes * float(pendulum_impulse(found, margin)) + margin * max(self._stokes, 1.0)
-        if not found["film"] + slack < 0:
+        states = y[: len(self.model.state)]
+        margins = self.values("pendulum_margins", states)
+        slack = self._stokes * float(pendulum_impulse(margins, self.margin)) + self.margin * max(self._stokes, 1.0)
+        if not margins["film"] + slack < 0:
             return False
         part = None
         for part in self._approach.parts(y):
@@ -52,7 +50,7 @@ class PendulumCertificate:
 
     def _rebound(self, margin: str, gap: float, speed: float, states: np.ndarray) -> float:
         """Margin of a rebound from a gap and a closing speed."""
-        return self.model.values("pendulum_margins", np.array([gap, -speed, *states[2:]]), self.p)[margin]
+        return self.values("pendulum_margins", np.array([gap, -speed, *states[2:]]))[margin]
 
 
 @own_cache(64)

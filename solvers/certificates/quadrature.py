@@ -6,7 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 
+_GAPS = 49  # number of gaps ahead at which the margin of a certificate is evaluated
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+
+
+def gaps_ahead(gap: float, end: float) -> np.ndarray:
+    """Gaps from one to a larger one, denser at small distances."""
+    return gap + (end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3
 
 
 def panels(integrand: Callable[[np.ndarray], np.ndarray], edges: np.ndarray) -> np.ndarray:

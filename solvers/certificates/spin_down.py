@@ -6,11 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import LEAST_MOMENTUM, SAFETY
+from ...generated.automaton import LEAST_MOMENTUM, spins_down
 from ..model.model import Model
 from ..model.phases import Phase
-from ..scene.contact import contact_gap
-from .base import Certainty
+from .base import Certificate
 
 
 def covers(model: Model) -> bool:
@@ -20,39 +19,17 @@ def covers(model: Model) -> bool:
     return usable and model.choice.law("arm") in (None, "midgap")
 
 
-class SpinDownCertificate:
+class SpinDownCertificate(Certificate):
     """Certificate for oblique collisions with a film alone and no angular momentum, or none that shear reaches."""
 
-    watches: str | None = None
-
-    def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
-        self.model, self.p, self.margin = model, p, SAFETY * rtol
-        groups = dict(zip(model.groups, p, strict=True))
-        self._error = self.margin * max(groups["stokes"], 1.0)
-        self._nearest = contact_gap(groups) * (1 - self.margin)
-
-    def level(self, y: np.ndarray, phase: Phase) -> float | None:
-        return None
-
-    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        if self._dies_out(y, 0.0):
-            return Certainty.PROVED
-        found = self._margins(y)
-        still = y[0] >= self._nearest and y[2] == 0
-        return Certainty.of(bool(still and found["inside"] < 0 and found["apart"] < -self._error))
+    def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
+        return self._holds(y, 0.0)
 
     def rounded(self, y: np.ndarray) -> bool:
         """True if the doublet separates only by an angular momentum that rounding changes too much for its figures."""
-        return self._dies_out(y, LEAST_MOMENTUM)
+        return self._holds(y, LEAST_MOMENTUM)
 
-    def _dies_out(self, y: np.ndarray, most: float) -> bool:
-        """True if the film keeps the doublet where an angular momentum up to `most` of its parts is none.
-
-        The margins assume a gap above solid contact; initial contact may lie below it.
-        """
-        found = self._margins(y)
-        none = y[0] >= self._nearest and found["momentum"] <= most
-        return bool(none and found["rate"] > 0 and found["stays"] < -self._error)
-
-    def _margins(self, y: np.ndarray) -> dict[str, float]:
-        return self.model.values("spin_down_margins", y[: len(self.model.state)], self.p)
+    def _holds(self, y: np.ndarray, negligible: float) -> bool:
+        error = self.margin * max(self.groups["stokes"], 1.0)
+        state = {"gap": y[0], "orbital_momentum": y[2], "contact": self.contact, "margin": self.margin, "error": error}
+        return bool(spins_down(negligible=negligible, **state, **self.values("spin_down_margins", y)))

@@ -6,14 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import SAFETY, TUMBLES
-from ..model.model import Model
+from ...generated.automaton import tumbles_for_good
 from ..model.phases import Phase
-from .base import Certainty
+from .base import Certificate
 from .energy_barrier import EnergyCertificate
 
 
-class TumblingCertificate:
+class TumblingCertificate(Certificate):
     """A stick of two spheres in space that move as one body.
 
     Twist about the line of centres has no friction to leading logarithm. Where the film lets little slip, a doublet
@@ -24,25 +23,14 @@ class TumblingCertificate:
     out of twist, this is no theorem.
 
     Arguments:
-        beside: the energy certificate, tried first.
+        beside: the energy certificate.
     """
 
-    def __init__(self, model: Model, p: np.ndarray, rtol: float, beside: EnergyCertificate) -> None:
-        self.model, self.p, self.margin, self.beside = model, p, SAFETY * rtol, beside
-        self.watches: str | None = beside.watches
+    theorem = False
+    beside: EnergyCertificate
 
-    def level(self, y: np.ndarray, phase: Phase) -> float | None:
-        return self.beside.level(y, phase)
-
-    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        return self.beside.decided(y, phase, maxima) or Certainty.of(self._held(y), theorem=False)
-
-    def _held(self, y: np.ndarray) -> bool:
-        rest = self.model.values("wobble", y, self.p)["wobble"]
-        rigid = self.model.values("effective_potential", y, self.p)["energy"]
-        ahead = [barrier for barrier in self.beside.barriers(y) if barrier.gap > y[0]]
-        if not (ahead and rest < TUMBLES * rigid):
-            return False
-        work = self.beside.energy(y) - float(sum(self.model.values(self.model.escape, y, self.p).values()))
-        height = ahead[0].height
-        return bool(rest + rigid + work < height - self.margin * (self.beside.largest + abs(height)))
+    def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
+        rest, rigid = self.values("wobble", y)["wobble"], self.values("effective_potential", y)["energy"]
+        ahead = self.beside.ahead(y)
+        work, largest = self.beside.work(y), self.beside.largest
+        return ahead is not None and bool(tumbles_for_good(rest, rigid, work, ahead.height, self.margin, largest))

@@ -136,8 +136,7 @@ class Experiment:
     def possible(self) -> np.ndarray:
         """Mask of the rows whose quantities make a scene; of one element where all rows are alike."""
         finite = np.isfinite(list(self.columns.values())).all(axis=0)
-        possible: np.ndarray = finite & admissible(self.scene, self.columns)
-        return possible
+        return finite & admissible(self.scene, self.columns)
 
     def _share(self, row: np.ndarray) -> np.ndarray:
         """Index of the quantities of each row."""
@@ -294,8 +293,7 @@ class Experiment:
         """What steps of differences are parts of, as `values`: 1 for fractions and angles, which may be 0."""
         bounded = [bool(np.isfinite(self.scene.fields[name].range.high)) for name in self.rows.names]
         size = np.abs(self.values)
-        scales: np.ndarray = np.where(np.reshape(bounded, (-1, *[1] * (size.ndim - 1))) | (size == 0), 1.0, size)
-        return scales
+        return np.where(np.reshape(bounded, (-1, *[1] * (size.ndim - 1))) | (size == 0), 1.0, size)
 
     def displaced(self, k: int, step: np.ndarray | float) -> Experiment | None:
         """The experiment with free entry k changed by a step; None where that is impossible."""

@@ -74,7 +74,7 @@ def by_casadi(
                     used, looser = used * 1e-2 if used > 200 * _TIGHTEST else _TIGHTEST, None
                     continue
                 try:
-                    path = find(model, n.groups, used, flow.extras)
+                    path, used = find(model, n.groups, rtol, flow.extras), rtol
                 except ComputationError:
                     advice = "--engine rosenbrock" if plugin == "cvodes" else "--rtol 1e-8, or another impact"
                     raise ComputationError(

@@ -24,9 +24,9 @@ def arithmetic() -> dict[str, str]:
         >>> arithmetic() == arithmetic()
         True
     """
-    found = compiler()
+    tool = compiler()
     return {
-        "compiler": _NONE if found is None else found.version,
+        "compiler": _NONE if tool is None else tool.version,
         "WETDOUBLET_CFLAGS": " ".join(more_flags()) or _NONE,
         "lanes": str(lanes()),
         "processor": described(),

@@ -89,8 +89,8 @@ def compile_kernels(
     wanted: dict[Variant, tuple[Scene, bool, list[str]]] = {}
     for scene in loaded:
         if not supported(scene):
-            said = "a law of this scene has no Taylor series: the other engines answer"
-            raise ComputationError(f"{scene.name or 'scene'}: {said}")
+            message = "a law of this scene has no Taylor series: the other engines answer"
+            raise ComputationError(f"{scene.name or 'scene'}: {message}")
         for use, oblique, variant in _needed(scene, tolerances, derivatives):
             serves = wanted.setdefault(variant, (scene, oblique, []))[2]
             if use not in serves:
@@ -98,14 +98,14 @@ def compile_kernels(
     already = {variant for variant in wanted if is_compiled(variant)}
     missing = [variant for variant in wanted if variant not in already]
     if missing and (reason := unwritable()):
-        said = f"kernels cannot be kept in the cache {folder()}: {reason}"
-        raise ComputationError(said, advice="name a folder that can be written in WETDOUBLET_CACHE")
+        message = f"kernels cannot be kept in the cache {folder()}: {reason}"
+        raise ComputationError(message, advice="name a folder that can be written in WETDOUBLET_CACHE")
     took = compile_all(missing, progress)
     failed = [variant for variant, seconds in took.items() if seconds is None]
     if failed:
         scene, _, serves = wanted[failed[0]]
-        said = f"{scene.name or 'scene'}: the kernel for {', '.join(serves)} could not be compiled"
-        raise ComputationError(said, advice="see the remark of the compiler")
+        message = f"{scene.name or 'scene'}: the kernel for {', '.join(serves)} could not be compiled"
+        raise ComputationError(message, advice="see the remark of the compiler")
     return tuple(
         CompiledKernel(
             scene.name, oblique, variant.order, tuple(serves), variant in already, took.get(variant) or 0.0,

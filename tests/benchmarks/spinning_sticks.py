@@ -193,8 +193,8 @@ def by_casadi(kind: str, partner: str, sticks: int, seed: int) -> dict[str, list
 
 def _alone(proof: Any) -> Iterator[Any]:
     """Each certificate of a model without the others."""
-    while hasattr(proof, "beside"):
-        if isinstance(proof, OrbitalMomentumCertificate) and not proof.proves:
+    while proof.beside is not None:
+        if isinstance(proof, OrbitalMomentumCertificate) and not proof.theorem:
             break  # the others are not asked
         one = copy(proof)
         one.beside = NoCertificate()

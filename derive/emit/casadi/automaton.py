@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import fields
 
 from ...equations import automaton
 from ..provenance import PROVENANCE, digest
@@ -13,16 +12,17 @@ _CRITERION_FIELDS = {
     "limit": "str", "name": "str", "contact": "bool", "symbol": "str", "removed_by": "tuple[str, float] | None",
     "sentence": "str",
 }  # fmt: skip
-_EVENT_FIELDS = {
+EVENT_FIELDS = {
     "name": "str", "functions": "tuple[str, ...]", "where": "tuple[tuple[str, int], ...]", "words": "tuple[str, ...]",
-    "actions": "tuple[str, ...]", "follows": "str", "dips": "bool", "within_reach": "bool", "driven": "bool",
-    "scale": "str", "chosen_by": "str",
+    "actions": "tuple[str, ...]",
+    "target": "str", "follows": "str", "dips": "bool", "within_reach": "bool", "driven": "bool", "scale": "str",
+    "chosen_by": "str",
 }  # fmt: skip
 
 
 def automaton_digest() -> str:
     """Digest of the tables of the automaton."""
-    tables = "COMPONENTS CRITERIA WORDS ACTIONS EVENTS RULES OUTCOMES STATUSES PURPOSES CONSTANTS"
+    tables = "COMPONENTS CRITERIA WORDS ACTIONS EVENTS RULES PROOFS OUTCOMES STATUSES PURPOSES CONSTANTS"
     return digest(*(row for table in tables.split() for row in getattr(automaton, table)))
 
 
@@ -35,7 +35,7 @@ def automaton_module() -> str:
     """Text of `generated/automaton.py`."""
     lines = [f"# {line}" for line in provenance().splitlines()]
     lines += [f'"""{_DOC}"""', "", "from __future__ import annotations", ""]
-    lines += ["from enum import IntEnum", "from typing import NamedTuple", ""]
+    lines += ["from enum import IntEnum", "from math import sqrt", "from typing import Any, NamedTuple", ""]
     lines += [f"CLOSING, OPENING = {automaton.CLOSING}, {automaton.OPENING}", ""]
     for each in automaton.OUTCOMES:
         lines.append(f'{each.name} = "{each.word}"  # {each.condition}')
@@ -53,7 +53,7 @@ def automaton_module() -> str:
     lines += ["", ""]
     for constant in automaton.CONSTANTS:
         lines += [f"{constant.name} = {constant.value!r}  # {constant.meaning}"]
-    lines += ["", *_events()]
+    lines += ["", *_tests(), *_events()]
     return "\n".join(lines) + "\n"
 
 
@@ -80,11 +80,19 @@ def _numbers(name: str, doc: str, members: Sequence[tuple[str, str]]) -> list[st
     return lines + [f"    {member} = {number}  # {meaning}" for number, (member, meaning) in enumerate(members)]
 
 
+def _tests() -> list[str]:
+    """Functions of the conditions of the rules, and of the inequalities of stick proofs."""
+    lines, proofs = [], [(each.name, each.meaning, each.test) for each in automaton.PROOFS]
+    for name, meaning, test in (*(test for rule in automaton.RULES for test in rule.tests), *proofs):
+        kind, result = ("Any", "Any") if (name, meaning, test) in proofs else ("float", "bool")  # some are of arrays
+        passed = ", ".join(f"{each}: {kind}" for each in automaton.arguments(test))
+        lines += ["", f"def {name}({passed}) -> {result}:", f'    """True if {meaning}."""', f"    return {test}", ""]
+    return lines
+
+
 def _events() -> list[str]:
-    declared = [field.name for field in fields(automaton.Event)]
-    assert sorted(declared) == sorted(_EVENT_FIELDS), "every field of an event is emitted"
     doc = "An event: its guard and its effect; `generated/automaton.md` explains them."
-    lines = ["", *_named_tuple("Event", doc, _EVENT_FIELDS)]
+    lines = ["", *_named_tuple("Event", doc, EVENT_FIELDS)]
     void = {each.name: each.void_without for each in automaton.COMPONENTS if each.void_without}
     ignored = "# Component of the mode -> event; conditions on it are ignored in structures without that event."
     lines += [
@@ -99,7 +107,7 @@ def _events() -> list[str]:
     lines += [f"ENDS = {_text(automaton.ENDS)}  # actions that end a collision", ""]
     lines += ["EVENTS = (  # in order of precedence among coincident ones"]
     for event in automaton.EVENTS:
-        lines += ["    Event(", *_members(event, _EVENT_FIELDS), "    ),"]
+        lines += ["    Event(", *_members(event, EVENT_FIELDS), "    ),"]
     return [*lines, ")"]
 
 

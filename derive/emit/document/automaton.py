@@ -10,7 +10,8 @@ from ...equations.automaton import Event
 DIAGRAM = "automaton.svg"
 _INTRODUCTION = """A collision is integrated mode by mode. In each mode the equations are smooth. The first event ends
 the mode, is reported by its word, and has its effect; of events at the same time, the one further up in the table
-counts. Both engines use these tables, which are declared in `derive/equations/automaton.py`.
+counts. A guard is a function of the state that reaches a target, zero or a gap. Both engines use these tables, which
+are declared in `derive/equations/automaton.py`.
 
 At initial contact the mode is closing, moving and inside the film, and inside the tangential edge if that is not below
 x0."""
@@ -33,7 +34,7 @@ def automaton_page(provenance: str) -> str:
     )
     lines += ["", _VOID, "", "## Events", ""]
     lines += _table(
-        ("event", "guard falls through zero", "watched while", "reported as", "effect"),
+        ("event", "guard", "watched while", "reported as", "effect"),
         [
             (f"`{each.name}`", _guard(each), watched(each), _either(each.words), "; ".join(each.actions))
             for each in automaton.EVENTS
@@ -47,9 +48,21 @@ def automaton_page(provenance: str) -> str:
     lines += ["", "## Rules", "", "Decisions that are not taken at a zero of an event function:", ""]
     lines += _table(
         ("rule", "if", "then", "reported as"),
-        [(each.name, each.condition, each.effect, _either(each.words)) for each in automaton.RULES],
+        [
+            (
+                each.name,
+                "; ".join([each.condition, *(f"`{test}`" for *_, test in each.tests)]),
+                each.effect,
+                _either(each.words),
+            )
+            for each in automaton.RULES
+        ],
     )
     lines += ["", "A collision also ends where a certificate excludes separation; the stick is then `certified`."]
+    lines += ["", "## Stick proofs", ""]
+    lines += ["The inequalities by which certificates exclude separation; the margins in them are"]
+    lines += ["explained in [certificates](../explanation/certificates.md).", ""]
+    lines += _table(("inequality", "holds where"), [(f"`{each.test}`", each.meaning) for each in automaton.PROOFS])
     lines += ["", "## Outcomes", ""]
     outcomes = [(f"`{each.word}`", str(k), each.condition) for k, each in enumerate(automaton.OUTCOMES)]
     lines += _table(("outcome", "number", "condition"), outcomes)
@@ -69,11 +82,12 @@ def automaton_page(provenance: str) -> str:
 
 
 def _guard(event: Event) -> str:
-    functions = [f"`{name}`" for name in event.functions]
-    sign = {"": "", "motion": ", negative while closing", "sliding": ", negative while sliding back"}
-    sign |= dict.fromkeys(("film", "shear"), ", negative beyond")
-    guard = (functions[0] if len(functions) == 1 else f"the smallest of {', '.join(functions)}") + sign[event.follows]
-    guard += ", if its gap lies within reach" if event.within_reach else ""
+    falls, rises = ("falls", "rises") if event.direction > 0 else ("rises", "falls")
+    value = {"": "", "motion": f", {rises} while closing", "sliding": f", {rises} while sliding back"}
+    value |= dict.fromkeys(("film", "shear"), f", {rises} beyond")
+    series = " or ".join(f"`{name}`" for name in event.series)
+    guard = f"{series} {falls} to {f'`{event.target}`' if event.target else 'zero'}{value[event.follows]}"
+    guard += ", if that lies within reach" if event.within_reach else ""
     return f"{guard}, if a tangential force acts besides dry friction" if event.driven else guard
 
 

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterable, Sequence
 
 from ...equations import automaton
 from ...equations.automaton import Event
+from .guards import event_name, target_of
 from .layout import comment, function
 
 _KIND = {word.word: f"KIND_{word.name}" for word in automaton.WORDS}
 
-# C statement of each action; "rebound" is a function of the word. The functions are in `engines/taylor/runtime/`.
+# C statements of the actions but "gap = target"; "rebound" is a function of the word. What they call is in
+# `engines/taylor/runtime/`.
 _STATEMENTS = {
-    "gap = contact": ("LANE(l->y[GAP], lane) = LANE(f->contact, lane);",),
-    "gap = film edge": ("LANE(l->y[GAP], lane) = 1.0;",),
-    "gap = tangential edge": ("LANE(l->y[GAP], lane) = LANE(f->edge, lane);",),
-    "gap = rupture": ("LANE(l->y[GAP], lane) = LANE(f->end, lane);",),
     "velocity = 0": ("LANE(l->y[NORMAL_VELOCITY], lane) = 0.0;",),
     "turn": ("LANE(l->closing, lane) = LANE(l->closing, lane) ? 0 : TRUTH;",),
     "cross film edge": (
@@ -39,7 +38,7 @@ def automaton_header(provenance: str, own: Sequence[Event] = (), meanings: Seque
         own: events that a user's model declares, behind the library's; `meanings` are those of their words.
     """
     lines = comment(provenance)
-    lines += ["", "#ifndef AUTOMATON_H", "#define AUTOMATON_H", ""]
+    lines += ["", "#ifndef AUTOMATON_H", "#define AUTOMATON_H", "#include <math.h>", ""]
     lines += comment("What is watched for, in order of precedence among coincident events.")
     lines += _enumeration(event_name(event) for event in (*automaton.EVENTS, *own))
     lines += ["", *comment("What is reported.")]
@@ -60,7 +59,33 @@ def automaton_header(provenance: str, own: Sequence[Event] = (), meanings: Seque
             lines.append(f"enum {{ {constant.name} = {constant.value} }}; /* {constant.meaning} */")
         else:
             lines.append(f"static const double {constant.name} = {constant.value!r}; /* {constant.meaning} */")
+    for rule in automaton.RULES:
+        for name, meaning, test in rule.tests:
+            passed = ", ".join(f"double {each}" for each in automaton.arguments(test))
+            test = test.replace(" and ", " && ").replace(" or ", " || ").replace("abs(", "fabs(")
+            lines += ["", *comment(f"Whether {meaning}.")]
+            lines += function(f"static inline int {name}({passed})", [f"return {test};"])
     return "\n".join([*lines, "", "#endif"]) + "\n"
+
+
+def proofs_header(provenance: str) -> str:
+    """Text of `generated/taylor/proofs.h`: the inequalities of stick proofs, in all lanes at once."""
+    lines = comment(f"{provenance}\n\nInequalities of stick proofs. Included where `vec` and `mask` are known.")
+    for each in automaton.PROOFS:
+        passed = ", ".join(
+            f"{'double' if name == 'margin' else 'vec'} {name}" for name in automaton.arguments(each.test)
+        )
+        body = [f"return {_in_lanes(ast.parse(each.test, mode='eval').body)};"]
+        lines += ["", *comment(f"Lanes in which {each.meaning}.")]
+        lines += function(f"static inline mask {each.name}({passed})", body)
+    return "\n".join(lines) + "\n"
+
+
+def _in_lanes(node: ast.expr) -> str:
+    if isinstance(node, ast.BoolOp):
+        joined = (" & " if isinstance(node.op, ast.And) else " | ").join(map(_in_lanes, node.values))
+        return f"({joined})"
+    return f"({ast.unparse(node).replace('abs(', 'vec_abs(').replace(' * ', '*')})"
 
 
 def criteria_header(provenance: str) -> str:
@@ -158,21 +183,16 @@ def _own_effect(event: Event) -> list[str]:
     return [noted, "if (own_event_jumps(q, l, f, lane, event))", f"    {ending}"]
 
 
-def event_name(event: Event) -> str:
-    """The name of an event in the C enumeration."""
-    return f"AT_{event.name.upper()}"
-
-
 def _effect(event: Event) -> list[str]:
     """C statements of an effect; the word is logged first unless a rule of the action logs its own."""
     *landing, last = event.actions
     word = _chosen(event)
     if last == "rebound":
-        return [*_done(landing), f"rebounds(q, l, f, lane, {word});"]
+        return [*_done(event, landing), f"rebounds(q, l, f, lane, {word});"]
     if last == "separate":  # logs its own word
-        return [*_done(landing), *_done([last])]
+        return _done(event, event.actions)
     noted = f"note(q, LANE(l->index, lane), {word}, LANE(l->time, lane));"
-    return [noted, *([] if event.ends else ["new_phase(l, lane);"]), *_done(event.actions)]
+    return [noted, *([] if event.ends else ["new_phase(l, lane);"]), *_done(event, event.actions)]
 
 
 def _chosen(event: Event) -> str:
@@ -186,8 +206,10 @@ def _chosen(event: Event) -> str:
     return names[0]
 
 
-def _done(actions: Iterable[str]) -> list[str]:
-    return [line for action in actions for line in _STATEMENTS[action]]
+def _done(event: Event, actions: Iterable[str]) -> list[str]:
+    target = target_of(event)
+    put = f"LANE(l->y[GAP], lane) = {'1.0' if target == 'one' else f'LANE({target}, lane)'};"
+    return [line for action in actions for line in ((put,) if action == "gap = target" else _STATEMENTS[action])]
 
 
 def _enumeration(names: Iterable[str]) -> list[str]:

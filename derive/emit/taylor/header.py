@@ -18,6 +18,7 @@ from .c_text import Constants, Recurrences
 from .certificates import Margins, slow_manifold_functions
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
 from .groups_from_si import scale_function
+from .guards import series_of_guards
 from .layout import comment, compiled_if, documented, function, struct
 from .ledger import Ledger
 from .own_events import own_event_functions
@@ -278,6 +279,7 @@ class Header:
         lines += self._vector("rebound", "after", by_state("after"))
         lines += self._friction() if shape.friction else []
         lines += self._scalar("inward_force")
+        lines += series_of_guards(self.model, self.constants, self._valued)
         escape = model["escape_energy" if shape.partner == "wall" else "energies"]
         total = [("energy", sp.Add(*escape.by_name.values()))]
         head = "static inline vec stored_energy(const constants *c, const vec *y)"

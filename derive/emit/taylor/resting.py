@@ -18,6 +18,7 @@ from .program import Program
 
 FLAGS = (friction.SLIDING, friction.ROLLING)
 SERIES = ("slip", "limit", "holding", "reaction")
+GRIPS = {"grip_backward": "-", "grip_forward": "+"}  # what friction could hold beyond what it does, in both directions
 # Fields of the states that are integrals along a trajectory
 QUADRATURES = (
     *compiled_if("CAPILLARY_STATE", ["vec capillary_work[TERMS];"]),
@@ -48,7 +49,11 @@ class Resting:
     def struct(self) -> list[str]:
         """The series, those of the states first, in their order."""
         fields = [f"vec {state.name}[TERMS];" for state in self.model.states]
-        fields += [*QUADRATURES, *self.recurrences.fields(), *(f"vec rest_{name}[TERMS];" for name in SERIES)]
+        fields += [
+            *QUADRATURES,
+            *self.recurrences.fields(),
+            *(f"vec rest_{name}[TERMS];" for name in (*SERIES, *GRIPS)),
+        ]
         return [*comment("Series of resting contact with friction."), *struct("rubbing", fields)]
 
     def coefficients(self) -> list[str]:
@@ -69,6 +74,10 @@ class Resting:
                     "(void)film; (void)shear; (void)sliding; (void)rolling;",
                     *self.recurrences.lines(),
                     *(f"s->rest_{name}[k] = {rate(self.results[name])};" for name in SERIES),
+                    *(
+                        f"s->rest_{name}[k] = s->rest_limit[k] {sign} s->rest_holding[k];"
+                        for name, sign in GRIPS.items()
+                    ),
                 ],
             ),
             *documented(

@@ -20,6 +20,7 @@ from ..provenance import header, model_digest
 from .adjoint import Adjoint, contraction
 from .c_text import Text
 from .groups_from_si import scale_slopes
+from .guards import check_differentiable
 from .header import Beside
 from .layout import comment, compiled_if, documented, each_term, struct
 from .linear_flow import LinearFlow
@@ -33,6 +34,7 @@ class Tangent(LinearFlow):
 
     def text(self) -> str:
         """The header."""
+        check_differentiable(self.model)
         coefficients, row, source = self._coefficients(), self._row(), self._sources()
         back = Adjoint(self)
         levels = [f"vec {row}_by_{by}[TERMS];" for (row, by), e in self.sources.items() if not isinstance(e, str)]

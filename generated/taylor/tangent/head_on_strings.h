@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 41a716c9e3d0fcdcac83698db3c68146d3db2f42a582257c8ccb7ae427f9f538 */
+ * Equations sha256 f28e8cc4792a48c36b88dd16465fbe754866335ac5f30cbfec3a05a1aecfd715 */
 
 /* Tangent of head_on_strings.h: derivatives of the states by the groups.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 41d6f17f063acb7097ac0d5bfd50e561c0205c4d6484b471559b5ee9edb4740d */
+ * Equations sha256 6ef5ae5d15c1f31eccf68fa7535e00fb5b79fe274ff68373a3da6ac741aee032 */
 
 /* Tangent of oblique_bridge_strings.h: derivatives of the states by the groups.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 de795b184bfe31ee06f0c444ec86e38266237401cc741b9f716172f4472f31b3 */
+ * Equations sha256 ae5f8985ec4414f459305520c6c19f185437aca70e16ab5e65fa5d7a7da40327 */
 
 /* Tangent of oblique_reduced.h: derivatives of the states by the groups.
  *

@@ -46,19 +46,19 @@ def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
     check()
     with listening() as heard:
         try:
-            found = _buffered(function)(x0, p)
+            result = _buffered(function)(x0, p)
         except (RuntimeError, SystemError) as error:
             # CasADi wraps an interrupt that arrives during a call; CVODES only prints it
-            said = str(error) + heard.getvalue()
-            if "KeyboardInterrupt" in said or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
+            message = str(error) + heard.getvalue()
+            if "KeyboardInterrupt" in message or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
                 raise KeyboardInterrupt from None
             check()
             raise IntegrationFailed(_reason(str(error))) from None
     if "KeyboardInterrupt" in heard.getvalue():  # an interrupt that CVODES reported as a failed step
         raise KeyboardInterrupt
-    if not np.isfinite(found).all():
+    if not np.isfinite(result).all():
         raise IntegrationFailed("the state is not finite")
-    return found.reshape(function.size_out(0), order="F")
+    return result.reshape(function.size_out(0), order="F")
 
 
 @own_cache(1024)
@@ -139,8 +139,8 @@ class Plain:
     plugin: str
 
     def __call__(self, y: np.ndarray, p: np.ndarray, duration: float) -> np.ndarray:
-        found = _call(self.function, y, np.append(p, duration))
-        return found.ravel() if found.shape[1] == 1 else found
+        result = _call(self.function, y, np.append(p, duration))
+        return result.ravel() if result.shape[1] == 1 else result
 
     @property
     def steps(self) -> int:
@@ -187,8 +187,8 @@ class Locator:
         parameters = np.concatenate([p, [duration, motion, level]])
         riders = np.zeros(3 + len(self.dips))  # clock, active, number, minima passed
         riders[1] = 1.0
-        found = _call(self.function, x0=np.concatenate([y, riders]), p=parameters).ravel()
-        after, (time, _, number) = found[: y.size], found[y.size : y.size + 3]
+        result = _call(self.function, x0=np.concatenate([y, riders]), p=parameters).ravel()
+        after, (time, _, number) = result[: y.size], result[y.size : y.size + 3]
         which = round(number) - 1
         if which < 0:
             return EventHit(None, duration, after, False)

@@ -18,18 +18,21 @@ from ....generated.automaton import (
     EVENTS,
     KINDS,
     LEAST_MOMENTUM,
-    LEAST_PARTING,
     LOOSEST,
-    MOST_OBLIQUE,
-    NO_SLIP,
     OPENING,
     RELEASE_SPEED,
-    REST_SPEED,
     ROTATE,
     SAFETY,
     STICK,
     Event,
     EventKind,
+    friction_holds,
+    has_no_slip,
+    is_on_edge,
+    is_parted,
+    is_too_oblique,
+    is_too_weak,
+    is_within_rounding,
 )
 from ...certificates import (
     Certainty,
@@ -57,6 +60,7 @@ ROUNDED = "rounding of its angular momentum decides"
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is abandoned after 16 * 8^21 of them
 _DOUBLED, _MORE = 2.0, 64  # the same where a certificate is tried after each, as no event of it is watched
 _NOW_AND_THEN = 20  # phases of chatter between two checks of the certificate
+_STANDSTILL = 1e-100  # in v0; CasADi's Rosenbrock divides by squares of slopes, which underflow
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _EVENT_OF = {event.name: event for event in EVENTS}
 _GAP, _VELOCITY = 0, 1  # indices in the state
@@ -144,6 +148,8 @@ class EventLocator:
         self.rupture_gap = groups["rupture_gap"] if model.bridge else 1.0
         more = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
         self.edge = float(model.laws.shear.edge(groups["aspect"], *more)) if model.oblique else np.inf
+        self.gaps = {"contact": self.contact_gap, "rupture": self.rupture_gap, "film edge": 1.0}
+        self.gaps["tangential edge"] = self.edge
         own_edge = self.edge != 1.0 and min(self.contact_gap, 1.0) < self.edge < self.rupture_gap
         self.watch = WatchedEvents(tangential_edge=own_edge, certificate=self.proof.watches)
         works = self.proof.watches == "energy" or any(work in extras for work in model.works)
@@ -157,7 +163,7 @@ class EventLocator:
 
     def run(self) -> EventSequence:
         """Integrate the collision to separation, to a cut-off, or to a certificate, and from there up to `until`."""
-        if self.groups["obliquity"] ** 2 * self.groups["aspect"] / 16 > MOST_OBLIQUE:
+        if is_too_oblique(self.groups["obliquity"], self.groups["aspect"]):
             raise self._error(
                 f"at this angle, with these spins, {REVERSED} within a rounding error of the film thickness",
                 "try a smaller angle or slower spins",
@@ -210,7 +216,7 @@ class EventLocator:
         if not (proof.holds(self.y) or proof.settles(self.y)):
             return False
         self._stop(PhaseRun(self.phase, 0.0, None, ()))
-        self.path.certified = proof.proves
+        self.path.certified = proof.theorem
         return True
 
     def _spend(self, steps: int) -> None:
@@ -297,6 +303,8 @@ class EventLocator:
                 return True
             elif self._proved(elapsed):
                 return True
+            elif not self.phase.resting and abs(self.y[_VELOCITY]) < _STANDSTILL:
+                break
             else:
                 stretch *= growth
         if self.phase.resting and np.allclose(before, self.y[: before.size], rtol=self.rtol, atol=0.0):
@@ -321,7 +329,7 @@ class EventLocator:
             self._spend(find.steps)
             if stop.dipped and stop.event:
                 stop = self._refined(find, stop, stop.event, level)
-            return self._overshot(find, stop, level) if stop.event in (None, "turning") else stop
+            return self._overshot(find, stop, level)
         except IntegrationFailed as error:
             self._spend(find.steps + 1)
             if looser := self.tolerance.loosened(self.rtol):
@@ -332,16 +340,17 @@ class EventLocator:
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
 
     def _overshot(self, find: Locator, stop: EventHit, level: float) -> EventHit:
-        """The first event that was crossed before a turning point within one step.
+        """The first event that was crossed before a stop, where one step crosses several.
 
-        The gap is monotone up to `turning`, so every function that is negative there has one earlier zero. If no event
-        was reported but a function is negative at the end, its zero was masked by the minimum of another function.
+        CasADi may report a later one, or none beside the minimum of another function. The gap is monotone within a
+        phase, so every function of it that is negative at the stop has one earlier zero.
         """
         crossed = [
             self._refined(find, stop, row.name, level)
             for row in self.model.events
             if (not row.dips or row not in EVENTS)
             and row.name in find.events
+            and row.name != stop.event
             and find.value(row.name, stop.y, self.p, self.phase.motion, level) < 0
         ]
         return min(crossed, key=lambda found: found.time, default=stop)
@@ -405,7 +414,7 @@ class EventLocator:
             if action == "rebound":
                 self._rebound(word, elapsed, event.name)
                 return False
-            phase = self._done(action, phase)
+            phase = self._done(action, phase, event.target)
         self._next(PhaseRun(before, elapsed, event.name, (word,)), phase)
         return event.actions[-1] in ENDS
 
@@ -418,17 +427,11 @@ class EventLocator:
             return event.words[not self._grips(self.phase).rolling]
         return event.words[0]
 
-    def _done(self, action: str, phase: Phase) -> Phase:
-        """The phase after an action, which may also change the state."""
+    def _done(self, action: str, phase: Phase, target: str) -> Phase:
+        """The phase after an action of an event with this target; the action may also change the state."""
         match action:
-            case "gap = contact":
-                self._put(_GAP, self.contact_gap)
-            case "gap = film edge":
-                self._put(_GAP, 1.0)
-            case "gap = tangential edge":
-                self._put(_GAP, self.edge)
-            case "gap = rupture":
-                self._put(_GAP, self.rupture_gap)
+            case "gap = target":
+                self._put(_GAP, self.gaps[target] if target in self.gaps else self.groups[target])
             case "velocity = 0":
                 self._put(_VELOCITY, 0.0)
             case "turn":
@@ -446,8 +449,7 @@ class EventLocator:
             case "slide":
                 return self._slides(phase)
             case "separate":
-                least = LEAST_PARTING * self.groups["obliquity"] * self.groups["aspect"] ** 0.5
-                if self.y[_VELOCITY] < least:
+                if is_within_rounding(self.y[_VELOCITY], self.groups["obliquity"], self.groups["aspect"]):
                     raise self._error(
                         f"the doublet separates so slowly that {ROUNDED}",
                         "try spins with another angular momentum",
@@ -476,7 +478,7 @@ class EventLocator:
         (docs/explanation/events.md).
         """
         jump = rebounded(self.model, kind, self.y, self.p)
-        parts = jump.after[_GAP] >= self.rupture_gap
+        parts = is_parted(jump.after[_GAP], self.rupture_gap)
         holds = not parts and self._too_weak(jump.after)
         if holds and self.model.friction:
             jump = rebounded(self.model, kind, self.y, self.p, holds)
@@ -507,12 +509,12 @@ class EventLocator:
         if self.model.space:
             return phase.with_(sliding=1)
         slip = self.model.values("dry_slip", self.y, self.p)["slip"]
-        return self._grips(phase) if abs(slip) < NO_SLIP else phase.with_(sliding=int(np.sign(slip)), rolling=False)
+        return self._grips(phase) if has_no_slip(slip) else phase.with_(sliding=int(np.sign(slip)), rolling=False)
 
     def _grips(self, phase: Phase) -> Phase:
         """The mode without slip: rolling if friction can hold the surfaces together, else sliding."""
         forces = self._dry_forces(phase)
-        if abs(forces["holding"]) <= forces["limit"]:
+        if friction_holds(forces["holding"], forces["limit"]):
             return phase.with_(sliding=0, rolling=True)
         return self._slides(phase)
 
@@ -526,8 +528,8 @@ class EventLocator:
 
     def _opening(self, phase: Phase) -> Phase:
         """The phase that opens from here; on an edge, the phase is beyond that edge."""
-        film = phase.film if self.y[0] != 1.0 or not self.model.edged else 0
-        shear = phase.shear if self.y[0] != self.edge else 0
+        film = 0 if self.model.edged and is_on_edge(self.y[_GAP], 1.0) else phase.film
+        shear = 0 if is_on_edge(self.y[_GAP], self.edge) else phase.shear
         return self._towards(OPENING, phase).with_(film=film, shear=shear)
 
     def _towards(self, motion: int, phase: Phase | None = None) -> Phase:
@@ -542,8 +544,7 @@ class EventLocator:
         the chatter that would follow is a geometric series that ends at the same gap.
         """
         inward = self.model.values("inward_force", after, self.p)["inward_force"]
-        rebound, gap = float(after[_VELOCITY]), float(after[_GAP])
-        return inward > 0 and (rebound < REST_SPEED or rebound**2 / (2 * inward) < self.rtol * gap)
+        return is_too_weak(inward, float(after[_VELOCITY]), self.rtol, float(after[_GAP]))
 
     def _error(self, message: str, advice: str) -> ComputationError:
         state = dict(zip(self.model.state, map(float, self.y), strict=False))

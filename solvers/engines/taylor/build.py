@@ -125,7 +125,6 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
-    rules, criteria, effects = automaton(variant.choice)
     own = has_events(variant.choice)
     return {
         **({} if own else {"own_events.h": ""}),
@@ -133,9 +132,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
             [_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), _binomials(variant.order), ""]
         ),
         "layout.h": f'{_ONCE}\n#include "vector.h"\n{declarations(variant.ledger, own, variant.space)}\n',
-        "automaton.h": f"{_ONCE}\n{rules}",
-        "criteria.h": f'{_ONCE}\n#include "automaton.h"\n#include "model.h"\n{criteria}',
-        "effects.h": f'{_ONCE}\n#include "transitions.h"\n{effects}',
+        **automaton(variant.choice),
         "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted]),
     }
 

@@ -82,35 +82,24 @@ def run_kernel(
         jumps: what the slow manifold may replace: 0 nothing, 1 what follows the turn (times are not needed), 2 the
             approach as well (nor is the smallest gap).
     """
-    found = np.zeros(impacts.angle.size, ANSWER)
-    turns = impacts.oblique
-    for oblique, those in ((True, turns), (False, ~turns)):
-        count = int(np.count_nonzero(those))
-        if count and not _fill(
-            found, impacts, those, count, _plain(impacts, oblique, rtol, rotation, budget, jumps), threads
-        ):
+    answers, turns = np.zeros(impacts.angle.size, ANSWER), impacts.oblique
+    for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns))):
+        if which.size == 0:
+            continue
+        library = kernel(variant_for_many(impacts.scene, oblique, rtol, rotation, fold=not impacts.others))
+        if library is None:
             return None
-    return found
+        run, whole = bind_kernel(library, rtol, budget, jumps), which.size == answers.size  # no copy in this case
 
+        def chunk(first: int, run: RunKernel = run, which: np.ndarray = which, whole: bool = whole) -> None:
+            part = slice(first, min(first + CHUNK, which.size)) if whole else which[first : first + CHUNK]
+            some = answers[part]
+            run(impacts.part(part), some)
+            if not whole:
+                answers[part] = some
 
-def _fill(
-    found: np.ndarray, impacts: Impacts, those: np.ndarray, count: int, run: RunKernel | None, threads: int
-) -> bool:
-    if run is None:
-        return False
-    whole = count == found.size  # no copy in this case
-    which = those if whole else np.flatnonzero(those)
-
-    def chunk(first: int) -> None:
-        last = min(first + CHUNK, count)
-        part = slice(first, last) if whole else which[first:last]
-        made = found[first:last] if whole else np.zeros(last - first, ANSWER)
-        run(impacts.part(part), made)
-        if not whole:
-            found[part] = made
-
-    in_chunks(count, chunk, threads)
-    return True
+        in_chunks(which.size, chunk, threads)
+    return answers
 
 
 def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
@@ -124,28 +113,20 @@ def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
             list(pool.map(run, firsts))
 
 
-def _plain(those: Impacts, oblique: bool, rtol: float, rotation: bool, budget: int, jumps: int) -> RunKernel | None:
-    """The kernel of these impacts; None if none is available."""
-    library = kernel(variant_for_many(those.scene, oblique, rtol, rotation, fold=not those.others))
-    if library is None:
-        return None
-    return bind_kernel(library, rtol, budget, jumps)
-
-
 def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made: np.ndarray, jumps: int = 0) -> Task:
     """The task of a kernel for impacts that fit it.
 
     Arguments:
         made: array for the answers, zeros of ANSWER.
     """
-    asked = Task(library, impacts.angle.size, min(rtol, LOOSEST), budget)
-    asked.number("jumps", jumps)
-    given: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET}
-    given |= si_values(impacts.scene, None, None)
-    given |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
-    asked.columns([_column(given[name]) for name in names(library, "quantity_names")])
-    asked.buffer("answers", made)
-    return asked
+    one = Task(library, impacts.angle.size, min(rtol, LOOSEST), budget)
+    one.number("jumps", jumps)
+    values: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET}
+    values |= si_values(impacts.scene, None, None)
+    values |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
+    one.columns([_column(values[name]) for name in names(library, "quantity_names")])
+    one.buffer("answers", made)
+    return one
 
 
 def _column(values: np.ndarray | float) -> np.ndarray | float:

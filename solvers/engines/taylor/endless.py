@@ -25,23 +25,24 @@ def limits(
     Arguments:
         earlier, answers: of the same impacts after fewer steps and after more.
     """
-    found: list[bool | None] = []
+    verdicts: list[bool | None] = []
     for k in range(answers.size):
         both = earlier[k], answers[k]
         circles = all(answer["status"] in (Status.NO_BUDGET, Status.CHATTER) for answer in both)
         proof = _proof(scene, speed[k], angle[k], choice, rtol) if circles else None
-        found.append(None if proof is None else limit_of_circling(proof, *(_state(proof, answer) for answer in both)))
-    return found
+        verdicts.append(
+            None if proof is None else limit_of_circling(proof, *(_state(proof, answer) for answer in both))
+        )
+    return verdicts
 
 
 def _proof(
     scene: Scene, speed: float, angle: float, choice: ModelKey, rtol: float
 ) -> OrbitalMomentumCertificate | None:
     model = load(choice)
-    found = proof_for(model, model.group_values(nondimensionalise(scene, float(speed), float(angle)).groups), rtol)
-    return (
-        found if isinstance(found, OrbitalMomentumCertificate) and not model.strings else None
-    )  # strings may transfer energy to the slip
+    proof = proof_for(model, model.group_values(nondimensionalise(scene, float(speed), float(angle)).groups), rtol)
+    # strings may transfer energy to the slip
+    return proof if isinstance(proof, OrbitalMomentumCertificate) and not model.strings else None
 
 
 def _state(proof: OrbitalMomentumCertificate, answer: np.void) -> np.ndarray:

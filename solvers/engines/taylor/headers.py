@@ -16,13 +16,20 @@ def has_events(choice: ModelKey) -> bool:
 
 
 @once
-def automaton(choice: ModelKey) -> tuple[str, str, str]:
-    """Texts of the automaton's headers: enumerations and constants, contact gaps, switch over effects."""
-    rules, criteria, effects = (emitted.header(f"taylor/{name}.h") for name in ("automaton", "criteria", "effects"))
+def automaton(choice: ModelKey) -> dict[str, str]:
+    """Texts of the automaton's headers by name, each with what it includes."""
+    includes = {
+        "automaton": (), "proofs": ("automaton", "vector"), "criteria": ("automaton", "model"), "guards": ("events",),
+        "effects": ("transitions",),
+    }  # fmt: skip
+    texts = {name: emitted.header(f"taylor/{name}.h") for name in includes}
     if has_events(choice):
         assert choice.package is not None
-        rules, effects = choice.package.automaton_headers()
-    return rules, criteria, effects
+        texts["automaton"], texts["effects"] = choice.package.automaton_headers()
+    return {
+        f"{name}.h": "".join(["#pragma once\n", *(f'#include "{each}.h"\n' for each in includes[name]), text])
+        for name, text in texts.items()
+    }
 
 
 @once

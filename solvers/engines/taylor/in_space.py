@@ -41,22 +41,22 @@ def run_in_space(
     library = kernel(variant_in_space(scene, rtol, ledger))
     if library is None:
         return None
-    given: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET, **si_values(scene, None, None)}
+    values: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET, **si_values(scene, None, None)}
     for name, rows in vectors.items():
-        given |= {f"{name}_{axis}": np.ascontiguousarray(rows[:, k]) for k, axis in enumerate(AXES)}
-    given["speed"] = np.ascontiguousarray(speed)
-    found = np.zeros(speed.size, ANSWER_IN_SPACE)
+        values |= {f"{name}_{axis}": np.ascontiguousarray(rows[:, k]) for k, axis in enumerate(AXES)}
+    values["speed"] = np.ascontiguousarray(speed)
+    answers = np.zeros(speed.size, ANSWER_IN_SPACE)
     books = np.zeros(speed.size, LEDGER) if ledger else None
 
     def chunk(first: int) -> None:
         part = slice(first, min(first + CHUNK, speed.size))
-        asked = Task(library, part.stop - first, min(rtol, LOOSEST), KERNEL_STEPS_IN_SPACE)
-        columns = (given[name] for name in names(library, "quantity_names"))
-        asked.columns([column if isinstance(column, float) else column[part] for column in columns])
-        asked.buffer("answers", found[part])
+        one = Task(library, part.stop - first, min(rtol, LOOSEST), KERNEL_STEPS_IN_SPACE)
+        columns = (values[name] for name in names(library, "quantity_names"))
+        one.columns([column if isinstance(column, float) else column[part] for column in columns])
+        one.buffer("answers", answers[part])
         if books is not None:
-            asked.buffer("books", books[part])
-        asked.run()
+            one.buffer("books", books[part])
+        one.run()
 
     in_chunks(speed.size, chunk, threads)
-    return found, books
+    return answers, books

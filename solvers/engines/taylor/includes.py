@@ -15,13 +15,13 @@ def included(text: str) -> list[str]:
     return [name for name in _LINE.findall(text) if name]
 
 
-def resolved(text: str, made: Mapping[str, str]) -> str:
+def resolved(source: str, texts: Mapping[str, str]) -> str:
     r"""A C text with each included file inserted once, at its first #include.
 
     Includes must be unconditional: a file that a variant does not need contains the condition itself.
 
     Arguments:
-        made: texts of the files that are not in the runtime's folder, by name.
+        texts: of the files that are not in the runtime's folder, by name.
 
     Examples:
         >>> resolved('#include "settings.h"\nint order = ORDER;\n', {"settings.h": "#define ORDER 9\n"})
@@ -29,12 +29,12 @@ def resolved(text: str, made: Mapping[str, str]) -> str:
     """
     seen: set[str] = set()
 
-    def put(found: re.Match[str]) -> str:
-        name = found[1]
+    def put(line: re.Match[str]) -> str:
+        name = line[1]
         if name is None or name in seen:
             return ""
         seen.add(name)
-        own = made[name] if name in made else (RUNTIME / name).read_text()
-        return _LINE.sub(put, own)
+        text = texts[name] if name in texts else (RUNTIME / name).read_text()
+        return _LINE.sub(put, text)
 
-    return _LINE.sub(put, text)
+    return _LINE.sub(put, source)

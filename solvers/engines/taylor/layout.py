@@ -31,24 +31,9 @@ _ANSWER = [
 ANSWER = np.dtype(_ANSWER, align=True)
 ANSWER_IN_SPACE = np.dtype([("shown", "f8", SHOWN_IN_SPACE), *_ANSWER[1:]], align=True)
 HAPPENING = np.dtype([("kind", "f8"), ("time", "f8")], align=True)
-LEDGER = np.dtype(
-    [
-        (name, "f8")
-        for name in (
-            "initial",
-            "final",
-            "lifted",
-            "normal",
-            "tangential",
-            "capillary",
-            "attraction",
-            "dry",
-            "friction",
-            "momentum",  # angular momentum over its initial value
-        )
-    ],
-    align=True,
-)
+_TERMS = "initial final lifted normal tangential capillary attraction dry friction"
+# then the angular momentum over its initial value
+LEDGER = np.dtype([(name, "f8") for name in (*_TERMS.split(), "momentum")], align=True)
 NEARNESS = np.dtype([("least", "f8"), ("boundary", "f8"), ("hint", "f8")], align=True)
 # A task for a kernel: numbers, then buffers; those not needed are empty.
 TASK = np.dtype(
@@ -56,11 +41,8 @@ TASK = np.dtype(
         ("count", "i8"),
         ("budget", "i8"),  # steps of a trajectory
         ("purpose", "i8"),  # used by kernels with a trajectory
-        (
-            "jumps",
-            "i8",
-        ),  # the slow manifold may replace: 0 nothing, 1 what follows the turn, 2 the approach as well
-        ("asked", "i8"),  # groups by which derivatives are computed, as bits
+        ("jumps", "i8"),  # the slow manifold may replace: 0 nothing, 1 what follows the turn, 2 the approach too
+        ("requested", "i8"),  # groups by which derivatives are computed, as bits
         ("steps", "i8"),  # returned: number of steps of all trajectories, including those without room
         ("rtol", "f8"),
         ("quantities", BUFFER),  # one BUFFER for each of `quantity_names`: `count` doubles in SI, or a single one
@@ -119,11 +101,11 @@ def step_row(library: ctypes.CDLL) -> np.dtype:
     """The type of a step's row in this kernel, from its exported states and terms."""
     states, terms, size = (number(library, name) for name in ("row_states", "row_terms", "row_bytes"))
     flags = [(name, "i4") for name in ("phase", "closing", "resting", "film")]
-    found = np.dtype(
+    row = np.dtype(
         [("time", "f8"), ("length", "f8"), ("collision", "i8"), *flags, ("series", "f8", (states, terms))], align=True
     )
-    assert found.itemsize == size
-    return found
+    assert row.itemsize == size
+    return row
 
 
 @cache
@@ -178,7 +160,7 @@ class Task:
         Raises:
             MemoryError: the kernel finds a buffer too small, or cannot allocate memory.
         """
-        said: bytes | None = self._library.collide(self._task.ctypes.data)
-        if said is not None:
-            raise MemoryError(f"the kernel was not run: {said.decode()}")
+        message: bytes | None = self._library.collide(self._task.ctypes.data)
+        if message is not None:
+            raise MemoryError(f"the kernel was not run: {message.decode()}")
         return int(self._task["steps"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,12 +11,11 @@ from ...model.model import select_model
 from ...scene.scene import Scene
 from ...settings import KERNEL_STEPS
 from .build import Variant, kernel
-from .call import Impacts, task, variant
+from .call import CHUNK, Impacts, in_chunks, task, variant
 from .headers import has_events
 from .layout import ANSWER, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
 
 _ROOM = 64, 256  # events and steps of a collision
-_CHUNK = 4096  # collisions a thread takes at a time
 
 
 @dataclass(frozen=True)
@@ -114,16 +112,16 @@ def run_recorded(
         answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
         books = np.zeros(size if ledger else 0, OWN_LEDGER if has_events(wanted.choice) else LEDGER)
         rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel counts the rows that it fills
-        asked = task(library, impacts, rtol, budget, answers)
-        asked.number("purpose", purpose)
+        one = task(library, impacts, rtol, budget, answers)
+        one.number("purpose", purpose)
         if events:
-            asked.buffer("log", log)
-        asked.buffer("books", books)
+            one.buffer("log", log)
+        one.buffer("books", books)
         if rows is not None:
-            asked.buffer("rows", rows)
+            one.buffer("rows", rows)
         if margins is not None:
-            asked.buffer("peaks", margins)
-        steps, most = asked.run(), int(answers["events"].max())
+            one.buffer("peaks", margins)
+        steps, most = one.run(), int(answers["events"].max())
         if (most <= log_room or not events) and (rows is None or steps <= rows.size):
             break
         log_room, step_room = max(most, log_room), max(steps, step_room)
@@ -134,24 +132,16 @@ def run_recorded(
 
 def run_with_books(impacts: Impacts, rtol: float, threads: int) -> tuple[np.ndarray, np.ndarray] | None:
     """Answers and ledgers of impacts, oblique or head-on; None if there is no kernel here."""
-    found, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, LEDGER)
+    answers, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, LEDGER)
+    turns, fold, done = impacts.oblique, not impacts.others, []
+    for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns))):
 
-    def run(oblique: bool, which: np.ndarray) -> bool:
-        fold = not impacts.others
-        told = run_recorded(impacts.part(which), oblique, rtol, ledger=True, events=False, fold=fold)
-        if told is None or told.ledger is None:
-            return False
-        found[which], books[which] = told.answers, told.ledger
-        return True
+        def chunk(first: int, oblique: bool = oblique, which: np.ndarray = which) -> None:
+            part = which[first : first + CHUNK]
+            recorded = run_recorded(impacts.part(part), oblique, rtol, ledger=True, events=False, fold=fold)
+            done.append(recorded is not None)
+            if recorded is not None and recorded.ledger is not None:
+                answers[part], books[part] = recorded.answers, recorded.ledger
 
-    turns = impacts.oblique
-    parts = [
-        (oblique, which[first : first + _CHUNK])
-        for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns)))
-        for first in range(0, which.size, _CHUNK)
-    ]
-    if threads == 1 or len(parts) < 2:
-        return (found, books) if all(run(*part) for part in parts) else None
-    with ThreadPoolExecutor(threads) as pool:  # the kernel runs without the interpreter's lock
-        done = list(pool.map(lambda part: run(*part), parts))
-    return (found, books) if all(done) else None
+        in_chunks(which.size, chunk, threads)
+    return (answers, books) if all(done) else None

@@ -75,36 +75,33 @@ def run_tangent(
         fold: no quantity varies, so that a partner equal to the sphere stays so.
     """
     order = order or (order_backward if backward else order_for)(min(rtol, LOOSEST))
-    library = _library(impacts.scene, oblique, order, rotation, backward, fold)
+    scene = impacts.scene
+    variant = variant_of(scene, oblique, order, rotation, backward, fold)
+    library = kernel(variant) if differentiates(scene, (oblique,)) else None
     if library is None:
         return None
     if backward:
         budget, rtol = min(budget, MOST_STEPS), min(rtol, LOOSEST) / STRICTER
     quantities, groups = names(library, "quantity_names"), names(library, "group_names")
-    spinning = any(np.any(si_values(impacts.scene, None, None).get(name, 0.0)) for name in _SPINS)
+    spinning = any(np.any(si_values(scene, None, None).get(name, 0.0)) for name in _SPINS)
     count, results = impacts.angle.size, 1 if backward else RESULTS
     answers, slopes = np.zeros(count, ANSWER), np.zeros((count, len(quantities), results))
     near = np.full(count, np.inf, NEARNESS)
     for first in range(0, count, _CHUNK):
         part = slice(first, min(first + _CHUNK, count))
-        asked = task(library, impacts.part(part), min(rtol, LOOSEST), budget, answers[part])
-        asked.number("asked", _asked(library, quantities, moved, spinning))
-        asked.buffer("by_group", np.zeros((part.stop - first, len(groups), results)))
-        asked.buffer("gradients", slopes[part])
-        asked.buffer("near", near[part])
-        asked.run()
+        one = task(library, impacts.part(part), min(rtol, LOOSEST), budget, answers[part])
+        one.number("requested", _groups_moved(library, quantities, moved, spinning))
+        one.buffer("by_group", np.zeros((part.stop - first, len(groups), results)))
+        one.buffer("gradients", slopes[part])
+        one.buffer("near", near[part])
+        one.run()
     measures = near.view("f8").reshape(count, -1)
     return Carried(answers, slopes, measures, quantities, bool(number(library, "proved_by_energy")))
 
 
 def order_backward(rtol: float) -> int:
-    """Order of the series for a tolerance with the adjoint sweep: a step costs more, so longer ones pay earlier."""
+    """Order of the series for a tolerance with the adjoint sweep; with costlier steps a higher order pays earlier."""
     return order_for(rtol / 30)
-
-
-def _library(scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool, fold: bool) -> ctypes.CDLL | None:
-    variant = variant_of(scene, oblique, order, rotation, backward, fold)
-    return kernel(variant) if differentiates(scene, (oblique,)) else None
 
 
 def variant_of(
@@ -125,12 +122,14 @@ def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> b
     return compiler() is not None and all(headers(choice) and tangents(choice) for choice in choices)
 
 
-def _asked(library: ctypes.CDLL, quantities: tuple[str, ...], moved: Sequence[str] | None, spinning: bool) -> int:
+def _groups_moved(
+    library: ctypes.CDLL, quantities: tuple[str, ...], moved: Sequence[str] | None, spinning: bool
+) -> int:
     """The groups affected by these quantities, as bits; groups of spins that are zero are moved by spins alone."""
     bits = (ctypes.c_uint * len(quantities)).in_dll(library, "moved_groups")
     still = sum(1 << k for k, group in enumerate(names(library, "group_names")) if group in _SPINS.values())
-    found = 0
-    for name, own in zip(quantities, bits, strict=True):
+    affected = 0
+    for name, moves in zip(quantities, bits, strict=True):
         if moved is None or name in moved:
-            found |= own if spinning or name in _SPINS else own & ~still
-    return found
+            affected |= moves if spinning or name in _SPINS else moves & ~still
+    return affected

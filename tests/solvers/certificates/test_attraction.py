@@ -8,7 +8,8 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers import ComputationError, Scene
-from wetdoublet.solvers.certificates import AttractionCertificate, NoCertificate
+from wetdoublet.solvers.certificates import NoCertificate
+from wetdoublet.solvers.certificates.attraction import AttractionCertificate
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.verify.audit import WithoutCertificate

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.certificates import SpinDownCertificate, proof_for
+from wetdoublet.solvers.certificates import proof_for
+from wetdoublet.solvers.certificates.spin_down import SpinDownCertificate
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.certificates import AttractionCertificate, OrbitalMomentumCertificate
+from wetdoublet.solvers.certificates import OrbitalMomentumCertificate
+from wetdoublet.solvers.certificates.attraction import AttractionCertificate
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model

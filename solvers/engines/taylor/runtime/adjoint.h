@@ -30,7 +30,7 @@ static const double NEGLECTED = 0.1;
 
 typedef struct {
     vec of[STATES];
-    vec at_contact, at_end, at_edge; /* by the gaps of events */
+    vec at_gap[MOVING_GAPS];         /* by the gaps of events */
     vec by_group[GROUPS];            /* by what is no constant of a recurrence: glass criterion, rebound, outputs */
     adjoint bar;
     vec least; /* size of `of` below which the rest is neglected */
@@ -44,7 +44,7 @@ typedef struct {
 
 /* Derivatives of the restitution of a trajectory by the constants of its recurrences, its events and its start. */
 struct derivatives {
-    double of[STATES], constant[CONSTANTS], at_contact, at_end, at_edge, by_group[GROUPS];
+    double of[STATES], constant[CONSTANTS], at_gap[MOVING_GAPS], by_group[GROUPS];
 };
 
 #define ADJOINT_TERM(number) { \
@@ -78,9 +78,8 @@ static void unmeet(sweep *r, mask falls, mask damped)
     vec value = only(falls, -total/choose(falls, m.pace, one)); /* d restitution/d event function */
     r->of[GAP] += only(falls, value*choose(m.gap, one, choose(m.turned, zero, m.by_gap)));
     r->of[NORMAL_VELOCITY] += only(falls, value*choose(m.gap, zero, choose(m.turned, one, -m.by_approach)));
-    r->at_contact -= only(m.contact, value);
-    r->at_end -= only(m.end, value);
-    r->at_edge -= only(m.edge, value);
+    for (int which = 0; which < MOVING_GAPS; which++)
+        r->at_gap[which] -= only(m.moving[which], value);
     r->by_group[BY_GLASS_NUMBER] += only(m.glass, value);
 }
 
@@ -153,7 +152,7 @@ static void unend(sweep *r, const taped_end *own, int lane)
 
 static void undo_rebound(sweep *r, const taped_rebound *own, int lane)
 {
-    vec y[STATES], at[STATES], behind[STATES], found[STATES];
+    vec y[STATES], at[STATES], behind[STATES], before[STATES];
     for (int state = 0; state < STATES; state++)
         y[state] = splat(own->y[state]);
 #if FRICTION
@@ -173,12 +172,12 @@ static void undo_rebound(sweep *r, const taped_rebound *own, int lane)
         for (int state = 0; state < STATES; state++)
             sum += r->of[state]*behind[state];
         if (by < STATES)
-            found[by] = sum;
+            before[by] = sum;
         else
             LANE(r->by_group[by - STATES], lane) += LANE(sum, lane);
     }
     for (int state = 0; state < STATES; state++)
-        LANE(r->of[state], lane) = LANE(found[state], lane);
+        LANE(r->of[state], lane) = LANE(before[state], lane);
 }
 
 /* The derivatives of a lane's trajectory are complete. */
@@ -188,9 +187,8 @@ static void put_derivatives(const sweep *r, struct derivatives *into, int lane)
         into->of[state] = LANE(r->of[state], lane);
     for (int place = 0; place < CONSTANTS; place++)
         into->constant[place] = LANE(r->bar.constant[place], lane);
-    into->at_contact = LANE(r->at_contact, lane);
-    into->at_end = LANE(r->at_end, lane);
-    into->at_edge = LANE(r->at_edge, lane);
+    for (int which = 0; which < MOVING_GAPS; which++)
+        into->at_gap[which] = LANE(r->at_gap[which], lane);
     for (int group = 0; group < GROUPS; group++)
         into->by_group[group] = LANE(r->by_group[group], lane);
 }
@@ -206,7 +204,8 @@ static void load(sweep *r, const struct tape *t, long end, int lane)
         LANE(((vec *)&r->f)[field], lane) = t->rows[end][field];
     for (int place = 0; place < CONSTANTS; place++)
         LANE(r->bar.constant[place], lane) = 0.0;
-    LANE(r->at_contact, lane) = LANE(r->at_end, lane) = LANE(r->at_edge, lane) = 0.0;
+    for (int which = 0; which < MOVING_GAPS; which++)
+        LANE(r->at_gap[which], lane) = 0.0;
     unend(r, own, lane);
 }
 
@@ -253,7 +252,7 @@ static void take_back(const struct tape *t, sweep *r)
                 LANE(r->active, lane) = TRUTH;
             }
             while (!read_step(r, t, lane)) {
-                put_derivatives(r, &t->found[r->end[lane]], lane);
+                put_derivatives(r, &t->derivatives[r->end[lane]], lane);
                 if (taken == t->ended) {
                     LANE(r->active, lane) = 0;
                     break;
@@ -264,11 +263,10 @@ static void take_back(const struct tape *t, sweep *r)
         if (!bits(r->active))
             return;
         unstep(r);
-        for (unsigned done = bits(forgotten(r)); done; done &= done - 1) {
-            int lane = first_of(done);
+        EACH_OF(lane, bits(forgotten(r))) {
             for (int state = 0; state < STATES; state++)
                 LANE(r->of[state], lane) = 0.0;
-            put_derivatives(r, &t->found[r->end[lane]], lane);
+            put_derivatives(r, &t->derivatives[r->end[lane]], lane);
             LANE(r->active, lane) = 0;
         }
     }
@@ -288,15 +286,16 @@ static void in_groups(const queue *q)
             for (int k = 0; k < QUANTITIES; k++)
                 LANE(given[k], lane) = quantity(q, k, t->ends[own].index);
             for (unsigned place = 0; place < sizeof turned/sizeof *turned; place++)
-                LANE(turned[place], lane) = ((const double *)(t->found + own))[place];
+                LANE(turned[place], lane) = ((const double *)(t->derivatives + own))[place];
         }
         scale(&f.c, given);
-        vec *of = turned, *constant = of + STATES, *events = constant + CONSTANTS, *by_group = events + 3;
+        vec *of = turned, *constant = of + STATES, *events = constant + CONSTANTS, *by_group = events + MOVING_GAPS;
         along_constants(&f.c, constant, by_group);
-        meeting contact = {.contact = splat_mask(TRUTH)}, end = {.end = splat_mask(TRUTH)}, edge = {.edge = splat_mask(TRUTH)};
         for (int group = 0; group < GROUPS; group++) {
-            by_group[group] += events[0]*target_along(&f, &contact, group) + events[1]*target_along(&f, &end, group) +
-                               events[2]*target_along(&f, &edge, group);
+            vec by_gaps = splat(0.0);
+            for (int which = 0; which < MOVING_GAPS; which++)
+                by_gaps += events[which]*moving_gap_along(&f, which, group);
+            by_group[group] += by_gaps;
             start_along(&f.c, group, at);
             for (int state = 0; state < MODEL_STATES; state++)
                 by_group[group] += of[state]*at[state];
@@ -317,10 +316,10 @@ static int there_and_back(queue *q)
     t.rebounds = malloc(REBOUND_ROOM*sizeof(taped_rebound));
     t.ends = malloc(BATCH*sizeof(taped_end));
     t.rows = malloc(BATCH*sizeof *t.rows);
-    t.found = malloc(BATCH*sizeof(struct derivatives));
-    int found = t.steps && t.rebounds && t.ends && t.rows && t.found;
+    t.derivatives = malloc(BATCH*sizeof(struct derivatives));
+    int allocated = t.steps && t.rebounds && t.ends && t.rows && t.derivatives;
     q->tape = &t;
-    for (long first = 0; found && first < count; first += BATCH) {
+    for (long first = 0; allocated && first < count; first += BATCH) {
         q->next = first;
         q->count = count - first < BATCH ? count : first + BATCH;
         t.stepped = t.rebounded = t.ended = t.full = 0;
@@ -333,7 +332,7 @@ static int there_and_back(queue *q)
     free(t.rebounds);
     free(t.ends);
     free(t.rows);
-    free(t.found);
-    return found;
+    free(t.derivatives);
+    return allocated;
 }
 #endif

@@ -36,17 +36,17 @@ static mask held_on_approach(const constants *c, const vec *y, vec contact, doub
     vec film, recoil, rebound, beneath, bounds[STATES], there[STATES];
     vec slack = pendulum_slack(c, y, margin);
     pendulum_stops(c, y, &film, &recoil);
-    mask sure = (contact < y[GAP]) & (film + slack < 0.0);
+    mask possible = (contact < y[GAP]) & (film + slack < 0.0);
     memcpy(bounds, y, sizeof bounds);
     memcpy(there, y, sizeof there);
-    for (int part = 0; part < APPROACH_PARTS && bits(sure); part++) {
+    for (int part = 0; part < APPROACH_PARTS && bits(possible); part++) {
         there[GAP] = bounds[GAP];
         there[NORMAL_VELOCITY] = -next_part(c, bounds);
         pendulum_rebounds(c, there, &rebound, &beneath);
-        sure &= clear_of_glass(c, bounds, -there[NORMAL_VELOCITY], margin) | (rebound + slack < 0.0);
+        possible &= clear_of_glass(c, bounds, -there[NORMAL_VELOCITY], margin) | (rebound + slack < 0.0);
     }
     pendulum_rebounds(c, bounds, &rebound, &beneath);
-    return sure & (beneath + slack < 0.0);
+    return possible & (beneath + slack < 0.0);
 }
 #elif !STRINGS
 /* Lanes in which the energy falls below the barrier beyond the film before a criterion can be met. */
@@ -57,17 +57,17 @@ static mask held_on_approach(const constants *c, const vec *y, const barrier *b,
     vec height = choose(b->near_gap >= y[GAP], b->near_height, choose(b->far_gap >= y[GAP], b->far_height, none));
     vec limit = height - margin*(b->largest + vec_abs(height)); /* NaN without a barrier: tests false */
     vec rest = b->largest - 0.5*y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
-    mask sure = (contact < y[GAP]) & (rest < limit), found = splat_mask(0);
-    if (!bits(sure))
-        return found;
+    mask possible = (contact < y[GAP]) & (rest < limit), proved = splat_mask(0);
+    if (!bits(possible))
+        return proved;
     approach_force(c, y, &outward);
     memcpy(bounds, y, sizeof bounds);
-    for (int part = 0; part < APPROACH_PARTS && bits(sure & NOT(found)); part++) {
+    for (int part = 0; part < APPROACH_PARTS && bits(possible & NOT(proved)); part++) {
         vec fastest = next_part(c, bounds), slowed = bounds[NORMAL_VELOCITY];
-        sure &= clear_of_glass(c, bounds, fastest, margin);
-        found |= sure & (0.5*slowed*slowed + rest + outward*(y[GAP] - bounds[GAP]) < limit);
+        possible &= clear_of_glass(c, bounds, fastest, margin);
+        proved |= possible & (0.5*slowed*slowed + rest + outward*(y[GAP] - bounds[GAP]) < limit);
     }
-    return found;
+    return proved;
 }
 #endif
 #endif

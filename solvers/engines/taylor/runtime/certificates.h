@@ -1,11 +1,11 @@
-/* The certificate of a model, chosen as in solvers/certificates/choice.py `proof_for`, and the lanes in which it holds.
- * */
+/* The certificate of a model, chosen as in solvers/certificates/choice.py, and the lanes in which it holds. */
 #pragma once
 
 #include "automaton.h"
 #include "criteria.h"
 #include "energy_barrier.h"
 #include "own_events.h"
+#include "proofs.h"
 
 #define TURNS (OBLIQUE && !WALL)
 #define PROOF_BY_ENERGY (TURNS ? ATTRACTS && !STRINGS : ATTRACTS || STRINGS)
@@ -144,15 +144,15 @@ static mask held_by_strings(const constants *c, const vec *y, double tolerance)
 }
 
 /* The same at a turn, with the impulse of the rotation allowed for. */
-static mask held_at_turn(const constants *c, const vec *y, mask asked, double tolerance)
+static mask held_at_turn(const constants *c, const vec *y, mask candidates, double tolerance)
 {
     vec film, recoil;
-    asked &= vec_abs(y[NORMAL_VELOCITY]) <= STILL;
-    if (!bits(asked))
-        return asked;
+    candidates &= vec_abs(y[NORMAL_VELOCITY]) <= STILL;
+    if (!bits(candidates))
+        return candidates;
     vec slack = pendulum_slack(c, y, SAFETY*tolerance);
     pendulum_stops(c, y, &film, &recoil);
-    return asked & (film + slack < 0.0) & (recoil + slack < 0.0);
+    return candidates & (film + slack < 0.0) & (recoil + slack < 0.0);
 }
 #endif
 
@@ -164,12 +164,9 @@ static mask held_at_turn(const constants *c, const vec *y, mask asked, double to
  */
 static mask held_by_attraction(const constants *c, const vec *y, double tolerance)
 {
-    double margin = SAFETY*tolerance;
-    vec hold, escape, rebound;
+    vec hold, escape, rebound, energy = vec_larger(y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY], splat(1.0));
     attraction_margins(c, y, &hold, &escape, &rebound);
-    vec energy = vec_larger(y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY], splat(1.0));
-    mask outside = y[GAP] >= contact_gap(c)*(1.0 - margin);
-    return outside & (hold > 0.0) & (rebound < -margin*hold) & (escape < -margin*energy);
+    return attraction_holds(y[GAP], contact_gap(c), SAFETY*tolerance, hold, rebound, escape, energy);
 }
 #endif
 
@@ -177,21 +174,19 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
 #define SPIN_DOWN 0
 #endif
 #if SPIN_DOWN
-/* Spin-down certificate: without angular momentum the rotation dies out, and the film alone keeps the doublet
- * (derive/equations/certificates/spin_down.py). Rate is not positive beyond the edge of the shear, where without J
- * nothing turns.
- *
- * `most` is the largest angular momentum that counts as none.
+/* Spin-down certificate: without angular momentum the rotation dies out, and the film alone holds the doublet
+ * (derive/equations/certificates/spin_down.py). Beyond the edge of the shear, where nothing turns without orbital
+ * momentum, `rate` is not positive. An angular momentum up to `negligible` is none.
  */
-static inline mask spun_down(const constants *c, const vec *y, mask asked, double tolerance, double most)
+static inline mask spun_down(const constants *c, const vec *y, mask candidates, double tolerance, double negligible)
 {
-    mask still = y[ORBITAL_MOMENTUM] == 0.0, none = c->first_momentum <= most;
-    asked &= (none | still) & (y[GAP] >= contact_gap(c)*(1.0 - SAFETY*tolerance));
-    if (!bits(asked))
-        return asked;
+    candidates &= (c->first_momentum <= negligible) | (y[ORBITAL_MOMENTUM] == 0.0);
+    if (!bits(candidates))
+        return candidates;
     vec stays, rate, apart, inside, error = SAFETY*tolerance*vec_larger(c->stokes, splat(1.0));
     spin_down_margins(c, y, &stays, &rate, &apart, &inside);
-    return asked & ((none & (rate > 0.0) & (stays < -error)) | (still & (inside < 0.0) & (apart < -error)));
+    return candidates & spins_down(y[GAP], contact_gap(c), SAFETY*tolerance, c->first_momentum, splat(negligible), rate,
+        stays, error, y[ORBITAL_MOMENTUM], inside, apart);
 }
 #endif
 
@@ -216,23 +211,23 @@ static inline mask spun_down(const constants *c, const vec *y, mask asked, doubl
 /* Whether the test of chatter is a proof. */
 #define CHATTER_PROVES (SPACE || (ORBITAL_MARGINS && !STRINGS))
 
-#define RESTS_FOR_GOOD (TURNS && ATTRACTS && !STRINGS)
-#if RESTS_FOR_GOOD
+#define HELD_AT_REST (TURNS && ATTRACTS && !STRINGS)
+#if HELD_AT_REST
 #if SPACE
 /* Resting contact that persists: the slip energy never grows, which bounds the orbital momentum for good. */
-static mask rests_for_good(const constants *c, const vec *y, double tolerance)
+static mask held_at_rest(const constants *c, const vec *y, double tolerance)
 {
     vec bound[2]; /* outward, inward */
     resting_bound(c, y, bound);
-    return bound[1] - bound[0] > SAFETY*tolerance*bound[1];
+    return rests_for_good(bound[1] - bound[0], SAFETY*tolerance, bound[1]);
 }
 #else
 /* Resting contact that persists while the slip decays: |J| exceeds that of rigid rotation by no more than the slip
  * energy allows, or by twice that where angular momentum drifts (solvers/certificates/energy_barrier.py `rests`).
  */
-static mask rests_for_good(const constants *c, const vec *y, double tolerance)
+static mask held_at_rest(const constants *c, const vec *y, double tolerance)
 {
-    vec margin = splat(SAFETY*tolerance), momentum = vec_abs(rigid_momentum(c, y)), there[STATES];
+    vec momentum = vec_abs(rigid_momentum(c, y)), there[STATES];
     memset(there, 0, sizeof there);
     there[GAP] = y[GAP];
 #if OWN_EVENTS
@@ -253,12 +248,12 @@ static mask rests_for_good(const constants *c, const vec *y, double tolerance)
     there[ORBITAL_MOMENTUM] = splat(0.0);
     vec still = inward_force(c, there);
     there[ORBITAL_MOMENTUM] = momentum;
-    return inward_force(c, there) > margin*still;
+    return rests_for_good(inward_force(c, there), SAFETY*tolerance, still);
 }
 #endif
 #endif
 
-/* Lanes in which a certificate excludes separation, of those certificates checked at every step. */
+/* Lanes in which one of the certificates that are tested at every step excludes separation. */
 static inline mask proved_sticks(
     const constants *c, const vec *y, const barrier *b, vec contact, mask closing, mask resting, double tolerance)
 {
@@ -267,9 +262,9 @@ static inline mask proved_sticks(
 #if PROOF_BY_ENERGY
     proved |= below_barrier(c, y, b, resting, tolerance);
 #endif
-#if RESTS_FOR_GOOD
+#if HELD_AT_REST
     if (bits(resting))
-        proved |= resting & rests_for_good(c, y, tolerance);
+        proved |= resting & held_at_rest(c, y, tolerance);
 #endif
 #if PROOF_BY_FILM
     proved |= NOT(resting) & stopped_by_film(c, y, contact, closing, tolerance);
@@ -295,13 +290,43 @@ static inline mask proved_sticks(
 static mask tumbles(const constants *c, const vec *y, const barrier *b, double tolerance)
 {
     vec rest = wobble(c, y), rigid = potential_energy(c, y), height = height_ahead(y, b);
-    vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
-    return (rest < TUMBLES*rigid) & (rest + rigid + work_done(c, y, b) < height - margin);
+    return tumbles_for_good(rest, rigid, work_done(c, y, b), height, SAFETY*tolerance, b->largest);
 }
 #endif
 
-/* Lanes in which the attraction certificate is checked: at the start of a phase, and after a number of steps. With an
- * energy certificate, which covers most sticks earlier, only in long trajectories.
+#define WELLS (TURNS && PROOF_BY_ENERGY && !SURFACE_ARM && !SPACE)
+#if WELLS
+/* Lanes in which the effective potential rises, up to some gap ahead, by more than the energy above it. Where a minimum
+ * and the maximum after it nearly merge, the barrier is too low for the error of the energies, but not for that of its
+ * slope (solvers/certificates/energy_barrier.py).
+ */
+static mask in_a_well(const constants *c, const vec *y, vec end, mask tested, double tolerance)
+{
+    tested &= y[GAP] < end;
+    if (!bits(tested))
+        return tested;
+    double margin = SAFETY*tolerance;
+    vec kinetic = stored_energy(c, y), turning = potential_energy(c, y), above = kinetic - turning;
+    vec size = vec_sqrt(vec_abs(above)*kinetic) + margin*kinetic + vec_abs(slope_at(c, y, y[GAP]))*y[GAP];
+    vec rise = splat(0.0), low = y[GAP];
+    mask held = splat_mask(0);
+    for (int k = 1; k <= AHEAD; k++) {
+        double part = (double)k/(int)AHEAD;
+        vec high = y[GAP] + (end - y[GAP])*(part*part*part), half = 0.5*(high - low);
+        for (int node = 0; node < 12; node++) {
+            double place = node < 6 ? NODES[node] : -NODES[node - 6];
+            rise += WEIGHTS[node % 6]*half*slope_at(c, y, low + half*(1.0 + place));
+        }
+        vec released = turning - energy_at(c, y, high);
+        held |= above - rise < -margin*(size + vec_abs(released) + vec_abs(rise + released));
+        low = high;
+    }
+    return tested & held;
+}
+#endif
+
+/* Lanes in which the certificates of `held_sticks` are tested: at the start of a phase and after each INTERVAL of steps.
+ * Where an energy certificate decides most sticks before, only from the fourth phase on.
  */
 enum { EARLIEST_PHASE = PROOF_BY_ENERGY ? 4 : 1, INTERVAL = PROOF_BY_ENERGY ? 64 : 16 };
 
@@ -311,36 +336,36 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
 }
 
 /* Lanes that separate only by an angular momentum that rounding changes too much for their figures. */
-static inline mask rounded_separations(const constants *c, const vec *y, mask asked, double tolerance)
+static inline mask rounded_separations(const constants *c, const vec *y, mask candidates, double tolerance)
 {
 #if SPIN_DOWN && !OWN_EVENTS
-    return spun_down(c, y, asked & (c->first_momentum > 0.0), tolerance, LEAST_MOMENTUM);
+    return spun_down(c, y, candidates & (c->first_momentum > 0.0), tolerance, LEAST_MOMENTUM);
 #else
-    (void)c; (void)y; (void)asked; (void)tolerance;
+    (void)c; (void)y; (void)candidates; (void)tolerance;
     return splat_mask(0);
 #endif
 }
 
-/* Lanes in which a certificate that is checked at intervals excludes separation. */
-static inline mask held_sticks(const constants *c, const vec *y, mask asked, double tolerance)
+/* Lanes in which one of the certificates that are tested at intervals excludes separation. */
+static inline mask held_sticks(const constants *c, const vec *y, mask candidates, double tolerance)
 {
-    (void)c; (void)y; (void)asked; (void)tolerance;
+    (void)c; (void)y; (void)candidates; (void)tolerance;
 #if OWN_EVENTS
 #if OWN_PROOFS
-    return bits(asked) ? held_beside_events(c, y, asked, tolerance) : asked;
+    return bits(candidates) ? held_beside_events(c, y, candidates, tolerance) : candidates;
 #else
     return splat_mask(0);
 #endif
 #endif /* OWN_EVENTS */
 #if SPIN_DOWN
-    return spun_down(c, y, asked, tolerance, 0.0);
+    return spun_down(c, y, candidates, tolerance, 0.0);
 #endif
 #if PENDULUM
-    return held_at_turn(c, y, asked, tolerance);
+    return held_at_turn(c, y, candidates, tolerance);
 #endif
 #if ATTRACTION_MARGINS
-    if (bits(asked))
-        return asked & held_by_attraction(c, y, tolerance);
+    if (bits(candidates))
+        return candidates & held_by_attraction(c, y, tolerance);
 #endif
     return splat_mask(0);
 }

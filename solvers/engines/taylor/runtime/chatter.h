@@ -18,10 +18,10 @@
  * looked for now and then. */
 static mask floating(const lanes *l, const fixed *f, double tolerance)
 {
-    mask asked = l->alive & l->fresh & l->closing & NOT(l->resting) & ((l->phases & 15) < splat_mask(4));
-    asked &= (l->y[GAP] > f->edge) & (vec_abs(l->y[NORMAL_VELOCITY]) <= STILL);
-    if (!bits(asked))
-        return asked;
+    mask candidates = l->alive & l->fresh & l->closing & NOT(l->resting) & ((l->phases & 15) < splat_mask(4));
+    candidates &= (l->y[GAP] > f->edge) & (vec_abs(l->y[NORMAL_VELOCITY]) <= STILL);
+    if (!bits(candidates))
+        return candidates;
     vec there[STATES], half = (l->y[GAP] - f->edge)*(1.0/16.0), work = splat(0.0), size = work;
     memcpy(there, l->y, sizeof there);
     for (int panel = 0; panel < 8; panel++) {
@@ -34,7 +34,7 @@ static mask floating(const lanes *l, const fixed *f, double tolerance)
         work += part*half;
         size += vec_abs(part*half);
     }
-    return asked & (work < -SAFETY*tolerance*size);
+    return candidates & stays_below(work, SAFETY*tolerance, size);
 }
 #endif
 
@@ -53,12 +53,10 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
     vec centres = (1.0 + c->radius_ratio)*(1.0 + c->radius_ratio)/c->radius_ratio;
     vec far = centres + c->aspect*y[GAP], near = centres + c->aspect*contact, ratio = (far/near)*(far/near);
     vec sum = vec_sqrt(here[0]) + vec_sqrt(2.0*work*c->aspect/far);
-    vec left = (1.0 - c->dry_restitution*c->dry_restitution)*here[1]*(1.0 - SAFETY*tolerance);
-    return (contact > 0.0) & (contact < y[GAP]) & (sum*sum*ratio*ratio < left);
+    vec lost = (1.0 - c->dry_restitution*c->dry_restitution)*here[1];
+    return (contact > 0.0) & (contact < y[GAP]) & comes_back(sum*sum*ratio*ratio, lost, SAFETY*tolerance);
 }
 #else
-enum { AHEAD = 48 }; /* gaps ahead at which the margin is evaluated */
-
 /* Works against the inward force from one gap to another, at the present orbital momentum and at none. */
 static void works_ahead(const constants *c, const vec *y, vec low, vec high, vec *pull, vec *attraction)
 {
@@ -81,10 +79,10 @@ static void works_ahead(const constants *c, const vec *y, vec low, vec high, vec
 static inline void slip_margins(const constants *c, const vec *there, vec *slip, vec *energy)
 {
 #if SURFACE_ARM
-    vec found[ORBITAL];
-    orbital_margins(c, there, found);
-    *slip = found[SLIP_RATE];
-    *energy = found[SLIP_ENERGY];
+    vec margins[ORBITAL];
+    orbital_margins(c, there, margins);
+    *slip = margins[SLIP_RATE];
+    *energy = margins[SLIP_ENERGY];
 #else
     transferable(c, there, slip, energy);
 #endif
@@ -129,12 +127,12 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
     from[ORBITAL_MOMENTUM] *= sense;
     from[SPIN] *= sense;
 #endif
-    mask asked = low < end, held = splat_mask(0);
+    mask candidates = low < end, held = splat_mask(0);
     vec u = from[NORMAL_VELOCITY], distance = 4.0 + c->aspect*low;
 #if SURFACE_ARM && !STRINGS
     slip_margins(c, from, &slip, &energy);
     vec spins = 16.0*(from[ORBITAL_MOMENTUM]/(distance*distance) - slip);
-    asked &= (spins >= 0.0) & (spins <= from[ORBITAL_MOMENTUM]);
+    candidates &= (spins >= 0.0) & (spins <= from[ORBITAL_MOMENTUM]);
 #endif
     for (int k = 1; k <= AHEAD; k++) {
         double part = (double)k/(int)AHEAD;
@@ -152,9 +150,9 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
         vec size = vec_abs(from[ORBITAL_MOMENTUM]) + slip*distance*distance;
         vec turned = c->obliquity*c->obliquity*(1.0/16.0)*size*only(gained > 0.0, slip);
         vec error = u*u + vec_abs(u) + 2.0*vec_abs(attraction) + vec_abs(inward) + turned;
-        held |= 0.5*u*u - inward + gained < -SAFETY*tolerance*error;
+        held |= stays_below(0.5*u*u - inward + gained, SAFETY*tolerance, error);
     }
-    return asked & held;
+    return candidates & held;
 }
 #else
 /* Lanes in which no larger orbital momentum is to come, and the inward force allows no higher maximum. */
@@ -163,17 +161,17 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
     vec there[STATES], pulled = splat(0.0), weight = pulled, low = y[GAP];
     memcpy(there, y, sizeof there);
     there[GAP] = end;
-    mask asked = (low < end) & (vec_abs(y[ORBITAL_MOMENTUM]) >= vec_abs(rigid_momentum(c, there))), held = splat_mask(0);
-    for (int k = 1; k <= AHEAD && bits(asked); k++) {
+    mask candidates = (low < end) & (vec_abs(y[ORBITAL_MOMENTUM]) >= vec_abs(rigid_momentum(c, there))), held = splat_mask(0);
+    for (int k = 1; k <= AHEAD && bits(candidates); k++) {
         double part = (double)k/(int)AHEAD;
         vec high = y[GAP] + (end - y[GAP])*(part*part*part), pull, still;
         works_ahead(c, y, low, high, &pull, &still);
         pulled += pull;
         weight += vec_abs(still) + vec_abs(still - pull);
         low = high;
-        held |= pulled > SAFETY*tolerance*weight;
+        held |= stays_below(-pulled, SAFETY*tolerance, weight);
     }
-    return asked & held;
+    return candidates & held;
 }
 #endif
 #endif
@@ -196,15 +194,15 @@ static mask held_in_chatter(lanes *l, const fixed *f, double tolerance)
 #endif
     l->top = choose(tops, l->y[GAP], l->top);
 #if ORBITAL_MARGINS && !STRINGS
-    mask next = l->cycles + 1; /* they may grow; asked at the first, second, fourth, ... */
-    mask asked = tops & ((next & (next - 1)) == splat_mask(0));
+    mask next = l->cycles + 1; /* they may grow; candidates at the first, second, fourth, ... */
+    mask candidates = tops & ((next & (next - 1)) == splat_mask(0));
     (void)grows;
 #else
     mask next = only_whole(NOT(grows), l->cycles + 1);
-    mask asked = tops & (next >= splat_mask(CYCLES)) & (((next - splat_mask(CYCLES)) & 15) == splat_mask(0));
+    mask candidates = tops & (next >= splat_mask(CYCLES)) & (((next - splat_mask(CYCLES)) & 15) == splat_mask(0));
 #endif
     l->cycles = choose_whole(tops, next, l->cycles);
-    return bits(asked) ? asked & held_at_top(&f->c, l->y, f->end, tolerance) : asked;
+    return bits(candidates) ? candidates & held_at_top(&f->c, l->y, f->end, tolerance) : candidates;
 #endif
 }
 #endif

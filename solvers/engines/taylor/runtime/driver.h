@@ -8,7 +8,7 @@
 #include "chatter.h"
 #include "damped_sum.h"
 #include "effects.h"
-#include "events.h"
+#include "guards.h"
 #include "implicit.h"
 #include "model.h"
 #include "nearness.h"
@@ -19,82 +19,254 @@
 #include "tangent_step.h"
 #include "tape.h"
 
-static void run(queue *q)
-{
-    lanes l;
-    fixed f;
+/* What a step works with besides its lanes. */
+typedef struct {
     series s;
 #if GRADIENTS && !BACKWARD
     slopes d;
     tangents t;
-    memset(&d, 0, sizeof d);
-    memset(&t, 0, sizeof t);
 #endif
 #if RUBS
     rubbing r;
-    memset(&r, 0, sizeof r);
 #endif
-    memset(&l, 0, sizeof l);
-    memset(&s, 0, sizeof s);
-    memset(&f, 0, sizeof f);
-    EACH_LANE(lane) refill(q, &l, &f, lane);
+#if SPACE
+    axes turning;
+    mask turns; /* lanes in axes that turn along: what creeps turns as one body */
+#endif
+} expansion;
+
+/* Puts the first collisions into the lanes; false if there is none. Idle lanes repeat a live one: no traps, no slow
+ * arithmetic. */
+static int begin_lanes(queue *q, lanes *l, fixed *f)
+{
+    EACH_LANE(lane) refill(q, l, f, lane);
 #if JUMPS
-    if (!bits(l.alive) && q->turns) { /* all may jump from initial contact */
+    if (!bits(l->alive) && q->turns) { /* all may jump from initial contact */
         jump(q);
-        EACH_LANE(lane) refill(q, &l, &f, lane);
+        EACH_LANE(lane) refill(q, l, f, lane);
     }
 #endif
-    if (!bits(l.alive))
-        return;
-    int live = first_of(bits(l.alive)); /* idle lanes repeat a live one: no traps, no slow arithmetic */
-    EACH_LANE(lane) if (!LANE(l.alive, lane)) {
+    if (!bits(l->alive))
+        return 0;
+    int live = first_of(bits(l->alive));
+    EACH_LANE(lane) if (!LANE(l->alive, lane)) {
         for (int field = 0; field < FIXED; field++)
-            LANE(((vec *)&f)[field], lane) = LANE(((vec *)&f)[field], live);
+            LANE(((vec *)f)[field], lane) = LANE(((vec *)f)[field], live);
         for (int state = 0; state < STATES; state++)
-            LANE(l.y[state], lane) = LANE(l.y[state], live);
+            LANE(l->y[state], lane) = LANE(l->y[state], live);
     }
-    vec (*a)[TERMS] = (vec (*)[TERMS])&s;
-    for (;;) {
-        if (q->parks && (q->parks >= LANES || !bits(l.alive))) {
-            crawl(q);
-            EACH_LANE(lane) if (!LANE(l.alive, lane)) refill(q, &l, &f, lane);
-        }
+    return 1;
+}
+
+/* Takes up what waits for implicit steps or for a jump, where that fills a vector or nothing else is left. */
+static void take_up_waiting(queue *q, lanes *l, fixed *f)
+{
+    if (q->parks && (q->parks >= LANES || !bits(l->alive))) {
+        crawl(q);
+        EACH_LANE(lane) if (!LANE(l->alive, lane)) refill(q, l, f, lane);
+    }
 #if JUMPS
-        if (q->turns && (q->turns >= LANES || !bits(l.alive))) {
-            jump(q);
-            EACH_LANE(lane) if (!LANE(l.alive, lane)) refill(q, &l, &f, lane);
-        }
+    if (q->turns && (q->turns >= LANES || !bits(l->alive))) {
+        jump(q);
+        EACH_LANE(lane) if (!LANE(l->alive, lane)) refill(q, l, f, lane);
+    }
 #endif
-        if (!bits(l.alive))
-            break;
-        mask checked = l.alive & now_and_then(l.fresh, l.phases, l.steps);
-        mask sticks = held_sticks(&f.c, l.y, checked, q->rtol);
-        sticks |= proved_underway(&l, &f, q->rtol);
-        mask rounded = rounded_separations(&f.c, l.y, checked & NOT(sticks), q->rtol);
+}
+
+/* Ends the trajectories that are shown to stick, and those in which rounding decides whether they do. */
+static void end_sticks(queue *q, lanes *l, fixed *f)
+{
+    mask tested = l->alive & now_and_then(l->fresh, l->phases, l->steps);
+    mask sticks = held_sticks(&f->c, l->y, tested, q->rtol);
+    sticks |= proved_underway(l, f, q->rtol);
+    mask rounded = rounded_separations(&f->c, l->y, tested & NOT(sticks), q->rtol);
 #if FLOATS
-        sticks |= floating(&l, &f, q->rtol);
+    sticks |= floating(l, f, q->rtol);
+#endif
+#if WELLS
+    mask settles = l->alive & ((l->steps & (8*INTERVAL - 1)) == 8*INTERVAL - 1); /* costs some 20 steps */
+    sticks |= in_a_well(&f->c, l->y, f->end, settles, q->rtol);
 #endif
 #if WITH_TRAJECTORY
-        sticks &= provable(q, l.closing);
-        rounded &= provable(q, l.closing);
+    sticks &= provable(q, l->closing);
+    rounded &= provable(q, l->closing);
 #endif
-        for (unsigned proved = bits(l.alive & sticks); proved; proved &= proved - 1)
-            sticks_for_good(q, &l, &f, first_of(proved), 1);
-        for (unsigned lost = bits(rounded); lost; lost &= lost - 1)
-            finish(q, &l, &f, first_of(lost), WITHIN_ROUNDING, STICK, 0);
+    EACH_OF(lane, bits(l->alive & sticks))
+        sticks_for_good(q, l, f, lane, 1);
+    EACH_OF(lane, bits(rounded))
+        finish(q, l, f, lane, WITHIN_ROUNDING, STICK, 0);
 #if CHATTER_TESTS
-        mask stays = held_in_chatter(&l, &f, q->rtol);
+    mask stays = held_in_chatter(l, f, q->rtol);
 #if WITH_TRAJECTORY
-        stays &= provable(q, l.closing);
+    stays &= provable(q, l->closing);
 #endif
-        for (unsigned held = bits(stays); held; held &= held - 1)
-            sticks_for_good(q, &l, &f, first_of(held), CHATTER_PROVES);
+    EACH_OF(lane, bits(stays))
+        sticks_for_good(q, l, f, lane, CHATTER_PROVES);
 #endif
 #if SPACE && PROOF_BY_ENERGY
-        mask late = l.alive & ((l.steps & (INTERVAL - 1)) == INTERVAL - 1);
-        for (unsigned held = bits(late) ? bits(late & tumbles(&f.c, l.y, &f.b, q->rtol)) : 0; held; held &= held - 1)
-            sticks_for_good(q, &l, &f, first_of(held), 0);
+    mask late = l->alive & ((l->steps & (INTERVAL - 1)) == INTERVAL - 1);
+    EACH_OF(lane, bits(late) ? bits(late & tumbles(&f->c, l->y, &f->b, q->rtol)) : 0)
+        sticks_for_good(q, l, f, lane, 0);
 #endif
+}
+
+/* The effects of the events of lanes. */
+static void act_on(queue *q, lanes *l, fixed *f, mask happens, mask event)
+{
+    EACH_OF(lane, bits(happens))
+#if WITH_TRAJECTORY
+        act_for_purpose(q, l, f, lane, (int)LANE(event, lane));
+#else
+        act(q, l, f, lane, (int)LANE(event, lane));
+#endif
+}
+
+/* The series of the states about the start of a step. */
+static void expand_states(expansion *e, const lanes *l, const fixed *f)
+{
+    vec (*a)[TERMS] = (vec (*)[TERMS])&e->s;
+    for (int state = 0; state < STATES; state++)
+        a[state][0] = l->y[state];
+#if SPACE
+    e->turns = l->alive & (l->crept != splat_mask(0));
+    if (bits(e->turns))
+        begin_turning(&e->turning, &f->c, l->y, e->turns);
+    expand(&e->s, &f->c, acting(l), l->shear, NOT(l->resting), bits(e->turns) ? &e->turning : 0);
+#else
+    expand(&e->s, &f->c, acting(l), l->shear, NOT(l->resting));
+#endif
+#if RUBS
+    if (bits(l->alive & l->resting))
+        expand_rubbing(&e->r, &e->s, &f->c, l);
+#endif
+}
+
+/* The length of the step, after which the series are those that are summed; lanes in `creeps` are damped. */
+static vec length_of_step(queue *q, expansion *e, const lanes *l, const fixed *f, mask *creeps)
+{
+    vec (*a)[TERMS] = (vec (*)[TERMS])&e->s;
+    (void)q;
+#if GRADIENTS && !BACKWARD
+    if (q->requested)
+        expand_slopes(&e->d, &f->slopes, &e->s, &f->c, acting(l), l->shear, q->requested);
+    expand_along(&e->t, l, f, &e->s, &e->d, q->requested);
+    vec h = only(l->alive, step_size(&e->s, f, creeps, &e->t));
+    EACH_OF(group, bits(*creeps) ? e->t.requested : 0)
+        damp(e->t.t[group], *creeps);
+#else
+    vec h = only(l->alive, step_size(&e->s, f, creeps));
+#endif
+#if BACKWARD
+    h = held_for_derivatives(l, f, &e->s, h, *creeps);
+#endif
+    if (bits(*creeps))
+        damp(a, *creeps);
+#if RUBS
+    if (bits(*creeps & l->alive & l->resting))
+        expand_damped(&e->r, &e->s, &f->c, l);
+#endif
+    return h;
+}
+
+/* The first event of the step. */
+static first_event event_of_step(queue *q, expansion *e, const lanes *l, const fixed *f, vec h)
+{
+    (void)q;
+    if (bits(l->alive & l->closing))
+        expand_glass(&e->s, &f->c);
+#if WITH_TRAJECTORY
+    if (q->t->purpose == APPROACH) { /* no glass criterion */
+        memset(e->s.glass.result, 0, sizeof e->s.glass.result);
+        e->s.glass.result[0] = splat(1.0);
+    }
+#endif
+    first_event first = find_events(&e->s, l, f, h);
+#if RUBS
+    if (bits(l->alive & l->resting))
+        find_events_at_rest(&e->r, l, h, &first);
+#endif
+    return first;
+}
+
+/* What is kept of the step: nearness to boundaries, derivatives, tape, rows. */
+static void keep_step(queue *q, expansion *e, lanes *l, const fixed *f, vec h, mask creeps, mask falls, mask event)
+{
+    (void)q; (void)e; (void)l; (void)f; (void)h; (void)creeps; (void)falls; (void)event;
+#if GRADIENTS
+    measure(l, f, &e->s, h, falls, event);
+#endif
+#if BACKWARD
+    keep_on_tape(q, l, h, creeps, falls, event);
+#elif GRADIENTS
+    if (q->requested)
+        carry(l, f, &e->s, &e->t, h, falls, event, q->requested);
+#endif
+#if WITH_TRAJECTORY
+    keep_steps(q, l, (vec (*)[TERMS])&e->s, h);
+#if GLASS_REACH
+    if (q->peaks)
+        note_peaks(q, l, f, &e->s, h);
+#endif
+#endif
+}
+
+/* The states at the end of the step; returns the lanes in which they are not finite. */
+static mask take_step(expansion *e, lanes *l, vec h, mask creeps, vec gap)
+{
+    vec (*a)[TERMS] = (vec (*)[TERMS])&e->s;
+    l->y[GAP] = choose(l->alive, gap, l->y[GAP]);
+    for (int state = GAP + 1; state < STATES; state++)
+        l->y[state] = choose(l->alive, sum_at(a[state], h), l->y[state]);
+#if SPACE
+    if (bits(e->turns))
+        turn_back(&e->turning, h, l->y);
+#endif
+    l->time += h;
+    l->smallest = vec_min(l->smallest, l->y[GAP]);
+    l->steps += 1; /* before a lane may take another collision, which must not depend on this one */
+    l->crept = only_whole(creeps, l->crept + 1);
+    l->stride = h;
+    return l->alive & NOT((vec_abs(l->y[GAP]) < INFINITY) & (vec_abs(l->y[NORMAL_VELOCITY]) < INFINITY));
+}
+
+/* Hands over what is lost or has no budget left, and parks what creeps for long for implicit.h. */
+static void leave_to_others(queue *q, lanes *l, fixed *f, mask lost, mask falls)
+{
+    mask spent = l->alive & (lost | (l->steps > q->budget));
+    unsigned slow = bits(l->alive & NOT(falls) & NOT(spent) & (l->crept > splat_mask(PATIENCE)));
+#if BACKWARD
+    spent |= only_if_full(q, l->alive);
+    slow = 0;
+#elif GRADIENTS
+    slow = q->requested ? 0 : slow; /* implicit.h does not compute derivatives */
+#endif
+#if WITH_TRAJECTORY
+    /* only steps of series are recorded, and implicit.h ignores the purpose */
+    slow = q->step_room || q->t->purpose != WHOLE ? 0 : slow;
+#endif
+    EACH_OF(lane, slow)
+        park(q, l, f, lane);
+    EACH_OF(lane, bits(spent)) {
+        int status = LANE(lost, lane) ? NOT_FINITE : LANE(l->phases, lane) > CHATTER_PHASES ? CHATTER : NO_BUDGET;
+        finish(q, l, f, lane, status, STICK, 0);
+    }
+}
+
+static void run(queue *q)
+{
+    lanes l;
+    fixed f;
+    expansion e;
+    memset(&l, 0, sizeof l);
+    memset(&f, 0, sizeof f);
+    memset(&e, 0, sizeof e);
+    if (!begin_lanes(q, &l, &f))
+        return;
+    for (;;) {
+        take_up_waiting(q, &l, &f);
+        if (!bits(l.alive))
+            return;
+        end_sticks(q, &l, &f);
         criteria_met(q, &l, &f);
 #if FRICTION && TURNS && !RUBS
         if (rests_ended(q, &l, &f)) /* other collisions may have taken these lanes */
@@ -104,138 +276,30 @@ static void run(queue *q)
             continue;
 #if OWN_EVENTS
         mask happens = splat_mask(0), due = own_events_due(&l, &f, &happens);
-        for (unsigned left = bits(due); left; left &= left - 1) {
-            int lane = first_of(left);
-#if WITH_TRAJECTORY
-            act_for_purpose(q, &l, &f, lane, (int)LANE(happens, lane));
-#else
-            act(q, &l, &f, lane, (int)LANE(happens, lane));
-#endif
-        }
+        act_on(q, &l, &f, due, happens);
         if (bits(due))
             continue;
 #endif /* OWN_EVENTS */
-        for (int state = 0; state < STATES; state++)
-            a[state][0] = l.y[state];
-#if SPACE
-        axes turning;
-        mask turns = l.alive & (l.crept != splat_mask(0)); /* what creeps turns as one body */
-        if (bits(turns))
-            begin_turning(&turning, &f.c, l.y, turns);
-        expand(&s, &f.c, acting(&l), l.shear, NOT(l.resting), bits(turns) ? &turning : 0);
-#else
-        expand(&s, &f.c, acting(&l), l.shear, NOT(l.resting));
-#endif
-#if RUBS
-        if (bits(l.alive & l.resting))
-            expand_rubbing(&r, &s, &f.c, &l);
-#endif
+        expand_states(&e, &l, &f);
 #if TURNS
-        if (bits(l.alive & l.resting) && stills_ended(q, &l, &f, a)) /* other collisions may have taken these lanes */
-            continue;
+        if (bits(l.alive & l.resting) && stills_ended(q, &l, &f, (vec (*)[TERMS])&e.s))
+            continue; /* other collisions may have taken these lanes */
 #endif
         mask creeps;
-#if GRADIENTS && !BACKWARD
-        if (q->asked)
-            expand_slopes(&d, &f.slopes, &s, &f.c, acting(&l), l.shear, q->asked);
-        expand_along(&t, &l, &f, &s, &d, q->asked);
-        vec h = only(l.alive, step_size(&s, &f, &creeps, &t));
-        for (unsigned left = bits(creeps) ? t.asked : 0; left; left &= left - 1)
-            damp(t.t[first_of(left)], creeps);
-#else
-        vec h = only(l.alive, step_size(&s, &f, &creeps));
-#endif
-#if BACKWARD
-        h = held_for_derivatives(&l, &f, &s, h, creeps);
-#endif
-        if (bits(creeps))
-            damp(a, creeps);
-#if RUBS
-        if (bits(creeps & l.alive & l.resting))
-            expand_damped(&r, &s, &f.c, &l);
-#endif
-        if (bits(l.alive & l.closing))
-            expand_glass(&s, &f.c);
-#if WITH_TRAJECTORY
-        if (q->t->purpose == APPROACH) { /* no glass criterion */
-            memset(s.glass.result, 0, sizeof s.glass.result);
-            s.glass.result[0] = splat(1.0);
-        }
-#endif
-        first_event found;
-        find_events(&s, &l, &f, h, &found);
-#if RUBS
-        if (bits(l.alive & l.resting))
-            find_rubbing_events(&r, &l, h, &found);
-#endif
-        mask falls = l.alive & (found.time <= 1.0);
-        h = choose(falls, h*found.time, h);
+        vec h = length_of_step(q, &e, &l, &f, &creeps);
+        first_event first = event_of_step(q, &e, &l, &f, h);
+        mask falls = l.alive & (first.time <= 1.0);
+        h = choose(falls, h*first.time, h);
 #if WITH_LIMIT
-        if (reached(q, &l, &f, a, h))
-            break;
+        if (reached(q, &l, &f, (vec (*)[TERMS])&e.s, h))
+            return;
 #endif
-#if GRADIENTS
-        measure(&l, &f, &s, h, falls, found.event);
-#endif
-#if BACKWARD
-        keep_on_tape(q, &l, h, creeps, falls, found.event);
-#elif GRADIENTS
-        if (q->asked)
-            carry(&l, &f, &s, &t, h, falls, found.event, q->asked);
-#endif
-#if WITH_TRAJECTORY
-        keep_steps(q, &l, a, h);
-#if GLASS_REACH
-        if (q->peaks)
-            note_peaks(q, &l, &f, &s, h);
-#endif
-#endif
-        if (bits(falls))
-            found.gap = sum_at(a[GAP], h);
-        l.y[GAP] = choose(l.alive, found.gap, l.y[GAP]);
-        for (int state = GAP + 1; state < STATES; state++)
-            l.y[state] = choose(l.alive, sum_at(a[state], h), l.y[state]);
-#if SPACE
-        if (bits(turns))
-            turn_back(&turning, h, l.y);
-#endif
-        l.time += h;
-        l.smallest = vec_min(l.smallest, l.y[GAP]);
-        l.steps += 1; /* before a lane may take another collision, which must not depend on this one */
-        l.crept = only_whole(creeps, l.crept + 1);
-        l.stride = h;
-        mask sound = vec_abs(l.y[GAP]) < INFINITY;
-        sound &= vec_abs(l.y[NORMAL_VELOCITY]) < INFINITY;
-        mask lost = l.alive & NOT(sound);
-        for (unsigned event = bits(falls & NOT(lost)); event; event &= event - 1) {
-            int lane = first_of(event);
-#if WITH_TRAJECTORY
-            act_for_purpose(q, &l, &f, lane, (int)LANE(found.event, lane));
-#else
-            act(q, &l, &f, lane, (int)LANE(found.event, lane));
-#endif
-        }
+        keep_step(q, &e, &l, &f, h, creeps, falls, first.event);
+        mask lost = take_step(&e, &l, h, creeps, bits(falls) ? sum_at(e.s.gap, h) : first.gap);
+        act_on(q, &l, &f, falls & NOT(lost), first.event);
 #if JUMPS
-        park_turned(q, &l, &f, falls & NOT(lost) & (found.event == splat_mask(AT_TURNING)) & l.alive & NOT(l.closing));
+        park_turned(q, &l, &f, falls & NOT(lost) & (first.event == splat_mask(AT_TURNING)) & l.alive & NOT(l.closing));
 #endif
-        mask spent = l.alive & (lost | (l.steps > q->budget));
-        unsigned slow_ones = bits(l.alive & NOT(falls) & NOT(spent) & (l.crept > splat_mask(PATIENCE)));
-#if BACKWARD
-        spent |= only_if_full(q, l.alive);
-        slow_ones = 0;
-#elif GRADIENTS
-        slow_ones = q->asked ? 0 : slow_ones; /* implicit.h does not compute derivatives */
-#endif
-#if WITH_TRAJECTORY
-        /* only series steps are recorded, and implicit.h ignores the purpose */
-        slow_ones = q->step_room || q->t->purpose != WHOLE ? 0 : slow_ones;
-#endif
-        for (; slow_ones; slow_ones &= slow_ones - 1)
-            park(q, &l, &f, first_of(slow_ones));
-        for (unsigned failed = bits(spent); failed; failed &= failed - 1) {
-            int lane = first_of(failed);
-            int status = LANE(lost, lane) ? NOT_FINITE : LANE(l.phases, lane) > CHATTER_PHASES ? CHATTER : NO_BUDGET;
-            finish(q, &l, &f, lane, status, STICK, 0);
-        }
+        leave_to_others(q, &l, &f, lost, falls);
     }
 }

@@ -8,6 +8,7 @@
 #include "automaton.h"
 #include "friction.h"
 #include "model.h"
+#include "proofs.h"
 
 #define ATTRACTS (BRIDGE || ATTRACTION)
 #if !defined(BY_ORBITAL_MOMENTUM) /* the structure does not have the orbital-momentum certificate */
@@ -54,6 +55,8 @@ static vec integral(
         }
     return sum*half;
 }
+
+enum { AHEAD = 48 }; /* gaps ahead at which a margin is evaluated, denser at small distances */
 
 #if defined(POTENTIAL)
 enum { INNER = 6, OUTER = 12, HALVINGS = 8 }; /* grid points in the film and beyond, iterations for a maximum */
@@ -113,7 +116,7 @@ static vec summit(const constants *c, const vec *y, vec low, vec high)
     return 0.5*(low + high);
 }
 
-static void find_barriers(const constants *c, const vec *y, vec contact, vec end, barrier *found)
+static void find_barriers(const constants *c, const vec *y, vec contact, vec end, barrier *b)
 {
     vec none = splat(-INFINITY);
     vec start = vec_min(vec_max(contact, splat(1e-6)), splat(0.5));
@@ -128,7 +131,7 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
         mask own = top & NOT(first);
         lower[0] = choose(own, low, lower[0]);
         upper[0] = choose(own, high, upper[0]);
-        mask other = top & first; /* the last one found is kept */
+        mask other = top & first; /* the last one b is kept */
         lower[1] = choose(other, low, lower[1]);
         upper[1] = choose(other, high, upper[1]);
         first |= top;
@@ -137,29 +140,29 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
         slope = next;
     }
     mask rim = slope > 0.0;
-    found->near_gap = found->far_gap = splat(0.0);
-    found->near_height = found->far_height = none;
+    b->near_gap = b->far_gap = splat(0.0);
+    b->near_height = b->far_height = none;
     if (bits(first)) {
-        found->near_gap = summit(c, y, lower[0], upper[0]);
-        found->near_height = choose(first, height_at(c, y, vec_max(found->near_gap, start)), none);
+        b->near_gap = summit(c, y, lower[0], upper[0]);
+        b->near_height = choose(first, height_at(c, y, vec_max(b->near_gap, start)), none);
     }
     if (bits(second)) {
         vec gap = summit(c, y, lower[1], upper[1]);
-        found->far_gap = gap;
-        found->far_height = choose(second, height_at(c, y, vec_max(gap, start)), none);
+        b->far_gap = gap;
+        b->far_height = choose(second, height_at(c, y, vec_max(gap, start)), none);
     }
     if (bits(rim)) { /* the rim is the outermost: it replaces the second maximum unless that is higher */
         vec height = choose(rim, height_at(c, y, end), none);
-        mask higher = height > found->far_height;
-        found->far_gap = choose(higher, end, found->far_gap);
-        found->far_height = choose(higher, height, found->far_height);
+        mask higher = height > b->far_height;
+        b->far_gap = choose(higher, end, b->far_gap);
+        b->far_height = choose(higher, height, b->far_height);
     }
-    mask hidden = NOT(found->near_height > found->far_height);
-    found->near_gap = choose(hidden, found->far_gap, found->near_gap);
-    found->near_height = choose(hidden, found->far_height, found->near_height);
+    mask hidden = NOT(b->near_height > b->far_height);
+    b->near_gap = choose(hidden, b->far_gap, b->near_gap);
+    b->near_height = choose(hidden, b->far_height, b->near_height);
 #if SURFACE_ARM
-    found->near_work = found->near_height - energy_at(c, y, found->near_gap);
-    found->far_work = found->far_height - energy_at(c, y, found->far_gap);
+    b->near_work = b->near_height - energy_at(c, y, b->near_gap);
+    b->far_work = b->far_height - energy_at(c, y, b->far_gap);
 #endif
 }
 
@@ -242,8 +245,8 @@ static inline mask below(const constants *c, const vec *y, const barrier *b, vec
     one[GAP] = y[GAP];
     one[ORBITAL_MOMENTUM] = splat(1.0);
     vec drift = 4.0*stored_energy(c, one)*vec_larger(vec_abs(y[ORBITAL_MOMENTUM]), vec_abs(rigid))*lost;
-    vec height = work + energy_at(c, y, gap), margin = SAFETY*tolerance*(b->largest + vec_abs(height));
-    return (gap > y[GAP]) & (stored_energy(c, y) + work_done(c, y, b) < height - margin - drift);
+    vec height = work + energy_at(c, y, gap), energy = stored_energy(c, y) + work_done(c, y, b);
+    return (gap > y[GAP]) & is_below_barrier(energy, height, SAFETY*tolerance, b->largest, drift);
 }
 
 static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
@@ -255,10 +258,9 @@ static inline mask below_barrier(const constants *c, const vec *y, const barrier
 /* Lanes whose mechanical energy is below the barrier ahead by more than its error. */
 static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
 {
-    vec height = height_ahead(y, b);
-    vec margin = SAFETY*tolerance*(b->largest + vec_abs(height));
+    vec energy = stored_energy(c, y) + work_done(c, y, b); /* the height is NaN without a barrier */
     (void)rests;
-    return stored_energy(c, y) + work_done(c, y, b) < height - margin; /* false without a barrier (NaN) */
+    return is_below_barrier(energy, height_ahead(y, b), SAFETY*tolerance, b->largest, splat(0.0));
 }
 #endif
 #endif

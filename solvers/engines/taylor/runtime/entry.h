@@ -84,7 +84,7 @@ const char *collide(task *t)
     q.step_room = t->rows.bytes/(long)sizeof(step_row);
 #endif
 #if GRADIENTS
-    q.asked = (unsigned)t->asked;
+    q.requested = (unsigned)t->requested;
     q.by_group = t->by_group.at;
     q.gradients = t->gradients.at;
     q.near = t->near.at;

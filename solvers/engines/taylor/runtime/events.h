@@ -1,7 +1,7 @@
-/* The first event of a step in each lane: by bounds, then Bernstein coefficients, then isolation.
+/* The first root of a series within a step, in each lane: by bounds, then Bernstein coefficients, then isolation.
  *
- * The guards are those of derive/equations/automaton.py. Of coincident events the one searched first counts, so the calls
- * of `look` are in the order of its table.
+ * Which series reach which targets, in which lanes, is emitted from derive/equations/automaton.py into guards.h. Of
+ * coincident events the one searched first counts.
  */
 #pragma once
 
@@ -11,7 +11,6 @@
 #include "roots.h"
 #include "state.h"
 
-/* The first event of a step; event functions are series that are positive before their event. */
 typedef struct {
     vec time;              /* of the first event, as a fraction of the step; above 1 if there is none */
     mask event;
@@ -52,14 +51,22 @@ static inline vec sum_at(const vec *a, vec t)
     return sum;
 }
 
+/* The part of the step up to a turn, which then is the whole step to search. */
+static inline vec up_to_turn(first_event *first)
+{
+    mask turned = (first->time <= 1.0) & (first->time > 0.0);
+    vec part = choose(turned, first->time, splat(1.0));
+    first->time = choose(turned, splat(1.0), first->time);
+    return part;
+}
+
 /* Searches the lanes of `close` for sign (a(t) - target) falling through zero; an earlier event is kept.
  *
  * Bernstein coefficients are computed for all lanes at once. If all are positive there is no root (the usual case).
  * With one change of sign there is one root, found by bracketed Newton iteration. With more, the lane's first root is
  * isolated.
  */
-OUTLINE void look(
-    first_event *found, mask close, const vec *a, vec target, vec sign, vec h, mask event)
+OUTLINE void look(first_event *first, mask close, const vec *a, vec target, vec sign, vec h, mask event)
 {
     vec g[TERMS + 1], b[TERMS + 1], power = sign;
     for (int k = 0; k <= ORDER; k++) {
@@ -117,8 +124,7 @@ OUTLINE void look(
         }
         time = choose(one, t, time);
     }
-    for (unsigned left = bits(many); left; left &= left - 1) {
-        int lane = first_of(left);
+    EACH_OF(lane, bits(many)) {
         double own[TERMS + 1], bernstein[TERMS + 1];
         for (int k = 0; k <= ORDER; k++) {
             own[k] = LANE(g[k], lane);
@@ -126,117 +132,28 @@ OUTLINE void look(
         }
         LANE(time, lane) = isolated(own, ORDER, bernstein, 0.0, 1.0, 0);
     }
-    mask first = close & (time <= 1.0) & (time < found->time);
-    found->time = choose(first, time, found->time);
-    found->event = choose_whole(first, event, found->event);
+    mask earlier = close & (time <= 1.0) & (time < first->time);
+    first->time = choose(earlier, time, first->time);
+    first->event = choose_whole(earlier, event, first->event);
 }
 
 #if OWN_EVENTS
-/* The first declared event of a step that comes before those found already. */
-OUTLINE void find_own_events(
-    const series *s, const lanes *l, const fixed *f, vec h, mask moves, first_event *found)
+/* Declared events of a step; an earlier event is kept. */
+OUTLINE void find_own_events(const series *s, const lanes *l, const fixed *f, vec h, mask moves, first_event *first)
 {
     own_series own;
-    int made = 0;
+    int expanded = 0;
     for (int which = 0; which < OWN_EVENTS; which++) {
         mask close = moves & own_watched(l->y, which, l->closing, l->film);
         if (!bits(close))
             continue;
-        if (!made)
+        if (!expanded)
             for (int k = 0; k <= ORDER; k++)
                 own_coefficients(&own, s, &f->c, k);
-        made = 1;
+        expanded = 1;
         close &= NOT((own.guard[which][0] > 0.0) & (least_of(own.guard[which], h) > 0.0));
         if (bits(close))
-            look(found, close, own.guard[which], splat(0.0), splat(1.0), h, splat_mask(OWN[which].event));
+            look(first, close, own.guard[which], splat(0.0), splat(1.0), h, splat_mask(OWN[which].event));
     }
 }
 #endif /* OWN_EVENTS */
-#if RUBS
-/* The end of sliding, where the slip vanishes, and of rolling, which needs more than friction gives. */
-OUTLINE void find_rubbing_events(const rubbing *r, const lanes *l, vec h, first_event *found)
-{
-    mask rests = l->alive & l->resting, rolls = rests & (l->rolling != 0.0);
-    mask close = rests & (l->sliding != 0.0);
-    close &= NOT(least_of(r->rest_slip, h) > 0.0);
-    if (bits(close))
-        look(found, close, r->rest_slip, splat(0.0), l->sliding, h, splat_mask(AT_SLIPPING));
-    for (double way = -1.0; bits(rolls) && way <= 1.0; way += 2.0) {
-        vec left[TERMS];
-        for (int k = 0; k <= ORDER; k++)
-            left[k] = r->rest_limit[k] + way*r->rest_holding[k];
-        close = rolls & NOT((left[0] > 0.0) & (least_of(left, h) > 0.0));
-        if (bits(close))
-            look(found, close, left, splat(0.0), splat(1.0), h, splat_mask(AT_ROLLING));
-    }
-}
-#endif
-
-static void find_events(const series *s, const lanes *l, const fixed *f, vec h, first_event *found)
-{
-    const vec zero = splat(0.0), one = splat(1.0);
-    found->time = splat(NO_ROOT);
-    found->event = splat_mask(0);
-    mask closing = l->closing, moves = l->alive & NOT(l->resting), close;
-    vec away = choose(closing, one, -one); /* the sign with which event functions of the gap increase */
-    /* The turning point comes first: up to there the gap is monotonic, and extremal at the end. Under a constant force
-     * steps are unlimited, and all events before the turning point lie in a tiny part of the step.
-     */
-    vec part = one;
-    mask turns = moves & NOT(least_of(s->normal_velocity, h) > 0.0);
-    if (bits(turns)) {
-        look(found, turns, s->normal_velocity, zero, -away, h, splat_mask(AT_TURNING));
-        mask turned = (found->time <= 1.0) & (found->time > 0.0);
-        part = choose(turned, found->time, one);
-        found->time = choose(turned, one, found->time);
-        h *= part;
-    }
-    found->gap = sum_at(s->gap, h);
-    vec to = found->gap;
-    if (bits(moves & closing)) {
-        close = moves & closing & NOT((s->glass.result[0] > 0.0) & (least_of(s->glass.result, h) > 0.0));
-        if (bits(close))
-            look(found, close, s->glass.result, zero, one, h, splat_mask(AT_GLASS));
-    }
-    /* the next gap with an event: contact, or the film edge from outside; film edge or rupture while opening */
-#if BRIDGE && !SPREAD
-    mask inside = l->film != 0.0, edge = closing ^ inside; /* closing from outside, or opening from inside */
-    edge &= NOT(closing & (f->contact >= 1.0)); /* soft solids touch outside the film */
-    vec target = choose(edge, one, choose(closing, f->contact, f->end));
-    mask event = choose_whole(closing, splat_mask(AT_CONTACT), splat_mask(AT_RUPTURE));
-    event = choose_whole(edge, splat_mask(AT_FILM_EDGE), event);
-#else
-    vec target = choose(closing, f->contact, f->end);
-    mask event = choose_whole(closing, splat_mask(AT_CONTACT), splat_mask(AT_RUPTURE));
-#endif
-    close = moves & NOT(away*(to - target) > 0.0);
-    if (bits(close))
-        look(found, close, s->gap, target, away, h, event);
-#if OBLIQUE
-    mask own = moves & (f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, one));
-    close = own & (closing ^ (l->shear != 0.0)) & NOT(away*(to - f->edge) > 0.0);
-    if (bits(close))
-        look(found, close, s->gap, f->edge, away, h, splat_mask(AT_TANGENTIAL_EDGE));
-#endif
-    close = l->alive & l->resting;
-#if OBLIQUE && !STRINGS
-    close &= l->shear != 0.0;
-#endif
-    if (OBLIQUE && !WALL && bits(close)) { /* beside a wall and head-on the forces at rest stay as they are */
-        close &= NOT(-s->acceleration[0] > reach(s->acceleration, h));
-        if (bits(close))
-            look(found, close, s->acceleration, zero, -one, h, splat_mask(AT_RELEASE));
-    }
-#if OBLIQUE && STRINGS
-    close = l->alive & NOT(s->rotation[0] + reach(s->rotation, h) < PI);
-    if (bits(close))
-        look(found, close, s->rotation, splat(PI), -one, h, splat_mask(AT_HALF_TURN));
-    close = l->alive & NOT(s->orbital_momentum[0] > reach(s->orbital_momentum, h));
-    if (bits(close))
-        look(found, close, s->orbital_momentum, zero, one, h, splat_mask(AT_UNWINDING));
-#endif
-#if OWN_EVENTS
-    find_own_events(s, l, f, h, moves, found);
-#endif /* OWN_EVENTS */
-    found->time *= part;
-}

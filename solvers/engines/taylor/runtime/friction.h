@@ -22,13 +22,13 @@ typedef struct {
 /* That of a rebound, or of one that `rests`. */
 static touch touched(const constants *c, const vec *y, int lane, int kind, int rests)
 {
-    vec found[IMPULSES];
-    dry_slip(c, y, found);
+    vec impulses[IMPULSES];
+    dry_slip(c, y, impulses);
     touch o;
     memset(&o, 0, sizeof o);
-    o.sticking = LANE(found[STICKING], lane);
+    o.sticking = LANE(impulses[STICKING], lane);
     if (kind != KIND_GLASS || FRICTION_ON_GLASS) {
-        o.most = LANE(found[rests ? REST_MOST : MOST], lane);
+        o.most = LANE(impulses[rests ? REST_MOST : MOST], lane);
         o.slides = o.sticking < 0.0 ? -1.0 : 1.0;
     }
     o.sticks = fabs(o.sticking) < o.most;
@@ -40,9 +40,9 @@ static touch touched(const constants *c, const vec *y, int lane, int kind, int r
 /* Derivative of the state after the friction of a rebound, in a direction. */
 static void friction_along(const constants *v, const vec *y, const vec *t, int group, const touch *o, int lane, vec *after)
 {
-    vec found[IMPULSES];
-    dry_slip_along(v, y, t, group, found);
-    double moved = o->sticks ? LANE(found[STICKING], lane) : o->slides*LANE(found[MOST], lane);
+    vec impulses[IMPULSES];
+    dry_slip_along(v, y, t, group, impulses);
+    double moved = o->sticks ? LANE(impulses[STICKING], lane) : o->slides*LANE(impulses[MOST], lane);
     rubbed_along(v, y, t, group, splat(o->impulse), splat(moved), after);
 }
 #endif

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "certificates.h"
+#include "guards.h"
 #include "model.h"
 #include "own_events.h"
 #include "queue.h"
@@ -123,42 +124,20 @@ static void advance(const slow *w, const eliminated *e, vec h, const vec *rate, 
     }
 }
 
-/* Lanes in which no event can lie between two states: quantities that could reach zero keep half their value. */
-static mask clear_of_events(const slow *w, const lanes *l, const fixed *f, const vec *from, const vec *to)
+/* Lanes in which no event can lie between two states. */
+static mask clear_of_events(const lanes *l, const fixed *f, const vec *from, const vec *to)
 {
-    const vec zero = splat(0.0);
     mask opens = from[NORMAL_VELOCITY] > 0.0;
-    mask clear = ((opens & (to[NORMAL_VELOCITY] > 0.0)) | (NOT(opens) & (to[NORMAL_VELOCITY] < 0.0))) & (opens ^ l->closing);
-    vec away = choose(opens, splat(-1.0), splat(1.0));
-#if BRIDGE && !SPREAD
-    mask inside = l->film != 0.0, edge = l->closing ^ inside;
-    vec target = choose(edge, splat(1.0), choose(l->closing, f->contact, f->end));
-#else
-    vec target = choose(l->closing, f->contact, f->end);
-#endif
-    clear &= 2.0*away*(to[GAP] - target) > away*(from[GAP] - target);
-#if TURNS
-    if (bits(l->resting)) {
-        mask stays = 2.0*inward_force(w->c, to) > vec_max(inward_force(w->c, from), zero);
+    mask goes_on = (opens & (to[NORMAL_VELOCITY] > 0.0)) | (NOT(opens) & (to[NORMAL_VELOCITY] < 0.0));
+    mask clear = (l->resting | (goes_on & (opens ^ l->closing))) & guards_kept(l, f, from, to);
 #if RUBS
-        stays &= keeps_rubbing(w->c, l, from, to);
-#endif
-        clear = choose_whole(l->resting, stays, clear);
-    }
-#endif
-    clear &= NOT(l->closing) | (2.0*glass_clearance(w->c, to) > vec_max(glass_clearance(w->c, from), zero));
-#if OBLIQUE
-    vec first = away*(from[GAP] - f->edge);
-    clear &= (first <= 0.0) | (2.0*away*(to[GAP] - f->edge) > first);
-#endif
-#if OBLIQUE && STRINGS
-    clear &= 2.0*(PI - to[ROTATION]) > PI - from[ROTATION];
-    clear &= 2.0*to[ORBITAL_MOMENTUM] > from[ORBITAL_MOMENTUM];
+    if (bits(l->resting))
+        clear &= NOT(l->resting) | keeps_rubbing(&f->c, l, from, to);
 #endif
 #if OWN_EVENTS
     vec before[OWN_EVENTS], after[OWN_EVENTS];
-    own_guards(w->c, from, before);
-    own_guards(w->c, to, after);
+    own_guards(&f->c, from, before);
+    own_guards(&f->c, to, after);
     for (int which = 0; which < OWN_EVENTS; which++)
         clear &= NOT(own_watched(from, which, l->closing, l->film)) | (2.0*after[which] > before[which]);
 #endif /* OWN_EVENTS */
@@ -186,7 +165,7 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
                 y[state] = l->y[state] + sum[state];
             }
             if (row == COLUMNS - 1)
-                *clear &= clear_of_events(w, l, f, l->y, y);
+                *clear &= clear_of_events(l, f, l->y, y);
             memcpy(last, y, sizeof last);
         }
         for (int state = 0; state < STATES; state++) {
@@ -216,7 +195,7 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
             allowed = carried;
         error = vec_larger(error, size_of(d, 1, state)/allowed);
     }
-    *clear &= clear_of_events(w, l, f, l->y, y);
+    *clear &= clear_of_events(l, f, l->y, y);
     return error;
 }
 
@@ -244,6 +223,10 @@ OUTLINE void crawl(queue *q)
     vec least_step = WORTH*l.stride, h = 4.0*least_step;
     for (int count = 0; count < TRIES && bits(busy); count++) {
         mask sticks = proved_underway(&l, &f, q->rtol) | held_sticks(&f.c, l.y, busy, q->rtol);
+#if WELLS
+        if (count % 8 == 7)
+            sticks |= in_a_well(&f.c, l.y, f.end, busy, q->rtol);
+#endif
 #if WITH_LIMIT
         if (bits(busy & sticks) && goes_on_stuck(q, 1))
             sticks = splat_mask(0);
@@ -256,17 +239,17 @@ OUTLINE void crawl(queue *q)
             }
         }
 #endif
-        for (unsigned proved = bits(busy & sticks); proved; proved &= proved - 1)
-            settle(q, &l, &f, first_of(proved), DECIDED, STICK, 1);
+        EACH_OF(lane, bits(busy & sticks))
+            settle(q, &l, &f, lane, DECIDED, STICK, 1);
         busy &= NOT(sticks);
         mask rounded = rounded_separations(&f.c, l.y, busy, q->rtol);
-        for (unsigned lost = bits(rounded); lost; lost &= lost - 1)
-            settle(q, &l, &f, first_of(lost), WITHIN_ROUNDING, STICK, 0);
+        EACH_OF(lane, bits(rounded))
+            settle(q, &l, &f, lane, WITHIN_ROUNDING, STICK, 0);
         busy &= NOT(rounded);
 #if SPACE && PROOF_BY_ENERGY
         mask held = busy & tumbles(&f.c, l.y, &f.b, q->rtol);
-        for (unsigned left = bits(held); left; left &= left - 1)
-            settle(q, &l, &f, first_of(left), DECIDED, STICK, 0);
+        EACH_OF(lane, bits(held))
+            settle(q, &l, &f, lane, DECIDED, STICK, 0);
         busy &= NOT(held);
 #endif
         vec rate[STATES], change[STATES];
@@ -290,13 +273,12 @@ OUTLINE void crawl(queue *q)
         vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/(int)COLUMNS));
         h *= choose(clear, vec_min(better, splat(4.0)), splat(0.25));
         mask leaves = busy & NOT(h > least_step);
-        for (unsigned left = bits(leaves); left; left &= left - 1) {
-            int lane = first_of(left);
+        EACH_OF(lane, bits(leaves)) {
             LANE(l.crept, lane) = LANE(taken, lane) ? 0 : -10*PATIENCE; /* without success: not again for a while */
             pack(q->resumed[q->resumes++], &l, &f, lane);
         }
         busy &= NOT(leaves);
     }
-    for (unsigned left = bits(busy); left; left &= left - 1)
-        pack(q->resumed[q->resumes++], &l, &f, first_of(left));
+    EACH_OF(lane, bits(busy))
+        pack(q->resumed[q->resumes++], &l, &f, lane);
 }

@@ -168,8 +168,8 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
     }
     if (bits(close)) {
         vec least = vec_abs(vec_log(1.0 - least_pressure_margin(f, s, h)));
-        for (unsigned left = bits(close); left; left &= left - 1)
-            along_near(along, first_of(left), LANE(least, first_of(left)), GLASS_GRAZE);
+        EACH_OF(lane, bits(close))
+            along_near(along, lane, LANE(least, lane), GLASS_GRAZE);
     }
 #if PROOF_BY_ENERGY
     mask dips = moves & (choose(l->closing, -s->normal_velocity[1], s->normal_velocity[1]) < 0.0) & (vec_abs(s->normal_velocity[0]) < 0.3);
@@ -179,8 +179,8 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
             rate = rate*h + (double)k*s->normal_velocity[k];
         dips &= choose(l->closing, -rate, rate) > 0.0; /* the speed decreases first and increases last */
     }
-    for (unsigned left = bits(dips); left; left &= left - 1) {
-        int lane = first_of(left), saddle;
+    EACH_OF(lane, bits(dips)) {
+        int saddle;
         near_saddle(f, 1.0, lane, &saddle);
         if (saddle)
             along_near(along, lane, slowest(s, LANE(h, lane), lane), PASSAGE);
@@ -192,9 +192,7 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
     vec at[STATES];
     for (int state = 0; state < STATES; state++)
         at[state] = sum_at(a[state], h);
-    for (unsigned left = bits(falls); left; left &= left - 1) {
-        int lane = first_of(left);
+    EACH_OF(lane, bits(falls))
         measure_event(along, l, f, s, at, LANE(h, lane), (int)LANE(event, lane), lane);
-    }
 }
 #endif

@@ -109,7 +109,7 @@ static mask own_events_excluded(const constants *c, const vec *y, vec energy, ma
 }
 
 /* Energy certificate for the forces that act since the last declared event, where no other can happen. */
-static mask held_beside_events(const constants *c, const vec *y, mask asked, double tolerance)
+static mask held_beside_events(const constants *c, const vec *y, mask candidates, double tolerance)
 {
 #if ATTRACTS || STRINGS
     barrier b;
@@ -126,13 +126,13 @@ static mask held_beside_events(const constants *c, const vec *y, mask asked, dou
 #else
     vec height = height_ahead(y, &b), energy = whole_energy(c, y);
     vec margin = SAFETY*tolerance*(vec_max(stored_energy(c, first), vec_abs(energy)) + vec_abs(height));
-    asked &= energy < height - margin;
-    if (bits(asked))
-        asked &= own_events_excluded(c, y, energy + margin, splat_mask(TRUTH));
-    return asked;
+    candidates &= energy < height - margin;
+    if (bits(candidates))
+        candidates &= own_events_excluded(c, y, energy + margin, splat_mask(TRUTH));
+    return candidates;
 #endif
 #else
-    (void)c; (void)y; (void)asked; (void)tolerance;
+    (void)c; (void)y; (void)candidates; (void)tolerance;
     return splat_mask(0);
 #endif
 }

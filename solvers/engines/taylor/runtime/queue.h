@@ -15,7 +15,70 @@
 #include "tape.h"
 #include "tolerance.h"
 
-/* Constants, barrier and start of the next collisions; sticks certified at initial contact never take a lane. */
+/* Constants, barrier and start of the collisions from `first` on; returns the lanes that are too oblique. */
+static unsigned constants_of(const queue *q, long first, int many, fixed *f, vec *y)
+{
+    vec quantities[QUANTITIES];
+    for (int k = 0; k < QUANTITIES; k++)
+        EACH_LANE(lane) LANE(quantities[k], lane) = quantity(q, k, first + (lane < many ? lane : 0));
+    scale(&f->c, quantities);
+    prepare(&f->c);
+#if GRADIENTS
+    prepare_slopes(&f->slopes, &f->c);
+#if !BACKWARD
+    for (int group = 0; group < GROUPS; group++) {
+        vec size = vec_abs(((const vec *)&f->c)[group]);
+        f->one[group] = DERIVATIVES/choose(size > 0.0, size, splat(1.0));
+    }
+#endif
+#endif
+    unsigned beyond = set_tolerance(q, f);
+    memset(y, 0, STATES*sizeof *y);
+    start(&f->c, y);
+    f->contact = contact_gap(&f->c);
+    f->end = splat(1.0);
+    f->edge = splat(INFINITY);
+#if BRIDGE
+    f->end = f->c.rupture_gap;
+#endif
+#if OBLIQUE
+    f->edge = tangential_edge(&f->c);
+#endif
+#if PROOF_BY_ENERGY
+    find_barriers(&f->c, y, f->contact, f->end, &f->b);
+    f->b.largest = stored_energy(&f->c, y);
+    f->b.touch = splat(0.0);
+#if ATTRACTS && !CAPILLARY_STATE
+    f->b.touch = capillary_work(&f->c, splat(1.0));
+#endif
+#endif
+    return beyond;
+}
+
+/* The lanes whose collisions are proved to stick at initial contact. */
+static unsigned proved_at_contact(queue *q, const fixed *f, const vec *y)
+{
+    mask all = splat_mask(TRUTH), none = splat_mask(0);
+    unsigned proved = bits(proved_sticks(&f->c, y, &f->b, f->contact, all, none, q->rtol)) |
+                      bits(held_sticks(&f->c, y, all, q->rtol));
+#if APPROACH_BOUNDS && STRINGS && PENDULUM
+    if (~proved & bits(all))
+        proved |= bits(held_on_approach(&f->c, y, f->contact, q->rtol));
+#elif APPROACH_BOUNDS && !STRINGS
+    if (~proved & bits(all))
+        proved |= bits(held_on_approach(&f->c, y, &f->b, f->contact, q->rtol));
+#endif
+#if WITH_LIMIT
+    if (proved & 1 && goes_on_stuck(q, 1))
+        proved = 0;
+#endif
+#if WITH_TRAJECTORY
+    proved &= bits(provable(q, all));
+#endif
+    return proved;
+}
+
+/* The next collisions that are not decided at initial contact; those that are never take a lane. */
 static void fill_queue(queue *q)
 {
     fixed f;
@@ -25,84 +88,29 @@ static void fill_queue(queue *q)
         long first = q->next;
         int many = q->count - first < LANES ? (int)(q->count - first) : LANES;
         q->next += many;
-        vec given[QUANTITIES];
-        for (int k = 0; k < QUANTITIES; k++)
-            EACH_LANE(lane) LANE(given[k], lane) = quantity(q, k, first + (lane < many ? lane : 0));
-        scale(&f.c, given);
-        prepare(&f.c);
-#if GRADIENTS
-        prepare_slopes(&f.slopes, &f.c);
-#if !BACKWARD
-        for (int group = 0; group < GROUPS; group++) {
-            vec size = vec_abs(((const vec *)&f.c)[group]);
-            f.one[group] = DERIVATIVES/choose(size > 0.0, size, splat(1.0));
-        }
-#endif
-#endif
-        unsigned beyond = set_tolerance(q, &f);
-        memset(y, 0, sizeof y);
-        start(&f.c, y);
-        f.contact = contact_gap(&f.c);
-#if BRIDGE
-        f.end = f.c.rupture_gap;
-#else
-        f.end = splat(1.0);
-#endif
-#if OBLIQUE
-        f.edge = tangential_edge(&f.c);
-#else
-        f.edge = splat(INFINITY);
-#endif
-#if PROOF_BY_ENERGY
-        find_barriers(&f.c, y, f.contact, f.end, &f.b);
-        f.b.largest = stored_energy(&f.c, y);
-#if ATTRACTS && !CAPILLARY_STATE
-        f.b.touch = capillary_work(&f.c, splat(1.0));
-#else
-        f.b.touch = splat(0.0);
-#endif
-#endif
-        mask all = splat_mask(TRUTH), none = splat_mask(0);
-        unsigned proved = bits(proved_sticks(&f.c, y, &f.b, f.contact, all, none, q->rtol)) |
-                          bits(held_sticks(&f.c, y, all, q->rtol));
-#if APPROACH_BOUNDS && STRINGS && PENDULUM
-        if (~proved & bits(all))
-            proved |= bits(held_on_approach(&f.c, y, f.contact, q->rtol));
-#elif APPROACH_BOUNDS && !STRINGS
-        if (~proved & bits(all))
-            proved |= bits(held_on_approach(&f.c, y, &f.b, f.contact, q->rtol));
-#endif
-#if WITH_LIMIT
-        if (proved & 1 && goes_on_stuck(q, 1))
-            proved = 0;
-#endif
-#if WITH_TRAJECTORY
-        proved &= bits(provable(q, splat_mask(TRUTH)));
-#endif
+        unsigned beyond = constants_of(q, first, many, &f, y), proved = proved_at_contact(q, &f, y);
 #if LEAPS
         unsigned leaps = q->t->jumps > 1 ? bits(may_leap(&f.c, f.edge, q->rtol)) : 0;
 #endif
         for (int lane = 0; lane < many; lane++) {
-            if (beyond >> lane & 1) {
+            if (beyond >> lane & 1)
                 put(q, first + lane, TOO_OBLIQUE, STICK, 0);
-                continue;
-            }
-            if (proved >> lane & 1) {
+            else if (proved >> lane & 1) {
                 put(q, first + lane, PROVED_AT_TOUCH, STICK, 1);
 #if WITH_LEDGER
                 close_book(q->books + first + lane, &f.c, y, lane);
 #endif
-                continue;
-            }
-            q->waiting[q->queued] = first + lane;
-            for (int field = 0; field < FIXED; field++)
-                q->rows[q->queued][field] = LANE(((vec *)&f)[field], lane);
-            for (int state = 0; state < STATES; state++)
-                q->starts[q->queued][state] = LANE(y[state], lane);
+            } else {
+                q->waiting[q->queued] = first + lane;
+                for (int field = 0; field < FIXED; field++)
+                    q->rows[q->queued][field] = LANE(((vec *)&f)[field], lane);
+                for (int state = 0; state < STATES; state++)
+                    q->starts[q->queued][state] = LANE(y[state], lane);
 #if LEAPS
-            q->leaps[q->queued] = leaps >> lane & 1;
+                q->leaps[q->queued] = leaps >> lane & 1;
 #endif
-            q->queued++;
+                q->queued++;
+            }
         }
     }
 }
@@ -183,8 +191,7 @@ static void park_turned(queue *q, lanes *l, fixed *f, mask turned)
 {
     unsigned left = q->t->jumps ? bits(turned) : 0;
     if (left)
-        for (left &= bits(may_jump(l, f, q->rtol)); left; left &= left - 1) {
-            int lane = first_of(left);
+        EACH_OF(lane, left & bits(may_jump(l, f, q->rtol))) {
             pack(q->turned[q->turns++], l, f, lane);
             refill(q, l, f, lane);
         }

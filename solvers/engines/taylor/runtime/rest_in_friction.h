@@ -14,11 +14,11 @@
 /* Whether friction can hold the surfaces of a lane together; `sense` is that in which they are driven past each other. */
 static int can_hold(const lanes *l, const fixed *f, int lane, double *sense)
 {
-    vec found[DRY_FORCES];
-    dry_forces(&f->c, l->y, l->film, l->shear, found);
-    double holding = LANE(found[HOLDING], lane);
+    vec forces[DRY_FORCES];
+    dry_forces(&f->c, l->y, l->film, l->shear, forces);
+    double holding = LANE(forces[HOLDING], lane);
     *sense = holding > 0.0 ? 1.0 : holding < 0.0 ? -1.0 : 0.0;
-    return fabs(holding) <= LANE(found[GRIP_LIMIT], lane);
+    return friction_holds(holding, LANE(forces[GRIP_LIMIT], lane));
 }
 
 /* Sliding from zero slip. */
@@ -43,10 +43,10 @@ static int grips(lanes *l, const fixed *f, int lane)
 /* The mode of a lane that has come to rest; returns whether it rolls. */
 static int rubs(lanes *l, const fixed *f, int lane)
 {
-    vec found[IMPULSES];
-    dry_slip(&f->c, l->y, found);
-    double slip = LANE(found[SLIP], lane);
-    if (fabs(slip) < NO_SLIP)
+    vec impulses[IMPULSES];
+    dry_slip(&f->c, l->y, impulses);
+    double slip = LANE(impulses[SLIP], lane);
+    if (has_no_slip(slip))
         return grips(l, f, lane) == KIND_ROLLS;
     LANE(l->sliding, lane) = slip < 0.0 ? -1.0 : 1.0;
     LANE(l->rolling, lane) = 0.0;

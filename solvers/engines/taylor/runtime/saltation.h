@@ -1,16 +1,15 @@
 /* Saltation: the derivatives of an event's function, its rate along the trajectory, and the motion of its surface. */
 #pragma once
 
-#include "criteria.h"
-#include "events.h"
+#include "guards.h"
 #include "model.h"
 #include "state.h"
 
 #if GRADIENTS
 /* Derivatives of the function of an event that ends a step. */
 typedef struct {
-    mask gap, turned, glass;   /* lanes by the kind of function */
-    mask contact, end, edge;   /* of those at a gap, which one */
+    mask gap, turned, glass;   /* lanes by what the function depends on */
+    mask moving[MOVING_GAPS];  /* of those at a gap that moves with a group, at which */
     vec rate[STATES];          /* of the states at the event */
     vec by_gap, by_approach;   /* of the glass criterion */
     vec pace;                  /* rate of the event's function along the trajectory */
@@ -28,12 +27,11 @@ static meeting met(const fixed *f, const vec (*a)[TERMS], vec h, mask falls, mas
         m.rate[state] = rate;
         m.at[state] = sum_at(a[state], h);
     }
-    m.contact = falls & (event == AT_CONTACT);
-    m.end = falls & (event == AT_RUPTURE);
-    m.edge = falls & (event == AT_TANGENTIAL_EDGE);
-    m.gap = m.contact | m.end | m.edge | (falls & (event == AT_FILM_EDGE));
-    m.turned = falls & (event == AT_TURNING);
-    m.glass = falls & (event == AT_GLASS);
+    for (int which = 0; which < MOVING_GAPS; which++)
+        m.moving[which] = falls & (event == EVENT_AT[which]);
+    m.gap = falls & is_on_gap(event);
+    m.turned = falls & is_on_normal_velocity(event);
+    m.glass = falls & is_on_glass_clearance(event);
     vec limit;
     glass_pressure_margin_slopes(
         m.at[GAP], -m.at[NORMAL_VELOCITY], f->c.glass_number, &m.by_gap, &m.by_approach, &limit);
@@ -45,16 +43,10 @@ static meeting met(const fixed *f, const vec (*a)[TERMS], vec h, mask falls, mas
 /* Derivative of the gap of an event by a group. */
 static inline vec target_along(const fixed *f, const meeting *m, int group)
 {
-    vec zero = splat(0.0), one = splat(1.0);
-    vec moved = choose(m->contact & contact_moves_with(&f->c, group), one, zero);
-#if BRIDGE
-    if (group == BY_RUPTURE_GAP)
-        moved = choose(m->end, one, zero);
-#endif
-#if OBLIQUE
-    if (bits(m->edge))
-        moved = choose(m->edge, tangential_edge_along(&f->c, group), moved);
-#endif
+    vec moved = splat(0.0);
+    for (int which = 0; which < MOVING_GAPS; which++)
+        if (bits(m->moving[which]))
+            moved = choose(m->moving[which], moving_gap_along(f, which, group), moved);
     return moved;
 }
 #endif

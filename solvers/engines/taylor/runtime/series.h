@@ -80,9 +80,9 @@ INLINE vec quotient(const vec *a, const vec *b, const vec *q, vec *over, int k)
 INLINE vec root(const vec *a, const vec *q, vec *over, int k)
 {
     if (k == 0) {
-        vec found = vec_sqrt(a[0]);
-        *over = 0.5/found;
-        return found;
+        vec root = vec_sqrt(a[0]);
+        *over = 0.5/root;
+        return root;
     }
     if (k == 1)
         return a[1]**over;

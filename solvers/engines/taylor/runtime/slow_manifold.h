@@ -34,17 +34,17 @@ typedef struct {
     vec gap, distance, slowing, relaxation, rigid, centrifugal, attractions;
 } place;
 
-static inline void look_at(slow_series *s, const constants *c, vec gap, place *found)
+static inline void look_at(slow_series *s, const constants *c, vec gap, place *at)
 {
     s->gap[0] = gap;
     slow_coefficients(s, c, 0);
-    found->gap = gap;
-    found->distance = s->distance[0];
-    found->slowing = s->slowing[0];
-    found->relaxation = s->relaxation[0];
-    found->rigid = s->rigid[0];
-    found->centrifugal = s->centrifugal[0];
-    found->attractions = s->attractions[0];
+    at->gap = gap;
+    at->distance = s->distance[0];
+    at->slowing = s->slowing[0];
+    at->relaxation = s->relaxation[0];
+    at->rigid = s->rigid[0];
+    at->centrifugal = s->centrifugal[0];
+    at->attractions = s->attractions[0];
 }
 
 /* Decay times of the faster motions while the film's slowing falls by a factor e, on the slow manifold to leading order;
@@ -217,10 +217,10 @@ static mask forgets(
 /* Velocity that the film takes from initial contact to a gap. */
 static inline vec taken(const constants *c, vec gap)
 {
-    vec y[STATES], found;
+    vec y[STATES], taken;
     y[GAP] = gap;
-    film_taken(c, y, &found);
-    return found;
+    film_taken(c, y, &taken);
+    return taken;
 }
 
 /* Bounds the opening of doublets at initial contact; returns the lanes that surely turn in the film without meeting a

@@ -117,7 +117,7 @@ typedef struct {
 #if GRADIENTS
     double *by_group, *gradients; /* RESULTS derivatives by each group, and by each quantity */
     nearness *near;
-    unsigned asked;               /* requested groups, as bits */
+    unsigned requested;               /* requested groups, as bits */
 #endif
 #if BACKWARD
     struct tape *tape;

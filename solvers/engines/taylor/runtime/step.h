@@ -7,8 +7,7 @@
 #include "tangents.h"
 #include "turning_axes.h"
 
-/* The bits of a positive double, read as an integer, approximate its logarithm: step lengths are exact to some percent.
- * */
+/* The bits of a positive double, read as an integer, approximate its logarithm, with an error of some percent. */
 static const int64_t ONE = 0x3ff0000000000000;
 
 static inline vec power_of(vec logarithm)
@@ -17,8 +16,7 @@ static inline vec power_of(vec logarithm)
     return from_pattern((word)(to_whole(logarithm) + ONE));
 }
 
-/* Least ratio, as a logarithm, of a state's scale to `share` times its coefficient k; `least_room` if that is smaller.
- * */
+/* Least logarithm of a state's scale over `share` times its coefficient k; `least_room` if that is smaller. */
 static inline mask room_of(const mask *magnitude, const vec (*a)[TERMS], int k, double share, mask least_room)
 {
     EACH_SIZE(state)
@@ -29,12 +27,10 @@ static inline mask room_of(const mask *magnitude, const vec (*a)[TERMS], int k, 
 #if GRADIENTS && !BACKWARD
 static inline vec room(const mask *magnitude, const vec (*a)[TERMS], int k, double share, const tangents *along)
 {
-    mask found = room_of(magnitude, a, k, share, splat_mask(INT64_MAX));
-    for (unsigned left = along->asked; left; left &= left - 1) {
-        int group = first_of(left);
-        found = room_of(along->scale[group], (const vec (*)[TERMS])along->t[group], k, share, found);
-    }
-    return to_vec(found);
+    mask least_so_far = room_of(magnitude, a, k, share, splat_mask(INT64_MAX));
+    EACH_OF(group, along->requested)
+        least_so_far = room_of(along->scale[group], (const vec (*)[TERMS])along->t[group], k, share, least_so_far);
+    return to_vec(least_so_far);
 }
 #define ROOM(k, share) room(magnitude, a, k, share, along)
 #else

@@ -28,8 +28,7 @@ const int row_turned = -1;
 /* Rows beyond the available room are counted but not written; the caller repeats the call with more room. */
 static void keep_steps(queue *q, const lanes *l, const vec (*a)[TERMS], vec length)
 {
-    for (unsigned left = bits(l->alive); left; left &= left - 1) {
-        int lane = first_of(left);
+    EACH_OF(lane, bits(l->alive)) {
         if (q->t->steps++ >= q->step_room)
             continue;
         step_row *row = q->written + q->t->steps - 1;
@@ -60,8 +59,7 @@ OUTLINE void note_peaks(const queue *q, const lanes *l, const fixed *f, const se
         vec reach = glass_reach(vec_max(approach, splat(0.0)), f->c.glass_number);
         largest = vec_max(largest, reach/sum_at(s->gap, t));
     }
-    for (unsigned left = bits(l->alive & l->closing); left; left &= left - 1) {
-        int lane = first_of(left);
+    EACH_OF(lane, bits(l->alive & l->closing)) {
         double *peak = q->peaks + LANE(l->index, lane);
         *peak = fmax(*peak, 2.0*log(LANE(largest, lane)));
     }

@@ -21,16 +21,16 @@ static const vec NOTHING[TERMS];
 /* Series of the derivatives, and the scale of their errors: their own magnitude, or the state's for an elasticity of
  * one. A mode that has decayed in the state may persist in its tangent, so both share the step.
  */
-static void expand_along(tangents *all, const lanes *l, const fixed *f, const series *s, const slopes *d, unsigned asked)
+static void expand_along(tangents *all, const lanes *l, const fixed *f, const series *s, const slopes *d, unsigned requested)
 {
     vec own[STATES];
     EACH_SIZE(state)
         own[state] = size_of(l->y, 1, state) + (state == NORMAL_VELOCITY ? f->rest : state == GAP ? splat(0.0) : splat(1e-3));
-    all->asked = 0;
+    all->requested = 0;
     for (int group = 0; group < GROUPS; group++) {
-        if (!(asked >> group & 1) || !bits(l->along.there[group] & l->alive))
+        if (!(requested >> group & 1) || !bits(l->along.there[group] & l->alive))
             continue;
-        all->asked |= 1u << group;
+        all->requested |= 1u << group;
         const vec *source[STATES];
         vec(*t)[TERMS] = all->t[group];
         for (int state = 0; state < STATES; state++) {
@@ -46,7 +46,7 @@ static void expand_along(tangents *all, const lanes *l, const fixed *f, const se
 
 /* Derivatives at the end of a step, on the surface of the event that ends it. */
 static void carry(lanes *l, const fixed *f, const series *s, const tangents *all, vec h, mask falls, mask event,
-    unsigned asked)
+    unsigned requested)
 {
     carried *a = &l->along;
     meeting m;
@@ -55,9 +55,9 @@ static void carry(lanes *l, const fixed *f, const series *s, const tangents *all
     if (meets)
         m = met(f, (const vec (*)[TERMS])s, h, falls, event);
     for (int group = 0; group < GROUPS; group++) {
-        if (!(asked >> group & 1))
+        if (!(requested >> group & 1))
             continue;
-        if (all->asked >> group & 1)
+        if (all->requested >> group & 1)
             for (int state = 0; state < STATES; state++)
                 a->t[group][state] = choose(l->alive, sum_at(all->t[group][state], h), a->t[group][state]);
         if (!meets)

@@ -61,7 +61,7 @@ static void along_start(carried *a, int lane)
 typedef struct {
     vec t[GROUPS][STATES][TERMS];
     mask scale[GROUPS][STATES];
-    unsigned asked;
+    unsigned requested;
 } tangents;
 
 static const double DERIVATIVES = 4.0; /* tolerance of derivatives relative to that of states */

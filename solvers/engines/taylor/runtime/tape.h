@@ -36,7 +36,7 @@ struct tape {
     taped_rebound *rebounds;
     taped_end *ends;
     double (*rows)[FIXED];         /* constants of the trajectories that separated */
-    struct derivatives *found;     /* of them (adjoint.h) */
+    struct derivatives *derivatives; /* of them (adjoint.h) */
     long stepped, rebounded, ended;
     long begun[LANES], rebound[LANES];
     int full;

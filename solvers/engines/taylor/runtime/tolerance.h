@@ -32,7 +32,7 @@ static unsigned set_tolerance(const queue *q, fixed *f)
             LANE(f->rest, lane) = pow(10.0, fmax(4.0*floor(log10(of)/4.0) - 3.0, -200.0));
         if (LANE(net, lane) > 1.0)
             LANE(f->tolerance, lane) = fmax(rtol*pow(10.0, -ceil(log10(LANE(net, lane)))), fmin(rtol, TIGHTEST));
-        if (of > MOST_OBLIQUE)
+        if (is_too_oblique(LANE(f->c.obliquity, lane), LANE(f->c.aspect, lane)))
             beyond |= 1u << lane;
     }
 #endif

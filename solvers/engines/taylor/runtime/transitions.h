@@ -21,8 +21,7 @@ static void separated(queue *q, lanes *l, fixed *f, int lane)
 static void parts(queue *q, lanes *l, fixed *f, int lane)
 {
 #if OBLIQUE
-    double least = LEAST_PARTING*LANE(f->c.obliquity, lane)*sqrt(LANE(f->c.aspect, lane));
-    if (LANE(l->y[NORMAL_VELOCITY], lane) < least) {
+    if (is_within_rounding(LANE(l->y[NORMAL_VELOCITY], lane), LANE(f->c.obliquity, lane), LANE(f->c.aspect, lane))) {
         finish(q, l, f, lane, WITHIN_ROUNDING, STICK, 0);
         return;
     }
@@ -35,9 +34,9 @@ static void opens(lanes *l, const fixed *f, int lane)
 {
     LANE(l->closing, lane) = 0;
     LANE(l->resting, lane) = 0;
-    if (!SPREAD && LANE(l->y[GAP], lane) == 1.0)
+    if (!SPREAD && is_on_edge(LANE(l->y[GAP], lane), 1.0))
         LANE(l->film, lane) = 0.0;
-    if (LANE(l->y[GAP], lane) == LANE(f->edge, lane))
+    if (is_on_edge(LANE(l->y[GAP], lane), LANE(f->edge, lane)))
         LANE(l->shear, lane) = 0.0;
 #if RUBS
     LANE(l->sliding, lane) = LANE(l->rolling, lane) = 0.0;
@@ -78,8 +77,8 @@ static void rub(queue *q, lanes *l, fixed *f, int lane, int kind, int rests)
 /* Whether a rebound to this state is too weak to open the gap. */
 static int too_weak(const queue *q, const fixed *f, const vec *after, int lane)
 {
-    double left = LANE(after[NORMAL_VELOCITY], lane), inward = in_lane(inward_force(&f->c, after), lane);
-    return inward > 0.0 && (left < REST_SPEED || left*left/(2.0*inward) < q->rtol*LANE(after[GAP], lane));
+    double inward = in_lane(inward_force(&f->c, after), lane);
+    return is_too_weak(inward, LANE(after[NORMAL_VELOCITY], lane), q->rtol, LANE(after[GAP], lane));
 }
 
 #if FRICTION
@@ -91,7 +90,7 @@ static int comes_to_rest(const queue *q, const lanes *l, const fixed *f, int lan
     rubbed(&f->c, l->y, splat(touched(&f->c, l->y, lane, kind, 0).impulse), slid);
     memcpy(after, slid, sizeof after);
     rebound(&f->c, slid, after);
-    return LANE(after[GAP], lane) < LANE(f->end, lane) && too_weak(q, f, after, lane);
+    return !is_parted(LANE(after[GAP], lane), LANE(f->end, lane)) && too_weak(q, f, after, lane);
 }
 #endif
 
@@ -119,7 +118,7 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         LANE(l->reversal, lane) = kind;
     new_phase(l, lane);
     note(q, LANE(l->index, lane), kind, LANE(l->time, lane));
-    if (LANE(l->y[GAP], lane) >= LANE(f->end, lane)) { /* the gap of separation */
+    if (is_parted(LANE(l->y[GAP], lane), LANE(f->end, lane))) {
         separated(q, l, f, lane);
         return;
     }
@@ -200,20 +199,19 @@ static mask own_events_due(const lanes *l, const fixed *f, mask *event)
     return due;
 }
 #endif /* OWN_EVENTS */
-/* Rebound in the lanes of `asked`, which start a closing phase, if a criterion is met already: the first in the table.
- * */
-static void criteria_met_by(queue *q, lanes *l, fixed *f, mask asked)
+/* Rebound by the first criterion of the table that is met already, in these lanes, which start a closing phase. */
+static void criteria_met_by(queue *q, lanes *l, fixed *f, mask candidates)
 {
-    unsigned glass = bits(asked & (glass_clearance(&f->c, l->y) <= 0.0));
+    unsigned glass = bits(candidates & (glass_clearance(&f->c, l->y) <= 0.0));
 #if WITH_TRAJECTORY
     glass = q->t->purpose == APPROACH ? 0 : glass;
 #endif
-    unsigned any = glass | bits(asked & (l->y[GAP] <= f->contact));
+    unsigned any = glass | bits(candidates & (l->y[GAP] <= f->contact));
 #if GRADIENTS
     if (glass) {
         vec met = vec_abs(vec_log(1.0 - pressure_margin(&f->c, l->y)));
-        for (unsigned left = glass; left; left &= left - 1)
-            along_near(&l->along, first_of(left), LANE(met, first_of(left)), TOUCH);
+        EACH_OF(lane, glass)
+            along_near(&l->along, lane, LANE(met, lane), TOUCH);
     }
 #endif
     EACH_LANE(lane)
@@ -233,9 +231,9 @@ static int rests_ended(queue *q, lanes *l, fixed *f)
 #if WITH_TRAJECTORY
     proved &= provable(q, l->closing);
 #endif
-    for (unsigned left = bits(rests); left; left &= left - 1) {
-        int lane = first_of(left), sure = LANE(proved, lane) != 0;
-        finish(q, l, f, lane, sure ? DECIDED : RESTS_IN_FRICTION, STICK, sure);
+    EACH_OF(lane, bits(rests)) {
+        int certain = LANE(proved, lane) != 0;
+        finish(q, l, f, lane, certain ? DECIDED : RESTS_IN_FRICTION, STICK, certain);
     }
     return 1;
 }
@@ -258,8 +256,8 @@ static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
 #if WITH_TRAJECTORY
     still &= provable(q, l->closing);
 #endif
-    for (unsigned left = bits(still); left; left &= left - 1)
-        sticks_for_good(q, l, f, first_of(left), 0);
+    EACH_OF(lane, bits(still))
+        sticks_for_good(q, l, f, lane, 0);
     return bits(still) != 0;
 }
 #endif
@@ -270,11 +268,11 @@ static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
  */
 static void criteria_met(queue *q, lanes *l, fixed *f)
 {
-    mask asked = l->fresh & l->alive & l->closing & NOT(l->resting);
+    mask candidates = l->fresh & l->alive & l->closing & NOT(l->resting);
     l->fresh = splat_mask(0);
-    while (bits(asked)) {
-        criteria_met_by(q, l, f, asked);
-        asked = l->fresh & l->alive & l->closing & NOT(l->resting);
-        l->fresh &= NOT(asked);
+    while (bits(candidates)) {
+        criteria_met_by(q, l, f, candidates);
+        candidates = l->fresh & l->alive & l->closing & NOT(l->resting);
+        l->fresh &= NOT(candidates);
     }
 }

@@ -16,10 +16,10 @@ typedef struct {
 /* The axes of some lanes; those of the others do not turn. */
 static void begin_turning(axes *w, const constants *c, const vec *y, mask turns)
 {
-    vec found[4], square = splat(0.0);
-    precession(c, y, found);
+    vec momentum[4], square = splat(0.0);
+    precession(c, y, momentum);
     for (int k = 0; k < 3; k++) {
-        w->velocity[k] = only(turns, found[3]*found[k]);
+        w->velocity[k] = only(turns, momentum[3]*momentum[k]);
         square += w->velocity[k]*w->velocity[k];
     }
     w->rate = vec_sqrt(square);

@@ -116,16 +116,16 @@ INLINE mask splat_mask(int64_t x)
 
 INLINE word pattern(vec x)
 {
-    word found;
-    memcpy(&found, &x, sizeof found);
-    return found;
+    word result;
+    memcpy(&result, &x, sizeof result);
+    return result;
 }
 
 INLINE vec from_pattern(word x)
 {
-    vec found;
-    memcpy(&found, &x, sizeof found);
-    return found;
+    vec result;
+    memcpy(&result, &x, sizeof result);
+    return result;
 }
 
 INLINE vec only(mask m, vec x)
@@ -161,6 +161,10 @@ INLINE mask to_whole(vec x)
 #endif
 
 #define EACH_LANE(lane) for (int lane = 0; lane < LANES; lane++)
+/* Each lane of a set of bits, in ascending order. */
+#define EACH_OF(lane, set) \
+    for (unsigned left_of_##lane = (set); left_of_##lane; left_of_##lane &= left_of_##lane - 1) \
+        for (int lane = first_of(left_of_##lane), once = 1; once; once = 0)
 
 static const uint64_t SIGN = 0x8000000000000000; /* of a double */
 static const double PI = 3.14159265358979323846;
@@ -203,16 +207,16 @@ static inline unsigned bits(mask m)
 #if LANES >= 8 && defined(__AVX512DQ__) && HAS_BUILTIN(__builtin_ia32_cvtq2mask512)
     typedef long long eight __attribute__((vector_size(64)));
     eight part[LANES/8];
-    unsigned found = 0;
+    unsigned result = 0;
     memcpy(part, &m, sizeof m);
-    for (int k = 0; k < LANES/8; k++) found |= (unsigned)__builtin_ia32_cvtq2mask512(part[k]) << (8*k);
-    return found;
+    for (int k = 0; k < LANES/8; k++) result |= (unsigned)__builtin_ia32_cvtq2mask512(part[k]) << (8*k);
+    return result;
 #elif LANES == 4 && defined(__AVX2__) && HAS_BUILTIN(__builtin_ia32_movmskpd256)
     return (unsigned)__builtin_ia32_movmskpd256((vec)m);
 #else
-    unsigned found = 0;
-    EACH_LANE(lane) found |= (unsigned)(LANE(m, lane) != 0) << lane;
-    return found;
+    unsigned result = 0;
+    EACH_LANE(lane) result |= (unsigned)(LANE(m, lane) != 0) << lane;
+    return result;
 #endif
 }
 

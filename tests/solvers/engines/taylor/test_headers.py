@@ -15,7 +15,7 @@ from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
 
 NAMES = sorted(path.name for path in RUNTIME.glob("*.h"))
-MADE = ("settings.h", "layout.h", "automaton.h", "criteria.h", "effects.h", "model.h")
+MADE = ("settings.h", "layout.h", "automaton.h", "criteria.h", "effects.h", "guards.h", "proofs.h", "model.h")
 # What a variant, or a header without those that use it, has no use for is not called; the compiler drops it.
 WARNINGS = ("-Wall", "-Wextra", "-Werror", "-Wno-unused-function")
 VARIANTS = {

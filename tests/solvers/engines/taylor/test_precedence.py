@@ -18,7 +18,7 @@ from wetdoublet.solvers.model.model import select_model
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 
 # Series of which those asked for are 1 - 2 t, up to a power of two: they vanish together, to the last bit.
-HARNESS = """#include "events.h"
+HARNESS = """#include "guards.h"
 
 static series s;
 static lanes l;
@@ -44,9 +44,8 @@ int reported(unsigned wanted, int closing, int inside, int sheared, int resting,
     LINE(s.acceleration, -1.0, 2.0, AT_RELEASE);
     LINE(s.rotation, M_PI - 1.0, 2.0, AT_HALF_TURN);
     LINE(s.orbital_momentum, 1.0, -2.0, AT_UNWINDING);
-    first_event found;
-    find_events(&s, &l, &f, splat(1.0), &found);
-    return LANE(found.time, 0) == 0.5 ? (int)LANE(found.event, 0) : -1;
+    first_event first = find_events(&s, &l, &f, splat(1.0));
+    return LANE(first.time, 0) == 0.5 ? (int)LANE(first.event, 0) : -1;
 }
 """
 NUMBER = {event.name: number for number, event in enumerate(EVENTS)}

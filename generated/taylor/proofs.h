@@ -1,0 +1,50 @@
+/* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
+ * Automaton sha256 1853abe51a314a9bd8d6d5094658308d2add2b86e4547aafce258c3c193403c3
+ *
+ * Inequalities of stick proofs. Included where `vec` and `mask` are known. */
+
+/* Lanes in which the energy is below a barrier ahead, lowered by what a drift of angular momentum may do. */
+static inline mask is_below_barrier(vec energy, vec height, double margin, vec largest, vec drift)
+{
+    return (energy < height - margin*(largest + vec_abs(height)) - drift);
+}
+
+/* Lanes in which the attraction lets no maximum of the gap exceed the one before. */
+static inline mask attraction_holds(vec gap, vec contact, double margin, vec hold, vec rebound, vec escape,
+    vec energy)
+{
+    return ((gap >= contact*(1 - margin)) & (hold > 0) & (rebound < -margin*hold) & (escape <
+        -margin*energy));
+}
+
+/* Lanes in which without angular momentum, or without orbital momentum, the film keeps the doublet. */
+static inline mask spins_down(vec gap, vec contact, double margin, vec momentum, vec negligible, vec rate, vec
+    stays, vec error, vec orbital_momentum, vec inside, vec apart)
+{
+    return ((gap >= contact*(1 - margin)) & (((momentum <= negligible) & (rate > 0) & (stays < -error)) |
+        ((orbital_momentum == 0) & (inside < 0) & (apart < -error))));
+}
+
+/* Lanes in which the reaction of a resting doublet stays inward at the largest momentum that slip allows. */
+static inline mask rests_for_good(vec reaction, double margin, vec largest)
+{
+    return (reaction > margin*largest);
+}
+
+/* Lanes in which the energy does not suffice for a gap ahead. */
+static inline mask stays_below(vec needed, double margin, vec size)
+{
+    return (needed < -margin*size);
+}
+
+/* Lanes in which a rebound loses more than the rotation gives on the way back to the maximum. */
+static inline mask comes_back(vec outward, vec lost, double margin)
+{
+    return (outward < lost*(1 - margin));
+}
+
+/* Lanes in which a doublet that tumbles as one body is held with all momentum across the line of centres. */
+static inline mask tumbles_for_good(vec rest, vec rigid, vec work, vec height, double margin, vec largest)
+{
+    return ((rest < TUMBLES*rigid) & (rest + rigid + work < height - margin*(largest + vec_abs(height))));
+}

@@ -1,0 +1,70 @@
+"""The conditions of rules and the inequalities of stick proofs decide alike in both engines."""
+
+from __future__ import annotations
+
+import ctypes
+import inspect
+import subprocess
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from wetdoublet.generated import automaton
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.engines.taylor import build
+from wetdoublet.solvers.engines.taylor.headers import headers
+from wetdoublet.solvers.engines.taylor.includes import resolved
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.model.model import select_model
+
+pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+
+CONDITIONS = {
+    name: each
+    for name, each in vars(automaton).items()
+    if inspect.isfunction(each) and each.__module__ == automaton.__name__
+}
+VALUES = [0.0, 1.0, 1e-13, 1e-9, 1e9, float("nan")]
+
+
+def call(name: str, condition: Callable[..., bool]) -> str:
+    """A C function that returns a condition of numbers in an array."""
+    kinds = {each: parameter.annotation for each, parameter in inspect.signature(condition).parameters.items()}
+    numbers = [
+        f"x[{k}]" if kind == "float" or each == "margin" else f"splat(x[{k}])"
+        for k, (each, kind) in enumerate(kinds.items())
+    ]
+    result = f"{name}({', '.join(numbers)})"
+    result = f"LANE({result}, 0) != 0" if "Any" in kinds.values() else result
+    return f"int call_{name}(const double *x) {{ return {result}; }}\n"
+
+
+@pytest.fixture(scope="module")
+def kernel(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
+    """The conditions as compiled."""
+    choice = select_model(Scene.load("granulation"), True)
+    emitted, tool = headers(choice), compiler()
+    assert emitted is not None
+    assert tool is not None
+    folder = tmp_path_factory.mktemp("conditions")
+    calls = '#include "guards.h"\n' + "".join(call(*each) for each in CONDITIONS.items())
+    (folder / "conditions.c").write_text(resolved(calls, build.files(build.Variant(choice, 9, lanes=2), emitted)))
+    flags = ["-std=gnu11", "-fPIC", "-shared", "-O1"]
+    command = [*tool.command, *flags, "-o", str(folder / "it.so"), str(folder / "conditions.c"), "-lm"]
+    subprocess.run(command, check=True, capture_output=True)
+    return ctypes.CDLL(str(folder / "it.so"))
+
+
+@pytest.mark.parametrize("name", CONDITIONS)
+def test_a_condition_is_the_same_in_both_engines(kernel: ctypes.CDLL, name: str) -> None:
+    """For numbers of any size, on limits, and for NaN, with which no condition holds; both answers occur."""
+    condition, rng = CONDITIONS[name], np.random.default_rng(7)
+    compiled = getattr(kernel, f"call_{name}")
+    names, answers = list(inspect.signature(condition).parameters), set()
+    for _ in range(4000):
+        some = np.where(rng.random(len(names)) < 0.5, rng.choice(VALUES, len(names)), rng.normal(size=len(names)))
+        numbers = [abs(value) if each in ("aspect", "margin") else value for each, value in zip(names, some.tolist())]
+        expected = bool(condition(*numbers))
+        assert bool(compiled((ctypes.c_double * len(names))(*numbers))) == expected, numbers
+        answers.add(expected)
+    assert answers == {True, False}
