@@ -51,7 +51,11 @@ def _one(request: Batch, k: int, machine_code: bool) -> dict[str, Any]:
         return locate(model, groups, rtol, ("rotation",) if turns else extras, located and machine_code, 0.0, steps)
 
     def kept(path: EventSequence, plugin: str, tolerance: Tolerance, flow: Flow, start: np.ndarray) -> Replay:
-        return as_located(path, flow.choice) if located else replay(path, plugin, tolerance, flow, start)
+        if not located:
+            return replay(path, plugin, tolerance, flow, start)
+        replayed = as_located(path, flow.choice)
+        replayed.time = path.time
+        return replayed
 
     one = by_casadi(scene, n, request.rtol, plugin, ledger, False, find, replay=kept)
     values: dict[str, Any] = {"outcome": OUTCOMES.index(one.outcome), "certified": one.certified}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property, reduce
+from functools import cached_property, lru_cache, reduce
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -41,6 +41,7 @@ class ModelKey:
         return dict(self.laws).get(slot)
 
 
+@lru_cache(maxsize=256)
 def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = False, space: bool = False) -> ModelKey:
     """The key of the smallest structure that represents the scene.
 
