@@ -53,7 +53,7 @@ class OrbitalMomentumCertificate(Certificate):
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
         if self._drifts and not is_never_released(self.model, phase):
-            return Certainty.of(self.holds(y), self.theorem)
+            return Certainty.of(self.sticks(y, phase, maxima), self.theorem)
         return super().decided(y, phase, maxima)
 
     def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:

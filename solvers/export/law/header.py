@@ -47,7 +47,7 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
         *comment(_frame(scene)),
         *_structure("law_impact", of_impact),
         *comment("Outcomes."),
-        *_enumeration([("UNDECIDED", -1, "there is no answer; `status` says why")] + _OUTCOMES),
+        *_enumeration([("UNDECIDED", -1, "there is no answer; `status` says why"), *_OUTCOMES]),
         *comment("Rebound criteria."),
         *_enumeration(
             [("NO_REBOUND", -1, "none was met")]
