@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 e89334728bcf96799578dc222063336df5112b75a15b7055c7b4e9926b51e0b9
+# Automaton sha256 d9f0aac7db8099ddd3c7af6bc9a4df44d3463947a8456718dbfc6a340ef1573a
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -186,6 +186,16 @@ def attraction_holds(gap: Any, contact: Any, margin: Any, hold: Any, rebound: An
 def spins_down(gap: Any, contact: Any, margin: Any, momentum: Any, negligible: Any, rate: Any, stays: Any, error: Any, orbital_momentum: Any, inside: Any, apart: Any) -> Any:
     """True if without angular momentum, or without orbital momentum, the film keeps the doublet."""
     return gap >= contact*(1 - margin) and (momentum <= negligible and rate > 0 and stays < -error or orbital_momentum == 0 and inside < 0 and apart < -error)
+
+
+def is_stopped(excess: Any, error: Any) -> Any:
+    """True if the film takes more than what drives a motion."""
+    return excess + error < 0
+
+
+def points_inward(outward: Any, pull: Any, margin: Any) -> Any:
+    """True if all forces but that of the film point inward."""
+    return outward - pull + margin*(outward + pull) < 0
 
 
 def rests_for_good(reaction: Any, margin: Any, largest: Any) -> Any:

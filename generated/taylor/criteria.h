@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 e89334728bcf96799578dc222063336df5112b75a15b7055c7b4e9926b51e0b9
+ * Automaton sha256 d9f0aac7db8099ddd3c7af6bc9a4df44d3463947a8456718dbfc6a340ef1573a
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

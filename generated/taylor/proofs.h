@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 e89334728bcf96799578dc222063336df5112b75a15b7055c7b4e9926b51e0b9
+ * Automaton sha256 d9f0aac7db8099ddd3c7af6bc9a4df44d3463947a8456718dbfc6a340ef1573a
  *
  * Inequalities of stick proofs. Included where `vec` and `mask` are known. */
 
@@ -23,6 +23,18 @@ static inline mask spins_down(vec gap, vec contact, double margin, vec momentum,
 {
     return ((gap >= contact*(1 - margin)) & (((momentum <= negligible) & (rate > 0) & (stays < -error)) |
         ((orbital_momentum == 0) & (inside < 0) & (apart < -error))));
+}
+
+/* Lanes in which the film takes more than what drives a motion. */
+static inline mask is_stopped(vec excess, vec error)
+{
+    return (excess + error < 0);
+}
+
+/* Lanes in which all forces but that of the film point inward. */
+static inline mask points_inward(vec outward, vec pull, double margin)
+{
+    return (outward - pull + margin*(outward + pull) < 0);
 }
 
 /* Lanes in which the reaction of a resting doublet stays inward at the largest momentum that slip allows. */
