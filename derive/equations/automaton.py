@@ -165,6 +165,8 @@ class Event:
         within_reach: watched only where its gap lies between contact and rupture and is not the film's edge.
         driven: watched only where a tangential force other than that of the dry contact acts.
         scale: dimensionless group that gives the magnitude of the function; 1 if empty.
+        least: constant below which the series is zero at first: its sign there is rounding, and the event happens where
+            the series is below minus this constant.
         chosen_by: what selects among the words: "motion" (closing, opening), "larger gap" (the criterion met first),
             "grip" (whether friction holds the surfaces).
     """
@@ -184,6 +186,7 @@ class Event:
     within_reach: bool = False
     driven: bool = False
     scale: str = ""
+    least: str = ""
     chosen_by: str = ""
 
     @property
@@ -223,7 +226,8 @@ EVENTS = (
           series=("acceleration",), direction=-1, bound="terms", structures=("oblique", "not wall"), dips=True,
           driven=True),
     Event("slipping", ("slipping",), (_RESTING, ("rolling", 0)), ("rolls", "slides"), ("roll or slide",),
-          series=("slip",), follows="sliding", structures=("friction", "not space"), dips=True, chosen_by="grip"),
+          series=("slip",), follows="sliding", structures=("friction", "not space"), dips=True, least="NO_SLIP",
+          chosen_by="grip"),
     Event("rolling", ("rolling",), (_RESTING, ("rolling", 1)), ("slides",), ("slide",),
           series=("grip_backward", "grip_forward"), structures=("friction", "not space"), dips=True),
     Event("half_turn", ("half_turn",), (), ("half turn",), ("cut off",),
@@ -306,7 +310,8 @@ PROOFS = (
           ("gap >= contact*(1 - margin) and (momentum <= negligible and rate > 0 and stays < -error"
            " or orbital_momentum == 0 and inside < 0 and apart < -error)")),
     Proof("is_stopped", "the film takes more than what drives a motion", "excess + error < 0"),
-    Proof("points_inward", "all forces but that of the film point inward", "outward - pull + margin*(outward + pull) < 0"),
+    Proof("points_inward", "all forces but that of the film point inward",
+          "outward - pull + margin*(outward + pull) < 0"),
     Proof("rests_for_good", "the reaction of a resting doublet stays inward at the largest momentum that slip allows",
           "reaction > margin*largest"),
     Proof("stays_below", "the energy does not suffice for a gap ahead", "needed < -margin*size"),

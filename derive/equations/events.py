@@ -62,7 +62,8 @@ def _function(event: Event, name: str, structure: Structure) -> sp.Expr:
     target = CONTACT_GAPS.get(name) or (
         _TARGETS[event.target](structure) if event.target in _TARGETS else q.VOCABULARY[event.target].symbol
     )
-    return sp.expand(sp.Mul(*(event.direction * (SERIES[each](structure) - target) for each in event.series)))
+    margins = (sp.expand(event.direction * (SERIES[each](structure) - target)) for each in event.series)
+    return sp.Min(*margins)  # of several, the first to vanish is the event; a product would be positive beyond both
 
 
 def rebound(states: tuple[sp.Symbol, ...]) -> dict[sp.Symbol, sp.Expr]:

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 d9f0aac7db8099ddd3c7af6bc9a4df44d3463947a8456718dbfc6a340ef1573a */
+ * Automaton sha256 c9ebeb94ff604d23b554e30ed735ffe4db65a45243425f0f33259e5e35a525b7 */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H

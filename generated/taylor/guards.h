@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 d9f0aac7db8099ddd3c7af6bc9a4df44d3463947a8456718dbfc6a340ef1573a
+ * Automaton sha256 c9ebeb94ff604d23b554e30ed735ffe4db65a45243425f0f33259e5e35a525b7
  *
  * The search for the events of a step. Included behind what it calls. */
 
@@ -110,7 +110,8 @@ OUTLINE void find_events_at_rest(const rubbing *r, const lanes *l, vec h, first_
     if (bits(close))
         close &= NOT(least_of(r->rest_slip, h) > 0.0);
     if (bits(close))
-        look(first, close, r->rest_slip, zero, l->sliding, h, splat_mask(AT_SLIPPING));
+        look(first, close, r->rest_slip, only(l->sliding*r->rest_slip[0] < NO_SLIP, -NO_SLIP*l->sliding),
+        l->sliding, h, splat_mask(AT_SLIPPING));
     close = rests & (l->rolling != 0.0);
     if (bits(close))
         close &= NOT((r->rest_grip_backward[0] > 0.0) & (least_of(r->rest_grip_backward, h) > 0.0));

@@ -16,8 +16,8 @@ from ..host.arguments import check_function, check_name, check_names
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
 from ..many.batch import checked_numbers
-from ..many.dataset import fill
 from ..many.journal import Journal, checked_journal
+from ..many.results import fill
 from ..many.scan import software
 from ..model.validity import warn
 from ..scene.scene import Scene
@@ -108,11 +108,6 @@ def collision_averages(
     return dataset(loaded, request.axes, columns, request.attributes(), request.wrt)
 
 
-def check_tolerance(tolerance: object, label: str = "tolerance") -> float:
-    """The tolerance of the quadrature; InputError naming `label` unless it is 1e-9 to 1e-2."""
-    return _TOLERANCE.number(tolerance, label=label)
-
-
 @dataclass(frozen=True)
 class _Request:
     """Averages as requested."""
@@ -134,8 +129,8 @@ class _Request:
         """True if either sphere may be called the first."""
         spins = self.scene.impact.spin, self.scene.impact.partner_spin
         same = spins[1] is None or spins[0] == spins[1]
-        own = any(name in _OF_ONE or name.startswith("partner.") for name in self.wrt)
-        return len(self.shape) == 2 and self.scene.partner is None and same and not own
+        of_one_sphere = any(name in _OF_ONE or name.startswith("partner.") for name in self.wrt)
+        return len(self.shape) == 2 and self.scene.partner is None and same and not of_one_sphere
 
     def scene_of(self, index: tuple[int, ...]) -> Scene:
         """The scene of a pair; InputError if it is impossible."""
@@ -176,7 +171,7 @@ def _checked(
             raise InputError("radii", axis, f"1 to {MOST} different radii", f"has {axis.size}")
         axes = {"radius": axis} if scene.wall else {"radius": axis, "partner_radius": axis.copy()}
     request = _Request(
-        scene, distribution, axes, check_name(films, FILMS, "films"), check_tolerance(tolerance), check_rtol(rtol), ()
+        scene, distribution, axes, check_name(films, FILMS, "films"), _TOLERANCE.number(tolerance), check_rtol(rtol), ()
     )
     first: InputError | None = None
     for index in np.ndindex(request.shape):

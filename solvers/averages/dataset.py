@@ -7,12 +7,10 @@ import io
 import math
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..host import files
 from ..scene.scene import Scene
 from .geometry import BOUNCES, COLUMNS, NORMAL, ROTATES, STICKS, TANGENTIAL
 
@@ -122,8 +120,3 @@ def _cells(values: np.ndarray) -> list[Any]:
     if values.dtype.kind == "f":
         return ["" if math.isnan(value) else repr(value) for value in values.tolist()]
     return [" ".join(str(value).split()) for value in values.tolist()]
-
-
-def write_csv(data: xarray.Dataset, path: str | Path) -> None:
-    """Write the table, complete or not at all. OSError if it cannot be written."""
-    files.write(path, to_csv(data))

@@ -111,23 +111,26 @@ def scene_of_sizes(scene: Scene, radius: float, partner_radius: float | None, fi
         InputError: entries that do not fit together at this size.
     """
     entries = {name: value for name, value in scene.entries.items() if name not in (*_OF_SPHERES, *MEETING)}
-    own = 2 * scene.particles.reduced_radius
-    other = own if scene.partner is None or scene.partner.radius is None else scene.partner.radius
+    reference = 2 * scene.particles.reduced_radius
+    other = reference if scene.partner is None or scene.partner.radius is None else scene.partner.radius
     sphere = 4 / 3 * math.pi
-    entries |= {"particles.radius": radius, "particles.density": 2 * scene.particles.reduced_mass / (sphere * own**3)}
-    growth = radius / own
+    entries |= {
+        "particles.radius": radius,
+        "particles.density": 2 * scene.particles.reduced_mass / (sphere * reference**3),
+    }
+    growth = radius / reference
     if partner_radius is not None:
         mass = 2 * scene.particles.reduced_mass
         mass = mass if scene.partner is None or scene.partner.mass is None else scene.partner.mass
         entries |= {"partner.radius": partner_radius, "partner.density": mass / (sphere * other**3)}
-        growth = (radius + partner_radius) / (own + other)
+        growth = (radius + partner_radius) / (reference + other)
     if films == PROPORTIONAL:
         coating = entries.get("liquid.coating_thickness")
         if isinstance(coating, float):
             if partner_radius is not None:
                 its = entries.get("partner.coating_thickness", coating)
                 entries["partner.coating_thickness"] = float(its) * partner_radius / other
-            entries["liquid.coating_thickness"] = coating * radius / own
+            entries["liquid.coating_thickness"] = coating * radius / reference
         for name in ("liquid.film_thickness", "particles.roughness"):
             if name in entries:
                 entries[name] = float(entries[name]) * growth

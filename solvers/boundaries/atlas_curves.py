@@ -17,9 +17,9 @@ from .arcs import CHORD, Arc, monotone, refined
 from .atlas_points import FOLD, Stretch, named, stretches
 from .changes import Change
 from .continuation import crossings
-from .found import LATTICE, Curve, Curves, Point
 from .plane import ANGLE, Plane
 from .regions import Slab, apart, labelled, slabs
+from .result import LATTICE, Curve, Curves, Point
 from .survey import Survey, lattice, passes, surveyed
 from .trace import Traced, trace
 
@@ -49,11 +49,7 @@ def _lines(plane: Plane, x: np.ndarray, tell: Callable[[int, int], None]) -> Tra
     whole = Traced([], [], 0, 0.0)
     for one in x.tolist():
         scene, angle = plane.scene_at(one)
-        part = trace(scene, np.array([angle]), plane.stokes, plane.rtol)
-        whole.changes += part.changes
-        whole.failures += part.failures
-        whole.collisions += part.collisions
-        whole.resolution = max(whole.resolution, part.resolution)
+        whole.add(trace(scene, np.array([angle]), plane.stokes, plane.rtol))
         tell(len(whole.changes), x.size)
     return whole
 
@@ -124,8 +120,7 @@ def _some(wrong: np.ndarray, points: np.ndarray) -> np.ndarray:
     if wrong.size <= _MORE:
         return wrong
     ordered = wrong[np.argsort(points[wrong, 0], kind="stable")]
-    some: np.ndarray = ordered[np.linspace(0, ordered.size - 1, _MORE).round().astype(int)]
-    return some
+    return np.asarray(ordered[np.linspace(0, ordered.size - 1, _MORE).round().astype(int)])
 
 
 def _against_lines(plane: Plane, arcs: list[Arc], x: np.ndarray, traced: Traced) -> list[tuple[np.ndarray, str]]:

@@ -87,8 +87,7 @@ def _normals(arc: Arc, at: np.ndarray) -> np.ndarray:
     way = np.diff(arc.points, axis=0)
     k = np.clip(np.searchsorted(arc.points[:, 0], at[:, 0]) - 1, 0, len(way) - 1)
     normal = np.column_stack([-way[k, 1], way[k, 0]])
-    unit: np.ndarray = normal / np.linalg.norm(normal, axis=1)[:, None]
-    return unit
+    return np.asarray(normal / np.linalg.norm(normal, axis=1)[:, None])
 
 
 def _filled(codes: np.ndarray) -> np.ndarray:
@@ -97,8 +96,7 @@ def _filled(codes: np.ndarray) -> np.ndarray:
     if not known.size:
         return np.zeros_like(codes)
     nearest = np.abs(np.arange(codes.size)[:, None] - known).argmin(axis=1)
-    filled: np.ndarray = codes[known[nearest]]
-    return filled
+    return np.asarray(codes[known[nearest]])
 
 
 def _cut(
@@ -133,8 +131,7 @@ def _located(plane: Plane, arc: Arc, k: int, before: int) -> np.ndarray:
         if np.linalg.norm(other - one) < _AT:
             break
     middle = _between(plane, arc, one, other, 1)
-    place: np.ndarray = middle[0] if len(middle) else 0.5 * (one + other)
-    return place
+    return np.asarray(middle[0] if len(middle) else 0.5 * (one + other))
 
 
 def _between(plane: Plane, arc: Arc, one: np.ndarray, other: np.ndarray, count: int) -> np.ndarray:
@@ -149,8 +146,7 @@ def _between(plane: Plane, arc: Arc, one: np.ndarray, other: np.ndarray, count: 
         plane.labels, centres, np.tile(normal, (count, 1)), np.full(count, max(0.2 * length, 1e-9)),
         np.full(count, arc.right), np.full(count, arc.left),
     )  # fmt: skip
-    located: np.ndarray = found[~np.isnan(found[:, 0])]
-    return located
+    return np.asarray(found[~np.isnan(found[:, 0])])
 
 
 def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndarray]]) -> list[Stretch]:
@@ -218,7 +214,7 @@ def _joined(parts: list[Stretch], point: Meeting) -> tuple[list[Stretch], str]:
     """Name of the change where two curves meet; they are joined if there is none."""
     ending = [one for one in parts if _touches(one.arc, point.place)]
     if len(ending) != 2:
-        return parts, CORNER
+        return parts, CORNER if ending else ""  # none ends there where another curve passes it
     one, other = ending
     if one.kind != other.kind:
         return parts, KIND

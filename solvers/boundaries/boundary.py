@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -17,14 +17,10 @@ from ..many.batch import checked_numbers, checked_span
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import RTOL, check_rtol
-from .found import LINES, Curves, Lines
 from .plane import ANGLE, check_plane
+from .result import LINES, Curves, Lines
 from .trace import Traced, traces
 from .window import stokes_range
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray
 
 _LARGEST = 1e30  # largest Stokes number; its inverse is the smallest
 _WORTH, _WORTH_BY_KERNEL = 4, 100  # fewest angles for which starting a process pays
@@ -41,28 +37,6 @@ class Boundaries(Lines):
         >>> found.to_dataset().stokes.sizes
         Frozen({'line': 1, 'change': 2})
     """
-
-    def to_dataset(self) -> xarray.Dataset:
-        """Dataset over `line` and `change`, with units in attributes, padded with NaN."""
-        from .labelled import dataset
-
-        return dataset(self)
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each change: angle (rad), stokes, centrifugal, normal and relative speed (m/s), outcomes, kind."""
-        from ..formatting.frames import frame
-
-        pairs = [(angle, one) for angle, line in zip(self.angles, self.changes, strict=True) for one in line]
-        rows = [self.change_dict(one, angle) for angle, one in pairs]
-        names = ("stokes", "centrifugal", "speed", "relative_speed")
-        columns = {name: [row.get(name) for row in rows] for name in names}
-        columns |= {name: [getattr(one, name) for _, one in pairs] for name in ("before", "after", "kind")}
-        return frame({"angle": [angle for angle, _ in pairs], **columns})
-
-    def _repr_html_(self) -> str:
-        from .notebook import html
-
-        return html(self)
 
     def plot(self, path: str | FilePath | None = None) -> Any:
         """Draw the regions of each outcome, the curves and where they meet; returns the matplotlib Figure.
@@ -86,22 +60,6 @@ class Atlas(Curves, Boundaries):
         >>> found.region([0.5, 0.5], [0.02, 0.4])  # points of the plane: a stick and a bounce
         array([0, 2], dtype=int8)
     """
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each point of each curve: curve (a number), before, after, kind, x (rad or SI) and stokes."""
-        from ..formatting.frames import frame
-
-        rows = [(k, one, x, stokes) for k, one in enumerate(self.curves) for x, stokes in zip(one.x, one.stokes)]
-        return frame(
-            {
-                "curve": [k for k, *_ in rows],
-                "before": [one.before for _, one, *_ in rows],
-                "after": [one.after for _, one, *_ in rows],
-                "kind": [one.kind for _, one, *_ in rows],
-                "x": [x for *_, x, _ in rows],
-                "stokes": [stokes for *_, stokes in rows],
-            }
-        )
 
 
 def boundary(
@@ -145,10 +103,7 @@ def boundary(
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0, 0.0)
     for part in traces(loaded, parts, (low, high), rtol, tell):
-        whole.changes += part.changes
-        whole.failures += part.failures
-        whole.collisions += part.collisions
-        whole.resolution = max(whole.resolution, part.resolution)
+        whole.add(part)
         tell(len(whole.changes))
     back = np.argsort(order, kind="stable")
     return Boundaries(

@@ -1,34 +1,25 @@
-"""Collisions for boundaries by the kernel: outcomes and margins of many, the approach and the escape of one.
-
-`approach` and `escaping` return None where the kernel does not complete a collision; all return None without a kernel.
-"""
+"""Collisions for boundaries by the kernel: outcomes, margins and events of many; None without a kernel."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 
 import numpy as np
 
-from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES, ROTATE, STICK, EventKind, Purpose, Status
+from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES, ROTATE, STICK, Purpose, Status
 from ..collision.by_kernel import words_of
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.endless import limits
-from ..engines.taylor.record import Recorded, Steps, run_recorded
-from ..model.dimensionless import DimensionlessGroups
+from ..engines.taylor.record import run_recorded
 from ..model.model import select_model
 from ..scene.groups import sideways
 from ..scene.scene import Scene
 
-_APPROACH_BUDGET = 2000  # steps; an approach stopped by the film creeps indefinitely
 LOOK_BUDGET = 20_000  # steps of a sampled collision; limits how close to a separatrix collisions are sampled
-_PARTS = np.linspace(0, 1, 5)  # parts of a step at which a trajectory is sampled
-_FINER = 12  # subdivisions, in each round, of the neighbourhood of a maximum
-_ZOOMS = 4
 _EARLIER = 5  # the last state of chatter is compared with the state after this fraction (1/n) of its steps
 
 
-Happenings = list[tuple[str, float]]
+Events = list[tuple[str, float]]
 """Events of a collision, their words and times (x0/v0)."""
 LOOK = np.dtype(
     [
@@ -46,24 +37,6 @@ LOOK = np.dtype(
     ]
 )
 """Record of a sampled collision."""
-
-
-@dataclass(frozen=True)
-class Escaping:
-    """A trajectory until it separates, falls back or rests.
-
-    Attributes:
-        decided: the trajectory has reached its end; else its step budget is exhausted.
-        end: the last state.
-        times, states: samples, states as columns; phases that end at rest in the gap only by their ends.
-    """
-
-    decided: bool
-    separated: bool
-    fell_back: bool
-    end: np.ndarray
-    times: np.ndarray
-    states: np.ndarray
 
 
 def looked(
@@ -110,9 +83,9 @@ def looked(
     return found
 
 
-def happenings(
+def events(
     scene: Scene, speed: np.ndarray, angle: float, rtol: float, budget: int = LOOK_BUDGET
-) -> list[Happenings] | None:
+) -> list[Events] | None:
     """The events of collisions at normal speeds (m/s) and an angle (rad); None if one is not completed."""
     impacts = Impacts(scene, speed, np.full(speed.size, angle), {})
     recorded = run_recorded(
@@ -142,105 +115,3 @@ def _take_limits(
             reached = BOUNCE if part["reversal"][k] >= 0 else ROTATE
             part["outcome"][k] = OUTCOMES.index(STICK if stays else reached)
             part["restitution"][k] = part["time"][k] = np.nan
-
-
-def approach(
-    scene: Scene,
-    n: DimensionlessGroups,
-    rtol: float,
-    solids: dict[str, float],
-    states: int,
-    pressure: Callable[[np.ndarray], np.ndarray],
-    creeping: float,
-) -> tuple[float, float] | None:
-    """Largest pressure and smallest gap (x0) of an approach.
-
-    Arguments:
-        solids: SI quantities of the rebound criteria that replace the scene's.
-        states: number of series that are states of the model.
-        pressure: function of states, as columns.
-        creeping: speed (v0) below which an approach that exhausted its steps counts as stopped.
-    """
-    recorded = _run_kernel(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.APPROACH, _APPROACH_BUDGET)
-    if recorded is None or recorded.steps is None or not recorded.steps.rows.size:
-        return None
-    rows = recorded.steps.rows[recorded.steps.rows["closing"] != 0]
-    if not rows.size:
-        return None
-    steps = Steps(rows, recorded.steps.turned)
-    end = float(rows["time"][-1] + rows["length"][-1])
-    last = steps.states(np.array([end]))[:, 0]
-    if recorded.answers["status"][0] > LAST_ANSWER and not abs(last[1]) < creeping:
-        return None
-
-    def at(times: np.ndarray) -> np.ndarray:
-        return pressure(steps.states(times)[:states])
-
-    times, y = steps.within(_PARTS[:-1])  # drop repeated times, so that a maximum lies between its neighbours
-    times, values = np.append(times, end), pressure(np.column_stack([y, last])[:states])
-    for _ in range(_ZOOMS):
-        top = int(np.argmax(values))
-        times = np.linspace(times[max(top - 1, 0)], times[min(top + 1, times.size - 1)], _FINER + 1)
-        values = at(times)
-    return _summit(times, values), float(last[0])
-
-
-def escaping(
-    scene: Scene, n: DimensionlessGroups, rtol: float, solids: dict[str, float], start: np.ndarray, budget: int
-) -> Escaping | None:
-    """A trajectory until it separates, falls back or rests; certificates end it only while it approaches.
-
-    Arguments:
-        start: the model's states at initial contact.
-        budget: largest number of steps.
-    """
-    recorded = _run_kernel(scene, np.array([n.speed]), n.angle, rtol, solids, Purpose.ESCAPE, budget)
-    if recorded is None or recorded.steps is None or recorded.answers["status"][0] > Status.NO_BUDGET:
-        return None
-    decided = bool(recorded.answers["status"][0] < Status.NO_BUDGET)
-    answer, rows, size = recorded.answers[0], recorded.steps.rows, start.size
-    happened = recorded.events[0, : answer["events"]]
-    separated = bool(answer["outcome"])
-    fell_back = not separated and happened.size > 0 and int(happened["kind"][-1]) == EventKind.FELL_BACK
-    if not rows.size:
-        end = start.copy()
-        end[1] = answer["shown"][0] if separated else end[1]
-        return Escaping(decided, separated, fell_back, end, np.zeros(1), start[:, None])
-    ends = rows["time"] + rows["length"]
-    # end times of phases that end at rest in the gap
-    turns = happened["time"][np.isin(happened["kind"], (EventKind.TURNED, EventKind.FELL_BACK))]
-    lasts = np.append(np.flatnonzero(np.diff(rows["phase"])), rows.size - 1)
-    resting_end = dict(zip(rows["phase"][lasts].tolist(), np.isin(ends[lasts], turns).tolist(), strict=True))
-    looked_at = np.array([not resting_end[phase] for phase in rows["phase"].tolist()])
-    times, states = Steps(rows[looked_at], None).within(_PARTS)
-    more, turned = Steps(rows[lasts], None).within(np.ones(1))
-    end = turned[:size, -1]
-    if separated:
-        end[1] = answer["shown"][0]
-    times = np.concatenate([np.zeros(1), times, more])
-    states = np.hstack([start[:, None], states[:size], turned[:size]])
-    return Escaping(decided, separated, fell_back, end, times, states)
-
-
-def _summit(at: np.ndarray, values: np.ndarray) -> float:
-    """The maximum of values on an even grid, by a parabola through the largest and its neighbours."""
-    top = int(np.argmax(values))
-    if top in (0, at.size - 1):
-        return float(values[top])
-    before, here, after = (float(value) for value in values[top - 1 : top + 2])
-    bend = before - 2 * here + after
-    return here - (after - before) ** 2 / (8 * bend) if bend < 0 else here
-
-
-def _run_kernel(
-    scene: Scene,
-    speeds: np.ndarray,
-    angle: float,
-    rtol: float,
-    solids: dict[str, float],
-    purpose: Purpose,
-    budget: int,
-) -> Recorded | None:
-    others = {name: np.full(speeds.size, value) for name, value in solids.items()}
-    impacts = Impacts(scene, speeds, np.full(speeds.size, angle), others)
-    return run_recorded(impacts, scene.turns(angle), rtol, trajectory=True, budget=budget, purpose=purpose, fold=False)

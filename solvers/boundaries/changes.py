@@ -54,17 +54,6 @@ class Change:
         return {"stokes": self.stokes, "centrifugal": self.centrifugal, "from": self.before, "to": self.after}
 
 
-@dataclass(frozen=True)
-class _Bracket:
-    """Two Stokes numbers of a line with different outcomes."""
-
-    line: Line
-    low: float
-    high: float
-    before: str
-    after: str
-
-
 def changes_along(
     lines: Sequence[Line], look: Look, samples: Sequence[np.ndarray]
 ) -> list[list[Change] | ComputationError]:
@@ -76,16 +65,21 @@ def changes_along(
     Returns:
         The changes of each line; or why one could not be located, or that collisions beside one contradict it.
     """
-    samples = [known(own) for own in samples]
-    brackets = [_brackets(line, own) for line, own in zip(lines, samples, strict=True)]
-    everything = list(chain.from_iterable(brackets))
-    enclosed = iter(_enclosed(look, everything, True) if look.kernel else [[] for _ in everything])
-    found = [_attempt(_completed, line, look, own, [next(enclosed) for _ in own]) for line, own in zip(lines, brackets)]
-    good = [k for k, own in enumerate(found) if not isinstance(own, ComputationError)]
-    agrees = _confirmed(look, [(lines[k], found[k]) for k in good], _ACCEPTED)
-    for k, own in zip(good, agrees, strict=True):
-        found[k] = _attempt(_accepted, found[k], own, samples[k])
-    return found
+    if not lines:
+        return []
+    samples = [known(each) for each in samples]
+    joined, line = np.concatenate(samples), np.repeat(np.arange(len(lines)), [each.size for each in samples])
+    brackets = Brackets.between(line, joined["stokes"], joined["outcome"])
+    enclosed = _enclosed(lines, look, brackets, True) if look.kernel else [[] for _ in range(brackets.size)]
+    results = []
+    for k in range(len(lines)):
+        which = np.flatnonzero(brackets.line == k)
+        results.append(_attempt(_completed, lines, look, brackets.part(which), [enclosed[j] for j in which]))
+    done = [k for k, each in enumerate(results) if not isinstance(each, ComputationError)]
+    agree = _confirmed(look, [(lines[k], results[k]) for k in done], _ACCEPTED)
+    for k, each in zip(done, agree, strict=True):
+        results[k] = _attempt(_accepted, results[k], each, samples[k])
+    return results
 
 
 def _attempt(step: Callable[..., Any], *arguments: Any) -> Any:
@@ -96,89 +90,91 @@ def _attempt(step: Callable[..., Any], *arguments: Any) -> Any:
         return error
 
 
-def _brackets(line: Line, samples: np.ndarray) -> list[_Bracket]:
-    """Neighbouring samples with different outcomes."""
-    stokes, words = samples["stokes"].tolist(), [OUTCOMES[k] for k in samples["outcome"]]
-    return [
-        _Bracket(line, stokes[k], stokes[k + 1], words[k], words[k + 1])
-        for k in np.flatnonzero(np.diff(samples["outcome"])).tolist()
-    ]
+def _completed(lines: Sequence[Line], look: Look, brackets: Brackets, enclosed: list[list[Change]]) -> list[Change]:
+    """The changes in the brackets of a line; those that are missing are located by other means."""
+    missing = [k for k, each in enumerate(enclosed) if not each]
+    for k in missing:
+        line, low, high, before, after = (each[k].item() for each in vars(brackets).values())
+        try:
+            enclosed[k] = _smooth(lines[line], low, high, OUTCOMES[before], OUTCOMES[after])
+        except ComputationError:
+            continue
+    if missing:
+        located = [(k, one) for k in missing for one in enclosed[k]]
+        [agree] = _confirmed(look, [(lines[brackets.line[0]], [one for _, one in located])], _LOCATED)
+        wrong = {k for (k, _), agrees in zip(located, agree, strict=True) if not agrees}
+        for k in missing:
+            if k in wrong or not enclosed[k]:
+                [enclosed[k]] = _enclosed(lines, look, brackets.part(np.array([k])), False)
+    return list(chain.from_iterable(enclosed))
 
 
-def _completed(line: Line, look: Look, brackets: list[_Bracket], found: list[list[Change]]) -> list[list[Change]]:
-    """Changes of each bracket of a line; those that are missing are located by other means."""
-    missing = [k for k, own in enumerate(found) if not own]
-    first = [_located(line, brackets[k]) for k in missing]
-    [agrees] = _confirmed(look, [(line, first)], _LOCATED)
-    for k, own, good in zip(missing, first, agrees, strict=True):
-        found[k] = own if good else _enclosed(look, [brackets[k]], False)[0]
-    return found
-
-
-def _accepted(found: list[list[Change]], agrees: list[bool], samples: np.ndarray) -> list[Change]:
-    """The changes of a line.
+def _accepted(changes: list[Change], agree: np.ndarray, samples: np.ndarray) -> list[Change]:
+    """The changes of a line, those closer than MERGED combined, or left out where the outcome returns to the first.
 
     Raises:
-        ComputationError: collisions contradict one of them.
+        ComputationError: collisions or samples contradict one of them.
     """
-    if not all(agrees):
-        at = next(one[0].stokes for one, good in zip(found, agrees, strict=True) if not good)
+    if not agree.all():
         raise ComputationError(
-            f"collisions beside St {at:.10g} do not agree with a change of outcome there", advice="try a smaller --rtol"
+            f"collisions beside St {changes[int(np.argmin(agree))].stokes:.10g} do not agree with a change of outcome "
+            "there",
+            advice="try a smaller --rtol",
         )
-    changes = [one for own in found for one in own]
-    _demand_agreement(changes, samples)
-    return _merged(changes)
+    first = changes[0].before if changes else OUTCOMES[samples["outcome"][0]]
+    expected = np.array([OUTCOMES.index(word) for word in (first, *(one.after for one in changes))])
+    wrong = samples["outcome"] != expected[np.searchsorted([one.stokes for one in changes], samples["stokes"])]
+    if wrong.any():
+        at = samples["stokes"][wrong][0]
+        raise ComputationError(f"the outcome at St {at:.10g} disagrees with the adjacent changes of outcome")
+    merged: list[Change] = []
+    for one in changes:
+        if merged and one.stokes < merged[-1].stokes * (1 + MERGED):
+            both = replace(merged.pop(), after=one.after, kind=PLAIN, merged=True)
+            merged += [both] if both.before != both.after else []
+        else:
+            merged.append(one)
+    return merged
 
 
-def _located(line: Line, bracket: _Bracket) -> list[Change]:
+def _smooth(line: Line, low: float, high: float, before: str, after: str) -> list[Change]:
     """Changes within a bracket, located by smooth functions; empty if these show none."""
-    try:
-        found = _smooth(line, bracket.low, bracket.high, bracket.before, bracket.after)
-    except ComputationError:
-        found = None
-    return [] if found is None else [_change(line, *one) for one in found]
-
-
-Found = tuple[float, str, str, str]  # Stokes number, outcomes below and above, kind
-
-
-def _smooth(line: Line, low: float, high: float, before: str, after: str) -> list[Found] | None:
     if line.model.own_events:
-        return None  # a declared event may come first, at which none of these functions is smooth
-    if BOUNCE not in (before, after):
-        free = _signed_root(_escaping(line, False), low, high, after == ROTATE)
-        if free is not None:
-            return [(free, before, after, FREE)]
+        return []  # a declared event may come first, at which none of these functions is smooth
+
+    def escape(low: float, high: float, before: str, after: str, rebound: bool) -> list[Change]:
+        stokes = _signed_root(lambda at: line.escape(at, rebound), low, high, after != STICK)
+        return [] if stokes is None else [_change(line, stokes, before, after, REVERSED if rebound else FREE)]
+
+    if BOUNCE not in (before, after) and (changes := escape(low, high, before, after, False)):
+        return changes
     met_below, met_above = line.criterion(low) >= 0, line.criterion(high) >= 0
     if met_below == met_above:
-        if not met_below or ROTATE in (before, after):
-            return None
-        rebounds = _signed_root(_escaping(line, True), low, high, after == BOUNCE)
-        return None if rebounds is None else [(rebounds, before, after, REVERSED)]
-    graze = _signed_root(_criterion(line), low, high, met_above)
+        return escape(low, high, before, after, True) if met_below and ROTATE not in (before, after) else []
+
+    def criterion(stokes: float) -> tuple[bool, float | None]:
+        value = line.criterion(stokes)
+        return value >= 0, value
+
+    def outcome(stokes: float, met: bool) -> str:
+        return (BOUNCE if met else ROTATE) if line.escape(stokes, met)[0] else STICK
+
+    graze = _signed_root(criterion, low, high, met_above)
     if graze is None:
-        return None
+        return []
     below, above = graze * (1 - _BESIDE), graze * (1 + _BESIDE)
-    now, then = _outcome(line, below, met_below), _outcome(line, above, met_above)
-    found: list[Found] = []
+    now, then = outcome(below, met_below), outcome(above, met_above)
+    changes = []
     for first, last, one, other, met in ((low, below, before, now, met_below), (above, high, then, after, met_above)):
         if first == above and now != then:
-            found.append((graze, now, then, GRAZE))
+            changes.append(_change(line, graze, now, then, GRAZE))
         if one != other:
-            if {one, other} != {STICK, BOUNCE if met else ROTATE} or last <= first:
-                return None
-            escape = _signed_root(_escaping(line, met), first, last, other != STICK)
-            if escape is None:
-                return None
-            found.append((escape, one, other, REVERSED if met else FREE))
-    return found
-
-
-def _outcome(line: Line, stokes: float, met: bool) -> str:
-    if not line.escape(stokes, met).separates:
-        return STICK
-    return BOUNCE if met else ROTATE
+            escapes = {one, other} == {STICK, BOUNCE if met else ROTATE} and last > first
+            located = escape(first, last, one, other, met) if escapes else []
+            if not located:
+                return []
+            changes += located
+    return changes
 
 
 def _signed_root(function: Function, low: float, high: float, rises: bool) -> float | None:
@@ -194,65 +190,34 @@ def _signed_root(function: Function, low: float, high: float, rises: bool) -> fl
     return root(upwards, at_low, at_high)
 
 
-def _criterion(line: Line) -> Function:
-    def function(stokes: float) -> tuple[bool, float | None]:
-        value = line.criterion(stokes)
-        return value >= 0, value
-
-    return function
-
-
-def _escaping(line: Line, rebound: bool) -> Function:
-    def function(stokes: float) -> tuple[bool, float | None]:
-        found = line.escape(stokes, rebound)
-        return found.separates, found.value
-
-    return function
-
-
-def _confirmed(look: Look, lines: Sequence[tuple[Line, list[list[Change]]]], distance: float) -> list[list[bool]]:
-    """For each group of changes of each line, True if collisions beside them have the right outcomes.
+def _confirmed(look: Look, lines: Sequence[tuple[Line, list[Change]]], distance: float) -> list[np.ndarray]:
+    """For each change of each line, whether the collisions beside it have its outcomes.
 
     Arguments:
-        distance: relative distance of these collisions, below and above; a third of the gap where changes are close.
+        distance: relative distance of these collisions, below and above; a third of the gap where changes are close,
+            and none where no collision fits between two that are merged.
     """
-    places = [_beside([one for group in groups for one in group], distance) for _, groups in lines]
-    angle = np.repeat([line.angle for line, _ in lines], [stokes.size for stokes, _ in places])
-    if not angle.size:
-        return [[bool(group) for group in groups] for _, groups in lines]
-    seen = look.outcomes(angle, np.concatenate([stokes for stokes, _ in places]))["outcome"]
-    own = np.split(seen, np.cumsum([stokes.size for stokes, _ in places])[:-1])
-    return [
-        _agreeing(groups, outcomes, narrow)
-        for (_, groups), outcomes, (_, narrow) in zip(lines, own, places, strict=True)
-    ]
+    angle, places, fits = [], [], []
+    for line, changes in lines:
+        stokes = np.array([one.stokes for one in changes])
+        gaps = np.diff(stokes, prepend=0.0, append=math.inf) / 3
+        below, above = (np.minimum(distance * stokes, each) for each in (gaps[:-1], gaps[1:]))
+        places += [stokes - below, stokes + above]
+        narrow = 3 * gaps < MERGED * np.append(stokes, math.inf)
+        narrow[[0, -1]] = False
+        fits += [narrow[:-1], narrow[1:]]
+        angle += [line.angle] * 2 * stokes.size
+    fit = np.concatenate([*fits, np.zeros(0, bool)])
+    if angle:
+        words = [word for _, changes in lines for side in ("before", "after") for word in
+                 (getattr(one, side) for one in changes)]  # fmt: skip
+        fit |= look.outcomes(np.array(angle), np.concatenate(places))["outcome"] == [OUTCOMES.index(w) for w in words]
+    sides = np.split(fit, np.cumsum([each.size for each in places])[:-1])
+    return [below & above for below, above in zip(sides[::2], sides[1::2])]
 
 
-def _beside(changes: list[Change], distance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Stokes numbers below and above the changes of a line, and where no collision fits between two that are merged."""
-    stokes = np.array([one.stokes for one in changes])
-    gaps = np.diff(stokes, prepend=0.0, append=math.inf) / 3
-    below = stokes - np.minimum(distance * stokes, gaps[:-1])
-    above = stokes + np.minimum(distance * stokes, gaps[1:])
-    narrow = 3 * gaps < MERGED * np.append(stokes, math.inf)
-    narrow[[0, -1]] = False
-    return np.concatenate([below, above]), narrow
-
-
-def _agreeing(groups: list[list[Change]], seen: np.ndarray, narrow: np.ndarray) -> list[bool]:
-    """For each group of changes of a line, True if the outcomes seen below and above each are its own."""
-    agrees, k, size = [], 0, seen.size // 2
-    for group in groups:
-        own = range(k, k + len(group))
-        k += len(group)
-        below_fits = [narrow[j] or seen[j] == OUTCOMES.index(one.before) for j, one in zip(own, group)]
-        above_fits = [narrow[j + 1] or seen[j + size] == OUTCOMES.index(one.after) for j, one in zip(own, group)]
-        agrees.append(bool(group) and all(below_fits) and all(above_fits))
-    return agrees
-
-
-def _enclosed(look: Look, brackets: Sequence[_Bracket], kernel_only: bool) -> list[list[Change]]:
-    """The changes within brackets of any lines, all enclosed together by outcomes to _NARROW in ln St.
+def _enclosed(lines: Sequence[Line], look: Look, brackets: Brackets, kernel_only: bool) -> list[list[Change]]:
+    """The changes within each bracket of any lines, all enclosed together by outcomes to _NARROW in ln St.
 
     Arguments:
         kernel_only: no changes of a bracket within which the kernel does not decide a collision.
@@ -260,83 +225,50 @@ def _enclosed(look: Look, brackets: Sequence[_Bracket], kernel_only: bool) -> li
     Raises:
         ComputationError: no collision within a bracket could be decided.
     """
-    angle = np.array([one.line.angle for one in brackets])
+    angle = np.array([line.angle for line in lines])[brackets.line]
 
     def labels(which: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        outcome: np.ndarray = look.outcomes(angle[which], stokes, kernel_only)["outcome"]
-        return outcome
+        return np.asarray(look.outcomes(angle[which], stokes, kernel_only)["outcome"])
 
-    ends = ([one.low for one in brackets], [one.high for one in brackets])
-    words = ([OUTCOMES.index(one.before) for one in brackets], [OUTCOMES.index(one.after) for one in brackets])
-    wide = Brackets(np.arange(len(brackets)), *(np.array(each) for each in (*ends, *words)))
+    wide = replace(brackets, line=np.arange(brackets.size))
     narrow = enclose(labels, wide, _NARROW, at_once=_AT_ONCE, unknown=-1, logarithmic=True)
-    changes: list[list[Change]] = [[] for _ in brackets]
+    changes: list[list[Change]] = [[] for _ in range(brackets.size)]
     undecided = set()
     for k, low, high, before, after in zip(*(each.tolist() for each in vars(narrow).values()), strict=True):
-        line = brackets[k].line
-        if math.log(high / low) >= MERGED:  # a narrower band may be the error of collisions
-            if not kernel_only:
-                reason = look.reason(line.angle, low, high)
-                raise ComputationError(f"a change of outcome between St {low:.10g} and {high:.10g}: {reason}")
+        line = lines[brackets.line[k]]
+        if math.log(high / low) < MERGED:
+            kind = _kind(line, low, high, OUTCOMES[before], OUTCOMES[after])
+            changes[k].append(_change(line, math.sqrt(low * high), OUTCOMES[before], OUTCOMES[after], kind))
+        elif kernel_only:  # a narrower band may be the error of collisions
             undecided.add(k)
-            continue
-        one = _Bracket(line, low, high, OUTCOMES[before], OUTCOMES[after])
-        changes[k].append(_change(line, math.sqrt(low * high), one.before, one.after, _kind(one)))
-    return [[] if k in undecided else own for k, own in enumerate(changes)]
+        else:
+            reason = look.reason(line.angle, low, high)
+            raise ComputationError(f"a change of outcome between St {low:.10g} and {high:.10g}: {reason}")
+    return [[] if k in undecided else each for k, each in enumerate(changes)]
 
 
-def _kind(one: _Bracket) -> str:
+def _kind(line: Line, low: float, high: float, before: str, after: str) -> str:
     """Kind of a change from its narrow bracket: by what happens first on one of its sides only."""
-    declared = [each.word for each in one.line.model.own_events]
-    if STICK not in (one.before, one.after) and not declared:
+    declared = [each.word for each in line.model.own_events]
+    if STICK not in (before, after) and not declared:
         return GRAZE
     try:
-        low, high = one.line.happenings(one.low, one.high)
+        sides = line.events(low, high)
     except ComputationError:
         return PLAIN
-    words = [[word for word, _ in side] for side in (low, high)]
-    for word in (word for side in words for word in side if word in declared):
-        if (word in words[0]) != (word in words[1]):
+    below, above = ([word for word, _ in side] for side in sides)
+    for word in below + above:
+        if word in declared and (word in below) != (word in above):
             return f"{DECLARED} {word}"
-    k = next((k for k, (a, b) in enumerate(zip(*words)) if a != b), min(len(low), len(high)))
-    begin = low[k - 1][1] if k else 0.0
-    ends = [side[k] for side in (low, high) if len(side) > k]
-    if any(_just_met(word, time - begin, [other - begin for _, other in ends]) for word, time in ends):
+    k = next((k for k, (a, b) in enumerate(zip(below, above)) if a != b), min(len(below), len(above)))
+    begin = sides[0][k - 1][1] if k else 0.0
+    parting = [(side[k][0], side[k][1] - begin) for side in sides if len(side) > k]
+    apart = max((time for _, time in parting), default=0.0) - min((time for _, time in parting), default=0.0)
+    # contact is just met where the other side turns, at the same time; where a saddle parts both sides, one is drawn
+    # into contact, at another time
+    if any(word in CRITERIA and not (word in GAPS and apart > _TOGETHER * time) for word, time in parting):
         return GRAZE
-    return REVERSED if any(word in CRITERIA for word in words[0][:k]) else FREE
-
-
-def _just_met(word: str, time: float, times: list[float]) -> bool:
-    """True if an event of one side only is a rebound criterion that is just met.
-
-    Contact is just met where the other side turns, at the same time. Where a saddle parts both sides, one is drawn into
-    contact, at another time.
-    """
-    return word in CRITERIA and not (word in GAPS and max(times) - min(times) > _TOGETHER * time)
-
-
-def _demand_agreement(changes: list[Change], samples: np.ndarray) -> None:
-    """Raise ComputationError unless every sample has the outcome implied by the changes below it."""
-    at = np.array([one.stokes for one in changes])
-    where = np.searchsorted(at, samples["stokes"])
-    first = changes[0].before if changes else OUTCOMES[samples["outcome"][0]]
-    expected = np.array([OUTCOMES.index(first), *(OUTCOMES.index(one.after) for one in changes)])[where]
-    wrong = samples["stokes"][samples["outcome"] != expected]
-    if wrong.size:
-        raise ComputationError(f"the outcome at St {wrong[0]:.10g} disagrees with the adjacent changes of outcome")
-
-
-def _merged(changes: list[Change]) -> list[Change]:
-    """Changes with those closer than MERGED combined; none where the outcome returns to the first."""
-    found: list[Change] = []
-    for one in changes:
-        if found and one.stokes < found[-1].stokes * (1 + MERGED):
-            both = replace(found.pop(), after=one.after, kind=PLAIN, merged=True)
-            if both.before != both.after:
-                found.append(both)
-        else:
-            found.append(one)
-    return found
+    return REVERSED if any(word in CRITERIA for word in below[:k]) else FREE
 
 
 def _change(line: Line, stokes: float, before: str, after: str, kind: str) -> Change:

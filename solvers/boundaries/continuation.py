@@ -90,8 +90,7 @@ def crossings(
                 ends.append(interval)
         open_ = np.array(kept, dtype=int)
         at = np.array([np.linspace(*pair, _PARTS + 1) for pair in ends]).reshape(len(ends), _PARTS + 1)
-    inside: np.ndarray = np.clip(found, 0.0, 1.0)
-    return inside
+    return np.asarray(np.clip(found, 0.0, 1.0))
 
 
 def _inside(centre: np.ndarray, along: np.ndarray, reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -185,8 +184,7 @@ def _predicted(points: list[np.ndarray], heading: np.ndarray, ahead: float) -> n
     bend = (near - far) / (one + two)
     if ahead > 4 * (one + two):
         return last + ahead * heading
-    predicted: np.ndarray = last + ahead * (near + bend * one) + ahead**2 * bend
-    return predicted
+    return np.asarray(last + ahead * (near + bend * one) + ahead**2 * bend)
 
 
 def _tangent(points: list[np.ndarray]) -> np.ndarray:
@@ -197,8 +195,7 @@ def _tangent(points: list[np.ndarray]) -> np.ndarray:
     if len(points) > 2:
         two = np.linalg.norm(points[-2] - points[-3])
         near = near + (near - (points[-2] - points[-3]) / two) * one / (one + two)
-    tangent: np.ndarray = near / np.linalg.norm(near)
-    return tangent
+    return np.asarray(near / np.linalg.norm(near))
 
 
 def _to_edge(labels: Labels, last: np.ndarray, beyond: np.ndarray, step: float, branch: Branch) -> np.ndarray | None:
@@ -323,5 +320,4 @@ def _way(inner: Branch, outer: Branch, radius: float) -> np.ndarray:
             2 * math.sin(outer.direction) - math.sin(inner.direction),
         ]
     )
-    unit: np.ndarray = way / np.linalg.norm(way)
-    return unit
+    return np.asarray(way / np.linalg.norm(way))

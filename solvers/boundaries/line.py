@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -25,20 +24,17 @@ from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.phases import Flow
-from ..scene.contact import GAPS, NEVER_MET, contact_gap
-from ..scene.quantities import NO_GLASS
+from ..scene.contact import GAPS, contact_gap
 from ..scene.scene import Scene
 from ..settings import RTOL
 from . import by_kernel
-from .by_kernel import Escaping, Happenings
+from .by_kernel import Events
 from .resampled import resampled
 from .saddle import barrier_of, saddle_of
 
 _NEVER = 1e30  # a glass number that no pressure reaches
 WITHOUT_SOLIDS = {"glass_number": _NEVER} | dict.fromkeys(GAPS.values(), 0.0)
-_NO_GLASS = {"glass_transition_pressure": NO_GLASS}
 _UNMET = {"glass_number": 0.0}  # with this glass number the glass guard is minus the pressure
-_ESCAPE_STEPS = (400, 20_000)  # steps of a first attempt by the kernel, to detect creeping past a saddle
 _CREEPING = 1e-3  # relative to v0; a slower approach counts as stopped, and contact at this speed is irrelevant
 _DEEP = 1e-3  # relative to the contact gap; an approach to this depth has reached solid contact
 _GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # parts of a phase; dense at its start
@@ -53,20 +49,12 @@ def ready(scenes: Iterable[Scene]) -> None:
         compile_all(needed)
 
 
-@dataclass(frozen=True)
-class Escape:
-    """Result of an escape: if the trajectory separates, and a smooth function with that sign (None if undefined)."""
-
-    separates: bool
-    value: float | None
-
-
 @dataclass
 class Line:
-    """The smooth functions of a scene at one angle (rad). Counts the integrated collisions.
+    """The smooth functions of a scene at one angle (rad), by Rosenbrock. Counts the integrated collisions.
 
     Arguments:
-        kernel: use the Taylor kernel; Rosenbrock completes the rest. Default: if the kernel supports the scene.
+        kernel: take the events of collisions from the Taylor kernel. Default: if it supports the scene.
         machine_code: use integrators compiled to C.
     """
 
@@ -89,17 +77,19 @@ class Line:
     def model(self) -> Model:
         return load(select_model(self.scene, self.scene.turns(self.angle)))
 
-    def happenings(self, *stokes: float) -> list[Happenings]:
-        """What happens at Stokes numbers: words and times (x0/v0)."""
+    def events(self, *stokes: float) -> list[Events]:
+        """The events of collisions at Stokes numbers."""
         self.collisions += len(stokes)
         speeds = np.array([float(self.scene.speed_of(each)) for each in stokes])
-        found = by_kernel.happenings(self.scene, speeds, self.angle, self.rtol) if self.kernel else None
-        return found or [self._happening(each) for each in stokes]
-
-    def _happening(self, stokes: float) -> Happenings:
-        path = EventLocator(self.model, self.numbers(stokes).groups, self.rtol, machine_code=self.machine_code).run()
-        times = np.cumsum([step.duration for step in path.steps]).tolist()
-        return [(kind, time) for step, time in zip(path.steps, times, strict=True) for kind in step.kinds]
+        events = by_kernel.events(self.scene, speeds, self.angle, self.rtol) if self.kernel else None
+        if events is None:
+            events = []
+            for each in stokes:
+                groups = self.numbers(each).groups
+                path = EventLocator(self.model, groups, self.rtol, machine_code=self.machine_code).run()
+                times = np.cumsum([step.duration for step in path.steps]).tolist()
+                events.append([(kind, time) for step, time in zip(path.steps, times) for kind in step.kinds])
+        return events
 
     def criterion(self, stokes: float) -> float:
         """Logarithm of the larger of maximum pressure over p_gt and contact gap over smallest gap, of the approach.
@@ -107,38 +97,23 @@ class Line:
         The approach is integrated without a rebound, so the function is smooth where a criterion is just met.
         """
         self.collisions += 1
-        n = self.numbers(stokes)
-        groups, model = n.groups, self.model
+        groups = self.numbers(stokes).groups
         contact = contact_gap(groups)
-        found = None
-        if self.kernel:
-            p = model.group_values(groups | _UNMET)
-            solids = _NO_GLASS | NEVER_MET | {"roughness": _DEEP * contact * n.length}
-            found = by_kernel.approach(
-                self.scene, n, self.rtol, solids, len(model.state), lambda y: _pressures(model, y, p), _CREEPING
-            )
-        pressure, smallest = found or approach(model, groups, self.rtol, self.machine_code)
+        pressure, smallest = approach(self.model, groups, self.rtol, self.machine_code)
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
 
-    def escape(self, stokes: float, rebound: bool) -> Escape:
-        """Escape of the doublet, with its rebound (`rebound`) or as if there were no rebound criterion."""
+    def escape(self, stokes: float, rebound: bool) -> tuple[bool, float | None]:
+        """Whether the doublet separates, and a smooth function with that sign (None if undefined).
+
+        Arguments:
+            rebound: with its rebound, or as if there were no rebound criterion.
+        """
         self.collisions += 1
-        n = self.numbers(stokes)
-        groups = n.groups if rebound else n.groups | WITHOUT_SOLIDS
-        solids = {} if rebound else _NO_GLASS | NEVER_MET
-        for steps in _ESCAPE_STEPS if self.kernel else ():
-            probe = UnstoppedTrajectory(self.model, groups, self.rtol)
-            escaped = by_kernel.escaping(self.scene, n, self.rtol, solids, probe.y[: len(self.model.state)], steps)
-            if escaped is None:
-                break
-            probe.y[: escaped.end.size] = escaped.end
-            separates = escaped.separated if escaped.decided else _creeps_out(probe)
-            if separates is not None:
-                return Escape(separates, _smooth(probe, escaped))
+        groups = self.numbers(stokes).groups | ({} if rebound else WITHOUT_SOLIDS)
         probe = UnstoppedTrajectory(self.model, groups, self.rtol, machine_code=self.machine_code)
         path = probe.run()
-        return Escape(path.separated, _smooth(probe, _Located(probe, path)))
+        return path.separated, _amplitude(probe, path)
 
 
 def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: bool = True) -> tuple[float, float]:
@@ -179,13 +154,6 @@ def _pressure(model: Model, y: np.ndarray, p: np.ndarray) -> float:
     return -model.values("events", y, p)["glass"]
 
 
-def _pressures(model: Model, states: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """Scaled film pressure on the axis at states (columns)."""
-    events = np.asarray(model.function("events")(states, p).full())
-    pressures: np.ndarray = -events[model.names("events").index("glass")]
-    return pressures
-
-
 class UnstoppedTrajectory(EventLocator):
     """A trajectory until it separates or falls back; certificates end it only while it approaches."""
 
@@ -201,82 +169,44 @@ class UnstoppedTrajectory(EventLocator):
         return over or fell_back or self.phase.resting
 
 
-class _Located:
-    """A located trajectory as an `Escaping`, sampled on demand."""
-
-    def __init__(self, probe: EventLocator, path: EventSequence) -> None:
-        self.probe, self.path = probe, path
-        self.separated = path.separated
-        self.fell_back = bool(path.ends) and KINDS[EventKind.FELL_BACK] in path.steps[-1].kinds
-        self.end = path.y if path.separated or not path.ends else path.ends[-1]
-
-    @cached_property
-    def _both(self) -> tuple[np.ndarray, np.ndarray]:
-        return _sampled(self.probe, self.path)
-
-    @property
-    def times(self) -> np.ndarray:
-        return self._both[0]
-
-    @property
-    def states(self) -> np.ndarray:
-        return self._both[1]
-
-
-def _creeps_out(probe: EventLocator) -> bool | None:
-    """True if a doublet that creeps past the only barrier will separate; None if undecided.
-
-    All modes but the unstable one have decayed, so the sign of its amplitude decides: outside, nothing confines the
-    doublet; inside, its energy is below the barrier.
-    """
-    proof, barrier = energy_proof(probe.proof), barrier_of(probe)
-    rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
-    if proof is None or barrier is None or not proof.theorem or len(proof.barriers(probe.y)) > 1 or barrier.gap >= rim:
-        return None
-    saddle = saddle_of(probe, barrier)
-    return None if saddle is None else saddle.side(probe.y)
-
-
-def _smooth(probe: EventLocator, escaped: Escaping | _Located) -> float | None:
+def _amplitude(probe: EventLocator, path: EventSequence) -> float | None:
+    """A function of the Stokes number that is positive where the doublet escapes; None where it is not defined."""
     barrier = barrier_of(probe)
     if barrier is None and energy_proof(probe.proof) is not None:
         return None  # nothing confines the doublet at any gap
     rim = probe.groups["rupture_gap"] if probe.model.bridge else 1.0
     if barrier is not None and barrier.gap < rim * (1 - 1e-12):
-        return _saddle_amplitude(probe, escaped, barrier)
-    if escaped.separated:
-        return float(escaped.end[1]) ** 2
-    if not escaped.fell_back:
+        return _saddle_amplitude(probe, path, barrier)
+    if path.separated:
+        return float(path.y[1]) ** 2
+    if not path.ends or KINDS[EventKind.FELL_BACK] not in path.steps[-1].kinds:
         return None
-    inward = probe.model.values("inward_force", escaped.end, probe.p)["inward_force"]
-    return -2 * inward * (rim - float(escaped.end[0]))
+    inward = probe.model.values("inward_force", path.ends[-1], probe.p)["inward_force"]
+    return -2 * inward * (rim - float(path.ends[-1][0]))
 
 
-def _saddle_amplitude(probe: EventLocator, escaped: Escaping | _Located, barrier: Barrier) -> float | None:
-    """Amplitude of the unstable mode where nearest to the saddle, scaled to initial contact by exp(-lambda t)."""
+def _saddle_amplitude(probe: EventLocator, path: EventSequence, barrier: Barrier) -> float | None:
+    """Amplitude of the unstable mode at the state nearest to the saddle, scaled to initial contact by exp(-lambda t).
+
+    States are the ends of phases, and samples of phases that do not end at rest in the gap.
+    """
     saddle = saddle_of(probe, barrier)
     if saddle is None:
         return None
+    times, states, start = [0.0], [np.append(probe.model.start(path.p), [0.0] * len(path.extras))], 0.0
+    tolerance = tolerance_for(max(probe.rtol, 1e-8), "rosenbrock", probe.groups)
     try:
-        times, states = escaped.times, escaped.states
+        for step, _, inside, end in resampled(path, tolerance, _GRID, lambda s: s.event != "turning", path.extras):
+            if inside is not None:
+                times += [start + part * step.duration for part in _GRID]
+                states += list(inside.T)
+            start += step.duration
+            times.append(start)
+            states.append(end)
     except IntegrationFailed:
         return None
-    nearest, amplitudes = saddle.nearest(states)
+    nearest, amplitudes = saddle.nearest(np.array(states).T)
     if np.sum(np.abs(amplitudes) ** 2) > barrier.gap**2 / 4:
         return None
     growth = saddle.rates[saddle.unstable].real * times[nearest]
     return float(amplitudes[saddle.unstable].real * math.exp(-growth)) if growth < 500 else None
-
-
-def _sampled(probe: EventLocator, path: EventSequence) -> tuple[np.ndarray, np.ndarray]:
-    """Times and states of the trajectory: ends of phases, and samples of phases that do not end at rest in the gap."""
-    times, states, clock = [0.0], [np.append(probe.model.start(path.p), [0.0] * len(path.extras))], 0.0
-    tolerance = tolerance_for(max(probe.rtol, 1e-8), "rosenbrock", probe.groups)
-    for step, _, inside, end in resampled(path, tolerance, _GRID, lambda step: step.event != "turning", path.extras):
-        if inside is not None:
-            times += [clock + part * step.duration for part in _GRID]
-            states += list(inside.T)
-        clock += step.duration
-        times.append(clock)
-        states.append(end)
-    return np.array(times), np.array(states).T

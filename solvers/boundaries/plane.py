@@ -157,8 +157,7 @@ def _middles(unknown: np.ndarray) -> np.ndarray:
     edges = np.flatnonzero(np.diff(np.concatenate([[False], unknown, [False]]).astype(int)))
     runs = edges.reshape(-1, 2)
     long = runs[runs[:, 1] - runs[:, 0] >= min(_RUN, unknown.size)]
-    middles: np.ndarray = long.sum(axis=1) // 2
-    return middles
+    return np.asarray(long.sum(axis=1) // 2)
 
 
 def _least(scene: Scene) -> float:

@@ -19,9 +19,9 @@ from ..formatting import ticks
 from ..formatting.style import EDGES, FILLS, HATCHES, INK, patch, picture, plain_text
 from ..settings import RTOL
 from .atlas_curves import curves_of
-from .found import LINES, Curve, Curves, Lines, Point
 from .plane import ANGLE, check_plane
 from .plot_labels import place_names
+from .result import LINES, Curve, Curves, Lines, Point
 
 if TYPE_CHECKING:
     from ..scene.scene import Scene

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from scipy import ndimage
 
 from ...generated.automaton import OUTCOMES
 from ..formatting.style import INK, halo
@@ -47,17 +48,9 @@ def place_names(
     for label, region in _regions(labels):
         for name in _NAMES[label]:
             text = axes.text(
-                0,
-                0,
-                name,
-                fontsize=_FONT,
-                ha="center",
-                va="center",
-                color=INK,
-                linespacing=1.1,
-                zorder=7,
+                0, 0, name, fontsize=_FONT, ha="center", va="center", color=INK, linespacing=1.1, zorder=7,
                 path_effects=[halo()],
-            )
+            )  # fmt: skip
             size = text.get_window_extent(renderer)
             at = _room(region, int(size.width / _CELL) + 2, int(size.height / _CELL) + 2)
             if at is None:
@@ -81,34 +74,14 @@ def _without_marks(axes: Axes, labels: np.ndarray, pixels: np.ndarray) -> np.nda
 
 
 def _regions(labels: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
-    """The connected parts of each label, as masks."""
-    left = labels >= 0
-    while left.any():
-        start = np.unravel_index(int(np.argmax(left)), left.shape)
-        label = int(labels[start])
-        region = np.zeros_like(left)
-        region[start] = True
-        same = labels == label
-        size = 0
-        while size != (size := int(region.sum())):
-            region = _spread(region, same)
-        yield label, region
-        left &= ~region
-
-
-def _spread(region: np.ndarray, same: np.ndarray) -> np.ndarray:
-    """The region extended along rows and columns as far as the label continues."""
-    for axis in (0, 1):
-        for way in (1, -1):
-            order = region if way > 0 else np.flip(region, axis)
-            inside = same if way > 0 else np.flip(same, axis)
-            # extended until the label ends: the last reached place is after the last place outside
-            index = np.arange(order.shape[axis]).reshape((-1, 1) if axis == 0 else (1, -1))
-            reached = np.maximum.accumulate(np.where(order, index, -1), axis=axis)
-            outside = np.maximum.accumulate(np.where(inside, -1, index), axis=axis)
-            grown = inside & (reached > outside)
-            region = grown if way > 0 else np.flip(grown, axis)
-    return region
+    """The connected parts of each label, as masks, in the order of their first places."""
+    parts, kinds = np.zeros(labels.shape, int), np.unique(labels[labels >= 0]).tolist()
+    for kind in kinds:
+        own = ndimage.label(labels == kind)[0]
+        parts = np.where(own > 0, own + parts.max(), parts)
+    found, first = np.unique(parts, return_index=True)
+    for place in np.sort(first[found > 0]).tolist():
+        yield int(labels.flat[place]), parts == parts.flat[place]
 
 
 def _room(region: np.ndarray, width: int, height: int) -> tuple[float, float] | None:

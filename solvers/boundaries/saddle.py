@@ -13,9 +13,6 @@ from ..host.thread_caches import own_cache
 from ..model.model import Model
 from ..model.phases import Region
 
-# Relative distance to the barrier's gap, and size of other modes, below which only the unstable mode matters.
-_NEAR, _ALONE = 0.1, 1e-3
-
 
 def barrier_of(probe: EventLocator) -> Barrier | None:
     """The highest maximum of the effective potential for the angular momentum at the end of the trajectory."""
@@ -47,14 +44,6 @@ class Saddle:
         amplitudes = self.modes @ (states[: self.state.size] - self.state[:, None])
         k = int(np.argmin(np.sum(np.abs(amplitudes) ** 2, axis=0)))
         return k, amplitudes[:, k]
-
-    def side(self, state: np.ndarray) -> bool | None:
-        """True if a doublet that creeps past is outside; None unless only the unstable mode is left."""
-        amplitudes = np.abs(self.modes @ (state[: self.state.size] - self.state))
-        own, others = amplitudes[self.unstable], np.delete(amplitudes, self.unstable)
-        if own > _NEAR * self.gap or np.any(others > _ALONE * own):
-            return None
-        return bool(state[0] > self.gap)
 
 
 def saddle_of(probe: EventLocator, barrier: Barrier) -> Saddle | None:

@@ -89,16 +89,14 @@ def _between(line: np.ndarray) -> np.ndarray:
     wanted[widest] |= others[widest]
     first = at[:-1][wanted]
     parts = np.arange(1, _INSIDE + 1) / (_INSIDE + 1)
-    fresh: np.ndarray = np.exp(first[:, None] + width[wanted][:, None] * parts).ravel()
-    return fresh
+    return np.asarray(np.exp(first[:, None] + width[wanted][:, None] * parts).ravel())
 
 
 def _another_way(line: np.ndarray) -> np.ndarray:
     """Mask of neighbours with one outcome but different events, between which margins may jump."""
     criteria = line["reversal"][1:] != line["reversal"][:-1]
     events = line["events"][1:] != line["events"][:-1]
-    found: np.ndarray = criteria | (events & (line["outcome"][1:] > 0))
-    return found
+    return np.asarray(criteria | (events & (line["outcome"][1:] > 0)))
 
 
 def _towards_zero(line: np.ndarray) -> np.ndarray:

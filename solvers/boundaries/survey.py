@@ -12,6 +12,7 @@ import numpy as np
 from .arcs import CHORD, Arc, refined
 from .continuation import CIRCLE, SHORTEST, Branch, branches, crossings, follow, meeting
 from .plane import Plane
+from .regions import apart
 
 LONGEST = 0.03  # step of the continuation, relative to the window
 _MOST_CURVES = 400
@@ -166,8 +167,13 @@ class Survey:
         return point
 
     def _keep(self, arc: Arc) -> None:
+        """Add a curve, unless known ones cover it: what stops a curve at a corner need not stop one from beyond it."""
         if len(arc.points) > 1:
-            self.arcs += refined(self.plane, [arc])  # so that points on it are recognised
+            [fine] = refined(self.plane, [arc])  # so that points on it are recognised
+            alike = [one for one in self.arcs if {one.right, one.left} == {arc.right, arc.left}]
+            points = np.vstack([fine.points, (fine.points[1:] + fine.points[:-1]) / 2])
+            if not alike or (apart(alike, points) > 2 * CHORD).any():
+                self.arcs.append(fine)
 
     def _covered(self, low: np.ndarray, high: np.ndarray, right: int, left: int) -> bool:
         """True if a known curve with these labels passes between two points of a vertical or horizontal line."""

@@ -38,6 +38,13 @@ class Traced:
     collisions: int
     resolution: float
 
+    def add(self, part: Traced) -> None:
+        """Append the lines of another."""
+        self.changes += part.changes
+        self.failures += part.failures
+        self.collisions += part.collisions
+        self.resolution = max(self.resolution, part.resolution)
+
 
 def traces(
     scene: Scene, parts: Sequence[np.ndarray], span: tuple[float, float], rtol: float, tell: Callable[[int], None]
@@ -148,5 +155,4 @@ def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) 
 
 def _spaced(samples: np.ndarray, grid: np.ndarray) -> np.ndarray:
     """Logarithms of the Stokes numbers of known samples, with the first and last of the grid."""
-    spaced: np.ndarray = np.log(np.concatenate([grid[:1], known(samples)["stokes"], grid[-1:]]))
-    return spaced
+    return np.asarray(np.log(np.concatenate([grid[:1], known(samples)["stokes"], grid[-1:]])))

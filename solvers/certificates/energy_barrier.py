@@ -21,6 +21,8 @@ from .base import BEYOND, Certainty, Certificate, is_never_released, states_at
 from .floating import floats
 from .quadrature import panels
 
+_GAPS = 49  # number of gaps ahead up to which the potential's rise is integrated
+
 
 @dataclass(frozen=True)
 class Barrier:
@@ -69,7 +71,25 @@ class EnergyCertificate(Certificate):
             drift = self._drift(y, phase, ahead.gap)
             if is_below_barrier(self.energy(y), ahead.height, self.margin, self.largest, drift):
                 return True
-        return self._held_on_approach(y, phase)
+        return self._held_on_approach(y, phase) or self._in_a_well(y)
+
+    def _in_a_well(self, y: np.ndarray) -> bool:
+        """True if the effective potential rises, up to some gap ahead, by more than the energy above it.
+
+        Near the gap at which a minimum and the maximum after it merge, the rise is less than the error of the energies.
+        It is integrated here from the present gap, whose error is that of the slope: so only a doublet whose
+        equilibrium an error of the momenta could remove stays undecided.
+        """
+        gap, end = float(y[0]), self.groups.get("rupture_gap", 1.0)
+        if not (self.theorem and gap < end):
+            return False
+        gaps = gap + (end - gap) * np.linspace(0.0, 1.0, _GAPS) ** 3  # denser at small distances
+        kinetic = float(sum(self.model.values(self.model.escape, y, self.p).values()))
+        turning, slopes = self._potential(gaps, y)
+        above, released = kinetic - turning[0], turning[0] - turning[1:]
+        rise = np.cumsum(panels(lambda at: self._slope(at, y), gaps))
+        size = np.sqrt(abs(above) * kinetic) + self.margin * kinetic + np.abs(released) + np.abs(rise + released)
+        return bool(np.any(above - rise < -self.margin * (size + gap * abs(slopes[0]))))
 
     def _held_on_approach(self, y: np.ndarray, phase: Phase) -> bool:
         """True if the film takes enough energy from an approach from initial contact before it meets a criterion."""

@@ -19,9 +19,8 @@ from ..engines.taylor.tangent import COLUMNS, differentiates, run_tangent
 from ..errors import ComputationError
 from ..many.batch import Batch
 from ..many.by_kernel import admissible
-from ..many.compute import compute
-from ..many.dataset import empty, fill
-from ..many.results import Block
+from ..many.compute import complete
+from ..many.results import Block, empty
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPINS
@@ -137,8 +136,7 @@ class Experiment:
     def possible(self) -> np.ndarray:
         """Mask of the rows whose quantities make a scene; of one element where all rows are alike."""
         finite = np.isfinite(list(self.columns.values())).all(axis=0)
-        possible: np.ndarray = finite & admissible(self.scene, self.columns)
-        return possible
+        return finite & admissible(self.scene, self.columns)
 
     def _share(self, row: np.ndarray) -> np.ndarray:
         """Index of the quantities of each row."""
@@ -210,7 +208,7 @@ class Experiment:
                 vary[name] = np.asarray(spin)
         request = Batch(self.scene, None, impacts.speed, impacts.angle, vary, self.rtol, "rosenbrock", names)
         block = empty(request.size, names)
-        compute(request, np.arange(request.size), lambda where, part: fill(block, where, part))
+        complete(request, block)
         return block
 
     def plain(self, names: tuple[str, ...], row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
@@ -295,8 +293,7 @@ class Experiment:
         """What steps of differences are parts of, as `values`: 1 for fractions and angles, which may be 0."""
         bounded = [bool(np.isfinite(self.scene.fields[name].range.high)) for name in self.rows.names]
         size = np.abs(self.values)
-        scales: np.ndarray = np.where(np.reshape(bounded, (-1, *[1] * (size.ndim - 1))) | (size == 0), 1.0, size)
-        return scales
+        return np.where(np.reshape(bounded, (-1, *[1] * (size.ndim - 1))) | (size == 0), 1.0, size)
 
     def displaced(self, k: int, step: np.ndarray | float) -> Experiment | None:
         """The experiment with free entry k changed by a step; None where that is impossible."""

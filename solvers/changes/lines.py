@@ -25,14 +25,6 @@ class Lines:
     high: np.ndarray
     relative: bool
 
-    @property
-    def size(self) -> int:
-        return int(self.row.size)
-
-    def ends(self, line: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The lowest and highest y."""
-        return self.low[line], self.high[line]
-
     def at(self, line: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Normal speeds (m/s) and angles (rad) of points on lines."""
         angle = self.angle[line, 0] + self.angle[line, 1] * y

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -23,10 +24,7 @@ from .experiment import Experiment
 from .lines import Lines
 
 _SHORT = 1000  # steps of a trajectory with derivatives, where an approximation replaces what takes longer
-_CLOSE, _BESIDE = (
-    1e-8,
-    1e-5,
-)  # least distances at which gradients are taken: exact, approximate; the other is 4 times it
+_CLOSE, _BESIDE = 1e-8, 1e-5  # least distances at which gradients are taken, exact and approximate, and at 4 times it
 _GROWTH = 1.3, 8.0  # of a singular gradient from the farther to the nearer
 _FAR = 2e-6  # distance from a saddle at which times are taken
 _SHIFT, _STEP_OF_ENTRY = 0.1, 2e-3  # steps of an impact, and relative ones of an entry, over that distance
@@ -190,15 +188,12 @@ def _again(
 
     places, left = np.full(y.size, np.nan), np.arange(y.size)
     for reach in _REACH:
-        low, high = (np.clip(y[left] + side * reach * step, *lines.ends(line[left])) for side in (-1, 1))
+        limits = lines.low[line[left]], lines.high[line[left]]
+        low, high = (np.clip(y[left] + side * reach * step, *limits) for side in (-1, 1))
         there = (label(left, low) == before[left]) & (label(left, high) == after[left])
         which = left[there]
         if which.size:
-
-            def is_before(at: np.ndarray, which: np.ndarray = which) -> np.ndarray:
-                below: np.ndarray = label(which, at) == before[which]
-                return below
-
+            is_before = partial(lambda which, at: label(which, at) == before[which], which)
             ends = bisect(is_before, low[there], high[there], _ENCLOSED * step)
             places[which] = (ends[0] + ends[1]) / 2
         left = left[~there]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,8 +16,8 @@ from ..model.phases import Phase
 from ..model.rebound import rebounded
 from ..scene.scene import Scene
 from ..settings import KERNEL_STEPS
-from .assemble import Finding, assembled
-from .outcome import Energy
+from .assemble import assembled
+from .outcome import KERNEL_TERMS, Energy, absent_terms
 from .result import Collision
 
 if TYPE_CHECKING:
@@ -26,11 +27,6 @@ if TYPE_CHECKING:
 
 
 _MOST_EVENTS = 1000  # of a result; chatter that lasts longer is followed by CasADi, whose certificates end it sooner
-
-
-def kind_of(answer: np.void) -> tuple[str, str | None]:
-    """Outcome of a kernel record, and the first rebound criterion met (None if none)."""
-    return OUTCOMES[answer["outcome"]], KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None
 
 
 def words_of(scene: Scene) -> tuple[str, ...]:
@@ -56,60 +52,49 @@ def collision(
     recorded = run_recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
     if recorded is None:
         return "no Taylor kernel can be compiled for this scene here"  # a remark has said why
-    found = recorded.answers[0]
-    if found["status"] > LAST_ANSWER:
-        return f"the Taylor kernel gave up: {Status(found['status']).name.lower().replace('_', ' ')}"
-    if found["events"] > _MOST_EVENTS:
+    answer, books = recorded.answers[0], None if recorded.ledger is None else recorded.ledger[0]
+    if answer["status"] > LAST_ANSWER:
+        return f"the Taylor kernel gave up: {Status(answer['status']).name.lower().replace('_', ' ')}"
+    if answer["events"] > _MOST_EVENTS:
         return f"the Taylor kernel gave up: more than {_MOST_EVENTS} events"
-    energy = None if recorded.ledger is None else _energy(scene, n, recorded.ledger[0])
-    outcome, reversal = kind_of(found)
-    separated = bool(found["outcome"])
+    energy = None if books is None else _energy(scene, n, books)
+    separated = bool(answer["outcome"])
     if energy is not None and separated and energy.is_open(rtol):
         return "the Taylor kernel gave up: its energy ledger is open"  # so the trajectory is wrong
-    happened = recorded.events[0, : found["events"]]
-    model = load(select_model(scene, n.oblique, fold=True))
-    words = words_of(scene)
-    finding = Finding(
-        outcome=outcome,
-        reversal=reversal,
-        certified=bool(found["certified"]),
-        outputs=dict(zip(model.names("outputs"), found["shown"].tolist())) if separated else {},
-        rotation=float(found["turned"]),
-        time=float(found["time"]),
-        smallest_gap=float(found["smallest_gap"]),
-        slip=float(found["slip"]),
-        events=[(words[int(each["kind"])], float(each["time"])) for each in happened],
+    names, words = load(select_model(scene, n.oblique, fold=True)).names("outputs"), words_of(scene)
+    return assembled(
+        scene,
+        n,
+        outcome=OUTCOMES[answer["outcome"]],
+        reversal=KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None,
+        certified=bool(answer["certified"]),
+        outputs=dict(zip(names, answer["shown"].tolist())) if separated else {},
+        rotation=float(answer["turned"]),
+        time=float(answer["time"]),
+        smallest_gap=float(answer["smallest_gap"]),
+        slip=float(answer["slip"]),
+        events=[(words[int(each["kind"])], float(each["time"])) for each in recorded.events[0, : answer["events"]]],
         engine="taylor",
-        steps=int(found["steps"]),
+        steps=int(answer["steps"]),
         rtol=rtol,
         energy=energy,
-        drift=None if recorded.ledger is None else _drift(scene, n, recorded.ledger[0]),
+        drift=None if books is None else _drift(scene, n, books),
         trajectory=_trajectory(scene, n, rtol, recorded, ledger) if trajectory else None,
     )
-    return assembled(scene, n, finding)
 
 
-def _energy(scene: Scene, n: DimensionlessGroups, book: np.void) -> Energy:
-    own: dict[str, float] = {name: float(book[name]) * n.energy for name in book.dtype.names or ()}
-    return Energy(
-        initial=own["initial"],
-        final=own["final"],
-        normal_lubrication=own["normal"],
-        tangential_lubrication=own["tangential"],
-        capillary=own["capillary"],
-        attraction=own["attraction"] if scene.attraction is not None else None,
-        dry_contact=own["dry"],
-        dry_friction=own["friction"] if scene.particles.friction is not None and n.oblique else None,
-        own_events=own.get("own_events"),
-        strings=own["lifted"] if scene.pendulum is not None else 0.0,
-    )
+def _energy(scene: Scene, n: DimensionlessGroups, books: np.void) -> Energy:
+    terms = {name: float(books[field]) * n.energy for name, field in KERNEL_TERMS.items()}
+    terms |= {"own_events": float(books["own_events"]) * n.energy} if "own_events" in (books.dtype.names or ()) else {}
+    absent = absent_terms(scene) | (set() if n.oblique else {"dry_friction"})
+    return Energy(**{"strings": 0.0} | {name: value for name, value in terms.items() if name not in absent})
 
 
-def _drift(scene: Scene, n: DimensionlessGroups, book: np.void) -> float | None:
+def _drift(scene: Scene, n: DimensionlessGroups, books: np.void) -> float | None:
     """|L/L(0) - 1| at the end; None with strings or a wall, which exert a torque; 0 head-on."""
     if scene.pendulum is not None or (scene.wall and n.oblique):
         return None
-    return abs(float(book["momentum"]) - 1.0) if n.oblique else 0.0
+    return abs(float(books["momentum"]) - 1.0) if n.oblique else 0.0
 
 
 def _trajectory(scene: Scene, n: DimensionlessGroups, rtol: float, recorded: Recorded, full: bool) -> xarray.Dataset:
@@ -122,35 +107,30 @@ def _trajectory(scene: Scene, n: DimensionlessGroups, rtol: float, recorded: Rec
     first, reversal = model.start(p), int(recorded.answers["reversal"][0])
     if reversal >= 0:  # where initial contact decides, the state after it
         first = rebounded(model, KINDS[reversal], first, p).after
-    return dataset(stretches(recorded.steps, len(model.state)), model, n, first, attrs)
+    return dataset([*_stretches(recorded.steps, len(model.state))], model, n, first, attrs)
 
 
-def stretches(steps: Steps, states: int) -> list[Stretch]:
-    """The phases of one collision, each with a sampler of its states; empty where initial contact decides the outcome.
+def _stretches(steps: Steps, states: int) -> Iterator[Stretch]:
+    """The phases of one collision, each with a sampler of its states; none where initial contact decides the outcome.
 
     Arguments:
         states: number of series that are states of the model; the angle turned may follow them.
     """
     from ..engines.casadi.trajectory import Stretch
 
-    rows, found = steps.rows, []
-    if not rows.size:
-        return []  # decided at initial contact
-    firsts = np.flatnonzero(np.diff(rows["phase"], prepend=-1))
-    for first, end in zip(firsts, np.append(firsts[1:], rows.size), strict=True):
-        own, row = Steps(rows[first:end], steps.turned), rows[first]
+    rows, turned = steps.rows, steps.turned
+    firsts = np.flatnonzero(np.diff(rows["phase"], prepend=-1)) if rows.size else np.zeros(0, int)
+    for first, end in zip(firsts, np.append(firsts[1:], rows.size)):
+        part, row = Steps(rows[first:end], turned), rows[first]
         start = float(row["time"])
         duration = float(rows[end - 1]["time"] + rows[end - 1]["length"]) - start
-        if duration == 0.0:
-            continue
-        phase = Phase(int(row["film"]), 0, CLOSING if row["closing"] else OPENING, bool(row["resting"]))
-        found.append(Stretch(str(phase), start, duration, _sampler(own, start, duration, states)))
-    return found
 
+        def sample(
+            parts: np.ndarray, part: Steps = part, start: float = start, duration: float = duration
+        ) -> tuple[np.ndarray, np.ndarray | None]:
+            y = part.states(start + parts * duration)
+            return y[:states], None if turned is None else y[turned]
 
-def _sampler(steps: Steps, start: float, duration: float, states: int) -> Any:
-    def sample(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-        y = steps.states(start + parts * duration)
-        return y[:states], None if steps.turned is None else y[steps.turned]
-
-    return sample
+        if duration > 0.0:
+            phase = Phase(int(row["film"]), 0, CLOSING if row["closing"] else OPENING, bool(row["resting"]))
+            yield Stretch(str(phase), start, duration, sample)

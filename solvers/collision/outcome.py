@@ -30,6 +30,26 @@ def open_beyond(rtol: float) -> float:
     return max(_OPEN * rtol, _OPEN_AT_LEAST)
 
 
+KERNEL_TERMS = {
+    "initial": "initial",
+    "final": "final",
+    "normal_lubrication": "normal",
+    "tangential_lubrication": "tangential",
+    "capillary": "capillary",
+    "attraction": "attraction",
+    "dry_contact": "dry",
+    "dry_friction": "friction",
+    "strings": "lifted",
+}
+"""Terms of the ledger, and the kernel's name for each."""
+
+
+def absent_terms(scene: Scene) -> set[str]:
+    """Terms of the ledger whose forces a scene does not have."""
+    absent = {"attraction": scene.attraction, "dry_friction": scene.particles.friction, "strings": scene.pendulum}
+    return {name for name, part in absent.items() if part is None}
+
+
 @dataclass(frozen=True)
 class Energy:
     """The energy ledger (budget) of a collision, J.
@@ -67,19 +87,7 @@ class Energy:
         return max(abs(value) for value in self.to_dict().values())
 
     def to_dict(self) -> dict[str, float]:
-        names = (
-            "initial",
-            "final",
-            "normal_lubrication",
-            "tangential_lubrication",
-            "capillary",
-            "dry_contact",
-            "strings",
-            *(["attraction"] if self.attraction is not None else []),
-            *(["dry_friction"] if self.dry_friction is not None else []),
-            *(["own_events"] if self.own_events is not None else []),
-        )
-        return {name: getattr(self, name) for name in (*names, "residual")}
+        return {name: value for name, value in vars(self).items() if value is not None} | {"residual": self.residual}
 
 
 @dataclass(frozen=True)

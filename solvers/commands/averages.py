@@ -8,6 +8,7 @@ from typing import Annotated
 
 import click
 
+from ..host import files
 from ..host.outputs import check_file
 from ..scene.schema import FIELDS
 from . import options, texts
@@ -45,15 +46,18 @@ def command(
     scene = request.scene_without_impact("has no influence on averages")
 
     from ..averages.averages import collision_averages
-    from ..averages.dataset import to_csv, write_csv
+    from ..averages.dataset import to_csv
     from ..many.regime_map import write
     from .resumable import resumable
 
-    given = passed(speeds=speeds, radii=radii, films=films, tolerance=tolerance, rtol=rtol, wrt=wrt)
+    chosen = passed(speeds=speeds, radii=radii, films=films, tolerance=tolerance, rtol=rtol, wrt=wrt)
     with resumable(output, "pairs") as (journal, progress):
-        data = collision_averages(scene, progress=progress, journal=journal, **given)
+        data = collision_averages(scene, progress=progress, journal=journal, **chosen)
         if output is not None and journal is not None:
-            (write_csv if output.suffix.lower() == ".csv" else write)(data, output)
+            if output.suffix.lower() == ".csv":
+                files.write(output, to_csv(data))
+            else:
+                write(data, output)
             journal.remove()
     if output is None:
         click.echo(to_csv(data), nl=False)

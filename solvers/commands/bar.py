@@ -20,6 +20,7 @@ class Bar:
     def __init__(self, unit: str) -> None:
         self.unit = unit
         self.total: int | None = 0
+        self.steps = 0
         self._shown: Any = None
 
     def __call__(self, done: int, total: int | None) -> None:
@@ -38,6 +39,12 @@ class Bar:
                     size = {"dynamic_ncols": True}
             self._shown = tqdm(total=total, initial=done, unit=f" {self.unit}", disable=None, leave=False, **size)
         self._shown.update(done - self._shown.n)
+
+    def step(self, text: str) -> None:
+        """Count one more step and show its text behind the count."""
+        self.steps += 1
+        self(self.steps, None)
+        self.note(text)
 
     def note(self, text: str) -> None:
         """Show a text behind the counts."""

@@ -89,10 +89,7 @@ def command(
 def _plane(angle: str | None, over: str | None, request: options.SceneRequest) -> tuple[str, texts.Range] | None:
     """The entry on the horizontal axis and its span if a plane is requested, else None."""
     if over is not None:
-        name, equals, ends = over.partition("=")
-        name = name.strip()
-        if not equals:
-            raise InputError("--over", over, 'NAME=LO:HI, such as liquid.viscosity="1:4 Pa s"', "has no =")
+        name, ends = texts.assignment('NAME=LO:HI, such as liquid.viscosity="1:4 Pa s"', over, "--over")
         if angle is not None:
             accepted = "--set impact.angle=ANGLE for a plane of another entry"
             raise InputError("--angle", angle, accepted, "is given together with --over")

@@ -129,13 +129,13 @@ def _settle_streams() -> None:
 
 def _remarks() -> Callable[..., None]:
     """A `warnings.showwarning` that writes each distinct warning once per command, as one line on standard error."""
-    told: set[str] = set()
+    shown: set[str] = set()
 
     def remark(message: Warning | str, category: type[Warning], *_: Any) -> None:
-        said = "warning" if category is ModelWarning else category.__name__
-        line = f"{said}: {one_line(str(message))}"
-        if line not in told:
-            told.add(line)
+        problem = "warning" if category is ModelWarning else category.__name__
+        line = f"{problem}: {one_line(str(message))}"
+        if line not in shown:
+            shown.add(line)
             click.echo(line, err=True)
 
     return remark
@@ -156,13 +156,13 @@ def _usage(error: click.UsageError) -> str:
         instead = next((name for name in _SAME.get(error.option_name, ()) if name in options), None)
         hint = f", did you mean {instead}?" if instead else did_you_mean(error.option_name, options)
         return f"{cut(error.option_name, _LONGEST)}: no such option{hint}; accepted: {', '.join(options)}"
-    said = cut(" ".join(error.format_message().split()).removesuffix("."), _LONGEST)
+    problem = cut(" ".join(error.format_message().split()).removesuffix("."), _LONGEST)
     if isinstance(error, click.BadOptionUsage):
         return _misused(error.option_name, ctx)
     if ctx and isinstance(ctx.command, click.Group):
-        return f"COMMAND: {said}; accepted: {', '.join(COMMANDS)}"
+        return f"COMMAND: {problem}; accepted: {', '.join(COMMANDS)}"
     usage = " ".join(ctx.get_usage().split()).removeprefix("Usage: ") if ctx else "see --help"
-    return f"{ctx.info_name if ctx else 'wetdoublet'}: {said}; accepted: {usage}"
+    return f"{ctx.info_name if ctx else 'wetdoublet'}: {problem}; accepted: {usage}"
 
 
 def _misused(name: str, ctx: click.Context | None) -> str:

@@ -129,10 +129,7 @@ def _varied(vary: Sequence[str], request: options.SceneRequest) -> dict[str, lis
 
     axes: dict[str, list[float] | list[str]] = {}
     for text in vary:
-        name, equals, values = text.partition("=")
-        name = name.strip()
-        if not equals:
-            raise InputError("--vary", text, 'NAME=RANGE, such as liquid.viscosity="1 Pa s:4 Pa s:3"', "has no =")
+        name, values = texts.assignment('NAME=RANGE, such as liquid.viscosity="1 Pa s:4 Pa s:3"', text, "--vary")
         check_varies(name, values, "--vary", request.package)
         if name in axes or name in request.entries:
             other = "twice" if name in axes else "together with --set"

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import click
 
 from . import options, texts
+from .bar import Bar
 from .signature import as_command
 
 
@@ -26,12 +26,7 @@ def command(part: str | None, out: options.Folder) -> None:
     if part is not None:
         texts.known(("all", *PARTS), part, "PART")
 
-    from ..paper.desk import progress
-
-    say = progress()
-    try:
-        written = reproduce(PARTS if part in (None, "all") else (part,), out or Path("paper"), say=say)
-    finally:
-        if sys.stderr.isatty():
-            say("")
+    with Bar("steps") as progress:
+        parts = PARTS if part in (None, "all") else (part,)
+        written = reproduce(parts, out or Path("paper"), say=progress.step)
     click.echo("\n".join(map(str, written)))

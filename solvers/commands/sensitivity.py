@@ -20,16 +20,12 @@ if TYPE_CHECKING:
 _DEVIATION = 'NAME=VALUE, such as liquid.viscosity="5 %"'
 
 
-def _deviations(typed: Sequence[str]) -> dict[str, str]:
-    return texts.typed(texts.assigned(_DEVIATION, typed))
-
-
 @as_command("Exact derivatives of a collision's results, through its events.")
 def command(
     of: list[str] | None,
     wrt: list[str] | None,
     method: str | None,
-    uncertainty: Annotated[dict[str, str], _deviations],
+    uncertainty: Annotated[dict[str, str], lambda typed: texts.typed(texts.assigned(_DEVIATION, typed))],
     over: str | None,
     over_time: bool,
     hessian: bool,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-from itertools import count
 from pathlib import Path
 from typing import Annotated
 
@@ -21,16 +20,12 @@ _ACCEPTED = "stokes=LO:HI,angle=LO:HI[,NAME=LO:HI]"
 _SUFFIXES = (".nc", ".h")
 
 
-def _queries(text: str) -> int:
-    return int(texts.number("a whole number such as 1e6", text))
-
-
 @as_command("The collision law as a table with a tested error: NetCDF or C.")
 def command(
     over: str | None,
     error: Annotated[float | None, partial(texts.number, "a number such as 1e-4")],
     of: list[str] | None,
-    attack: Annotated[int | None, _queries],
+    attack: Annotated[int | None, lambda text: int(texts.number("a whole number such as 1e6", text))],
     request: options.EntriesRequest,
     rtol: options.Rtol,
     plot: options.Picture,
@@ -65,13 +60,7 @@ def command(
     if output is None:
         raise InputError("-o", None, "a file to write, ending in " + ", ".join(_SUFFIXES))
     with Bar("steps") as progress:
-        steps = count(1)
-
-        def note(step: str) -> None:
-            progress(next(steps), None)
-            progress.note(step)
-
-        law = table(scene, over=ranges, progress=note, **passed(error=error, of=of, rtol=rtol, attack=attack))
+        law = table(scene, over=ranges, progress=progress.step, **passed(error=error, of=of, rtol=rtol, attack=attack))
     law.save(output)
     if plot is not None:
         law.plot(plot)
@@ -85,10 +74,7 @@ def _ranges(over: str | None, request: options.SceneRequest) -> dict[str, texts.
     known = fields(request.package)
     ranges: dict[str, texts.Range] = {}
     for part in over.split(","):
-        name, equals, ends = part.partition("=")
-        name = name.strip()
-        if not equals:
-            raise InputError("--over", part, _ACCEPTED, "has no =")
+        name, ends = texts.assignment(_ACCEPTED, part, "--over")
         entry = known.get(_SHORT.get(name, name))
         if entry is None:
             raise InputError("--over", name, _ACCEPTED, "is not known" + did_you_mean(name, [*_SHORT, *known]))

@@ -32,14 +32,21 @@ def names(text: str) -> list[str]:
     return listed
 
 
+def assignment(accepted: str, text: str, label: str = "") -> tuple[str, str]:
+    """Name and text of NAME=TEXT; InputError for a text without the sign."""
+    name, equals, value = text.partition("=")
+    if not equals:
+        raise InputError(label, text, accepted, "has no =")
+    return name.strip(), value
+
+
 def assigned(accepted: str, texts: Sequence[str], label: str = "") -> dict[str, str]:
     """The texts of a repeatable option NAME=TEXT, by name; InputError for a name that stands twice."""
     values: dict[str, str] = {}
     for text in texts:
-        name, equals, value = text.partition("=")
-        name = name.strip()
-        if not equals or name in values:
-            raise InputError(label, text, accepted, "is given twice: every name once" if equals else "has no =")
+        name, value = assignment(accepted, text, label)
+        if name in values:
+            raise InputError(label, text, accepted, "is given twice: every name once")
         values[name] = value
     return values
 

@@ -56,17 +56,14 @@ class Comparison:
 
     def to_dict(self) -> list[dict[str, Any]]:
         """The JSON of the comparison."""
-        return [
-            {"choice": each.name, **{name: value for name, value in asdict(each).items() if name != "name"}}
-            | {"reason": each.reason or None}
-            for each in self.candidates
-        ]
+        records = [asdict(each) for each in self.candidates]
+        return [{"choice": each.pop("name"), **each, "reason": each["reason"] or None} for each in records]
 
-    def rows(self) -> tuple[list[str], list[list[str]]]:
-        """Head and cells of a table; AIC as the difference from the best."""
+    def __str__(self) -> str:
+        """A table; AIC as the difference from the best."""
         names = list(next((each.estimates for each in self.candidates if each.estimates), {}))
         least = min((each.aic for each in self.candidates if each.aic is not None), default=0.0)
-        cells = []
+        cells = [["choice", "AIC - best", "log-likelihood", "predicted per impact", *names]]
         for each in self.candidates:
             if each.aic is None or each.estimates is None:
                 cells.append([each.name, each.reason, *[""] * (2 + len(names))])
@@ -74,11 +71,7 @@ class Comparison:
             predicted = "-" if each.predicted is None else f"{each.predicted:.3f}"
             values = [in_unit(self.scene, name, each.estimates[name]) for name in names]
             cells.append([each.name, f"{each.aic - least:.2f}", f"{each.log_likelihood:.2f}", predicted, *values])
-        return ["choice", "AIC - best", "log-likelihood", "predicted per impact", *names], cells
-
-    def __str__(self) -> str:
-        head, cells = self.rows()
-        return "\n".join(aligned([head, *cells]))
+        return "\n".join(aligned(cells))
 
 
 def compare_models(

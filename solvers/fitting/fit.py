@@ -13,13 +13,12 @@ from ...generated.automaton import OUTCOMES, STICK
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..settings import check_rtol
-from .estimates import CONTRADICTED, Estimate, RowDiagnostics
 from .free_entries import IDENTIFIED, NOT_AT_ALL, FreeEntries, combinations, free_entries, in_unit
 from .likelihood import Evaluation, Likelihood
 from .measurements import UNKNOWN, Measurements, read_data
 from .optimise import Objective, Optimum, optimise, whitening
 from .profiles import End, intervals, judged
-from .result import Fit
+from .result import CONTRADICTED, Estimate, Fit, RowDiagnostics
 from .scatter import Resolution
 
 RTOL = 1e-8

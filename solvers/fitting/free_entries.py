@@ -97,15 +97,15 @@ class FreeEntries:
 
     @property
     def start(self) -> np.ndarray:
-        return self.inner(np.array([each.value for each in self.entries]))
+        return np.array([each.inner(each.value) for each in self.entries])
 
     @property
     def low(self) -> np.ndarray:
-        return self.inner(np.array([each.low for each in self.entries]))
+        return np.array([each.inner(each.low) for each in self.entries])
 
     @property
     def high(self) -> np.ndarray:
-        return self.inner(np.array([each.high for each in self.entries]))
+        return np.array([each.inner(each.high) for each in self.entries])
 
     @property
     def vague(self) -> np.ndarray:

@@ -10,6 +10,7 @@ roots cancel.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,6 +33,7 @@ deviations) contradicts the model; from there its log-likelihood falls with the 
 
 _BEYOND = 6.0  # standard deviations of noise and angle beyond which a restitution is impossible
 _NAMED = 8  # rows in a message
+_Terms = tuple[np.ndarray, np.ndarray, np.ndarray]  # rows, logarithms of positive terms, derivatives of these
 
 
 @dataclass(frozen=True)
@@ -153,15 +155,16 @@ class Likelihood:
         counts = mass > np.where(dense, NEGLIGIBLE, 0.0)
         ends = segments.moving_ends(experiment, lines, changes, counts, resolution.approximate)
         by_free = segments.mass_slopes(ends)
-        total, moments = _Sums(size, len(self.names)), {name: np.zeros((3, size)) for name in self.measured}
+        moments = {name: np.zeros((3, size)) for name in self.measured}
         plain = ~dense & counts
-        total.add(segments.row[plain], np.log((segments.weight * mass)[plain]), by_free[plain])
+        terms: list[_Terms] = [(segments.row[plain], np.log((segments.weight * mass)[plain]), by_free[plain])]
         which = np.flatnonzero(dense & counts)
         dense_part = segments.part(which)
         results = dense_part.results(experiment, lines, ends[:, which], self.measured, resolution)
         for part, mapping, value, slope in results:
-            self._integrate(dense_part.part(part), ends[:, which[part]], mapping, value, slope, total, moments)
-        rows, scores = total.result()
+            at_ends = ends[:, which[part]]
+            terms.append(self._integrals(dense_part.part(part), at_ends, mapping, value, slope, moments))
+        rows, scores = _sums(terms, size)
         rare = np.flatnonzero((probability < RARE) & (factors > 0))
         if rare.size:
             moves = np.zeros(scores.shape)  # of the logarithm of the probability
@@ -183,11 +186,11 @@ class Likelihood:
             undecided, mean, spread,
         )  # fmt: skip
 
-    def _integrate(
+    def _integrals(
         self, segments: Segments, ends: np.ndarray, mapping: SegmentMap, value: np.ndarray, slope: np.ndarray,
-        total: _Sums, moments: dict[str, np.ndarray],
-    ) -> None:  # fmt: skip
-        """Add the integrals of densities over segments of one kind, and the moments of the results."""
+        moments: dict[str, np.ndarray],
+    ) -> _Terms:  # fmt: skip
+        """The integrals of densities over segments of one kind; the moments of the results are added to `moments`."""
         row = segments.row
         lost = ~np.isfinite(value).all(axis=(0, 2))  # a trajectory on the way was not completed
         value, slope = np.nan_to_num(value), np.nan_to_num(slope)
@@ -218,31 +221,20 @@ class Likelihood:
         for pull, of_result in zip(pulls, slope, strict=True):
             gradient += np.einsum("sn,snp->sp", (share * pull) @ mapping.interpolate, of_result)
         kept = integral > 0
-        total.add(row[kept], logs[kept], gradient[kept])
+        return row[kept], logs[kept], gradient[kept]
 
 
-class _Sums:
-    """Sums of positive terms by row, kept as logarithms, and the derivatives of the sums' logarithms."""
-
-    def __init__(self, rows: int, size: int) -> None:
-        self._rows, self._size = rows, size
-        self._parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
-
-    def add(self, row: np.ndarray, log: np.ndarray, slope: np.ndarray) -> None:
-        """Add terms by their logarithms, with the derivatives of these."""
-        self._parts.append((row, log, slope))
-
-    def result(self) -> tuple[np.ndarray, np.ndarray]:
-        """Logarithms of the sums, -1e300 for an empty one, and their derivatives."""
-        row, log, slope = (np.concatenate(each) for each in zip(*self._parts, strict=True))
-        top = np.full(self._rows, -1e300)
-        np.maximum.at(top, row, log)
-        term = np.exp(log - top[row])
-        total = np.bincount(row, term, self._rows)
-        logs = np.where(total > 0, top + np.log(np.maximum(total, 1e-300)), -1e300)
-        slopes = np.zeros((self._rows, self._size))
-        np.add.at(slopes, row, (term / total[row])[:, None] * slope)
-        return logs, slopes
+def _sums(terms: Sequence[_Terms], rows: int) -> tuple[np.ndarray, np.ndarray]:
+    """Logarithms of the sums of terms by row, -1e300 for an empty one, and their derivatives."""
+    row, log, slope = (np.concatenate(each) for each in zip(*terms, strict=True))
+    top = np.full(rows, -1e300)
+    np.maximum.at(top, row, log)
+    term = np.exp(log - top[row])
+    total = np.bincount(row, term, rows)
+    logs = np.where(total > 0, top + np.log(np.maximum(total, 1e-300)), -1e300)
+    slopes = np.zeros((rows, slope.shape[1]))
+    np.add.at(slopes, row, (term / total[row])[:, None] * slope)
+    return logs, slopes
 
 
 def limit(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

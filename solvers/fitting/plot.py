@@ -15,10 +15,10 @@ from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, patch, picture
 from ..formatting.ticks import plain
 from ..many.collide_many import collide_many
 from ..scene.held import AXIS_LABELS
-from .estimates import Fitted
 from .free_entries import unit_shown
 from .optimise import whitening
 from .profiles import DROP, profile_point
+from .result import Fit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -41,7 +41,7 @@ _LABELS = {
 
 
 @picture
-def draw(fit: Fitted) -> Figure:
+def draw(fit: Fit) -> Figure:
     """The four kinds of pictures of a fit in one figure."""
     free = fit.free
     figure = Figure(figsize=(11.0, 7.6), layout="constrained")
@@ -59,7 +59,7 @@ def draw(fit: Fitted) -> Figure:
     return figure
 
 
-def _samples(fit: Fitted) -> np.ndarray:
+def _samples(fit: Fit) -> np.ndarray:
     """Values of the entries within their joint 95 % region, the estimates first; bands are the range over them.
 
     The ends of the intervals are among them: where the likelihood falls faster to one side than its curvature says, all
@@ -81,7 +81,7 @@ def _samples(fit: Fitted) -> np.ndarray:
     return np.array([free.values(each) for each in inside])
 
 
-def _collided(fit: Fitted, values: np.ndarray, speed: np.ndarray, angle: np.ndarray, of: tuple[str, ...] = ()) -> Any:
+def _collided(fit: Fit, values: np.ndarray, speed: np.ndarray, angle: np.ndarray, of: tuple[str, ...] = ()) -> Any:
     """Collisions at all points with each of several values of the entries, (values, points)."""
     count, size = values.shape[0], speed.size
     vary = {}
@@ -91,18 +91,7 @@ def _collided(fit: Fitted, values: np.ndarray, speed: np.ndarray, angle: np.ndar
     return collide_many(fit.first, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
 
 
-def _emptiest_corner(axes: Axes, x: np.ndarray, y: np.ndarray) -> str:
-    """The corner in which a legend covers the fewest points, in words of matplotlib."""
-    across, up = axes.transAxes.inverted().transform(axes.transData.transform(np.column_stack([x, y]))).T
-    covered = {
-        "upper right": (across > 0.65) & (up > 0.7), "upper left": (across < 0.35) & (up > 0.7),
-        "lower right": (across > 0.65) & (up < 0.3), "lower left": (across < 0.35) & (up < 0.3),
-        "upper center": (np.abs(across - 0.5) < 0.18) & (up > 0.7),
-    }  # fmt: skip
-    return min(covered, key=lambda place: int(covered[place].sum()))
-
-
-def _map(axes: Axes, fit: Fitted, samples: np.ndarray) -> None:
+def _map(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
     data = fit.data
     low, high = data.speed.min(), data.speed.max()
     margin = max((high / low) ** 0.06, 1.05)
@@ -148,14 +137,13 @@ def _map(axes: Axes, fit: Fitted, samples: np.ndarray) -> None:
     plain(axes.yaxis)
     axes.set_xlabel("impact angle (deg)")
     axes.set_ylabel(AXIS_LABELS[data.speed_name])
-    corner: Any = _emptiest_corner(axes, np.degrees(data.angle), data.speed)
-    axes.legend(handles=present + handles, fontsize=6.5, loc=corner, frameon=True, framealpha=0.9)
+    axes.legend(handles=present + handles, fontsize=6.5, loc="best", frameon=True, framealpha=0.9)
     axes.set_title(
         "impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _caveat(fit), fontsize=9
     )
 
 
-def _results(axes: Axes, fit: Fitted, samples: np.ndarray) -> None:
+def _results(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
     data = fit.data
     name = next(iter(fit.rows.expected), "")
     if not name:
@@ -187,7 +175,7 @@ def _results(axes: Axes, fit: Fitted, samples: np.ndarray) -> None:
     axes.set_title(title + _caveat(fit) + dashes, fontsize=9)
 
 
-def _caveat(fit: Fitted) -> str:
+def _caveat(fit: Fit) -> str:
     """What a picture for one value of every entry says where entries differ from impact to impact."""
     names = ", ".join(fit.data.columns)
     return f",\nwith the scene's group {names}" if names else ""
@@ -200,7 +188,7 @@ def _by_angle(angle: np.ndarray) -> list[np.ndarray]:
     return [np.flatnonzero(np.isin(which, part)) for part in parts]
 
 
-def _profile(axes: Axes, fit: Fitted, k: int) -> None:
+def _profile(axes: Axes, fit: Fit, k: int) -> None:
     free, objective, best = fit.free, fit.objective, fit.best
     entry = free.entries[k]
     estimate = fit.estimates[entry.name]
@@ -231,7 +219,7 @@ def _profile(axes: Axes, fit: Fitted, k: int) -> None:
     axes.set_title(estimate.verdict, fontsize=8)
 
 
-def _followed(fit: Fitted, k: int, start: np.ndarray, places: np.ndarray) -> np.ndarray:
+def _followed(fit: Fit, k: int, start: np.ndarray, places: np.ndarray) -> np.ndarray:
     """Heights of the profile at places of entry k, the other entries each time from where they were before."""
     heights = []
     for at in places.tolist():
@@ -241,7 +229,7 @@ def _followed(fit: Fitted, k: int, start: np.ndarray, places: np.ndarray) -> np.
     return np.array(heights)
 
 
-def _residuals(axes: Axes, fit: Fitted) -> None:
+def _residuals(axes: Axes, fit: Fit) -> None:
     data, rows = fit.data, fit.rows
     axes.axhspan(-2, 2, color=NOTE, alpha=0.12, linewidth=0)
     axes.axhline(0, color=NOTE, linewidth=0.8)

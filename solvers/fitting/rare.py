@@ -103,8 +103,7 @@ def _nearest(changes: Changes, least: np.ndarray, rows: np.ndarray, allowed: np.
     agrees, agreed = ((each >= 0) & allowed[row, each] for each in (outward, inward))
     those = np.flatnonzero(agrees & ~agreed)
     order = those[np.argsort(np.maximum(np.abs(changes.place), least[changes.line])[those], kind="stable")]
-    nearest: np.ndarray = order[np.unique(row[order], return_index=True)[1]]
-    return nearest
+    return order[np.unique(row[order], return_index=True)[1]]
 
 
 def _misfit(

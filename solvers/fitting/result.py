@@ -1,9 +1,10 @@
-"""The result of `fit`, shown and written."""
+"""The result of `fit`: estimates, rows and remarks, and how they are shown and written."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,26 +13,129 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..errors import InputError
 from ..formatting.markdown import aligned
+from ..host import files
+from ..host.outputs import check_file, check_folder
+from ..host.pictures import plot
+from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.scene import Scene
-from .estimates import CONTRADICTED, Fitted
-from .free_entries import interval, unit_shown
+from .free_entries import FreeEntries, in_unit, interval, unit_shown
+from .likelihood import KNEE
+from .measurements import Measurements
+from .optimise import Objective
 
 if TYPE_CHECKING:
     import pandas as pd
 
+    from ..formatting.document import Block
+
+_PULLING = 12  # rows of the data in the report
+
+CONTRADICTED = (
+    "At least half of the impacts contradict the model: no entry is identified. The estimates are the least bad ones, "
+    "and the intervals say only which values are as bad."
+)
+"""The first remark where `RowDiagnostics.contradicted`."""
+
 
 @dataclass(frozen=True)
-class Fit(Fitted):
-    """The result of `fit`: what was found, and how that is shown and written. Its attributes are those of `Fitted`.
+class Estimate:
+    """An entry: the most likely value, its 95 % interval (None: an open end), SI, and the verdict."""
+
+    value: float
+    low: float | None
+    high: float | None
+    verdict: str
+
+
+@dataclass(frozen=True)
+class RowDiagnostics:
+    """The rows of the data under the estimates; arrays of one length, NaN where a row has no such number.
+
+    Attributes:
+        probability: of the observed outcome.
+        expected: result -> its mean over the scatter, where the outcome is the observed one.
+        residual: result -> what was measured less that, over the standard deviation of both.
+        log_likelihood: of the row, relative to a perfect observation.
+        pull: how far the estimates would move without the row, in standard errors, to first order.
+    """
+
+    probability: np.ndarray
+    expected: Mapping[str, np.ndarray]
+    residual: Mapping[str, np.ndarray]
+    log_likelihood: np.ndarray
+    pull: np.ndarray
+
+    @property
+    def contradicting(self) -> np.ndarray:
+        """Indices of the rows that lie beyond what the scatter allows."""
+        return np.flatnonzero(self.log_likelihood < -KNEE)
+
+    @property
+    def contradicted(self) -> bool:
+        """Whether at least half of the rows contradict the model."""
+        return 2 * self.contradicting.size >= self.log_likelihood.size
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The result of `fit`: what was estimated, and how that is shown and written.
+
+    Attributes:
+        scene: with the most likely values.
+        first: the scene that was fitted.
+        estimates: by dotted name.
+        log_likelihood: maximum, with all constants of the densities; priors are not part of it.
+        correlation: of the estimates in the variables of the search, (entries, entries).
+        combinations: sentences on products of powers that the data tell.
+        remarks: sentences on defaults, contradictions, and what the data lack.
+        quadrature: change of the log-likelihood with twice as fine integrals.
+        others: values of less likely separate maxima, with their log-likelihoods.
+        ends: of each entry's interval below and above, all entries in the variables of the search.
 
     Example:
         >>> from wetdoublet.solvers import fit
-        >>> seen = {"stokes": [0.08, 0.1, 0.13, 0.16], "angle": [0.0] * 4, "outcome": ["S", "S", "B", "B"]}
-        >>> found = fit("granulation", seen, "liquid.glass_transition_pressure")
-        >>> sorted(found.to_dict()["estimates"]["liquid.glass_transition_pressure"])
+        >>> impacts = {"stokes": [0.08, 0.1, 0.13, 0.16], "angle": [0.0] * 4, "outcome": ["S", "S", "B", "B"]}
+        >>> fitted = fit("granulation", impacts, "liquid.glass_transition_pressure")
+        >>> sorted(fitted.to_dict()["estimates"]["liquid.glass_transition_pressure"])
         ['high', 'low', 'value', 'verdict']
     """
+
+    scene: Scene
+    first: Scene
+    data: Measurements
+    estimates: Mapping[str, Estimate]
+    log_likelihood: float
+    correlation: np.ndarray
+    combinations: tuple[str, ...]
+    remarks: tuple[str, ...]
+    rows: RowDiagnostics
+    quadrature: float
+    others: tuple[tuple[Mapping[str, float], float], ...]
+    objective: Objective = field(repr=False, compare=False)
+    ends: tuple[tuple[np.ndarray, np.ndarray], ...] = field(repr=False, compare=False)
+
+    @property
+    def points(self) -> int:
+        """Number of impacts."""
+        return self.data.size
+
+    @property
+    def free(self) -> FreeEntries:
+        return self.objective.free
+
+    @cached_property
+    def best(self) -> np.ndarray:
+        """The estimates in the variables of the search."""
+        return np.array([each.inner(self.estimates[each.name].value) for each in self.free.entries])
+
+    def table(self) -> tuple[list[str], list[list[str]]]:
+        """Head and rows of the table of estimates."""
+        rows = [
+            [name, in_unit(self.first, name, one.value), interval(self.first, name, one.low, one.high), one.verdict]
+            for name, one in self.estimates.items()
+        ]
+        return ["entry", "estimate", "95 % interval", "verdict"], rows
 
     def log_density(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
         """Logarithm of likelihood times prior density, and its gradient, for given values of the free entries.
@@ -104,16 +208,10 @@ class Fit(Fitted):
         Arguments:
             path: file to write (.png, .pdf or .svg); None only draws.
         """
-        from ..host.pictures import saved
-        from .plot import draw
-
-        return saved(lambda: draw(self), path)
+        return plot(self, path)
 
     def write(self, path: str | Path) -> None:
         """Write the fitted scene as TOML, with the intervals as comments."""
-        from ..host import files
-        from ..host.outputs import check_file
-
         files.write(check_file(path, "path", (".toml",)), self.to_toml())
 
     def to_toml(self) -> str:
@@ -136,7 +234,37 @@ class Fit(Fitted):
         return self.first.with_entries(changes)
 
     def report(self, folder: str | Path) -> list[Path]:
-        """Write report.md, report.html and their picture into a folder; returns the files."""
-        from .report import write_report
+        """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths."""
+        from ..formatting.document import Picture, Table, report
 
-        return write_report(self, folder)
+        into = check_folder(folder, "report")
+        into.mkdir(parents=True, exist_ok=True)
+        self.plot(into / "fit.png")
+        title = f"Fit of {self.points} impacts" + (f" to {self.first.name}" if self.first.name else "")
+        names, change = list(self.estimates), f"with twice as fine integrals it changes by {self.quadrature:.2g}"
+        blocks: list[Block] = [[CONTRADICTED]] if self.rows.contradicted else []
+        shown = "Data over the regime map, results with their band, profiles of the likelihood, and residuals."
+        blocks += [Picture("fit.png", shown, 24.0), "## Estimates", Table("", *self.table())]
+        blocks.append([*self.combinations, f"Log-likelihood {self.log_likelihood:.4f}; {change}."])
+        if len(names) > 1:
+            rows = [[name, *(f"{value:.2f}" for value in row)] for name, row in zip(names, self.correlation.tolist())]
+            blocks += ["## Correlation", Table("", ["", *names], rows)]
+        blocks += ["## Remarks", self.remarks] if self.remarks else []
+        blocks += ["## Impacts that pull most", Table("", *self._most_pulling())]
+        blocks.append("Pull: how far the estimates would move without the impact, in standard errors, to first order.")
+        return [*files.write_all_in(into, report(title, blocks)), into / "fit.png"]
+
+    def _most_pulling(self) -> tuple[list[str], list[list[str]]]:
+        """Head and rows of the table of the impacts that pull most."""
+        data, rows, names = self.data, self.rows, list(self.rows.expected)
+        head = ["impact", f"{NAMES[data.speed_name]} (m/s)", "angle (deg)", "outcome", "probability"]
+        cells = []
+        for k in np.argsort(-rows.pull)[:_PULLING].tolist():
+            outcome = OUTCOMES[data.outcome[k]] if data.outcome[k] >= 0 else "-"
+            cell = [data.label(k), f"{data.speed[k]:.4g}", f"{np.degrees(data.angle[k]):.4g}", outcome]
+            cell.append(f"{rows.probability[k]:.3g}")
+            for name in names:
+                measured = float(data.observed[name][0][k])
+                cell.append("-" if np.isnan(measured) else f"{measured:.4g} ({rows.expected[name][k]:.4g})")
+            cells.append([*cell, f"{rows.pull[k]:.2f}"])
+        return [*head, *(f"{name} (expected)" for name in names), "pull"], cells

@@ -32,13 +32,13 @@ def labelled(
     """
     columns = {**variables, **coordinates}
     shapes = tuple((name, dims, values.shape) for name, (dims, values, _) in columns.items())
-    found = _laid_out(shapes, tuple(coordinates), tuple((axes or {}).items())).copy()
-    for name, (_, values, said) in columns.items():
-        variable = found.variables[name]
+    data = _laid_out(shapes, tuple(coordinates), tuple((axes or {}).items())).copy()
+    for name, (_, values, attrs) in columns.items():
+        variable = data.variables[name]
         variable.data = values
-        variable.attrs = said  # a copy, so that arrays among the attributes are not shared
-    found.attrs = attributes
-    return found
+        variable.attrs = attrs  # a copy, so that arrays among the attributes are not shared
+    data.attrs = attributes
+    return data
 
 
 @lru_cache(maxsize=32)

@@ -46,9 +46,9 @@ def picture(draw: Callable[Given, Figure]) -> Callable[Given, Figure]:
     """A function that draws a figure in this style; ticks, which matplotlib makes later, included."""
 
     @functools.wraps(draw)
-    def drawn(*given: Given.args, **named: Given.kwargs) -> Figure:
+    def drawn(*args: Given.args, **named: Given.kwargs) -> Figure:
         with styled():
-            figure = draw(*given, **named)
+            figure = draw(*args, **named)
             for axes in figure.axes:
                 axes.tick_params(axis="x", labelsize=mpl.rcParams["xtick.labelsize"])
                 axes.tick_params(axis="y", labelsize=mpl.rcParams["ytick.labelsize"])

@@ -20,16 +20,17 @@ if TYPE_CHECKING:
 
 _HOMES = {  # a variable that only one kind of result has -> what draws it
     "first_order": "sensitivity.uncertainty.draw",
-    "d_event_time": "sensitivity.trajectory_plot.draw",
+    "d_event_time": "sensitivity.plots.draw_trajectory",
     "rotation_released": "verify.plot.draw_budget",
-    "total_within": "sensitivity.sobol_plot.draw",
-    "engine": "sensitivity.gradients_plot.draw",
+    "total_within": "sensitivity.plots.draw_indices",
+    "engine": "sensitivity.plots.draw_gradients",
     "outcome": "many.plot_map.draw",
 }
+_RESULTS = {"Design": "planning.plot.draw", "Fit": "fitting.plot.draw"}  # results that are no Dataset, by class
 _ROOT = __package__.rpartition(".")[0]
 
 
-def plot(data: xarray.Dataset, path: str | Path | None = None) -> Any:
+def plot(data: Any, path: str | Path | None = None) -> Any:
     """Draw a Dataset that this package has made, read back from a file or not.
 
     Arguments:
@@ -47,7 +48,8 @@ def plot(data: xarray.Dataset, path: str | Path | None = None) -> Any:
         >>> from wetdoublet.solvers import plot, regime_map
         >>> figure = plot(regime_map("granulation", stokes=[0.01, 0.1, 0.3], angle=["10 deg", "40 deg", "70 deg"]))
     """
-    home = next((_HOMES[name] for name in _HOMES if name in getattr(data, "data_vars", ())), None)
+    variables = getattr(data, "data_vars", ())
+    home = _RESULTS.get(type(data).__name__) or next((_HOMES[name] for name in _HOMES if name in variables), None)
     if home is None:
         raise InputError("data", type(data).__name__, "a Dataset that this package has made", "is none")
     module, _, function = home.rpartition(".")

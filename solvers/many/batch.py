@@ -29,13 +29,15 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Batch:
-    """A scene, its impacts, the entries that vary and the quantities to keep; SI arrays of one length.
+    """A scene, its impacts, the entries that vary and the results to keep; SI arrays of one length.
 
-    `held` says what the collisions share of the scene's impact where entries vary (`scene.held`).
-    `texts` are choices that vary; they are split into one batch for each scene before anything is computed (`by_text`),
-    and the engine is chosen for each. `asked` is the requested engine.
-    A chunk of a request has the number of collisions of the whole in `whole`, and keeps the whole's engines: `engine`,
-    and by the choices of a scene `engines`.
+    Arguments:
+        stokes, speed: one of them; the other is None.
+        engine: the engine that computes the collisions, unless choices vary.
+        of: names of the results to keep.
+        texts: choices that vary; the batch is split by them before anything is computed (`by_text`).
+        engines: the engine by choices, where these vary.
+        partial: it is a part of a request whose other parts may have been computed by the kernel.
     """
 
     scene: Scene
@@ -46,11 +48,9 @@ class Batch:
     rtol: float
     engine: str
     of: tuple[str, ...]
-    asked: str | None = None
-    held: str = ""
     texts: dict[str, np.ndarray] = field(default_factory=dict)
-    whole: int = 0
     engines: Mapping[tuple[str, ...], str] = field(default_factory=dict)
+    partial: bool = False
 
     @property
     def size(self) -> int:
@@ -88,12 +88,11 @@ class Batch:
             which = np.flatnonzero((columns == np.array(row)).all(axis=1))
             try:
                 scene = self.scene.with_entries(dict(zip(self.texts, row, strict=True)))
-                part = replace(self.part(which), scene=scene, texts={})
-                part = replace(part, engine=self.engines.get(row) or collision_engine(scene, self.asked))
             except InputError as error:
                 yield which, error
             else:
-                yield which, part
+                engine = self.engines.get(row, self.engine)
+                yield which, replace(self.part(which), scene=scene, texts={}, engine=engine)
 
 
 @lru_cache(maxsize=64)
@@ -112,11 +111,12 @@ def validated_batch(
     """A validated `Batch`, its 1-D arrays broadcast to one length.
 
     Arguments:
-        impact: `stokes`, `speed`, `relative_speed` and `angle` as they were given; None for the scene's.
+        impact: `stokes`, `speed`, `relative_speed` and `angle`; None for the scene's.
     """
     kept = check_outputs(of)
     loaded, columns, _ = checked_columns(scene, impact, vary)
-    request = batch(loaded, of_one_length(columns), check_rtol(rtol), check_engine(engine), kept)
+    chosen = collision_engine(loaded, check_engine(engine))
+    request = batch(loaded, of_one_length(columns), check_rtol(rtol), chosen, kept)
     check_some_scene(request)
     return request
 
@@ -125,33 +125,17 @@ def batch(
     scene: Scene,
     columns: dict[str, np.ndarray],
     rtol: float,
-    engine: str | None,
+    engine: str,
     of: tuple[str, ...],
     engines: Mapping[tuple[str, ...], str] | None = None,
 ) -> Batch:
-    """A Batch of checked columns of one length, by dotted name, with checked settings.
-
-    Arguments:
-        engine: the requested engine; None for the best of the scene, unless `engines` knows it already.
-    """
-    angle, relative = columns.pop("impact.angle"), columns.pop("impact.relative_speed", None)
-    speed = columns.pop("impact.speed", None)
-    request = Batch(
-        scene=scene,
-        stokes=columns.pop("impact.stokes", None),
-        speed=speed if relative is None else normal_speed(relative, angle),
-        angle=angle,
-        vary={name: column for name, column in columns.items() if column.dtype.kind == "f"},
-        rtol=rtol,
-        engine=engine or "rosenbrock",
-        of=of,
-        asked=engine,
-        texts={name: column for name, column in columns.items() if column.dtype.kind != "f"},
-        engines=engines or {},
-    )
-    if request.texts:
-        return request
-    return replace(request, engine=request.engines.get(()) or collision_engine(scene, engine))
+    """A Batch of checked columns of one length, by dotted name; arguments as of `Batch`."""
+    angle, stokes = columns.pop("impact.angle"), columns.pop("impact.stokes", None)
+    relative = columns.pop("impact.relative_speed", None)
+    speed = columns.pop("impact.speed", None) if relative is None else normal_speed(relative, angle)
+    vary = {name: column for name, column in columns.items() if column.dtype.kind == "f"}
+    texts = {name: column for name, column in columns.items() if column.dtype.kind != "f"}
+    return Batch(scene, stokes, speed, angle, vary, rtol, engine, of, texts, engines or {})
 
 
 def of_one_length(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -181,22 +165,24 @@ def checked_impact(
     Arguments:
         hold: the quantity of the scene's impact, "speed", "stokes" or "relative_speed"; None: as the scene gives it.
     """
-    asked = {name: values for name, values in impact.items() if name != "angle" and values is not None}
-    names = [name.partition(".")[2] for name in SPEEDS]
-    if len(asked) > 1:
-        first, second, *_ = asked
-        raise InputError(second, asked[second], f"only one of {', '.join(names)}", f"is given together with {first}")
-    if not asked:
+    speeds = {name: values for name, values in impact.items() if name != "angle" and values is not None}
+    if len(speeds) > 1:
+        first, second, *_ = speeds
+        accepted = f"only one of {', '.join(name.partition('.')[2] for name in SPEEDS)}"
+        raise InputError(second, speeds[second], accepted, f"is given together with {first}")
+    if not speeds:
         quantity = hold or impact_quantity(scene)
         value = None if quantity is None else impact_value(scene, quantity)
         if quantity is None or value is None:
             raise InputError("stokes", None, "Stokes numbers, speed or relative_speed, or an [impact] in the scene")
-        asked = {quantity: value}
+        speeds = {quantity: value}
     angle = scene.angle if impact.get("angle") is None else impact["angle"]
     if angle is None:
         raise InputError("angle", None, "angles in rad, or an [impact] in the scene")
-    given = {f"impact.{name}": values for name, values in asked.items()} | {"impact.angle": angle}
-    return {name: checked_numbers(name, values, most=most) for name, values in given.items()}
+    return {
+        f"impact.{name}": checked_numbers(f"impact.{name}", values, most=most)
+        for name, values in {**speeds, "angle": angle}.items()
+    }
 
 
 def checked_columns(
@@ -236,25 +222,27 @@ def checked_vary(
         texts: choices may vary as well.
     """
     vary = check_mapping(vary, label, "entries by dotted name, such as {'liquid.viscosity': [1.0, 2.0]}")
-    found = {}
+    tables = {"impact", *(name.partition(".")[0] for name, _ in scene.given)}
     for name, values in vary.items():
         check_varies(name, values, label, scene.package, texts)
-        tables = {"impact", *(given.partition(".")[0] for given, _ in scene.given)}
         if "." in name and name.partition(".")[0] not in tables:
-            accepted = ", ".join(given for given, _ in scene.given if given not in MEETING)
+            accepted = ", ".join(entry for entry, _ in scene.given if entry not in MEETING)
             raise InputError(label, name, accepted, f"is of a table that the scene {scene.name} has not".strip())
+    columns = {}
     for name, values in vary.items():
         entry = fields(scene.package)[name]
         if entry.choices:
-            found[name] = checked_texts(name, values, entry)
+            columns[name] = checked_texts(name, values, entry)
             continue
         measured = bool(entry.or_unit) and _carry_units(name, values)
-        found[name] = checked_numbers(name, values, entry.measured if measured else entry, most)
-        if entry.or_unit and found[name].size and scene.ways.volume != ("absolute" if measured else "relative"):
-            scene = _with_any(scene, name, found[name], f" {entry.or_unit}" if measured else "")
-        if name in SPINS and name not in scene.entries and found[name].size:
-            scene = _with_any(scene, name, found[name], "")
-    return scene, found
+        column = columns[name] = checked_numbers(name, values, entry.measured if measured else entry, most)
+        other_unit = entry.or_unit and scene.ways.volume != ("absolute" if measured else "relative")
+        if column.size and (other_unit or (name in SPINS and name not in scene.entries)):
+            unit = f" {entry.or_unit}" if measured else ""
+            texts_of = (f"{value!r}{unit}" if unit else value for value in column.ravel().tolist())
+            # with the first value that the scene accepts its entry is meant as the values are
+            scene = first_accepted(partial(scene.with_entries, {name: text}) for text in texts_of)
+    return scene, columns
 
 
 def _carry_units(name: str, values: Any) -> bool:
@@ -266,12 +254,6 @@ def _carry_units(name: str, values: Any) -> bool:
     if len(kinds) > 1:
         raise InputError(name, values, "quantities with their units, or plain numbers, not both", "is a list of both")
     return kinds == {True}
-
-
-def _with_any(scene: Scene, name: str, values: np.ndarray, unit: str) -> Scene:
-    """The scene with the first value that it accepts, so that its entry is meant as the values are."""
-    texts = (f"{value!r}{unit}" if unit else value for value in values.ravel().tolist())
-    return first_accepted(partial(scene.with_entries, {name: text}) for text in texts)
 
 
 def first_accepted(attempts: Iterable[Callable[[], T]]) -> T:
@@ -308,14 +290,13 @@ def check_some_scene(request: Batch) -> None:
 def checked_texts(name: str, values: Any, entry: Field) -> np.ndarray:
     """An array of choices, in any number of dimensions; InputError for one that there is not."""
     try:
-        found = np.asarray(values, dtype=object)
+        column = np.asarray(values, dtype=object)
     except Exception:  # noqa: BLE001 # whatever another library's conversion raises
         raise InputError(name, values, entry.accepts, "is not a list of names") from None
-    read: set[str] = set()
-    for value in found.ravel().tolist():
-        if not isinstance(value, str) or value not in read:
-            read.add(str(entry.read(value)))
-    return found.astype(str)
+    names = column.ravel().tolist()
+    for value in dict.fromkeys(names) if all(isinstance(each, str) for each in names) else names:
+        entry.read(value)
+    return column.astype(str)
 
 
 def checked_numbers(name: str, values: Any, entry: Field | None = None, most: int | None = 1) -> np.ndarray:
@@ -328,24 +309,24 @@ def checked_numbers(name: str, values: Any, entry: Field | None = None, most: in
         InputError: as `values.array`, and numbers outside the field's range.
     """
     entry = FIELDS[name] if entry is None else entry
-    found = array(values, entry, name)
-    if most is not None and found.ndim > most:
-        raise InputError(name, f"{found.ndim} dimensions", "one dimension, or a single number", "is not accepted")
+    column = array(values, entry, name)
+    if most is not None and column.ndim > most:
+        raise InputError(name, f"{column.ndim} dimensions", "one dimension, or a single number", "is not accepted")
     # every range is an interval: if it holds the smallest and the largest value, it holds all
-    ends = (float(found.min()), float(found.max())) if found.size else ()  # NaN if any value is
+    ends = (float(column.min()), float(column.max())) if column.size else ()  # NaN if any value is
     if not all(math.isfinite(end) and entry.range.holds(end) for end in ends):
-        for value in np.unique(found):
+        for value in np.unique(column):
             entry.number(float(value))
-    return found
+    return column
 
 
 def checked_span(name: str, values: Any) -> tuple[float, float]:
     """Two ascending SI numbers; InputError for anything else."""
-    found = checked_numbers(name, values)
+    pair = checked_numbers(name, values)
     accepted = "(LO, HI) with LO below HI"
-    if found.shape != (2,):
+    if pair.shape != (2,):
         raise InputError(name, values, accepted, "is not a pair of numbers")
-    low, high = found.tolist()
+    low, high = pair.tolist()
     if not low < high:
         raise InputError(name, f"{low}:{high}", accepted, "is not ascending")
     return low, high

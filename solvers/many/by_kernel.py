@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
+from functools import lru_cache, partial
 
 import numpy as np
 
 from ...generated import scaling
 from ...generated.automaton import KINDS, LAST_ANSWER
-from ..collision.outcome import open_beyond
+from ..collision.outcome import KERNEL_TERMS, absent_terms, open_beyond
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.record import run_with_books
 from ..errors import ComputationError
@@ -27,17 +27,6 @@ from .results import NONE, RATES, REVERSALS, TIMES, Block
 _STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
 _MOST = 1e30  # largest magnitude of an SI quantity; its inverse is the smallest
 _NEVER = ("glass_transition_pressure", "youngs_modulus")  # set very large to disable a rebound criterion
-_TERMS = {
-    "initial": "initial",
-    "final": "final",
-    "normal_lubrication": "normal",
-    "tangential_lubrication": "tangential",
-    "capillary": "capillary",
-    "attraction": "attraction",
-    "dry_contact": "dry",
-    "dry_friction": "friction",
-    "strings": "lifted",
-}  # of the ledger, and the kernel's name for each
 _CODES = np.full(len(KINDS) + 1, NONE, dtype=np.int8)  # of reversals, by the number of the event; the last for none
 _CODES[[KINDS.index(word) for word in REVERSALS]] = range(len(REVERSALS))
 _NEAR = 1e-9  # relative distance to a limit of valid input below which the scene itself is validated
@@ -61,23 +50,25 @@ def collide_by_kernel(
         books = None
         if ledger:
             both = run_with_books(impacts, request.rtol, threads)
-            found, books = both if both is not None else (None, None)
+            answers, books = both if both is not None else (None, None)
         else:
-            found = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps)
-        if found is None:
-            if request.whole:  # other chunks may have been computed by the kernel
+            answers = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps)
+        if answers is None:
+            if request.partial:  # other parts may have been computed by the kernel
                 advice = 'look at what the compiler reports, or choose another engine, as "rosenbrock"'
                 raise ComputationError("the kernel of this request cannot be compiled here", advice=advice)
             return which
-        kept = found["status"] <= LAST_ANSWER
+        kept = answers["status"] <= LAST_ANSWER
         if books is not None:  # where the ledger is open the trajectory is wrong
-            kept &= _closed(found, books, request.rtol)
+            kept &= _closed(answers, books, request.rtol)
         if part.size == kept.size and kept.all():  # the usual case; avoids copies
-            finished(part, block_of(request, found, impacts, books))
+            finished(part, block_of(request, answers, impacts, books))
             continue
         done = sound.copy()
         done[sound] = kept
-        finished(part[done], block_of(request, found[kept], impacts.part(kept), None if books is None else books[kept]))
+        finished(
+            part[done], block_of(request, answers[kept], impacts.part(kept), None if books is None else books[kept])
+        )
         left.append(part[~done])
     return np.concatenate(left)
 
@@ -91,22 +82,26 @@ def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
             values = varied_columns(request)
             sound = admissible(scene, values)
             unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
+            for name, column in values.items():  # a column of one number, repeated, has no stride
+                sound &= _usual(column if column.strides[0] else column[:1], 1e200 if name in _NEVER else _MOST)
         else:
-            sound, unit = np.ones(request.size, bool), scene.stokes_per_speed
+            sound, unit = np.full(request.size, _usual_scene(scene)), scene.stokes_per_speed
         speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
-        for name, column in (values or si_values(scene, None, None)).items():
-            sound &= _usual(column, name)
-        sound &= _usual(speed)
+        sound &= _usual(speed, _MOST)
     impacts = Impacts(scene, speed, request.angle, values)
     return impacts if sound.all() else impacts.part(np.flatnonzero(sound)), sound
 
 
-def _usual(values: np.ndarray | float, name: str = "") -> np.ndarray:
+def _usual(values: np.ndarray, most: float) -> np.ndarray:
     """Mask of values with which no dimensionless group overflows; others are left to `nondimensionalise`."""
     size = np.abs(values)
-    most = 1e200 if name in _NEVER else _MOST
-    usual: np.ndarray = (size == 0) | ((size >= 1 / _MOST) & (size <= most))
-    return usual
+    return np.asarray((size == 0) | ((size >= 1 / _MOST) & (size <= most)))
+
+
+@lru_cache(maxsize=64)
+def _usual_scene(scene: Scene) -> bool:
+    sizes = {name: abs(value) for name, value in scene.material.items()}
+    return all(not size or 1 / _MOST <= size <= (1e200 if name in _NEVER else _MOST) for name, size in sizes.items())
 
 
 def admissible(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
@@ -132,74 +127,68 @@ def admissible(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     return sound
 
 
-def block_of(request: Batch, found: np.ndarray, impacts: Impacts, books: np.ndarray | None) -> Block:
+def block_of(request: Batch, answers: np.ndarray, impacts: Impacts, books: np.ndarray | None) -> Block:
     """Kernel records as the requested columns of a result."""
-    separated = found["outcome"] > 0
+    separated, scene = answers["outcome"] > 0, request.scene
 
-    def thickness() -> np.ndarray | float:
-        return impacts.others.get("film_thickness", request.scene.liquid.film_thickness)
+    def defined(where: np.ndarray, values: np.ndarray) -> np.ndarray:
+        return np.where(where, values, np.nan)
 
-    def where(defined: np.ndarray, values: np.ndarray) -> np.ndarray:
-        return np.where(defined, values, np.nan)
+    def length() -> np.ndarray | float:
+        return impacts.others.get("film_thickness", scene.liquid.film_thickness)
 
     columns: dict[str, Callable[[], np.ndarray]] = {
-        "tangential_restitution": lambda: where(separated & (impacts.angle > 0), found["shown"][:, 1]),
-        "slip_restitution": lambda: where(separated & impacts.oblique, found["slip"]),
-        "contact_time": lambda: where(separated, found["time"] * (thickness() / impacts.speed)),
-        "smallest_gap": lambda: where(separated, found["smallest_gap"] * thickness()),
-        "rotation": lambda: where(separated, found["turned"]),
-        "until": lambda: where(~separated, found["time"] * (thickness() / impacts.speed)),
-        "reversal": lambda: _CODES[found["reversal"]],
-        "steps": lambda: found["steps"].astype(float),
+        "tangential_restitution": lambda: defined(separated & (impacts.angle > 0), answers["shown"][:, 1]),
+        "slip_restitution": lambda: defined(separated & impacts.oblique, answers["slip"]),
+        "contact_time": lambda: defined(separated, answers["time"] * (length() / impacts.speed)),
+        "smallest_gap": lambda: defined(separated, answers["smallest_gap"] * length()),
+        "rotation": lambda: defined(separated, answers["turned"]),
+        "until": lambda: defined(~separated, answers["time"] * (length() / impacts.speed)),
+        "reversal": lambda: _CODES[answers["reversal"]],
+        "steps": lambda: answers["steps"].astype(float),
     }
     block: Block = {
-        "outcome": found["outcome"].astype(np.int8),
-        "certified": found["certified"] != 0,
-        "restitution": np.where(separated, found["shown"][:, 0], 0.0),
+        "outcome": answers["outcome"].astype(np.int8),
+        "certified": answers["certified"] != 0,
+        "restitution": np.where(separated, answers["shown"][:, 0], 0.0),
     }
     if any(name in RATES for name in request.of):
-        rates = _rates(request.scene, found, impacts)
-        columns |= {name: partial(where, separated, column) for name, column in rates.items()}
+        rates = _rates(scene, answers, impacts)
+        columns |= {name: partial(defined, separated, column) for name, column in rates.items()}
     if books is not None:
         block |= {name: column for name, column in _ledger(request, books, impacts).items() if name in request.of}
     return block | {name: column() for name, column in columns.items() if name in request.of}
 
 
-def _rates(scene: Scene, found: np.ndarray, impacts: Impacts) -> dict[str, np.ndarray]:
+def _rates(scene: Scene, answers: np.ndarray, impacts: Impacts) -> Block:
     """Spins and rotation rate at separation, rad/s; 0 head-on."""
-    given = si_values(scene, None, None) | dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
-    unit = rate_scales(scene, given)
+    values = si_values(scene, None, None) | dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
+    unit = rate_scales(scene, values)
     names = load(select_model(scene, True, fold=not impacts.others)).names("outputs")
-    shown = {name: found["shown"][:, k] * unit for k, name in enumerate(names) if name in RATES}
+    rates = {name: answers["shown"][:, k] * unit for k, name in enumerate(names) if name in RATES}
     none = np.full(unit.size, np.nan)
-    partner = np.zeros(unit.size) if scene.wall else shown["final_spin"] if scene.pair else none
-    return {"final_spin_partner": partner, "final_rotation_rate": none, **shown}
+    partner = np.zeros(unit.size) if scene.wall else rates["final_spin"] if scene.pair else none
+    return {"final_spin_partner": partner, "final_rotation_rate": none, **rates}
 
 
 def _ledger(request: Batch, books: np.ndarray, impacts: Impacts) -> Block:
     """The ledger in J, and the drift of the angular momentum; NaN where the scene has no such term."""
     scene, others = request.scene, impacts.others
     unit = np.asarray(others.get("reduced_mass", scene.reduced_mass)) * impacts.speed**2
-    smooth = scene.particles.friction is None
-    absent = {"attraction": scene.attraction is None, "friction": smooth, "lifted": scene.pendulum is None}
-    undefined = ("attraction", "dry_friction")
-    terms = {
-        name: np.full(books.size, np.nan if name in undefined else 0.0) if absent.get(own) else books[own] * unit
-        for name, own in _TERMS.items()
-    }
-    spent = [np.nan_to_num(terms[name]) for name in list(_TERMS)[2:]]
+    terms = {name: books[own] * unit for name, own in KERNEL_TERMS.items()}
+    terms |= {name: np.full(books.size, 0.0 if name == "strings" else np.nan) for name in absent_terms(scene)}
+    initial, final, *spent = terms.values()
     block = {f"energy.{name}": values for name, values in terms.items()}
-    block["energy.residual"] = terms["initial"] - terms["final"] - sum(spent)
+    block["energy.residual"] = initial - final - sum(map(np.nan_to_num, spent))
     kept = scene.pendulum is None and not scene.wall
     drift = np.abs(books["momentum"] - 1.0) if kept else np.nan
     block["angular_momentum_drift"] = np.where(impacts.oblique, drift, 0.0 if scene.pendulum is None else np.nan)
     return block
 
 
-def _closed(found: np.ndarray, books: np.ndarray, rtol: float) -> np.ndarray:
+def _closed(answers: np.ndarray, books: np.ndarray, rtol: float) -> np.ndarray:
     """Where the ledger is as closed as a tolerance leaves it, or the outcome is a stick."""
-    terms = np.array([books[name] for name in _TERMS.values()])
+    terms = np.array([books[name] for name in KERNEL_TERMS.values()])
     residual = np.abs(terms[0] - terms[1:].sum(axis=0))
     largest = np.maximum(np.abs(terms).max(axis=0), residual)
-    closed: np.ndarray = (found["outcome"] == 0) | (residual <= open_beyond(rtol) * largest)
-    return closed
+    return np.asarray((answers["outcome"] == 0) | (residual <= open_beyond(rtol) * largest))

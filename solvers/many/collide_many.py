@@ -80,7 +80,8 @@ def collide_many(
     loaded, arrays, held = checked_columns(scene, impact, vary, hold, most=None, texts=True)
     arguments = {**{f"impact.{name}": values for name, values in impact.items()}, **(vary or {})}
     dims, shape, columns, beside = laid_out(arrays, arguments)
-    scan = Scan(loaded, dims, shape, columns, rtol, engine, names, held, beside).checked()
+    scan = Scan(loaded, dims, shape, columns, rtol, engine, names, held, beside)
+    scan.check()
     if file is None:
         return into_memory(scan, client)
     if not scan.size:

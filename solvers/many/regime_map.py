@@ -5,27 +5,25 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Mapping, Sequence
-from contextlib import nullcontext, suppress
-from dataclasses import dataclass
+from contextlib import nullcontext
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...generated import scaling
 from ..errors import InputError
 from ..formatting.labelled import Column
 from ..host import files
 from ..host.arguments import check_function
-from ..scene.groups import si_values
-from ..scene.quantities import normal_speed
+from ..scene.groups import formulas
 from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from ..scene.user_model import Package
 from ..settings import RTOL, check_engine, check_rtol
 from .batch import Batch, check_outputs, checked_columns
+from .columns import with_impacts
 from .compute import Slow
 from .journal import Journal, checked_journal
 from .results import QUANTITIES, VALIDITY
@@ -38,7 +36,6 @@ if TYPE_CHECKING:
 IMPACTS = tuple(name.partition(".")[2] for name in SPEEDS)
 
 
-@dataclass(frozen=True)
 class Grid(Scan):
     """A scan whose dimensions are the impact angle, the Stokes number or a speed, and entries that vary, in this order.
 
@@ -52,51 +49,35 @@ class Grid(Scan):
 
     def about(self) -> dict[str, Any]:
         """Attributes of the Dataset."""
-        title = f"Outcomes of oblique wet collisions: {self.scene.name or 'unnamed scene'}"
-        its = version("wetdoublet")
+        release = version("wetdoublet")
         return {
             "Conventions": "CF-1.11",
-            "title": title,
-            "source": f"wetdoublet {its}",
+            "title": f"Outcomes of oblique wet collisions: {self.scene.name or 'unnamed scene'}",
+            "source": f"wetdoublet {release}",
             **super().about(),
-            "version": its,
+            "version": release,
         }
 
     def coordinates(self, request: Batch) -> dict[str, Column]:
         """The axes; speed and Stokes number if they are none, and with a bridge the centrifugal number."""
         dims: tuple[str, ...] = tuple(map(str, self.dims))
-        impact = dims[1]
-        (_, angles), (_, values), *varied = self.columns.values()
-        axes = dict(zip(dims[2:], (axis for _, axis in varied), strict=True))
-        coordinates: dict[str, Column] = {"angle": (dims[:1], angles, LABELS["angle"])}
-        coordinates[impact] = dims[1:2], values, LABELS[impact]
-        for name, axis in axes.items():
-            unit = self.scene.fields[name].unit or "1"
-            coordinates[name] = (name,), axis, {"units": unit, "long_name": name.replace(".", ", ", 1)}
-        speeds, stokes, centrifugal = (np.full(self.shape, np.nan) for _ in range(3))
-        for index in np.ndindex(*self.shape[2:]):
-            entries = {name: float(axis[k]) for (name, axis), k in zip(axes.items(), index, strict=True)}
-            try:
-                scene = self.scene.with_si(entries) if entries else self.scene
-            except InputError:  # the collisions of an impossible scene are marked as failed
-                continue
-            here = (slice(None), slice(None), *index)
-            with np.errstate(all="ignore"):  # an impact out of range is marked as failed
-                if impact == "stokes":
-                    speeds[here] = values / scene.stokes_per_speed
-                else:
-                    speeds[here] = values if impact == "speed" else normal_speed(values, angles[:, None])
-                stokes[here] = speeds[here] * scene.stokes_per_speed
-            if scene.bridge is not None:
-                centrifugal[here] = _centrifugal(scene, speeds[here], angles)
-        for name, column in (("speed", speeds), ("stokes", stokes)):
-            if impact == "relative_speed":
+        coordinates: dict[str, Column] = {}
+        for dim, (name, (_, axis)) in zip(dims, self.columns.items(), strict=True):
+            unit = {"units": self.scene.fields[name].unit or "1", "long_name": name.replace(".", ", ", 1)}
+            coordinates[dim] = (dim,), axis, LABELS.get(dim, unit)
+        values = with_impacts(request)
+        for name in ("speed", "stokes"):
+            column = np.reshape(values[name], self.shape)
+            if dims[1] == "relative_speed":
                 coordinates[name] = dims, column, LABELS[name]
-            elif name != impact:  # the same at every angle
+            elif name != dims[1]:  # the same at every angle
                 coordinates[name] = dims[1:], column[0], LABELS[name]
         if self.scene.bridge is not None:
+            formula, arguments = formulas(self.scene)["centrifugal"]
+            with np.errstate(all="ignore"):
+                number = np.asarray(formula(*(values[name] for name in arguments))).reshape(-1)  # of arrays a DM
             label = {"units": "1", "long_name": "centrifugal number m omega0^2/sigma"}
-            coordinates["centrifugal"] = dims, centrifugal, label
+            coordinates["centrifugal"] = dims, np.broadcast_to(number, self.size).reshape(self.shape), label
         return coordinates
 
 
@@ -162,9 +143,10 @@ def regime_map(
     loaded, arrays, held = checked_columns(scene, impact, vary, hold)
     axes = _axes(arrays, MOST if file is None else MOST_STORED)
     rtol, engine, names, blocks = check_rtol(rtol), check_engine(engine), check_outputs(of), checked_journal(journal)
-    columns = {name: ((name.partition(".")[2] if name in MEETING else name,), axis) for name, axis in axes.items()}
-    dims, shape = tuple(own[0] for own, _ in columns.values()), tuple(axis.size for axis in axes.values())
-    grid = Grid(loaded, dims, shape, columns, rtol, engine, names, held).checked()
+    dims = tuple(name.partition(".")[2] if name in MEETING else name for name in axes)
+    columns = {name: ((dim,), axis) for dim, (name, axis) in zip(dims, axes.items(), strict=True)}
+    grid = Grid(loaded, dims, tuple(axis.size for axis in axes.values()), columns, rtol, engine, names, held)
+    grid.check()
     if file is not None:
         return into_store(grid, file, client, progress, blocks)
     if blocks is not None:
@@ -186,17 +168,6 @@ def _axes(columns: Mapping[str, np.ndarray], most: int) -> dict[str, np.ndarray]
     return {"impact.angle": axes.pop("impact.angle"), **axes}
 
 
-def _centrifugal(scene: Scene, speeds: np.ndarray, angles: np.ndarray) -> np.ndarray:
-    """The centrifugal number at an array of speeds, a line for each angle."""
-    known = si_values(scene, None, None)
-    fixed = {name: known[name] for name in scaling.ARGUMENTS["centrifugal"] if name in known}
-    found = np.full(speeds.shape, np.inf)
-    for line, speed, angle in zip(found, speeds, angles.tolist(), strict=True):
-        with suppress(OverflowError, ZeroDivisionError), np.errstate(all="ignore"):
-            line[:] = scaling.centrifugal(**fixed, speed=speed, angle=angle)
-    return found
-
-
 def impact_axis(data: xarray.Dataset) -> str:
     """The dimension of a map that is the impact's, beside the angle."""
     return next(name for name in IMPACTS if name in data["outcome"].dims)
@@ -213,8 +184,8 @@ def write(data: xarray.Dataset, path: str | Path) -> None:
     from h5netcdf import File
     from xarray.backends import H5NetCDFStore
 
-    made = io.BytesIO()  # on a full disk HDF5 aborts the process, so write the file from memory
-    with File(made, "w") as file:
+    content = io.BytesIO()  # on a full disk HDF5 aborts the process, so write the file from memory
+    with File(content, "w") as file:
         encoding = {name: {"zlib": True} for name in data.data_vars if data[name].dtype.kind == "f"}
         data.dump_to_store(H5NetCDFStore(file), encoding=encoding)
-    files.write(path, made.getbuffer())
+    files.write(path, content.getbuffer())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -67,11 +68,24 @@ MAPPED = (*INTEGRATED, *ALWAYS, VALIDITY)
 RESULTS = (*MAPPED, *OF_IMPACT)
 
 
-def blank(name: str, size: int) -> np.ndarray:
-    """A column of a result, nothing computed yet."""
-    if name == "reversal":
-        return np.full(size, NONE, dtype=np.int8)
-    return np.full(size, np.nan)
+def empty(size: int, of: Sequence[str]) -> Block:
+    """All columns of a result before anything is computed: outcome -2, reasons empty."""
+    columns: Block = {"outcome": np.full(size, -2, np.int8), "certified": np.zeros(size, bool)}
+    columns["reason"] = np.full(size, "", object)
+    for name in dict.fromkeys(("restitution", *of)):
+        if name == "reversal":
+            columns[name] = np.full(size, NONE, np.int8)
+        elif name == VALIDITY:
+            columns[name] = np.zeros(size, np.int16)
+        elif name not in ALWAYS:
+            columns[name] = np.full(size, np.nan)
+    return columns
+
+
+def fill(results: Block, where: np.ndarray, block: Block) -> None:
+    """Copy a finished block into the result columns."""
+    for name, values in block.items():
+        results[name][where] = values
 
 
 def attributes(name: str) -> dict[str, Any]:

@@ -21,8 +21,7 @@ from ..model.validity import flag_attributes, warn
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
 from .batch import Batch, batch, check_some_scene, of_one_length
-from .dataset import as_text
-from .results import RESULTS, VALIDITY, Block, attributes, outcome_attributes
+from .results import FAILED, RESULTS, VALIDITY, Block, attributes, outcome_attributes
 
 if TYPE_CHECKING:
     import xarray
@@ -37,16 +36,16 @@ LABELS = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass
 class Scan:
     """Collisions of one scene over several dimensions.
 
     Arguments:
         columns: argument by dotted name -> the dimensions that it has, and its checked values (SI) along these.
         engine: the requested engine; None for the best of each scene.
-        engines: the engines that answer, by the choices of a scene.
         held: what the collisions share of the scene's impact, in words.
         beside: coordinates that DataArrays bring along.
+        engines: the engines that answer, by the choices of a scene (`check`).
     """
 
     scene: Scene
@@ -58,7 +57,7 @@ class Scan:
     of: tuple[str, ...]
     held: str = ""
     beside: xarray.Dataset | None = None
-    engines: Mapping[tuple[str, ...], str] = field(default_factory=dict)
+    engines: dict[tuple[str, ...], str] = field(default_factory=dict)
 
     @property
     def size(self) -> int:
@@ -91,34 +90,34 @@ class Scan:
             full = values.transpose([own.index(dim) for dim in self.dims if dim in own])
             full = full.reshape([n if dim in own else 1 for dim, n in zip(self.dims, self.shape, strict=True)])
             columns[name] = np.broadcast_to(full, self.shape).ravel()
-        return batch(self.scene, columns, self.rtol, self.engine, self.of, self.engines)
+        engine = self.engines.get((), "rosenbrock")
+        return batch(self.scene, columns, self.rtol, engine, self.of, self.engines)
 
-    def checked(self) -> Scan:
-        """The scan with its engines; InputError if the entries that vary make every scene impossible.
+    def check(self) -> None:
+        """Determine the engines; InputError if the entries that vary make every scene impossible.
 
         Scenes are warned of here, and not by the processes that compute them.
         """
         if not set(self.columns) - {*MEETING}:  # one scene
             warn(self.scene)
-            return replace(self, engines={(): collision_engine(self.scene, self.engine)})
+            self.engines[()] = collision_engine(self.scene, self.engine)
+            return
         varied = {dim for name, (own, _) in self.columns.items() if name not in MEETING for dim in own}
         lengths = zip(self.dims, self.shape, strict=True)
         scenes = self.part(tuple(slice(0, size if dim in varied else min(size, 1)) for dim, size in lengths)).batch()
-        engines: dict[tuple[str, ...], str] = {}
-        first = None
+        errors = []
         for where, part in scenes.by_text() if scenes.texts else ((np.arange(1), scenes),):
             try:
                 if isinstance(part, InputError):
                     raise part
                 check_some_scene(part)
-            except InputError as error:
-                first = first or error
-            else:
-                engines[tuple(str(values[where[0]]) for values in scenes.texts.values())] = part.engine
+                choices = tuple(str(values[where[0]]) for values in scenes.texts.values())
+                self.engines[choices] = collision_engine(part.scene, self.engine)
                 warn(part.scene)
-        if first is not None and not engines:
-            raise first
-        return replace(self, engines=engines)
+            except InputError as error:
+                errors.append(error)
+        if errors and not self.engines:
+            raise errors[0]
 
     def coordinates(self, request: Batch) -> dict[str, Column]:
         """Impacts and entries that vary, each over its own dimensions; `beside` excepted."""
@@ -131,25 +130,22 @@ class Scan:
         labels |= {name: (values, {"units": fields[name].unit or "1"}) for name, values in request.vary.items()}
         labels |= {name: (values, {"long_name": fields[name].what}) for name, values in request.texts.items()}
         coordinates: dict[str, Column] = {}
-        for label, (flat, said) in labels.items():
-            if flat is None:
-                continue
-            # a speed that follows from other arguments has all dimensions
-            every = self.dims, flat.reshape(self.shape)
-            own, values = self.columns.get(label if "." in label else f"impact.{label}", every)
-            coordinates[label] = own, values, said
+        for label, (flat, attrs) in labels.items():
+            if flat is not None:  # a speed that follows from other arguments has all dimensions
+                every = self.dims, flat.reshape(self.shape)
+                coordinates[label] = *self.columns.get(label if "." in label else f"impact.{label}", every), attrs
         return coordinates
 
     def about(self) -> dict[str, Any]:
         """Attributes of the Dataset."""
-        said = {
+        attrs = {
             "scene": self.scene.to_toml(),
             "rtol": self.rtol,
             "engine": self.answered_by,
             "held": self.held,
             "model": self.scene.package and self.scene.package.text,
         }
-        return {name: value for name, value in said.items() if value not in ("", None)}
+        return {name: value for name, value in attrs.items() if value not in ("", None)}
 
     def dataset(self, results: Block, request: Batch | None = None) -> xarray.Dataset:
         """Results as a labelled Dataset.
@@ -160,16 +156,18 @@ class Scan:
         import xarray as xr
 
         register()
+        failed = results["outcome"] == FAILED
+        reason = results["reason"].astype(str) if failed.any() else np.zeros(failed.size, "<U1")
         columns = {
             "outcome": (results["outcome"], outcome_attributes()),
             "certified": (results["certified"], {"long_name": "the stick is proved"}),
-            "reason": (as_text(results), {"long_name": "why it failed"}),
+            "reason": (reason, {"long_name": "why it failed"}),
         }
         for name, values in results.items():
             if name not in columns:
                 columns[name] = values, flag_attributes() if name == VALIDITY else attributes(name)
         variables: Any = {
-            name: (self.dims, values.reshape(self.shape), said) for name, (values, said) in columns.items()
+            name: (self.dims, values.reshape(self.shape), attrs) for name, (values, attrs) in columns.items()
         }
         coordinates, about = self.coordinates(request or self.batch()), self.about()
         if self.dims == ("collision",) and self.beside is None:
@@ -220,7 +218,7 @@ def laid_out(
     Raises:
         InputError: a shape that does not fit, naming the argument.
     """
-    named = {name: arguments[name] for name in arrays if _is_labelled(arguments.get(name))}
+    named = {name: arguments[name] for name in arrays if hasattr(arguments.get(name), "coords")}
     dims_of: dict[str, Dims] = {name: tuple(value.dims) for name, value in named.items()}
     if not any(dims_of.values()) and all(array.ndim < 2 for array in arrays.values()):
         columns = of_one_length(arrays)
@@ -240,7 +238,7 @@ def laid_out(
     columns_of = {}
     for name, array in arrays.items():
         if name not in dims_of:
-            if array.ndim > len(shape) or _broadcast(name, array, shape) != shape:
+            if _broadcast(name, array, shape) != shape:
                 raise _misfit(name, array, shape)
             kept = [axis for axis in range(-array.ndim, 0) if array.shape[axis] == shape[axis]]
             array = array.reshape([array.shape[axis] for axis in kept])
@@ -260,10 +258,6 @@ def _check_names(dims: Dims, dims_of: Mapping[str, Dims]) -> None:
         if label in dims and own != (label,):
             problem = f"is the name of a dimension, along which {name} does not lie alone"
             raise InputError("dims", label, "a dimension of another name", problem)
-
-
-def _is_labelled(value: object) -> bool:
-    return isinstance(getattr(value, "dims", None), tuple) and hasattr(value, "coords")
 
 
 def _broadcast(name: str, array: np.ndarray, shape: tuple[int, ...]) -> tuple[int, ...]:
@@ -286,8 +280,7 @@ def _beside(named: Mapping[str, Any]) -> xarray.Dataset | None:
     try:
         return xr.merge([one.coords.to_dataset() for one in named.values()], compat="minimal", join="exact")
     except ValueError as error:
-        said = " ".join(str(error).split())[:120]
-        problem = f"is not aligned: {said}"
+        problem = f"is not aligned: {' '.join(str(error).split())[:120]}"
         raise InputError([*named][-1], None, "DataArrays with the same coordinates", problem) from None
 
 

@@ -19,10 +19,10 @@ from ..host.cores import usable_cores
 from ..host.interrupts import check
 from .chunks import LARGEST, chunks
 from .cluster import Task, agreed, check_scheduler, computed, connected
-from .compute import Slow, complete, computed_chunk
-from .dataset import blank, empty, fill, validity
+from .columns import validity
+from .compute import Slow, complete
 from .journal import Journal, beside
-from .results import VALIDITY, Block
+from .results import VALIDITY, Block, empty, fill
 from .scan import Place, Scan
 from .store import Store, check_store, opened
 
@@ -45,39 +45,38 @@ def check_places(client: object, store: object) -> Path | None:
     return None if store is None else check_store(store, "store")
 
 
-def _cut(scan: Scan) -> list[Place]:
-    """The chunks of a scan, each small enough to be sent."""
-    numbers = sum(3 if values.dtype.kind == "U" else 1 for _, values in scan.columns.values())
-    return chunks(scan.shape, next(iter(scan.engines.values()), "rosenbrock"), min(LARGEST, _NUMBERS // numbers))
-
-
-def _computed_part(part: Scan, size: int, cores: int) -> Block:
-    """Results of a part of a scan of `size` collisions; a worker makes the collisions of its columns itself."""
-    return computed_chunk(replace(part.batch(), whole=size), cores)
+def _computed_part(part: Scan, cores: int) -> Block:
+    """Results of a part of a scan, computed here or by a worker, which gets the columns of the scan."""
+    request = replace(part.batch(), partial=True)
+    results = empty(request.size, request.of)
+    complete(request, results, cores=cores)
+    return results
 
 
 @contextmanager
-def _chunkwise(
-    scan: Scan, client: Any
-) -> Iterator[tuple[Mapping[str, str], Callable[..., Iterator[tuple[int, Block]]]]]:
+def _chunkwise(scan: Scan, client: Any, cut: list[Place]) -> Iterator[tuple[Mapping[str, str], _Blocks]]:
     """The arithmetic of a run, and a function that yields the chunks of a list with their results."""
-    cut = _cut(scan)
 
     def task(k: int) -> Task:
-        return partial(_computed_part, scan.part(cut[k]), scan.size)
+        return partial(_computed_part, scan.part(cut[k]))
+
+    def one_at_a_time(todo: list[int]) -> Iterator[tuple[int, Block]]:
+        for k in todo:
+            check()
+            yield k, task(k)(usable_cores())
 
     if client is None:
-
-        def one_at_a_time(todo: list[int]) -> Iterator[tuple[int, Block]]:
-            for k in todo:
-                check()
-                yield k, task(k)(usable_cores())
-
         yield arithmetic(), one_at_a_time
         return
     with connected(client) as cluster:
         expected = agreed(cluster, "taylor" if "taylor" in scan.engines.values() else "")
         yield expected, lambda todo: computed(cluster, task, todo, expected)
+
+
+def _cut(scan: Scan) -> list[Place]:
+    """The chunks of a scan, each small enough to be sent."""
+    numbers = sum(3 if values.dtype.kind == "U" else 1 for _, values in scan.columns.values())
+    return chunks(scan.shape, next(iter(scan.engines.values()), "rosenbrock"), min(LARGEST, _NUMBERS // numbers))
 
 
 def into_memory(
@@ -95,7 +94,6 @@ def into_memory(
     """
     request = scan.batch()
     results = empty(scan.size, scan.of)
-    names = {*results}  # a journal holds no flags
     done = np.zeros(scan.size, bool)
 
     def finished(where: np.ndarray, block: Block) -> None:
@@ -106,26 +104,24 @@ def into_memory(
 
     def keep(where: np.ndarray, block: Block) -> None:
         if kept is not None:
-            kept.add(where, {name: block[name] for name in names if name in block})
+            kept.add(where, {name: values for name, values in block.items() if name != VALIDITY})
         finished(where, block)
 
     for where, block in kept.read() if kept else ():
         done[where] = True
         fill(results, where, block)
-    if progress is not None:
-        progress(int(np.count_nonzero(done)), scan.size)
+    finished(np.zeros(0, int), {})
     if client is None:
         order = scan.order()
-        complete(request, results, order[~done[order]], keep, slow=slow)
+        complete(request, results, order[~done[order]], keep, slow)
     else:
         cut, flat = _cut(scan), np.arange(scan.size).reshape(scan.shape)
-        results |= {name: values for name, values in blank(scan.size, scan.of).items() if name not in results}
-        with _chunkwise(scan, client) as (_, blocks):
+        with _chunkwise(scan, client, cut) as (_, blocks):
             for k, block in blocks([k for k in range(len(cut)) if not done[flat[cut[k]]].all()]):
                 keep(flat[cut[k]].ravel(), block)
         if kept is not None and VALIDITY in scan.of:
             results[VALIDITY] = validity(request, results)
-    return scan.dataset(results, request=request)
+    return scan.dataset(results, request)
 
 
 def into_store(
@@ -140,20 +136,23 @@ def into_store(
     """
     kept, cut = journal or beside(path), _cut(scan)
     sizes = [math.prod(one.stop - one.start for one in at) for at in cut]
-    with _chunkwise(scan, client) as (digits, blocks), kept.held("store", path):
+    with _chunkwise(scan, client, cut) as (digits, blocks), kept.held("store", path):
         identity = {**scan.identity(), "arithmetic": dict(digits)}
         store = Store(path, hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest())
-        token = store.open(scan, scan.part(cut[0]).dataset(blank(sizes[0], scan.of)))
+        token = store.open(scan, scan.part(cut[0]).dataset(empty(sizes[0], scan.of)))
         kept.under({**identity, "store": token})  # what another folder held is not in this one
         done = {k for k in kept.chunks() if store.holds(cut[k])}
-        count = sum(sizes[k] for k in done)
-        tell = progress or (lambda _done, _total: None)
-        tell(count, scan.size)
+
+        def report() -> None:
+            if progress is not None:
+                progress(sum(sizes[k] for k in done), scan.size)
+
+        report()
         for k, block in blocks([k for k in range(len(cut)) if k not in done]):
             store.write(cut[k], scan.part(cut[k]).dataset(block))
             kept.note(k, sizes[k])
-            count += sizes[k]
-            tell(count, scan.size)
+            done.add(k)
+            report()
         store.finish()
         kept.remove()
     return opened(path)

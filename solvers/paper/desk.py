@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -89,13 +88,11 @@ class Desk:
 
     def map(self, scene: Scene, reach: float, first: float = 0.0) -> Atlas:
         """The atlas of a regime map from an angle (rad) on, up to St = `reach`."""
-        lines, window = self.detail.lines, (1e-3 * reach, reach)
-        found = atlas(scene, span=(first, _STEEPEST), stokes=window, lines=lines)
-        self.collisions += found.collisions
-        self.failures += [
-            f"{scene.name}, map at {x:.4g} rad, St {stokes:.4g}: {why}" for x, stokes, why in found.unsettled
-        ]
-        return found
+        regions = atlas(scene, span=(first, _STEEPEST), stokes=(1e-3 * reach, reach), lines=self.detail.lines)
+        self.collisions += regions.collisions
+        places = regions.unsettled
+        self.failures += [f"{scene.name}, map at {x:.4g} rad, St {stokes:.4g}: {why}" for x, stokes, why in places]
+        return regions
 
     def pressure_for(self, scene: Scene, stokes: float) -> str:
         """Text of the p_gt at which head-on collisions bounce from `stokes` on, or of the reason of failure."""
@@ -134,6 +131,11 @@ def change_at(line: Line, before: str) -> Change:
     raise ComputationError(f"no boundary at which {before} ends was found where the paper has one")
 
 
+def sticks_to(line: Line) -> float:
+    """The Stokes number at which a line of constant angle ceases to stick."""
+    return change_at(line, "stick").stokes
+
+
 def shown(read: Callable[[], float]) -> str:
     """A number of a table, or `failed` if it cannot be computed, so that the others are still shown."""
     try:
@@ -153,15 +155,3 @@ def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rto
         first = int(np.argmax(met))
         low, high = float(stokes[first - 1]), float(stokes[first])
     return math.sqrt(low * high)
-
-
-def progress() -> Callable[[str], None]:
-    """Progress texts on standard error, each replacing the last; nothing if it is no terminal."""
-    if not sys.stderr.isatty():
-        return lambda _: None
-
-    def say(what: str) -> None:
-        sys.stderr.write(f"\r\x1b[K{what}")
-        sys.stderr.flush()
-
-    return say

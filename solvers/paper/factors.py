@@ -7,12 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
+from ..formatting.document import Table
 from ..formatting.style import LETTERS
 from ..scene.scene import Scene
 from ..sensitivity.boundaries import moving
 from .desk import PRESSURE, Desk, Line, change_at, outcomes, printed_pressure
 from .fig4a import centrifugal, near_printed
-from .parts import Comparison, Part, Table, degrees, number
+from .parts import Comparison, Part, degrees, number
 from .printed import PRINTED
 from .variants import BRIDGED, described, variant
 
@@ -36,9 +37,9 @@ def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made
     bases = [variant(BRIDGED, {"model.arm": arm}) for arm in ARMS]
     bases = [base.with_entries({PRESSURE: _OUT_OF_REACH * printed_pressure(base)}) for base in bases]
     scenes = [[base, *(_doubled(base, entry) for entry in DOUBLED.values())] for base in bases]
-    lines = iter(desk.many([near_printed(scene, angle) for own in scenes for scene in own for angle in angles]))
-    traced = [[[next(lines)[0] for _ in angles] for _ in own] for own in scenes]
-    critical = np.array([[[centrifugal(line) for line in row] for row in own] for own in traced])
+    lines = iter(desk.many([near_printed(scene, angle) for of_arm in scenes for scene in of_arm for angle in angles]))
+    traced = [[[next(lines)[0] for _ in angles] for _ in of_arm] for of_arm in scenes]
+    critical = np.array([[[centrifugal(line) for line in row] for row in of_arm] for of_arm in traced])
     factors = critical[:, 1:] / critical[:, :1]  # by lever arm, quantity and angle
     [in_reach] = desk.lines(_doubled(variant(BRIDGED, {}), DOUBLED["factor_radius"]), (_AT,))
     through = ", ".join(LETTERS[outcome] for outcome in outcomes(in_reach))
@@ -62,19 +63,19 @@ def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made
         Table(
             f"Factors of Ce*, {arm} arm",
             head,
-            [[*name, *(f"{value:.3f}" for value in row)] for name, row in zip(names, own)],
+            [[*name, *(f"{value:.3f}" for value in row)] for name, row in zip(names, of_arm)],
         )
-        for arm, own in zip(ARMS, factors)
+        for arm, of_arm in zip(ARMS, factors)
     ]
     return Part(
         "Ce* with one quantity doubled",
         "Each quantity alone is doubled; a doubled radius leaves m, x₀ and V/R³. The glass criterion is put out of "
         f"reach: with the preset's p_gt a doubled radius goes through {through} at {degrees(_AT)}. Ce* itself: "
-        + "; ".join(f"{arm} arm {number(own[0, place])}" for arm, own in zip(ARMS, critical))
+        + "; ".join(f"{arm} arm {number(of_arm[0, place])}" for arm, of_arm in zip(ARMS, critical))
         + ". The paper does not say at which angle; nearest to its six numbers is the "
         f"{ARMS[arm]} arm at {degrees(angles[angle])}.",
         comparisons=rows,
-        tables=[*tables, _predicted(bases, [own[0][place] for own in traced], factors[:, :, place], names)],
+        tables=[*tables, _predicted(bases, [of_arm[0][place] for of_arm in traced], factors[:, :, place], names)],
         scenes=(BRIDGED,),
     )
 

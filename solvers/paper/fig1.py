@@ -9,9 +9,10 @@ from ..collision.collide import collide
 from ..collision.plot.frames import sampled
 from ..collision.plot.strip import draw_strip, strip_size
 from ..collision.result import Collision
+from ..formatting.document import Picture, Table
 from ..formatting.style import LETTERS
 from .desk import Desk, Job, Line
-from .parts import Comparison, Part, Picture, Table, degrees, number
+from .parts import Comparison, Part, degrees, number
 from .printed import PRINTED, SHOT_ANGLE, SHOTS, Shot
 from .style import COLUMN, sheet
 from .variants import PENDULUM, STRING_VARIANTS, described, variant

@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...generated.automaton import ROTATE
+from ..formatting.document import Picture, Table
 from ..formatting.style import halo
 from ..scene.scene import Scene
 from . import regimes
-from .desk import Desk, Job, Line, change_at, criterion_met, printed_pressure, shown
-from .parts import Comparison, Part, Picture, Table, number
+from .desk import Desk, Job, Line, criterion_met, printed_pressure, shown, sticks_to
+from .parts import Comparison, Part, number
 from .printed import PRINTED
 from .style import ANGLE, COLUMN, GREY, STOKES, sheet
 from .variants import PENDULUM, STRING_VARIANTS, described, variant
@@ -34,7 +35,7 @@ def make(desk: Desk, folder: Path) -> Part:
     used = described(scene)
     at_printed = math.radians(PRINTED["angle_3"].value)
     [head_on], [[rotates, *_]] = desk.many([Job(scene, (0.0,)), Job(scene, (at_printed,))])
-    escapes, met = _escapes(head_on), _met(scene, head_on)
+    escapes, met = sticks_to(head_on), _met(scene, head_on)
     first = math.degrees(min(min(curve.x) for curve in whole.curves if curve.after == ROTATE))
     leaves = math.degrees(max(max(curve.x) for curve in whole.curves if curve.before == ROTATE))
     printed = PRINTED["stokes_3"]
@@ -72,13 +73,9 @@ def make(desk: Desk, folder: Path) -> Part:
     )
 
 
-def _escapes(head_on: Line) -> float:
-    return change_at(head_on, "stick").stokes
-
-
 def _met(scene: Scene, head_on: Line) -> float:
     """Stokes number from which a criterion is met; just above the boundary at most, where the criterion decides it."""
-    return criterion_met(scene, _BELOW * _escapes(head_on), _escapes(head_on) * _BESIDE)
+    return criterion_met(scene, _BELOW * sticks_to(head_on), sticks_to(head_on) * _BESIDE)
 
 
 def _moved(desk: Desk) -> Table:
@@ -87,7 +84,7 @@ def _moved(desk: Desk) -> Table:
     scenes = {name: variant(PENDULUM, changes) for name, changes in STRING_VARIANTS.items()}
     traced = desk.many([Job(scene, (0.0,)) for scene in scenes.values()])
     rows = [
-        [name, shown(partial(_met, scene, head_on)), shown(partial(_escapes, head_on))]
+        [name, shown(partial(_met, scene, head_on)), shown(partial(sticks_to, head_on))]
         for (name, scene), [head_on] in zip(scenes.items(), traced)
     ]
     rows.append(["paper", PRINTED["stokes_3"].text, ""])

@@ -12,12 +12,13 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import ComputationError
+from ..formatting.document import Picture, Table
 from ..formatting.style import INK, halo
 from ..model.dimensionless import nondimensionalise
 from ..scene.scene import Scene
 from . import regimes
-from .desk import Desk, Job, Line, change_at, outcomes, printed_pressure, shown
-from .parts import Comparison, Part, Picture, Table, degrees, number
+from .desk import Desk, Job, Line, change_at, outcomes, printed_pressure, shown, sticks_to
+from .parts import Comparison, Part, degrees, number
 from .printed import PRINTED
 from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, sheet
 from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant
@@ -44,12 +45,12 @@ def make(desk: Desk, folder: Path) -> Part:
     moved = _moved(desk)  # traces all variants together
     criticals = [centrifugal(line) for line in desk.lines(scene, critical)]
     ours = centrifugal(desk.lines(scene, (_AT,))[0])
-    stokes = _sticks_to(head_on)
+    stokes = sticks_to(head_on)
     with sheet(folder / "fig4a.png", 7.6) as figure:
         axes = figure.add_subplot()
         regimes.draw(axes, whole)
         _critical_lines(axes, scene, ours, _TAIL * stokes)
-        _dry(axes, dry_oblique, _sticks_to(dry_head_on))
+        _dry(axes, dry_oblique, sticks_to(dry_head_on))
     sides = {dry_oblique.background}.union(*((curve.before, curve.after) for curve in dry_oblique.curves))
     only_head_on = "stick" not in sides and "stick" in outcomes(dry_head_on)
     caption = (
@@ -68,22 +69,18 @@ def make(desk: Desk, folder: Path) -> Part:
 
 def centrifugal(line: Line) -> float:
     """Ce* of a line of constant angle: Ce at the end of sticking."""
-    found = change_at(line, "stick").centrifugal
-    if found is None:
+    value = change_at(line, "stick").centrifugal
+    if value is None:
         raise ComputationError(_NO_BRIDGE)
-    return found
-
-
-def _sticks_to(line: Line) -> float:
-    return change_at(line, "stick").stokes
+    return value
 
 
 def per_stokes_squared(scene: Scene, angle: float) -> float:
     """Ce over St^2 of a scene at an angle (rad)."""
-    found = nondimensionalise(scene, scene.speed_of(1.0), angle).centrifugal
-    if found is None:
+    value = nondimensionalise(scene, scene.speed_of(1.0), angle).centrifugal
+    if value is None:
         raise ComputationError(_NO_BRIDGE)
-    return found
+    return value
 
 
 def near_printed(scene: Scene, angle: float) -> Job:
@@ -104,11 +101,9 @@ def _compared(
     desk.say("fig. 4a: glass-transition pressure of the printed St*")
     pressure, fitted = printed_pressure(scene), desk.pressure_for(scene, PRINTED["stokes_4"].value)
     surface = variant(BRIDGED, BRIDGE_VARIANTS["arm surface"])
-    found = _spread(desk.detail.critical, criticals)
-    leading = _spread(
-        desk.detail.critical,
-        [centrifugal(line) for [line] in desk.many([near_printed(surface, angle) for angle in desk.detail.critical])],
-    )
+    ours_over_angles = _spread(desk.detail.critical, criticals)
+    lines = desk.many([near_printed(surface, angle) for angle in desk.detail.critical])
+    leading = _spread(desk.detail.critical, [centrifugal(line) for [line] in lines])
     return (
         Comparison(
             "stokes_4",
@@ -122,7 +117,7 @@ def _compared(
             "centrifugal",
             ours,
             described(scene),
-            f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {found}. With the "
+            f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {ours_over_angles}. With the "
             f"leading-order lever arm of the tangential force, which the paper may have used: {leading}",
         ),
         Comparison(
@@ -148,7 +143,7 @@ def _moved(desk: Desk) -> Table:
     rows = []
     for name, [line] in zip(scenes, head_on):
         cells = [shown(partial(centrifugal, *next(oblique))) for _ in critical]
-        rows.append([name, shown(partial(_sticks_to, line)), *cells])
+        rows.append([name, shown(partial(sticks_to, line)), *cells])
     rows.append(["paper", PRINTED["stokes_4"].text, *(PRINTED["centrifugal"].text for _ in critical)])
     head = ["variant", "St* at 0°", *(f"Ce* at {degrees(angle)}" for angle in critical)]
     return Table("Granules: St* and Ce* under the variants", head, rows)

@@ -11,11 +11,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ...generated.automaton import BOUNCE, ROTATE
+from ..formatting.document import Picture, Table
 from ..formatting.style import INK
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from .desk import Desk, Line, outcomes
-from .parts import Comparison, Part, Picture, Table, degrees, number
+from .parts import Comparison, Part, degrees, number
 from .printed import CURVES, PRINTED
 from .style import BLUE, COLUMN, GREEN, ORANGE, PURPLE, SKY, STOKES, sheet
 from .variants import BRIDGED, described, variant
@@ -111,12 +112,12 @@ def _curves(scene: Scene, lines: list[Line], points: int) -> tuple[list[Curve], 
             crowded = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0, 1, points))
             start, end = low * (1 + _BESIDE), high * (1 - _BESIDE)
             pieces.append((angle, outcome, start + (end - start) * crowded**1.5, line[0]))
-    found = collide_many(
+    collided = collide_many(
         scene,
         stokes=np.concatenate([stokes for _, _, stokes, _ in pieces]),
         angle=np.repeat([angle for angle, *_ in pieces], points),
     )
-    values = np.asarray(found["restitution"])
+    values = np.asarray(collided["restitution"])
     curves = []
     for k, (angle, outcome, stokes, first) in enumerate(pieces):
         per_square = (first.centrifugal or 0.0) / first.stokes**2
@@ -137,12 +138,12 @@ def _jumps(lines: list[Line], curves: list[Curve]) -> Table:
     """Table of e_n on both sides of each boundary."""
     rows = []
     for angle, line in zip(CURVES, lines):
-        own = {curve.outcome: curve.restitution for curve in curves if curve.angle == angle}
+        by_outcome = {curve.outcome: curve.restitution for curve in curves if curve.angle == angle}
         for change in line:
-            if change.after in own:
-                below = own[change.before][-1] if change.before in own else 0.0
+            if change.after in by_outcome:
+                below = by_outcome[change.before][-1] if change.before in by_outcome else 0.0
                 kind = f"{change.before} to {change.after}"
-                ends = [f"{value:.3f}" for value in (below, own[change.after][0])]
+                ends = [f"{value:.3f}" for value in (below, by_outcome[change.after][0])]
                 rows.append([degrees(angle), kind, number(change.stokes), number(change.centrifugal), *ends])
     return Table("Granules: e_n on either side of the boundaries", ["θ₀", "change", "St", "Ce", "below", "above"], rows)
 

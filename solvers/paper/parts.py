@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
+from ..formatting.document import Picture, Table
 from .printed import PRINTED, Printed
 
 
@@ -53,24 +54,6 @@ class Comparison:
 
 
 @dataclass(frozen=True)
-class Table:
-    """A table of the report: a caption, a head, rows of text."""
-
-    caption: str
-    head: Sequence[str]
-    rows: Sequence[Sequence[str]]
-
-
-@dataclass(frozen=True)
-class Picture:
-    """A figure of the report: file name in its folder, caption, intended width in cm."""
-
-    file: str
-    caption: str
-    width: float
-
-
-@dataclass(frozen=True)
 class Part:
     """One part: a title, then text, figures, formulas and tables, in this order."""
 
@@ -80,7 +63,7 @@ class Part:
     pictures: Sequence[Picture] = ()
     formulas: Sequence[tuple[str, str, str]] = ()  # heading, LaTeX, note
     tables: Sequence[Table] = ()
-    scenes: Sequence[str] = field(default=())  # presets used
+    scenes: Sequence[str] = ()  # presets used
 
 
 def number(value: float | None) -> str:

@@ -7,11 +7,12 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..formatting.document import Picture
 from ..formatting.style import INK
 from ..host import files
 from ..scene.scene import Scene
 from .desk import Desk
-from .parts import Part, Picture
+from .parts import Part
 from .style import GREY, sheet
 from .variants import BRIDGED, PENDULUM, described
 
@@ -32,15 +33,8 @@ def make(desk: Desk, folder: Path) -> Part:
     from ...derive.emit.document.theory import theory  # imports sympy
 
     model = bridged.model
-    lines = theory(
-        {
-            "arm": model.arm,
-            "shear": model.tangential,
-            "glass": model.glass,
-            "bridge": bridged.bridge.law,
-            "strings": hung.pendulum.law,
-        }
-    )
+    laws = {"arm": model.arm, "shear": model.tangential, "glass": model.glass}
+    lines = theory(laws | {"bridge": bridged.bridge.law, "strings": hung.pendulum.law})
     _draw(lines, folder / "table1.png")
     files.write(folder / "table1.tex", document(lines))
     words = (

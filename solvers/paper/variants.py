@@ -44,10 +44,10 @@ _GLASS = {"literal": "", "film-corrected": " above that at the rim"}
 def described(scene: Scene) -> str:
     """The choices that the paper leaves open: lever arm, lubrication, glass criterion; bridge law or strings."""
     model = scene.model
-    said = f"{_ARM[model.arm]}, tangential lubrication {_TANGENTIAL[model.tangential]}, glass transition where the "
-    said += f"film pressure on the axis{_GLASS[model.glass]} reaches p_gt"
+    text = f"{_ARM[model.arm]}, tangential lubrication {_TANGENTIAL[model.tangential]}, glass transition where the "
+    text += f"film pressure on the axis{_GLASS[model.glass]} reaches p_gt"
     if scene.bridge is not None:
-        said += f"; {scene.bridge.law}"
+        text += f"; {scene.bridge.law}"
     if scene.pendulum is not None:
-        said += f"; {scene.pendulum.law} strings, l = {scene.pendulum.length:g} m"
-    return said
+        text += f"; {scene.pendulum.law} strings, l = {scene.pendulum.length:g} m"
+    return text

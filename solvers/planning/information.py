@@ -101,11 +101,8 @@ def reliable_information(
     one, other = (information(scene, names, values, plan, rtol, each) for each in FINEST)
     scale = values**2
     less = np.einsum("cii,i->c", other.total, scale) < np.einsum("cii,i->c", one.total, scale)
-    return Information(
-        np.where(less[:, None, None], other.total, one.total),
-        np.where(less[:, None, None], other.outcome, one.outcome),
-        np.where(less[:, None], other.probability, one.probability),
-    )
+    pairs = zip(vars(one).values(), vars(other).values(), strict=True)
+    return Information(*(np.where(less.reshape(-1, *[1] * (a.ndim - 1)), b, a) for a, b in pairs))
 
 
 def _directions(experiment: Experiment, plan: Measurements) -> np.ndarray:

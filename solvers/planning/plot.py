@@ -13,7 +13,7 @@ from ..collision.text import against, name_of
 from ..formatting import ticks
 from ..formatting.style import INK, NOTE, picture, plain_text
 from ..scene.held import AXIS_LABELS
-from .planned import Planned
+from .result import Design
 
 if TYPE_CHECKING:
     import xarray
@@ -24,7 +24,7 @@ _ROWS = {"information": "outcome and restitution", "by_outcome": "outcome alone"
 
 
 @picture
-def draw(design: Planned) -> Figure:
+def draw(design: Design) -> Figure:
     """A panel for each entry: outcome and restitution above, the outcome alone below."""
     data = design.map()
     names = list(design.free.names)
@@ -60,7 +60,7 @@ def draw(design: Planned) -> Figure:
     return figure
 
 
-def _panel(axes: Axes, design: Planned, data: xarray.Dataset, of: str, name: str, scale: LogNorm, outcomes: Any) -> Any:
+def _panel(axes: Axes, design: Design, data: xarray.Dataset, of: str, name: str, scale: LogNorm, outcomes: Any) -> Any:
     single = data[of].sel(entry=name).values
     with np.errstate(divide="ignore"):
         error = np.where(single > 0, 1 / np.sqrt(np.maximum(single, 1e-300)), np.inf)
@@ -86,7 +86,7 @@ def _panel(axes: Axes, design: Planned, data: xarray.Dataset, of: str, name: str
     return mesh
 
 
-def _outcomes(design: Planned) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _outcomes(design: Design) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Angles (deg), values of the key, and outcomes without scatter on a grid of them."""
     window = design.window
     points = window.grid(*_FINE)

@@ -4,36 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
-from ..boundaries.changes import Change
-from .results import Row
+from matplotlib.figure import Figure
 
 _UP, _DOWN = "#2a6f97", "#c1554a"
 _PANELS, _ACROSS = 6, 3
 
 
-class Moved(Protocol):
-    """A change of outcome and its elasticities."""
-
-    @property
-    def change(self) -> Change: ...
-    @property
-    def elasticity(self) -> dict[str, Row]: ...
-    @property
-    def reason(self) -> str: ...
-    @property
-    def shown(self) -> tuple[str, ...]: ...
-
-
-def draw(angles: Sequence[float], changes: Sequence[Sequence[Moved]], parameters: Sequence[str]) -> Any:
-    """A panel for each change (at most six), a bar for each parameter; of Ce* where there is one, else of the speed.
-
-    Returns:
-        The matplotlib Figure.
-    """
-    from matplotlib.figure import Figure
-
+def draw(angles: Sequence[float], changes: Sequence[Sequence[Any]], parameters: Sequence[str]) -> Figure:
+    """A panel for each change (at most six), a bar for each parameter; of Ce* where there is one, else of the speed."""
     panels = [(angle, one) for angle, line in zip(angles, changes, strict=True) for one in line][:_PANELS]
     across = max(1, min(_ACROSS, len(panels)))
     down = max(1, -(-len(panels) // across))

@@ -304,7 +304,7 @@ def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseR
 def _measured(scene: Scene, n: DimensionlessGroups, near: Near) -> Near:
     """The computed distance in the Stokes number of an estimated boundary."""
     line = Line(scene, n.angle, _FINE, kernel=False, machine_code=False)
-    escapes = (lambda stokes: line.escape(stokes, True).value, lambda stokes: line.escape(stokes, False).value)
+    escapes = (lambda stokes: line.escape(stokes, True)[1], lambda stokes: line.escape(stokes, False)[1])
     functions: dict[str, tuple[Callable[[float], float | None], ...]] = {
         GLASS: (line.criterion,),
         CONTACT: (line.criterion,),

@@ -27,7 +27,7 @@ from ..model.model import Model, load, select_model
 from ..model.phases import Flow, Region
 from ..scene.contact import GAPS, contact_word
 from ..scene.scene import Scene
-from .derivatives import adjoint, evaluate, settled
+from .derivatives import evaluate, first_derivatives, settled
 from .directions import landed
 from .trajectory_expression import course_of, ending, influential
 
@@ -121,7 +121,7 @@ def _gradient(side: _Side, k: int, last: PhaseRun, weights: np.ndarray) -> tuple
     end = ending(course, "rosenbrock", side.tolerance)
     durations = np.array([step.duration for step in part.steps])
     durations = settled(end, path.p, durations, landed(course), 1e-8)
-    y, _, found = evaluate(adjoint(end, 1), path.p, durations, weights)
+    y, _, found = evaluate(first_derivatives(end, 1, True), path.p, durations, weights)
     return y.ravel(), found.ravel() * np.array(influential(course, side.finder.groups), dtype=float)
 
 
@@ -269,8 +269,7 @@ def _maxima(side: _Side, y: np.ndarray, low: float, high: float, shear: int) -> 
     def slopes(at: np.ndarray) -> np.ndarray:
         states = np.repeat(y[:, None], at.size, axis=1)
         states[0] = at
-        values: np.ndarray = np.asarray(function(states, side.path.p).full())[row]
-        return values
+        return np.asarray(np.asarray(function(states, side.path.p).full())[row])
 
     values = slopes(gaps)
     places = np.flatnonzero((values[:-1] > 0) & (values[1:] <= 0))

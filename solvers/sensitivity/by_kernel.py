@@ -161,8 +161,7 @@ def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float,
 
 def _steep(angle: np.ndarray) -> np.ndarray:
     """-d ln(normal speed)/d ln(angle) at fixed relative speed."""
-    steep: np.ndarray = angle * np.tan(angle)
-    return steep
+    return np.asarray(angle * np.tan(angle))
 
 
 class _Scales:

@@ -38,23 +38,17 @@ def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray
 
 
 @own_cache(256)
-def forward(expression: TrajectoryExpression, count: int) -> Function:
-    """Function (groups, durations, directions: groups x count) -> quantities, shifts, slopes (quantities x count)."""
-    p, durations, z, shifts = _symbols(expression)
-    seeds = MX.sym("seeds", p.numel(), count)
-    with quiet():
-        slopes = densify(jtimes(z, p, seeds))
-        return Function("forward", [p, durations, seeds], [z, shifts, slopes])
+def first_derivatives(expression: TrajectoryExpression, count: int, adjoint: bool) -> Function:
+    """Function (groups, durations, seeds) -> quantities, shifts, and derivatives of the quantities.
 
-
-@own_cache(256)
-def adjoint(expression: TrajectoryExpression, count: int) -> Function:
-    """Function (groups, durations, weights: quantities x count) -> quantities, shifts, gradients (groups x count)."""
+    Forward, seeds are directions (groups x count), and derivatives are along these (quantities x count). Adjoint, they
+    are weights (quantities x count), and derivatives are gradients of the weighted sums (groups x count).
+    """
     p, durations, z, shifts = _symbols(expression)
-    seeds = MX.sym("seeds", z.numel(), count)
+    seeds = MX.sym("seeds", (z if adjoint else p).numel(), count)
     with quiet():
-        slopes = densify(jtimes(z, p, seeds, True))
-        return Function("adjoint", [p, durations, seeds], [z, shifts, slopes])
+        slopes = densify(jtimes(z, p, seeds, adjoint))
+        return Function("adjoint" if adjoint else "forward", [p, durations, seeds], [z, shifts, slopes])
 
 
 @own_cache(256)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .derivatives import LANDED, LANDED_WELL, adjoint, curvature, evaluate, forward, lands, settled
+from .derivatives import LANDED, LANDED_WELL, curvature, evaluate, first_derivatives, lands, settled
 from .trajectory_expression import Course, TrajectoryExpression
 
 Active = list[bool]
@@ -48,13 +48,14 @@ def _once(
     whole: TrajectoryExpression, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, active: Active, method: str
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     if method == "adjoint":
-        z, shifts, gradients = evaluate(adjoint(whole, len(whole.of)), p, durations, np.eye(len(whole.of)))
+        weights = np.eye(len(whole.of))
+        z, shifts, gradients = evaluate(first_derivatives(whole, len(weights), True), p, durations, weights)
         return z.ravel(), shifts.ravel(), gradients.T
     seeds = spanning(p, dp, active)
     if seeds.shape[1] == 0:
         z, shifts = evaluate(whole.function, p, durations)
         return z.ravel(), shifts.ravel(), np.zeros((z.size, p.size))
-    z, shifts, slopes = evaluate(forward(whole, seeds.shape[1]), p, durations, seeds)
+    z, shifts, slopes = evaluate(first_derivatives(whole, seeds.shape[1], False), p, durations, seeds)
     return z.ravel(), shifts.ravel(), slopes @ inverse(seeds)
 
 
@@ -79,8 +80,7 @@ def inverse(seeds: np.ndarray) -> np.ndarray:
     sized = seeds / rows[:, None]
     columns = np.linalg.norm(sized, axis=0)
     columns[columns == 0] = 1.0
-    found: np.ndarray = np.linalg.pinv(sized / columns) / columns[:, None] / rows
-    return found
+    return np.asarray(np.linalg.pinv(sized / columns) / columns[:, None] / rows)
 
 
 def second_derivatives(

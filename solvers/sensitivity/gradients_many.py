@@ -73,8 +73,7 @@ class _Asked:
     @property
     def relative_speed(self) -> np.ndarray:
         """Magnitudes of the relative velocities, m/s."""
-        relative: np.ndarray = self.speed / np.cos(self.angle)
-        return relative
+        return np.asarray(self.speed / np.cos(self.angle))
 
     def impacts(self, which: np.ndarray, stretch: float = 1.0) -> Impacts:
         return Impacts(self.scene, self.speed[which] * stretch, self.angle[which], {})
@@ -231,8 +230,7 @@ def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
         asked.value[place, stuck], asked.gradient[place, stuck] = 0.0, 0.0
     for k in np.flatnonzero((answers["outcome"] > 0) & told & (near < least)):
         asked.reason[which[k]] = str(refused(Near(*_boundary(measures[k])), least))
-    left: np.ndarray = which[(asked.outcome[which] == FAILED) & (asked.reason[which] == "")]
-    return left
+    return np.asarray(which[(asked.outcome[which] == FAILED) & (asked.reason[which] == "")])
 
 
 def _boundary(measures: np.ndarray) -> tuple[str, float, str]:
@@ -271,8 +269,7 @@ def _sticks(asked: _Asked, which: np.ndarray, answers: np.ndarray, by_energy: bo
             stays = (aside["outcome"] == OUTCOMES.index(STICKS)) & (aside["status"] <= LAST_ANSWER)
             stuck[look[~stays]] = False
             look = look[stays]
-    sticks: np.ndarray = stuck
-    return sticks
+    return np.asarray(stuck)
 
 
 def _alone(asked: _Asked, k: int, hold: str, engine: str) -> None:

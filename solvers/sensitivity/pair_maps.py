@@ -99,8 +99,7 @@ def _sizes(given: Mapping[str, SX]) -> tuple[SX, SX]:
 def _rate(given: Mapping[str, SX], scale: SX) -> SX:
     """The scale of rates, rad/s."""
     values = {**given, "obliquity": scale}
-    found: SX = scaling.rate_scale_pair(*(values[name] for name in scaling.ARGUMENTS["rate_scale_pair"]))
-    return found
+    return SX(scaling.rate_scale_pair(*(values[name] for name in scaling.ARGUMENTS["rate_scale_pair"])))
 
 
 def _first(given: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX) -> dict[str, SX]:

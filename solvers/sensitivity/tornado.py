@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+import textwrap
+from collections.abc import Sequence
+from typing import Any
 
-from ..scene.scene import Scene
+from matplotlib.figure import Figure
+
+from ..formatting.style import picture
 from .results import DIFFERENTIATED
 
 _UP, _DOWN, _INK = "#2a6f97", "#c1554a", "#222222"
@@ -22,39 +25,9 @@ _NAMES = {
 """Labels of parameters whose entry names are not descriptive enough."""
 
 
-class Elasticities(Protocol):
-    """Elasticities of quantities by parameters, of one collision."""
-
-    @property
-    def scene(self) -> Scene: ...
-
-    @property
-    def outcome(self) -> str: ...
-
-    @property
-    def parameters(self) -> tuple[str, ...]: ...
-
-    @property
-    def value(self) -> Mapping[str, float | None]: ...
-
-    @property
-    def elasticity(self) -> Mapping[str, Mapping[str, float | None]]: ...
-
-
-def draw(found: Elasticities) -> Any:
-    """Draw a panel per quantity and a bar per parameter; parameters with negligible or no elasticity are listed below.
-
-    Returns:
-        The matplotlib Figure.
-    """
-    from ..formatting.style import picture
-
-    return picture(_drawn)(found)
-
-
-def _drawn(found: Elasticities) -> Any:
-    from matplotlib.figure import Figure
-
+@picture
+def draw(found: Any) -> Figure:
+    """A panel per quantity and a bar per parameter of `Sensitivities`; below it those without a visible elasticity."""
     shown = [name for name in found.value if any(found.elasticity[name].values())]
     panels = shown[:_LONG] or list(found.value)[:1]
     order = _ranked(found, panels)
@@ -70,19 +43,16 @@ def _drawn(found: Elasticities) -> Any:
             0.5, 0.5, "nothing moves it: a stick has e_n = 0" if found.outcome == "stick" else "no elasticity here",
             ha="center", va="center", transform=axes[0].transAxes, fontsize=9, color=_INK,
         )  # fmt: skip
-    notes = [f"{found.outcome}, $e_n$ = {found.value['restitution']:.4g}" if _has_value(found) else found.outcome]
+    restitution = found.value.get("restitution")
+    notes = [found.outcome if restitution is None else f"{found.outcome}, $e_n$ = {restitution:.4g}"]
     notes += [f"too little to be seen: {', '.join(_short(weak))}"] if _short(weak) else []
     notes += [f"no influence or no elasticity: {', '.join(_short(left_out))}"] if left_out else []
     figure.suptitle(f"{found.scene.name or 'scene'}: elasticities d ln y / d ln p", color=_INK)
-    figure.supxlabel(_wrapped("; ".join(notes), 34 * len(panels) + 30), color="#555555")
+    figure.supxlabel(textwrap.fill("; ".join(notes), 34 * len(panels) + 30), color="#555555")
     return figure
 
 
-def _has_value(found: Elasticities) -> bool:
-    return found.value.get("restitution") is not None
-
-
-def _ranked(found: Elasticities, names: Sequence[str]) -> list[str]:
+def _ranked(found: Any, names: Sequence[str]) -> list[str]:
     """Parameters with influence, the largest last (bars are drawn from below); speed and Stokes number appear once."""
     single = [p for p in found.parameters if not (p == "impact.stokes" and "impact.speed" in found.parameters)]
     rows = {p: [abs(found.elasticity[y][p] or 0.0) for y in names] for p in single}
@@ -91,7 +61,7 @@ def _ranked(found: Elasticities, names: Sequence[str]) -> list[str]:
     return sorted(seen, key=lambda p: max(rows[p]))[-_MOST:]
 
 
-def _panel(axis: Any, found: Elasticities, name: str, order: Sequence[str]) -> None:
+def _panel(axis: Any, found: Any, name: str, order: Sequence[str]) -> None:
     values = [found.elasticity[name][p] or 0.0 for p in order]
     bars = axis.barh(range(len(order)), values, color=[_UP if v >= 0 else _DOWN for v in values], height=0.7)
     axis.set_yticks(range(len(order)), [_label(p) for p in order])
@@ -118,9 +88,3 @@ def _label(name: str) -> str:
 
 def _short(names: Sequence[str]) -> list[str]:
     return [_label(name) for name in names if name != "impact.stokes"]
-
-
-def _wrapped(text: str, width: int) -> str:
-    from textwrap import fill
-
-    return fill(text, width)

@@ -14,8 +14,7 @@ from .cells import Strip
 from .collisions import Signatures
 from .data import Data
 from .fit import Coarse, Order, Unresolved, fit
-from .kinks import EDGE_ORDER
-from .layout import Layout
+from .layout import EDGE_ORDER, Layout
 from .maps import LINEAR, LOG, MAPS, ROOT
 from .series import Forest, transform
 

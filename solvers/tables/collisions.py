@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...generated.automaton import KINDS, LAST_ANSWER, OUTCOMES
-from ..boundaries.plane import ANGLE, Plane
+from ..boundaries.plane import Plane
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, run_recorded
 from ..errors import ComputationError
@@ -59,8 +59,7 @@ class Signatures:
 
     def of(self, codes: np.ndarray) -> np.ndarray:
         """Outcomes of codes, by number; -1 where the code is UNKNOWN."""
-        found: np.ndarray = np.array([*self.outcomes, -1])[codes]
-        return found
+        return np.asarray(np.array([*self.outcomes, -1])[codes])
 
     def said(self, code: int) -> str:
         """A signature in words."""
@@ -112,18 +111,6 @@ class Collisions(Plane):
         """Signatures (n) and results (n x m, NaN where undefined) at angles (rad) and Stokes numbers."""
         self.collisions += angle.size
         return collisions(self.scene, angle, stokes, self.rtol, self.of if of is None else of, self.signatures)
-
-
-def plane_of(
-    scene: Scene,
-    span: tuple[float, float],
-    stokes: tuple[float, float],
-    rtol: float,
-    of: tuple[str, ...],
-    known: Signatures,
-) -> Collisions:
-    """The plane of a scene over angles (rad) and Stokes numbers."""
-    return Collisions(scene, ANGLE, span, stokes, rtol, of=of, signatures=known)
 
 
 def collisions(
@@ -193,8 +180,7 @@ def _packed(kinds: np.ndarray, number: np.ndarray) -> np.ndarray:
 def _at_once(recorded: Recorded) -> np.ndarray:
     """Mask of collisions that meet a rebound criterion at initial contact."""
     first = recorded.events[:, 0]
-    met: np.ndarray = (recorded.answers["reversal"] >= 0) & (first["time"] == 0) & (recorded.answers["events"] > 0)
-    return met
+    return np.asarray((recorded.answers["reversal"] >= 0) & (first["time"] == 0) & (recorded.answers["events"] > 0))
 
 
 def _slides(impacts: Impacts, oblique: bool, rtol: float, found: np.ndarray) -> np.ndarray:

@@ -1,7 +1,8 @@
-"""Data of a table: panels, boundaries, cells and series as flat arrays, as files hold them and readers use them."""
+"""Data of a table: its ranges; panels, boundaries, cells and series as flat arrays, as files and readers have them."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,5 +52,32 @@ class Data:
         own = sum(getattr(self, name).nbytes for name in ("slices", "first_panel", "cuts", "maps", "first_edge",
                   "edges", "outcome", "criterion", "cell_map", "root", "of_stick"))  # fmt: skip
         parts = ("axis", "cut", "child", "box", "size", "start", "coefficients")
-        found: int = own + sum(getattr(trees, name).nbytes for trees in (self.shapes, self.results) for name in parts)
-        return found
+        return int(own + sum(getattr(trees, name).nbytes for trees in (self.shapes, self.results) for name in parts))
+
+
+@dataclass
+class Range:
+    """The ranges of a table.
+
+    Attributes:
+        third: dotted name of the third variable, if there is one.
+        ends: its range, SI; 0..1 if there is none.
+        angle, stokes: ranges, rad and 1.
+    """
+
+    third: str | None
+    ends: tuple[float, float]
+    angle: tuple[float, float]
+    stokes: tuple[float, float]
+
+    @property
+    def logarithmic(self) -> bool:
+        """True if the table is over the logarithm of the third variable."""
+        return self.third is not None and self.ends[0] > 0 and self.ends[1] > 2 * self.ends[0]
+
+    @property
+    def corners(self) -> tuple[np.ndarray, np.ndarray]:
+        """Lowest and highest third variable (or its logarithm), angle and ln St."""
+        third = np.log(self.ends) if self.logarithmic else np.array(self.ends)
+        low, high = zip(third.tolist(), self.angle, (math.log(one) for one in self.stokes), strict=True)
+        return np.array(low), np.array(high)

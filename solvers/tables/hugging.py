@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .data import Data
-from .maps import forward
-from .read import read
+from .read import Place, slice_of
 
 _NEAREST, _FARTHEST = -9.0, -1.5  # decimal logarithms of distances from a boundary
 
@@ -24,8 +23,7 @@ def queries(data: Data, count: int, random: np.random.Generator) -> np.ndarray:
     axis = random.integers(0, 3, edge.size)
     ends = np.where(random.random(edge.size) < 0.5, data.low[axis], data.high[axis])
     at[axis, edge] = ends
-    inside: np.ndarray = np.clip(at, low, high)
-    return inside
+    return np.asarray(np.clip(at, low, high))
 
 
 def _beside(random: np.random.Generator, places: np.ndarray, count: np.ndarray) -> np.ndarray:
@@ -33,18 +31,12 @@ def _beside(random: np.random.Generator, places: np.ndarray, count: np.ndarray) 
     size = count.size
     which = (random.random(size) * count).astype(int)
     sign = np.where(random.random(size) < 0.5, -1.0, 1.0)
-    found: np.ndarray = places[which, np.arange(size)] + sign * 10 ** random.uniform(_NEAREST, _FARTHEST, size)
-    return found
-
-
-def _slice(data: Data, third: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    part = np.clip(np.searchsorted(data.slices, third, side="right") - 1, 0, data.slices.size - 2)
-    return part, (third - data.slices[part]) / (data.slices[part + 1] - data.slices[part])
+    return np.asarray(places[which, np.arange(size)] + sign * 10 ** random.uniform(_NEAREST, _FARTHEST, size))
 
 
 def _cuts(data: Data, third: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Angles between panels (cuts x n, padded with the last), and their number."""
-    part, t = _slice(data, third)
+    part, t = slice_of(data, third)
     first, last = data.first_panel[part], data.first_panel[part + 1]
     most, none = int((last - first).max(initial=1)), np.zeros(third.size)
     places = [data.shapes.values(data.cuts[first, 0], t, none, none)[0][:, 0]]
@@ -56,9 +48,8 @@ def _cuts(data: Data, third: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def heights(data: Data, third: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Boundaries at angles as ln St, and both ends of the range (places x n, padded), and their number."""
     none = np.zeros(angle.size)
-    panel = read(data, third, angle, none + data.low[2]).panel
-    t = _slice(data, third)[1]
-    x = coordinate(data, t, panel, angle)
+    place = Place(data, np.stack([third, angle, none + data.low[2]]), False)
+    panel, t, x = place.panel, place.t, place.x
     first, last = data.first_edge[panel], data.first_edge[panel + 1]
     places = [none + data.low[2], none + data.high[2]]
     for k in range(int((last - first).max(initial=0))):
@@ -67,13 +58,3 @@ def heights(data: Data, third: np.ndarray, angle: np.ndarray) -> tuple[np.ndarra
         own[there] = data.shapes.values(data.edges[first[there] + k], t[there], x[there], none[there])[0][:, 0]
         places.append(own)
     return np.array(places), last - first + 2
-
-
-def coordinate(data: Data, t: np.ndarray, panel: np.ndarray, angle: np.ndarray) -> np.ndarray:
-    """The coordinate of angles across their panels."""
-    none = np.zeros(angle.size)
-    low = data.shapes.values(data.cuts[panel, 0], t, none, none)[0][:, 0]
-    high = data.shapes.values(data.cuts[panel, 1], t, none, none)[0][:, 0]
-    x = forward(data.maps[panel], np.clip((angle - low) / (high - low), 0, 1), 0.0)[0]
-    found: np.ndarray = np.clip(x, 0.0, 1.0)
-    return found

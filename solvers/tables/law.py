@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 from ..scene.scene import Scene
 from .attack import Attack
-from .data import Data
-from .slices import Range
+from .data import Data, Range
 
 STOKES, ANGLE = "impact.stokes", "impact.angle"
 

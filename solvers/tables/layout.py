@@ -15,12 +15,17 @@ from ..boundaries.regions import Slab, apart, labelled, slabs
 from ..boundaries.survey import Survey, lattice, surveyed
 from ..boundaries.trace import trace
 from .collisions import UNKNOWN, Collisions
+from .fit import Order, Unresolved, fit
+from .series import Forest
 
 _LINES, _RANDOM = 33, 4096  # seed lines, random collisions held against the curves
 _BESIDE = 1e-6  # distance in the square at which signatures beside a traced change are looked at
 _THIN = 3e-7  # rad; a narrower panel is part of its neighbour
 _FINER, _MORE, _ROUNDS = 385, 8, 3
 _LOCATED = 1e-9  # width in the square to which a boundary is located
+EDGE_ORDER = Order((16, 1), 5e-8, most=400, checks=8)
+_NARROW, _END = 1 / 100, 2e-3  # width of a patch, as part of its panel, that a kink makes; distance from the ends
+_DIVISIONS = 4
 _REACHES = (1e-4, 1e-3, 1e-2, 0.1)  # of the search for a boundary near its polyline
 
 
@@ -42,11 +47,7 @@ class Panel:
 
 @dataclass
 class Layout:
-    """The panels of a plane.
-
-    Attributes:
-        extra: points (angle, St) at which an attack has found the layout wrong; looked at as well.
-    """
+    """The panels of a plane, and where collisions contradict them."""
 
     plane: Collisions
     panels: list[Panel]
@@ -72,8 +73,7 @@ class Layout:
             up = np.tile([0.0, 1.0], (left.size, 1))
             ends = np.full(left.size, low), np.full(left.size, high)
             found[left] = crossings(plane.labels, centre[left], up, np.full(left.size, reach), *ends, _LOCATED)[:, 1]
-        height: np.ndarray = np.log(plane.stokes[0]) + found * plane.decades
-        return height
+        return np.asarray(np.log(plane.stokes[0]) + found * plane.decades)
 
 
 def layout_of(plane: Collisions, doubts: np.ndarray | None = None) -> Layout:
@@ -162,3 +162,42 @@ def _look(plane: Collisions, survey: Survey, points: np.ndarray) -> None:
 
 def _place(plane: Collisions, point: np.ndarray) -> str:
     return f"{np.degrees(float(plane.x(point))):.6g} deg, St {float(plane.stokes_at(point)):.6g}"
+
+
+def with_kinks(layout: Layout) -> Layout:
+    """The layout with panels divided where a boundary has a corner."""
+    for _ in range(_DIVISIONS):
+        panels: list[Panel] = []
+        for which, panel in enumerate(layout.panels):
+            cut = _kink(layout, which)
+            if cut is None:
+                panels.append(panel)
+            else:
+                panels += [
+                    Panel(panel.low, cut, panel.arcs, panel.labels), Panel(cut, panel.high, panel.arcs, panel.labels)
+                ]  # fmt: skip
+        if len(panels) == len(layout.panels):
+            break
+        layout.panels = panels
+    return layout
+
+
+def _kink(layout: Layout, which: int) -> float | None:
+    """The angle of the sharpest kink inside a panel."""
+    panel, sharpest = layout.panels[which], (_NARROW, 0.0)
+    for k in range(len(panel.arcs)):
+        forest = Forest(1)
+
+        def sample(points: np.ndarray, k: int = k) -> np.ndarray:
+            angle = panel.low + points[:, 0] * (panel.high - panel.low)
+            return layout.boundary(which, k, angle)[:, None, None]
+
+        try:
+            fit(forest, sample, EDGE_ORDER)
+        except Unresolved:
+            continue
+        for low, _, per, _ in forest.box:
+            middle = low + 0.5 / per
+            if _END < middle < 1 - _END and 1 / per < sharpest[0]:
+                sharpest = 1 / per, middle
+    return None if not sharpest[1] else panel.low + sharpest[1] * (panel.high - panel.low)

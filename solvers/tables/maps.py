@@ -19,8 +19,7 @@ _LOGIT = 40.0  # bisection covers w from exp(-40)
 
 def near(height: np.ndarray) -> np.ndarray:
     """LEAST as a part of the height of a cell."""
-    found: np.ndarray = np.minimum(LEAST / np.maximum(height, _TINY), MOST_NEAR)
-    return found
+    return np.asarray(np.minimum(LEAST / np.maximum(height, _TINY), MOST_NEAR))
 
 
 def forward(
@@ -68,5 +67,4 @@ def inverse(code: int, s: np.ndarray, least: np.ndarray | float) -> np.ndarray:
         middle = 0.5 * (low + high)
         below = forward(code, 1 / (1 + np.exp(-middle)), least)[0] < s
         low, high = np.where(below, middle, low), np.where(below, high, middle)
-    found: np.ndarray = 1 / (1 + np.exp(-0.5 * (low + high)))
-    return found
+    return np.asarray(1 / (1 + np.exp(-0.5 * (low + high))))

@@ -45,7 +45,7 @@ def read(data: Data, third: np.ndarray, angle: np.ndarray, height: np.ndarray, s
     along = np.full((3 if slopes else 0, size, count), np.nan)
     panels, cells, patches = (np.full(size, -1) for _ in range(3))
     if inside.size:
-        place = _Place(data, at[:, inside], slopes)
+        place = Place(data, at[:, inside], slopes)
         panels[inside], cells[inside] = place.panel, place.cell
         outcome[inside], criterion[inside] = data.outcome[place.cell], data.criterion[place.cell]
         root = data.root[place.cell]
@@ -60,7 +60,13 @@ def read(data: Data, third: np.ndarray, angle: np.ndarray, height: np.ndarray, s
     return Read(outcome, criterion, values, along, panels, cells, patches)
 
 
-class _Place:
+def slice_of(data: Data, third: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The slices of values of the third variable, and the coordinates t there."""
+    part = np.clip(np.searchsorted(data.slices, third, side="right") - 1, 0, data.slices.size - 2)
+    return part, (third - data.slices[part]) / (data.slices[part + 1] - data.slices[part])
+
+
+class Place:
     """The cells of impacts, and their coordinates there.
 
     Attributes:
@@ -70,9 +76,8 @@ class _Place:
     def __init__(self, data: Data, at: np.ndarray, slopes: bool) -> None:
         third, angle, height = at
         size = angle.size
-        part = np.clip(np.searchsorted(data.slices, third, side="right") - 1, 0, data.slices.size - 2)
+        part, self.t = slice_of(data, third)
         wide = data.slices[part + 1] - data.slices[part]
-        self.t = (third - data.slices[part]) / wide
         none = np.zeros(size)
 
         def shape(root: np.ndarray, which: np.ndarray | slice = slice(None)) -> tuple[np.ndarray, np.ndarray]:

@@ -44,8 +44,7 @@ class Trees:
             axis = self.axis[node]
             inner = np.flatnonzero(axis != LEAF)
             if not inner.size:
-                found: np.ndarray = self.child[node]
-                return found
+                return np.asarray(self.child[node])
             at = np.where(axis[inner] == 0, x[inner], z[inner])
             node[inner] = self.child[node[inner]] + (at >= self.cut[node[inner]])
 
@@ -92,8 +91,7 @@ def chebyshev(x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
 
 def nodes(count: int) -> np.ndarray:
     """Chebyshev points of the first kind in 0..1, ascending."""
-    found: np.ndarray = 0.5 - 0.5 * np.cos(np.pi * (np.arange(count) + 0.5) / count)
-    return found
+    return np.asarray(0.5 - 0.5 * np.cos(np.pi * (np.arange(count) + 0.5) / count))
 
 
 def transform(count: int) -> np.ndarray:

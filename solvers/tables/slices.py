@@ -8,47 +8,20 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..boundaries.plane import ANGLE
 from ..changes.brackets import bisect
 from ..errors import ComputationError
 from ..scene.scene import Scene
 from .build import Builder, Slice
-from .collisions import Signatures, plane_of
+from .collisions import Collisions, Signatures
+from .data import Range
 from .fit import Coarse
-from .kinks import with_kinks
-from .layout import Layout, layout_of
+from .layout import Layout, layout_of, with_kinks
 from .series import nodes
 
 NODES = 8  # of the third variable in a slice
 _MOST = 40  # slices
 _APART = 3e-7  # relative distance between values with different layouts at which the change between them is located
-
-
-@dataclass
-class Range:
-    """The ranges of a table.
-
-    Attributes:
-        third: dotted name of the third variable, if there is one.
-        ends: its range, SI; 0..1 if there is none.
-        angle, stokes: ranges, rad and 1.
-    """
-
-    third: str | None
-    ends: tuple[float, float]
-    angle: tuple[float, float]
-    stokes: tuple[float, float]
-
-    @property
-    def logarithmic(self) -> bool:
-        """True if the table is over the logarithm of the third variable."""
-        return self.third is not None and self.ends[0] > 0 and self.ends[1] > 2 * self.ends[0]
-
-    @property
-    def corners(self) -> tuple[np.ndarray, np.ndarray]:
-        """Lowest and highest third variable (or its logarithm), angle and ln St."""
-        third = np.log(self.ends) if self.logarithmic else np.array(self.ends)
-        low, high = zip(third.tolist(), self.angle, (math.log(one) for one in self.stokes), strict=True)
-        return np.array(low), np.array(high)
 
 
 @dataclass
@@ -77,7 +50,9 @@ class Slicer:
             scene = self.scene
             if self.range.third is not None:
                 scene = scene.with_si({self.range.third: math.exp(at) if self.range.logarithmic else at})
-            plane = plane_of(scene, self.range.angle, self.range.stokes, self.rtol, self.of, self.signatures)
+            plane = Collisions(
+                scene, ANGLE, self.range.angle, self.range.stokes, self.rtol, of=self.of, signatures=self.signatures
+            )
             found = with_kinks(layout_of(plane, self.doubts[:, 1:]))
             self.failures += found.failures
             self._layouts[at] = found

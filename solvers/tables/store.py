@@ -15,10 +15,9 @@ from ..host.outputs import check_file
 from ..scene.scene import Scene
 from ..scene.user_model import Package
 from .attack import Attack
-from .data import Data
+from .data import Data, Range
 from .law import Law
 from .series import Trees
-from .slices import Range
 
 if TYPE_CHECKING:
     import xarray

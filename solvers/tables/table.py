@@ -20,9 +20,10 @@ from ..settings import RTOL, check_rtol
 from .attack import Attack
 from .attack import attack as attacked
 from .build import Builder
+from .data import Range
 from .law import ANGLE, STOKES, Law
 from .read import read
-from .slices import Range, Slicer
+from .slices import Slicer
 
 if TYPE_CHECKING:
     import xarray

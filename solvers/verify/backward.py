@@ -32,6 +32,9 @@ _SHORTEST = 1e-12  # shortest section, relative to its phase
 _PLACES = (0.0, 0.3, 0.8)  # starting points of sections, relative to the phase
 _TRAJECTORIES = 6  # trajectories of the sample
 
+Back = Callable[[Flow, str, Tolerance], Plain]
+"""Flow, engine and tolerance -> the integrator backward in time."""
+
 
 @dataclass(frozen=True)
 class Replayed:
@@ -51,42 +54,33 @@ def replayed(scene: Scene, stokes: float, angle: float) -> Replayed:
     flow = Flow(select_model(scene, n.oblique, full=True), Region(1, 1, False))
     p, tolerance = flow.model.group_values(n.groups), tolerance_for(RTOL, REFERENCE, n.groups)
     try:
-        found = replay(path, REFERENCE, tolerance, flow, flow.model.start(p))
+        integrated = replay(path, REFERENCE, tolerance, flow, flow.model.start(p))
     except Stopped as failure:
         raise ComputationError(f"{REFERENCE} {failure.why}", phase=str(failure.step.phase)) from None
-    return Replayed(flow.model, p, tolerance, found.pieces, found.y)
-
-
-@dataclass(frozen=True)
-class Section:
-    """A smooth part of a phase: initial state, duration (x0/v0), and backward amplification of errors."""
-
-    flow: Flow
-    start: np.ndarray
-    duration: float
-    amplification: float
+    return Replayed(flow.model, p, tolerance, integrated.pieces, integrated.y)
 
 
 def backward(sample: Sample, back: Back | None = None) -> Iterator[Finding]:
-    """Findings for every engine, over sections of every phase of a few trajectories.
+    """Findings for every engine, over sections of every phase of a few trajectories, evenly spaced in the sample.
 
     Arguments:
         back: factory of the integrator backward in time; `returning` if None.
     """
-    returns: dict[str, list[tuple[float, float, float, str]]] = {engine: [] for engine in PLUGINS}
-    for stokes, angle in _chosen(sample):
+    errors: dict[str, list[tuple[float, float, str]]] = {engine: [] for engine in PLUGINS}
+    impacts = [next(iter(impact.values())) for impact in sample.impacts]
+    moving = [one for one in impacts if (one.contact_time or one.until or 0) > 0]
+    for k in np.unique(np.linspace(0, len(moving) - 1, min(_TRAJECTORIES, len(moving))).round().astype(int)):
         try:
-            path = replayed(sample.scene, stokes, angle)
+            path = replayed(sample.scene, moving[k].stokes, moving[k].angle)
         except WetDoubletError:
             continue  # failures are reported with the sample
         for piece in path.pieces:
-            at = place(stokes, angle, event=piece.name)
-            for section in sections(piece, path.p):
-                bound = _SAFETY * RTOL * section.amplification
-                for engine, entries in returns.items():
-                    error = _return_error(section, path.p, engine, back or returning)
-                    entries.append((error, bound, section.amplification, at))
-    for engine, entries in returns.items():
+            at = place(moving[k].stokes, moving[k].angle, event=piece.name)
+            for start, duration, amplification in sections(piece, path.p):
+                for engine, entries in errors.items():
+                    error = _return_error(piece.flow, start, duration, path.p, engine, back or returning)
+                    entries.append((error / amplification, amplification, at))
+    for engine, entries in errors.items():
         name = f"forward-back, {engine}"
         statement = (
             f"a stretch integrated forward and back returns to its start, within {_SAFETY:.0f} rtol times the norm of "
@@ -95,52 +89,44 @@ def backward(sample: Sample, back: Back | None = None) -> Iterator[Finding]:
         if not entries:
             yield note(name, statement, sample.silent or "no stretch is mild enough")
             continue
-        error, bound, amplification, at = max(entries, key=lambda entry: entry[0] / entry[1])
-        most = max(entry[2] for entry in entries)
+        relative, amplification, at = max(entries, key=lambda entry: entry[0])
+        most = max(entry[1] for entry in entries)
         about = f"  {len(entries)} stretches; amplification {amplification:.1e} at the worst, at most {most:.1e}"
-        yield bounded(name, statement, error, bound, at, about)
+        yield bounded(name, statement, relative * amplification, _SAFETY * RTOL * amplification, at, about)
 
 
-def _chosen(sample: Sample) -> list[tuple[float, float]]:
-    """Stokes numbers and angles of a few impacts of the sample, evenly spaced."""
-    impacts = [next(iter(impact.values())) for impact in sample.impacts]
-    moving = [(one.stokes, one.angle) for one in impacts if (one.contact_time or one.until or 0) > 0]
-    picked = np.unique(np.linspace(0, len(moving) - 1, min(_TRAJECTORIES, len(moving))).round().astype(int))
-    return [moving[k] for k in picked]
-
-
-def sections(piece: Piece, p: np.ndarray) -> Iterator[Section]:
-    """Sections of a phase with an amplification of at most MOST."""
-    tolerance = Tolerance(1e-10, 1e-13)
+def sections(piece: Piece, p: np.ndarray) -> Iterator[tuple[np.ndarray, float, float]]:
+    """Smooth parts of a phase: initial state, duration (x0/v0), and backward amplification of errors, at most MOST."""
+    parts = expressions(piece.flow)
+    rates_by_state = Function(
+        "jacobian", [parts.variables, piece.flow.model.parameters], [jacobian(parts.rates, parts.variables)]
+    )
     for part in _PLACES:
         start = piece.start
         if part:
-            start = plain(piece.flow, "rosenbrock", tolerance)(piece.start, p, part * piece.duration)
-        rates = np.asarray(_jacobian(piece.flow)(start, p).full())
-        fastest = max(float(-np.linalg.eigvals(rates).real.min()), 1e-300)
+            start = plain(piece.flow, "rosenbrock", Tolerance(1e-10, 1e-13))(piece.start, p, part * piece.duration)
+        eigenvalues = np.linalg.eigvals(np.asarray(rates_by_state(start, p).full()))
+        fastest = max(float(-eigenvalues.real.min()), 1e-300)
         duration = min((1 - part) * piece.duration, math.log(_AIM) / fastest)
         while duration > _SHORTEST * piece.duration:
             amplification = _amplification(piece.flow, start, p, duration)
             if amplification <= MOST:
-                yield Section(piece.flow, start, duration, amplification)
+                yield start, duration, amplification
                 break
             duration /= 2
 
 
-def _return_error(section: Section, p: np.ndarray, engine: str, back: Back) -> float:
+def _return_error(flow: Flow, start: np.ndarray, duration: float, p: np.ndarray, engine: str, back: Back) -> float:
     """Distance of the returned state from the start of a section; inf if an integration fails."""
     share = 1 / 30 if engine == "cvodes" else 1.0  # as elsewhere, so that rtol has about the same meaning for both
     tolerance = Tolerance(RTOL * share, 1e-3 * RTOL * share)
     try:
-        end = plain(section.flow, engine, tolerance)(section.start, p, section.duration)
-        returned = back(section.flow, engine, tolerance)(end, p, section.duration)
+        end = plain(flow, engine, tolerance)(start, p, duration)
+        returned = back(flow, engine, tolerance)(end, p, duration)
     except IntegrationFailed:
         return math.inf
-    error = float(np.max(np.abs(returned - section.start) / _scale(section.flow, p)))
+    error = float(np.max(np.abs(returned - start) / _scale(flow, p)))
     return error if math.isfinite(error) else math.inf
-
-
-Back = Callable[[Flow, str, Tolerance], Plain]
 
 
 @own_cache(64)
@@ -169,15 +155,8 @@ def _amplification(flow: Flow, start: np.ndarray, p: np.ndarray, duration: float
 
 def _scale(flow: Flow, p: np.ndarray) -> np.ndarray:
     """Scales of the states: 1, except for the orbital momentum, which starts at (4 + aspect)^2."""
-    groups = dict(zip(flow.model.groups, p, strict=True))
-    sizes = {"orbital_momentum": (4 + groups.get("aspect", 0.0)) ** 2}
-    return np.array([sizes.get(name, 1.0) for name in flow.model.state])
-
-
-@own_cache(32)
-def _jacobian(flow: Flow) -> Function:
-    parts = expressions(flow)
-    return Function("jacobian", [parts.variables, flow.model.parameters], [jacobian(parts.rates, parts.variables)])
+    aspect = dict(zip(flow.model.groups, p, strict=True)).get("aspect", 0.0)
+    return np.array([(4 + aspect) ** 2 if name == "orbital_momentum" else 1.0 for name in flow.model.state])
 
 
 @own_cache(32)

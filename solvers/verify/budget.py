@@ -90,32 +90,27 @@ def budgeted(
 
 def terms(one: Collision) -> dict[str, float]:
     """The terms of one collision; for a stick, or where a declared event parts it, only the restitution."""
-    if one.outcome == "stick" or one.energy is None or _parted(one):
-        return {"restitution": one.restitution}
+    package = one.scene.package
+    parting = [each.word for each in package.events if each.row.actions[-1] == "part"] if package else []
+    if one.outcome == "stick" or one.energy is None or (one.events and one.events[-1].kind in parting):
+        return {"restitution": one.restitution}  # a declared event parts them at a gap that is no result
     unit = one.scene.particles.reduced_mass * one.speed**2 / 2
-    found = {
+    budget = {
         "restitution": one.restitution,
         "excess": one.restitution**2 - 1,
         "rotation_released": _released(one) / unit,
         "residual": one.energy.residual / unit,
         "ceiling": ceiling(one),
     } | {name: getattr(one.energy, name) / unit for name in LOSSES}
-    found["dry_contact"] += (one.energy.dry_friction or 0.0) / unit  # all that the solids take
-    lost = sum(found[name] for name in LOSSES) + found["residual"] + (one.energy.own_events or 0.0) / unit
-    return found | {"gap": found["excess"] - found["rotation_released"] + lost}
-
-
-def _parted(one: Collision) -> bool:
-    """True if an event of a user's model ended the collision, at a gap that is no result."""
-    package = one.scene.package
-    parting = [each.word for each in package.events if each.row.actions[-1] == "part"] if package else []
-    return bool(one.events) and one.events[-1].kind in parting
+    budget["dry_contact"] += (one.energy.dry_friction or 0.0) / unit  # all that the solids take
+    lost = sum(budget[name] for name in LOSSES) + budget["residual"] + (one.energy.own_events or 0.0) / unit
+    return budget | {"gap": budget["excess"] - budget["rotation_released"] + lost}
 
 
 def _released(one: Collision) -> float:
     """Rotational energy at initial contact minus that at separation, J, from the rates, independent of the ledger."""
     a, m = one.scene.particles.reduced_radius, one.scene.particles.reduced_mass
-    spin, last = one.final_spin or 0.0, 4 * a + _separation(one)
+    spin, last = one.final_spin or 0.0, 4 * a + one.scene.rupture_gap
     spins = spin, spin if one.final_spin_partner is None else one.final_spin_partner
     left = (last * (one.final_rotation_rate or 0.0)) ** 2 + _spun(spins, a)
     return 0.5 * m * (first_rotation(one.scene, one.angle, one.speed) * one.speed**2 - left)
@@ -138,18 +133,13 @@ def _spun(spins: tuple[float, float], a: float) -> float:
     return 3.2 * a**2 * (spins[0] ** 2 + spins[1] ** 2)
 
 
-def _separation(one: Collision) -> float:
-    """Gap at separation, m."""
-    return one.scene.rupture_gap
-
-
 def ceiling(one: Collision) -> float:
     """Upper limit of e_n^2 if only the bridge dissipates energy; NaN for the surface lever arm and with strings."""
     scene = one.scene
     if one.energy is None or scene.pendulum is not None or scene.model.arm != "midgap":
         return math.nan
     a, m = scene.particles.reduced_radius, scene.particles.reduced_mass
-    first, last = 4 + scene.liquid.film_thickness / a, 4 + _separation(one) / a  # distances over a
+    first, last = 4 + scene.liquid.film_thickness / a, 4 + scene.rupture_gap / a  # distances over a
     momentum = first**2 * math.tan(one.angle) / 4 + 3.2 * a * sum(_first_spins(scene)) / one.speed  # L over m a v0
     released = first_rotation(scene, one.angle, one.speed) - momentum**2 / (last**2 + 6.4)
     return 1 + released - 2 * one.energy.capillary / (m * one.speed**2)

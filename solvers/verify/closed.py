@@ -96,7 +96,10 @@ def film_alone(scene: Scene, engine: str, plain: Integrators = plain, collide: C
     bare = _bare(scene)
     worst = max(_approach(bare, factor * stokes_of(bare), engine, plain) for factor in (0.3, 1.0, 4.0))
     bounced = 0
-    for stokes in _stokes_range(bare):
+    # Stokes numbers about the one at which the film just stops the pair at the roughness
+    critical = film_loss(bare.particles.roughness / bare.liquid.film_thickness)
+    critical *= 1 + 1 / max(bare.particles.dry_restitution, 0.2)
+    for stokes in np.geomspace(1e-3 * critical, 30 * critical, 60).tolist():
         n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
         gap = _rebound(n, bare.model.glass)
         loss = film_loss(gap) / stokes
@@ -104,11 +107,11 @@ def film_alone(scene: Scene, engine: str, plain: Integrators = plain, collide: C
         if gap == 1 or expected < _SMALLEST or bounced == _BOUNCES:
             continue
         bounced += 1
-        found = collide(bare, stokes=stokes, angle=0.0, rtol=RTOL, engine=engine)
-        error = abs(found.restitution - expected)
-        if found.smallest_gap is not None:
-            error = max(error, abs(found.smallest_gap / n.length / gap - 1))
-        worst = max(worst, (error, place(stokes, 0.0, engine, found.reversal or "")))
+        collision = collide(bare, stokes=stokes, angle=0.0, rtol=RTOL, engine=engine)
+        error = abs(collision.restitution - expected)
+        if collision.smallest_gap is not None:
+            error = max(error, abs(collision.smallest_gap / n.length / gap - 1))
+        worst = max(worst, (error, place(stokes, 0.0, engine, collision.reversal or "")))
     return worst
 
 
@@ -122,13 +125,6 @@ def _approach(bare: Scene, stokes: float, engine: str, plain: Integrators) -> tu
         if gap > contact:  # within the range that trajectories reach
             errors.append(abs(-normal_velocity - (1 - film_loss(gap) / stokes)))
     return max(errors), place(stokes, 0.0, engine, "approach")
-
-
-def _stokes_range(bare: Scene) -> list[float]:
-    """Stokes numbers about the one at which the film just stops the pair at the roughness."""
-    gap = bare.particles.roughness / bare.liquid.film_thickness
-    critical = film_loss(gap) * (1 + 1 / max(bare.particles.dry_restitution, 0.2))
-    return list(np.geomspace(1e-3 * critical, 30 * critical, 60).tolist())
 
 
 def _rebound(n: DimensionlessGroups, glass: str) -> float:

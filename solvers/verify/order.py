@@ -11,7 +11,6 @@ import numpy as np
 
 from ...generated.automaton import LOOSEST
 from ..collision.collide import collide
-from ..collision.result import Collision
 from ..errors import WetDoubletError
 from ..settings import ENGINES
 from .report import Finding, note
@@ -23,6 +22,7 @@ RISE = 10.0  # largest factor by which the error may grow from one decade of rto
 SMALL = 0.05  # in units of rtol; if all errors are smaller, the slope is not tested
 _FLOOR = 3e-13  # relative error of rounding and of the reference
 _SMALLEST = 0.05  # smallest e_n of a tested trajectory
+_Judged = tuple[float, bool, str, str, tuple[str, ...]]
 
 
 def convergence(
@@ -40,33 +40,35 @@ def convergence(
         yield note("convergence", "error of e_n over rtol", figure)
         return
 
-    def restitution(one: Collision, engine: str, rtol: float) -> float:
-        impact = {"stokes": one.stokes, "angle": one.angle}
-        return collide(scene=one.scene, **impact, ledger=False, rtol=rtol, engine=engine).restitution
+    @cache
+    def restitution(k: int, engine: str, rtol: float) -> float:
+        scene, stokes, angle = separating[k].scene, separating[k].stokes, separating[k].angle
+        return collide(scene=scene, stokes=stokes, angle=angle, ledger=False, rtol=rtol, engine=engine).restitution
 
-    exact = cache(lambda one: restitution(separating[one], REFERENCE, _TRUTH))
     collided = {engine for impact in sample.impacts for engine in impact}
     for engine in (engine for engine in ENGINES if engine in collided):
-        own = [rtol for rtol in tolerances if engine != "taylor" or rtol <= LOOSEST]  # the kernel takes no looser one
-        judged: list[tuple[float, bool, str, str, tuple[str, ...], Collision]] = []
+        accepted = [rtol for rtol in tolerances if engine != "taylor" or rtol <= LOOSEST]  # the kernel takes no looser
+        findings: list[tuple[float, Finding]] = []
         for k in dict.fromkeys((0, len(separating) - 1)):
-            one = separating[k]
             try:
-                errors = [abs(restitution(one, engine, rtol) / exact(k) - 1) for rtol in own]
+                truth = restitution(k, REFERENCE, _TRUTH)
+                errors = [abs(restitution(k, engine, rtol) / truth - 1) for rtol in accepted]
             except WetDoubletError as failure:
-                judged.append((math.inf, False, f"not completed: {failure}", "", (), one))
+                judged: _Judged = math.inf, False, f"not completed: {failure}", "", ()
             else:
-                judged.append((*_judged(own, errors), one))
-        _, ok, figure, bound, about, one = max(judged, key=lambda entry: entry[0])
-        statement = (
-            f"error of e_n against rtol {_TRUTH:.0e}, over rtol {tolerances[0]:.0e} to {tolerances[-1]:.0e}: its slope"
-            f" is within {SLOPES[0]} to {SLOPES[1]}, and it rises by no more than {RISE:.0f} times on the way;"
-            f" or all of it is below {SMALL} rtol"
-        )
-        yield Finding("", f"convergence, {engine}", statement, figure, bound, ok, place(one.stokes, one.angle), about)
+                judged = _judged(accepted, errors)
+            severity, ok, figure, bound, about = judged
+            statement = (
+                f"error of e_n against rtol {_TRUTH:.0e}, over rtol {tolerances[0]:.0e} to {tolerances[-1]:.0e}: its "
+                f"slope is within {SLOPES[0]} to {SLOPES[1]}, and it rises by no more than {RISE:.0f} times on the way;"
+                f" or all of it is below {SMALL} rtol"
+            )
+            at = place(separating[k].stokes, separating[k].angle)
+            findings.append((severity, Finding("", f"convergence, {engine}", statement, figure, bound, ok, at, about)))
+        yield max(findings, key=lambda entry: entry[0])[1]
 
 
-def _judged(tolerances: Sequence[float], errors: Sequence[float]) -> tuple[float, bool, str, str, tuple[str, ...]]:
+def _judged(tolerances: Sequence[float], errors: Sequence[float]) -> _Judged:
     """Severity, success, figure, bound and table of the errors of one trajectory."""
 
     def below(share: float) -> bool:
@@ -92,6 +94,6 @@ def fit(tolerances: Sequence[float], errors: Sequence[float]) -> tuple[float, fl
     if not all(map(math.isfinite, errors)) or len(kept) < 3:
         return math.nan, math.inf  # too few points for a fit
     x, y = np.array(kept).T
-    slope = float(np.polyfit(x, y, 1)[0])
-    raised = [max(after, _FLOOR) / max(before, _FLOOR) for before, after in pairwise(errors)]
-    return slope, max(raised)
+    return float(np.polyfit(x, y, 1)[0]), max(
+        max(after, _FLOOR) / max(before, _FLOOR) for before, after in pairwise(errors)
+    )

@@ -68,8 +68,8 @@ def _rows(data: xarray.Dataset, scene: Scene) -> list[int]:
     """Indices of the angles of the right panels: a steep one, and the scene's or a medium one."""
     angles = data["angle"].values
     steep = int(np.argmin(np.abs(angles - _STEEP)))
-    own = scene.angle if scene.angle and scene.angle < _STEEP - 0.1 else math.radians(45)
-    other = int(np.argmin(np.abs(angles - own)))
+    angle = scene.angle if scene.angle and scene.angle < _STEEP - 0.1 else math.radians(45)
+    other = int(np.argmin(np.abs(angles - angle)))
     return list(dict.fromkeys((steep, other)))
 
 

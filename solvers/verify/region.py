@@ -106,11 +106,11 @@ def _region(scene: Scene, data: xarray.Dataset) -> Finding:
     """Finding on angles and Stokes numbers with e_n > 1, the largest e_n, and its terms."""
     e_n, stokes = data["restitution"].values, data["stokes"].values
     j, k = np.unravel_index(int(np.nanargmax(e_n)), e_n.shape)
-    found = above_one(scene, data["angle"].values.tolist(), stokes, _RTOL)
+    lines_above = above_one(scene, data["angle"].values.tolist(), stokes, _RTOL)
     rim = float(stokes[0]), float(stokes[-1])
-    most = max(found, key=lambda one: one.most)
+    most = max(lines_above, key=lambda one: one.most)
     best = f"{most.most:.4g} ({place(most.at, most.angle)})"
-    above = [one for one in found if one.spans]
+    above = [one for one in lines_above if one.spans]
     lines = [f"  {_name(one, rim)}" for one in above]
     if above:
         low, high = math.degrees(above[0].angle), math.degrees(above[-1].angle)
@@ -119,7 +119,7 @@ def _region(scene: Scene, data: xarray.Dataset) -> Finding:
         figure = f"at {low:.0f}..{high:.0f} deg, {ends}; largest {best}"
     else:
         figure = f"nowhere; largest {best}"
-    failed = sum(one.failed for one in found)
+    failed = sum(one.failed for one in lines_above)
     if failed:
         lines.append(f"  {failed} collisions of the scan were not completed and count as e_n < 1")
     statement = f"where more energy of rotation is released than is lost, looked at for St {rim[0]:.3g}..{rim[1]:.3g}"

@@ -163,8 +163,8 @@ class Report:
     def _counted(self) -> str:
         held = sum(finding.ok is not None for finding in self.findings)
         notes = len(self.findings) - held
-        told = f", {notes} note{'s' * (notes != 1)}" if notes else ""
-        return f"{held} checks hold{told}" if self.ok else f"{len(self.failed)} of {held} checks FAIL{told}"
+        noted = f", {notes} note{'s' * (notes != 1)}" if notes else ""
+        return f"{held} checks hold{noted}" if self.ok else f"{len(self.failed)} of {held} checks FAIL{noted}"
 
     def _groups(self) -> dict[str, tuple[Finding, ...]]:
         names = dict.fromkeys(finding.group for finding in self.findings)

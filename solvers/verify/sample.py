@@ -98,19 +98,19 @@ def collisions(
         angles: impact angles, rad; None for the extent's and the scene's.
         collide: function that computes a collision.
     """
-    own = stokes_of(scene)
+    centre = stokes_of(scene)
     sample = Sample(scene)
     for angle in dict.fromkeys((*extent.angles, scene.angle or 0.0) if angles is None else angles):
         for factor in extent.factors:
-            found: dict[str, Collision] = {}
+            by_engine: dict[str, Collision] = {}
             for engine in ENGINES:
                 try:
-                    found[engine] = collide(scene, stokes=own * factor, angle=angle, rtol=RTOL, engine=engine)
+                    by_engine[engine] = collide(scene, stokes=centre * factor, angle=angle, rtol=RTOL, engine=engine)
                 except InputError as error:
                     if error.field != "engine":  # an engine may not support every scene
-                        sample.failures.append(f"{place(own * factor, angle, engine)}: {error}")
+                        sample.failures.append(f"{place(centre * factor, angle, engine)}: {error}")
                 except WetDoubletError as error:
-                    sample.failures.append(f"{place(own * factor, angle, engine)}: {error}")
-            if found:
-                sample.impacts.append(found)
+                    sample.failures.append(f"{place(centre * factor, angle, engine)}: {error}")
+            if by_engine:
+                sample.impacts.append(by_engine)
     return sample

@@ -189,19 +189,13 @@ def work_precision(
                 expensive = expensive or (each is not None and each * batch > _DEAR)
                 rows.append(_row(scene, known, expected, engine, rtol, each))
                 progress(1 + len(rows), total)
-    own = _errors(pairs)
+    differences = _errors(pairs)
+    separate = sum(one.outcome != "stick" for one, _ in pairs)
+    uncertainty, time_uncertainty = (max((each[k] for each in differences), default=0.0) for k in (0, 1))
     return WorkPrecision(
-        scene=scene,
-        sample=sample,
-        batch=batch,
-        impacts=tuple(known),
-        separate=sum(one.outcome != "stick" for one, _ in pairs),
-        left_out=len(some) - len(known),
-        references=tuple(tight.items()),
-        uncertainty=max((e for e, _ in own), default=0.0),
-        time_uncertainty=max((t for _, t in own), default=0.0),
-        rows=tuple(rows),
-    )
+        scene, sample, batch, tuple(known), separate, len(some) - len(known), tuple(tight.items()), uncertainty,
+        time_uncertainty, tuple(rows),
+    )  # fmt: skip
 
 
 def _drawn(scene: Scene, count: int) -> tuple[list[Impact], str]:
@@ -252,33 +246,21 @@ def _one(scene: Scene, impact: Impact, engine: str, rtol: float) -> Collision | 
 
 
 def _row(
-    scene: Scene,
-    impacts: Sequence[Impact],
-    expected: Sequence[Collision],
-    engine: str,
-    rtol: float,
-    batch: float | None,
+    scene: Scene, impacts: Sequence[Impact], truths: Sequence[Collision], engine: str, rtol: float, batch: float | None
 ) -> Row:
     """Time and errors of the collisions computed one by one."""
 
-    def each() -> list[Collision | None]:
+    def collided() -> list[Collision | None]:
         return [_one(scene, impact, engine, rtol) for impact in impacts]
 
-    each()  # builds
-    taken, computed = _cheapest(each)
-    done = [(one, truth) for one, truth in zip(computed, expected) if one is not None]
-    errors = _errors(done)
-    return Row(
-        engine=engine,
-        rtol=rtol,
-        error=max((e for e, _ in errors), default=None),
-        time_error=max((t for _, t in errors), default=None),
-        single=taken / len(impacts),
-        batch=batch,
-        wrong=sum(one.outcome != truth.outcome for one, truth in done),
-        failed=len(computed) - len(done),
-        handed_over=sum(one.engine != engine for one, _ in done),
-    )
+    collided()  # builds
+    taken, computed = _cheapest(collided)
+    done = [(one, truth) for one, truth in zip(computed, truths) if one is not None]
+    error, time_error = (max((each[k] for each in _errors(done)), default=None) for k in (0, 1))
+    wrong = sum(one.outcome != truth.outcome for one, truth in done)
+    handed_over = sum(one.engine != engine for one, _ in done)
+    failed = len(computed) - len(done)
+    return Row(engine, rtol, error, time_error, taken / len(impacts), batch, wrong, failed, handed_over)
 
 
 def _errors(pairs: Sequence[tuple[Collision, Collision]]) -> list[tuple[float, float]]:

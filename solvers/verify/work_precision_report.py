@@ -132,13 +132,15 @@ def draw(bench: WorkPrecision, error: float, path: str | Path | None = None) -> 
 def _limits(left: Axes, right: Axes, bench: WorkPrecision, error: float) -> None:
     """Set axis limits, large errors on the left; grey where an error is below the references' uncertainty."""
     errors = [row.error for row in bench.rows if row.error] + [error]
-    own = bench.uncertainty
-    least = min([*errors, *([own] if own else [])]) / 4
+    uncertainty = bench.uncertainty
+    least = min([*errors, *([uncertainty] if uncertainty else [])]) / 4
     left.set_xlim(4 * max(errors), least)
     for axes in (left, right):
         if not bench.separate:
             style: Any = {"ha": "center", "transform": axes.transAxes, "bbox": {"color": "white"}}
             axes.text(0.5, 0.5, "all collisions stick:\nno error to draw", **style)
         axes.axvline(error, color=NOTE, linestyle="--", linewidth=1, label="error wanted")
-        if own:
-            axes.axvspan(least, own, color="#DDDDDD", linewidth=0, zorder=0, label="below the references' difference")
+        if uncertainty:
+            axes.axvspan(
+                least, uncertainty, color="#DDDDDD", linewidth=0, zorder=0, label="below the references' difference"
+            )

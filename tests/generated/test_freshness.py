@@ -121,7 +121,9 @@ def test_what_structures_share_is_emitted_once():
     assert len(set(python)) == len(python) > 150
     headers = [text for name, text in TEXTS.items() if name.endswith(".h") and "/laws/" not in name]
     blocks = [block.strip() for text in headers for block in text.split("\n\n") if block.count("\n") >= 8]
-    functions = [b for b in blocks if re.match(r"(/\*(.|\n)*?\*/\n)?(static inline|INLINE|OUTLINE)", b) and b[-2:] == "\n}"]
+    functions = [
+        b for b in blocks if re.match(r"(/\*(.|\n)*?\*/\n)?(static inline|INLINE|OUTLINE)", b) and b[-2:] == "\n}"
+    ]
     assert len(set(functions)) == len(functions) > 100
     for name in json.loads(TEXTS["manifest.json"])["structures"]:
         emitted = module(name)
@@ -224,7 +226,9 @@ def _digests() -> dict[str, str]:
     manifest = json.loads((GENERATED / "manifest.json").read_text())
     laws = {f"laws/{module}.py": entry["digest"] for module, entry in manifest["laws"].items()}
     return laws | {
-        f"{name}.py": digest for part in ("structures", "scaling", "automaton") for name, digest in manifest[part].items()
+        f"{name}.py": digest
+        for part in ("structures", "scaling", "automaton")
+        for name, digest in manifest[part].items()
     }
 
 
@@ -256,7 +260,7 @@ def test_every_used_name_is_imported_and_every_import_used():
         elsewhere = {a.name for n in ast.walk(tree) if isinstance(n, ast.ImportFrom) for a in n.names}
         called = {n.func.id for n in ast.walk(tree) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)}
         local = {n.name for n in ast.walk(tree) if isinstance(n, (ast.FunctionDef, ast.ClassDef))}
-        assert called <= elsewhere | local | {"setattr", "AttributeError", "getattr"}, name
+        assert called <= elsewhere | local | {"setattr", "AttributeError", "getattr", "abs"}, name
 
 
 @pytest.mark.slow

@@ -135,6 +135,8 @@ def _search(event: Event) -> list[str]:
         if series == f"{name}.result":
             lines += [f"{name}_series {name};", "if (bits(close))", "    for (int k = 0; k <= ORDER; k++)",
                       f"        {name}_coefficients(&{name}, s, &f->c, k);"]  # fmt: skip
+        if event.least:
+            target = f"only({sign}*{series}[0] < {event.least}, -{event.least}*{sign})"
         start = _guard(event, f"{series}[0]")
         if event.bound == "terms":
             excluded = f"{start} > reach({series}, h)"

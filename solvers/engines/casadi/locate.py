@@ -60,6 +60,7 @@ ROUNDED = "rounding of its angular momentum decides"
 FIRST_STRETCH, GROWTH, STRETCHES = 16.0, 8.0, 22  # in x0/v0: a trajectory is abandoned after 16 * 8^21 of them
 _DOUBLED, _MORE = 2.0, 64  # the same where a certificate is tried after each, as no event of it is watched
 _NOW_AND_THEN = 20  # phases of chatter between two checks of the certificate
+_STANDSTILL = 1e-100  # in v0; CasADi's Rosenbrock divides by squares of slopes, which underflow
 _STRONG = 1e4  # square root of a force over m v0^2/x0
 _EVENT_OF = {event.name: event for event in EVENTS}
 _GAP, _VELOCITY = 0, 1  # indices in the state
@@ -274,6 +275,8 @@ class EventLocator:
                 return True
             elif self._proved(elapsed):
                 return True
+            elif not self.phase.resting and abs(self.y[_VELOCITY]) < _STANDSTILL:
+                break
             else:
                 stretch *= growth
         if self.phase.resting and np.allclose(before, self.y[: before.size], rtol=self.rtol, atol=0.0):
@@ -298,7 +301,7 @@ class EventLocator:
             self._spend(find.steps)
             if stop.dipped and stop.event:
                 stop = self._refined(find, stop, stop.event, level)
-            return self._overshot(find, stop, level) if stop.event in (None, "turning") else stop
+            return self._overshot(find, stop, level)
         except IntegrationFailed as error:
             self._spend(find.steps + 1)
             if looser := self.tolerance.loosened(self.rtol):
@@ -309,16 +312,17 @@ class EventLocator:
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
 
     def _overshot(self, find: Locator, stop: EventHit, level: float) -> EventHit:
-        """The first event that was crossed before a turning point within one step.
+        """The first event that was crossed before a stop, where one step crosses several.
 
-        The gap is monotone up to `turning`, so every function that is negative there has one earlier zero. If no event
-        was reported but a function is negative at the end, its zero was masked by the minimum of another function.
+        CasADi may report a later one, or none beside the minimum of another function. The gap is monotone within a
+        phase, so every function of it that is negative at the stop has one earlier zero.
         """
         crossed = [
             self._refined(find, stop, row.name, level)
             for row in self.model.events
             if (not row.dips or row not in EVENTS)
             and row.name in find.events
+            and row.name != stop.event
             and find.value(row.name, stop.y, self.p, self.phase.motion, level) < 0
         ]
         return min(crossed, key=lambda hit: hit.time, default=stop)

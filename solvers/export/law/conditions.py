@@ -1,17 +1,18 @@
-"""Conditional parts of C text: those decided when a law is exported are resolved, those of the compiler are kept."""
+"""Conditional parts of C text: those decided when a law is exported are resolved, those of the compiler are kept.
+
+By hand, since `pcpp` also replaces macros in the code that it keeps, which an exported law leaves to its reader.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from ...errors import CheckFailed
 
 OPEN = ("LANES", "__GNUC__", "__AVX2__", "__AVX512DQ__", "__has_builtin", "__cplusplus")
 """Macros that are known when the exported file is compiled."""
 _DIRECTIVE = re.compile(r"^\s*#\s*(if|ifdef|ifndef|elif|else|endif|define|undef|pragma)\b\s*(.*)$")
-_TOKEN = re.compile(r"\s*(\d+|\w+|&&|\|\||[=!<>]=|[()!<>+*/%?:-])")
-_LEVELS = (("||",), ("&&",), ("==", "!="), ("<", ">", "<=", ">="), ("+", "-"), ("*", "/", "%"))
 
 
 class Conditions:
@@ -35,7 +36,7 @@ class Conditions:
         """The value of an integer constant expression of C; None if only a compiler knows it."""
         if self._is_open(expression):
             return None
-        return _Expression(self._plain(expression, 0)).value()
+        return _integer(self._plain(expression, 0))
 
     def _lines(self, text: str) -> Iterator[str]:
         stack: list[_Part] = []  # of nested conditions
@@ -107,73 +108,21 @@ class _Part:
         self.done = self.done or self.kept
 
 
-class _Expression:
-    """An integer constant expression without names, read from left to right."""
-
-    def __init__(self, text: str) -> None:
-        self._text = text
-        self._tokens = _TOKEN.findall(text)
-        self._at = 0
-        if "".join(self._tokens) != re.sub(r"\s+", "", text):
-            raise CheckFailed(f"a condition that is not understood: {text}")
-
-    def value(self) -> int:
-        found = self._choice()
-        if self._at != len(self._tokens):
-            raise CheckFailed(f"a condition that is not understood: {self._text}")
-        return found
-
-    def _next(self, *accepted: str) -> str:
-        if self._at < len(self._tokens) and (not accepted or self._tokens[self._at] in accepted):
-            self._at += 1
-            return str(self._tokens[self._at - 1])
-        return ""
-
-    def _choice(self) -> int:
-        test = self._binary(0)
-        if not self._next("?"):
-            return test
-        yes = self._choice()
-        self._next(":")
-        no = self._choice()
-        return yes if test else no
-
-    def _binary(self, level: int) -> int:
-        if level == len(_LEVELS):
-            return self._unary()
-        left = self._binary(level + 1)
-        while sign := self._next(*_LEVELS[level]):
-            right = self._binary(level + 1)
-            left = _OPERATIONS[sign](left, right)
-        return left
-
-    def _unary(self) -> int:
-        if self._next("!"):
-            return int(not self._unary())
-        if self._next("-"):
-            return -self._unary()
-        if self._next("("):
-            inner = self._choice()
-            self._next(")")
-            return inner
-        return int(self._next())
-
-
-_OPERATIONS: dict[str, Callable[[int, int], int]] = {
-    "||": lambda a, b: int(bool(a) or bool(b)),
-    "&&": lambda a, b: int(bool(a) and bool(b)),
-    "==": lambda a, b: int(a == b),
-    "!=": lambda a, b: int(a != b),
-    "<": lambda a, b: int(a < b),
-    ">": lambda a, b: int(a > b),
-    "<=": lambda a, b: int(a <= b),
-    ">=": lambda a, b: int(a >= b),
-    "+": lambda a, b: a + b,
-    "-": lambda a, b: a - b,
-    "*": lambda a, b: a * b,
-    "/": lambda a, b: int(a / b),
-    "%": lambda a, b: a % b,
-}
+def _integer(text: str) -> int:
+    """The value of an integer constant expression of C without names; between brackets its operators are Python's."""
+    while inner := re.search(r"\(([^()]*)\)", text):
+        text = f"{text[: inner.start()]}{_integer(inner[1])}{text[inner.end() :]}"
+    test, conditional, choices = text.partition("?")
+    if conditional:
+        yes, _, no = choices.partition(":")
+        return _integer(yes if _integer(test) else no)
+    translated = re.sub(r"!(?!=)", " not ", text.replace("&&", " and ").replace("||", " or ")).replace("/", "//")
+    if not re.fullmatch(r"(?:\d+|and|or|not|[=!<>]=|[<>+*/%-]|\s)+", translated):
+        raise CheckFailed(f"a condition that is not understood: {text}")
+    try:
+        return int(eval(translated.strip(), {"__builtins__": {}}))
+    except SyntaxError:
+        raise CheckFailed(f"a condition that is not understood: {text}") from None
 
 
 def _logical(text: str) -> Iterator[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import textwrap
+from .comments import comment
 
 MEMORY = 64  # doubles; the C compiler asserts that they suffice
 _MOTIONS = (
@@ -39,7 +39,7 @@ def contact_header() -> list[str]:
         *(f"    LAW_{name} = {k}, /* {what} */" for k, (name, what) in enumerate(_MOTIONS)),
         "};",
         "",
-        *_comment(
+        *comment(
             "A contact that the host interrupts. It may be copied and moved; read it, but change nothing. What follows "
             "`partner_spin` is for the next call."
         ),
@@ -51,13 +51,13 @@ def contact_header() -> list[str]:
         f"    double memory[{MEMORY}];",
         "} law_contact;",
         "",
-        *_comment(
+        *comment(
             "Begins a contact at initial contact, time 0; a rebound criterion that holds there has been met. Returns "
             "contact->status."
         ),
         "int law_begin(const law_material *material, const law_impact *impact, double rtol, law_contact *contact);",
         "",
-        *_comment(
+        *comment(
             "Follows a contact to the time t, s since initial contact, not before contact->time. Where it ends "
             "earlier, contact->time is when. The steps are those of law_collide: where the host interrupts makes no "
             "difference beyond the tolerance. Returns contact->status, or LAW_BAD_TIME and nothing changes."
@@ -65,10 +65,3 @@ def contact_header() -> list[str]:
         "int law_advance(law_contact *contact, double t);",
         "",
     ]
-
-
-def _comment(text: str) -> list[str]:
-    lines = textwrap.wrap(text, 94)
-    if len(lines) == 1:
-        return [f"/* {lines[0]} */"]
-    return [f"/* {lines[0]}", *(f" * {line}" for line in lines[1:]), " */"]

@@ -46,42 +46,6 @@ RESULTS = (
     Result(153, "OUT_OF_RANGE", "velocities and spins are too large, too small, or too far from each other"),
 )
 """Statuses of pairs."""
-FORTRAN_FUNCTIONS = """\
-    function law_collide_pair(material, pair, rtol, after) bind(c) result(status)
-      import :: c_int, c_double, law_material, law_pair, law_pair_after
-      type(law_material), intent(in) :: material
-      type(law_pair), intent(in) :: pair
-      real(c_double), value :: rtol
-      type(law_pair_after), intent(out) :: after
-      integer(c_int) :: status
-    end function law_collide_pair
-
-    function law_collide_pair_many(material, pairs, count, rtol, after) bind(c) result(failed)
-      import :: c_long, c_double, law_material, law_pair, law_pair_after
-      type(law_material), intent(in) :: material
-      integer(c_long), value :: count
-      type(law_pair), intent(in) :: pairs(count)
-      real(c_double), value :: rtol
-      type(law_pair_after), intent(out) :: after(count)
-      integer(c_long) :: failed
-    end function law_collide_pair_many
-
-    function law_collide_particles(material, first, second, rtol, after) bind(c) result(status)
-      import :: c_int, c_double, law_material, law_particle, law_pair_after
-      type(law_material), intent(in) :: material
-      type(law_particle), intent(inout) :: first, second
-      real(c_double), value :: rtol
-      type(law_pair_after), intent(out) :: after
-      integer(c_int) :: status
-    end function law_collide_particles
-
-    function law_contact_distance(material) bind(c)
-      import :: c_double, law_material
-      type(law_material), intent(in) :: material
-      real(c_double) :: law_contact_distance
-    end function law_contact_distance
-"""
-"""Of the Fortran interface."""
 Members = tuple[tuple[str, str, tuple[int, ...], str], ...]
 
 
@@ -96,27 +60,6 @@ def bodies(scene: Scene) -> str:
     given = ["1.0" if scene.wall and name.endswith("ratio") else f"m->{name}" for name in names]
     lines = ["static bodies bodies_of(const law_material *m)", "{"]
     return "\n".join([*lines, f"    return bodies_with({', '.join(given)}, {int(scene.wall)});", "}", ""])
-
-
-def ctypes_fields(members: Members) -> str:
-    """The members as fields of a ctypes structure."""
-
-    def kind(name: str, shape: tuple[int, ...]) -> str:
-        return "".join([f"ctypes.c_{name}", *(f" * {size}" for size in reversed(shape))])
-
-    return ", ".join(f'("{member}", {kind(name, shape)})' for name, member, shape, _ in members)
-
-
-def fortran_types() -> list[tuple[str, list[tuple[str, str]]]]:
-    """Types of the Fortran interface with their fields; arrays have the component first."""
-    found = []
-    for name, members in (("law_pair", PAIR), ("law_pair_after", AFTER), ("law_particle", PARTICLE)):
-        fields = [
-            (kind, f"{member}({', '.join(map(str, reversed(shape)))})" if shape else member)
-            for kind, member, shape, _ in members
-        ]
-        found.append((name, fields))
-    return found
 
 
 def declarations(scene: Scene) -> list[str]:

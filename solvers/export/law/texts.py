@@ -12,8 +12,8 @@ from ...space.pairs import Bodies
 from ..equations import file_name
 from . import space
 from .amalgam import OWN, Source, digests, merged
-from .fortran import interface
-from .header import RESULTS, default_material, header, message_function
+from .header import default_material, header, message_function
+from .interface import ctypes_fields, fortran, structures
 from .items import items
 from .kernels import HEAD_ON, PLANE, SPACE, Kernel, kernels, only_in_a_plane
 from .material import Number, Result, checks, impact, material, results
@@ -65,40 +65,30 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
     """
     name = law_name(scene)
     own = kernels(scene, rtol)
+    declared = _header(scene, own)
     found = {
-        f"{name}.h": _head(scene, own) + _header(scene, own),
+        f"{name}.h": _head(scene, own) + declared,
         f"{name}.c": _law(scene, own),
-        f"{name}.f90": interface(scene, material(scene, own), impact(scene)).replace("@NAME@", name),
+        f"{name}.f90": fortran(declared).replace("@NAME@", name),
         "vectors.h": table(scene, own),
     }
-    found |= {shown: _filled(file, scene, own) for shown, file in _files(scene).items()}
+    found |= {shown: _filled(file, scene, declared) for shown, file in _files(scene).items()}
     return {file: _named(name, text) for file, text in found.items()}
 
 
 def _files(scene: Scene) -> dict[str, str]:
     """The other files by name, and where their texts are."""
-    names = ("Makefile", "README.md", "check.c", "example.f90")
+    names = ("Makefile", "README.md", "check.c", "example.c", "example.f90")
     found = {**{name: name for name in names}, "example.py": "example.py.in"}
-    if not only_in_a_plane(scene):
-        return {**found, "example.c": "example-space.c", "pairs.py": "pairs.py.in"}
-    plain = scene.wall or scene.pendulum is not None
-    return {**found, "example.c": "example-plain.c" if plain else "example.c"}
+    return found | ({} if only_in_a_plane(scene) else {"example.c": "example-space.c", "pairs.py": "pairs.py.in"})
 
 
-def _filled(file: str, scene: Scene, own: tuple[Kernel, ...]) -> str:
+def _filled(file: str, scene: Scene, declared: str) -> str:
     """A text with the scene's names and numbers in their places."""
-    doubles = [f'("{name}", ctypes.c_double)' for kind, name, _ in RESULTS if kind == "double"]
-    integers = [f'("{name}", ctypes.c_int)' for kind, name, _ in RESULTS if kind == "int"]
-    speed = 0.1 / scene.stokes_per_speed
     places = {
         "NAME": law_name(scene),
-        "MATERIAL": _fields(material(scene, own)),
-        "IMPACT": _fields(impact(scene)),
-        "DOUBLES": ", ".join(doubles),
-        "INTEGERS": ", ".join(integers),
-        "SPEED": f"{speed:.3g}",
-        "PAIR": space.ctypes_fields(space.PAIR),
-        "AFTER": space.ctypes_fields(space.AFTER),
+        "SPEED": f"{0.1 / scene.stokes_per_speed:.3g}",
+        **{name.removeprefix("law_").upper(): ctypes_fields(fields) for name, fields in structures(declared).items()},
     }
     radii, masses = _sizes(scene)
     places |= {"RADII": ", ".join(map(repr, radii)), "MASSES": ", ".join(map(repr, masses))}
@@ -114,10 +104,6 @@ def _sizes(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
         bodies = Bodies.of(scene)
         return bodies.radius, bodies.mass
     return (float(scene.material["reduced_radius"]), 0.0), (float(scene.material["reduced_mass"]), 0.0)
-
-
-def _fields(numbers: Iterable[Number]) -> str:
-    return ", ".join(f'("{number.name}", ctypes.c_double)' for number in numbers)
 
 
 def _header(scene: Scene, own: tuple[Kernel, ...]) -> str:

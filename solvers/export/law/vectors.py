@@ -1,4 +1,4 @@
-"""Test vectors of an exported law: impacts, and what this project's engines say of them."""
+"""Test vectors of an exported law: impacts and pairs in space, and what this project's engines compute for them."""
 
 from __future__ import annotations
 
@@ -13,37 +13,36 @@ from ...engines.taylor.call import Impacts, bind_kernel
 from ...engines.taylor.layout import ANSWER
 from ...errors import ComputationError
 from ...host.compiler import compiler
-from ...model.model import load
-from ...scene.groups import rate_scales, si_values
+from ...many.batch import Batch
+from ...many.by_kernel import block_of
 from ...scene.scene import Scene
 from ...settings import STEPS
+from ...space.collide_pair import collide_pair
+from ...space.pairs import Bodies
 from .kernels import HEAD_ON, IMPACT, Kernel, only_in_a_plane
-from .pair_vectors import pair_table
+from .space import AFTER, PAIR
 
 RTOL = 1e-9
 TOLERANCE = 1000 * RTOL
 """Relative difference that a check allows: both errors, of the worst-conditioned vectors that are kept."""
 _TIGHTER = 0.01
 _CANDIDATES, _WANTED = 512, 64
+_DRAWN, _KEPT = 96, 12
+_SEED = 17
 _DIMENSIONS = (0.7548776662466927, 0.5698402909980532, 0.4301597090019468, 0.3247179572447461)
 _RESULTS = (
     "restitution", "tangential_restitution", "slip_restitution", "contact_time", "rotation", "smallest_gap",
-    "final_gap", "final_spin", "final_partner_spin", "final_rotation_rate",
+    "final_gap", "final_spin", "final_spin_partner", "final_rotation_rate",
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Vector:
-    """An impact (in the order of `IMPACT`), and its results: whole numbers, then those of `_RESULTS`."""
+    """An impact (in the order of `IMPACT`); outcome, `certified` and rebound criterion; the results of `_RESULTS`."""
 
     impact: tuple[float, ...]
-    whole: tuple[int, int, int, int]
+    codes: tuple[int, ...]
     numbers: tuple[float, ...]
-
-    @property
-    def outcome(self) -> int:
-        """Number of the outcome."""
-        return self.whole[1]
 
 
 def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
@@ -64,7 +63,7 @@ def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
         oblique = bool(impacts["angle"][0] > 0)
         own = next(one for one in kernels if (one.prefix != HEAD_ON) == oblique)
         found += _computed(own, impacts)
-    by_outcome = {outcome: [one for one in found if one.outcome == outcome] for outcome in range(3)}
+    by_outcome = {outcome: [one for one in found if one.codes[0] == outcome] for outcome in range(3)}
     present = [group for group in by_outcome.values() if group]
     share = -(-_WANTED // len(present))
     chosen = [one for group in present for one in group[:share]]
@@ -74,7 +73,7 @@ def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
 def table(scene: Scene, kernels: Sequence[Kernel]) -> str:
     """The text of vectors.h."""
     rows = [
-        f"    {{{{{_list(one.impact)}}},\n     {{{', '.join(map(str, one.whole))}, {_list(one.numbers)}}}}},"
+        f"    {{{{{_list(one.impact)}}},\n     {{0, {', '.join(map(str, one.codes))}, {_list(one.numbers)}}}}},"
         for one in vectors(scene, kernels)
     ]
     lines = [
@@ -134,53 +133,82 @@ def _computed(own: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
     library = kernel(own.variant)
     if library is None:
         raise ComputationError("the kernel for the test vectors cannot be compiled")
-    both = []
+    spins = {name: values for name, values in impacts.items() if name.endswith("spin")}
+    if own.scene.wall:
+        del spins["impact_partner_spin"]
+    given = Impacts(own.scene, impacts["speed"], impacts["angle"], spins)
+    codes, numbers, sound = [], [], np.ones(given.speed.size, bool)
     for rtol in (RTOL, _TIGHTER * RTOL):
-        answers = np.zeros(impacts["speed"].size, ANSWER)
-        others = {name: values for name, values in impacts.items() if name not in ("speed", "angle")}
-        if own.scene.wall:
-            del others["impact_partner_spin"]
-        bind_kernel(library, rtol, STEPS)(Impacts(own.scene, impacts["speed"], impacts["angle"], others), answers)
-        both.append(_in_si(own, impacts, answers))
-    plain, tight = both
-    found = []
-    for k, (one, other) in enumerate(zip(plain, tight, strict=True)):
-        if one is None or other is None or one.whole[1:] != other.whole[1:]:
-            continue
-        a, b = np.array(one.numbers), np.array(other.numbers)
-        if np.all(np.isnan(a) | (np.abs(a - b) <= 0.1 * TOLERANCE * np.abs(b))):
-            found.append(Vector(tuple(float(impacts[name][k]) for name in IMPACT), other.whole, other.numbers))
-    return found
+        answers = np.zeros(given.speed.size, ANSWER)
+        bind_kernel(library, rtol, STEPS)(given, answers)
+        batch = Batch(own.scene, None, given.speed, given.angle, {}, rtol, "taylor", _RESULTS)
+        block, separated = block_of(batch, answers, given, None), answers["outcome"] > 0
+        block["final_gap"] = np.where(separated, answers["final_gap"] * own.scene.liquid.film_thickness, np.nan)
+        partner, spin = block["final_spin_partner"], block["final_spin"]
+        block["final_spin_partner"] = np.where(np.isnan(partner), spin, partner)
+        if own.prefix == HEAD_ON:
+            block["final_rotation_rate"] = np.where(separated, 0.0, np.nan)
+        numbers.append(np.column_stack([block[name] for name in _RESULTS]))
+        codes.append(np.column_stack([answers[name] for name in ("outcome", "certified", "reversal")]))
+        sound &= answers["status"] <= LAST_ANSWER
+    plain, tight = numbers
+    sound &= (codes[0] == codes[1]).all(axis=1)
+    sound &= (np.isnan(plain) | (np.abs(plain - tight) <= 0.1 * TOLERANCE * np.abs(tight))).all(axis=1)
+    inputs = np.column_stack([impacts[name] for name in IMPACT])
+    return [Vector(*(tuple(each[k].tolist()) for each in (inputs, codes[1], tight))) for k in np.flatnonzero(sound)]
 
 
-def _in_si(own: Kernel, impacts: dict[str, np.ndarray], answers: np.ndarray) -> list[Vector | None]:
-    """Answers of the kernel as vectors in SI, with the impacts left out; None for what it hands over."""
-    scene, oblique = own.scene, own.prefix != HEAD_ON
-    x0, names = scene.liquid.film_thickness, load(own.choice).names("outputs")
-    unit = rate_scales(scene, si_values(scene, None, None) | impacts) if oblique else np.zeros(answers.size)
-    found: list[Vector | None] = []
-    for k, answer in enumerate(answers):
-        if answer["status"] > LAST_ANSWER:
-            found.append(None)
-            continue
-        whole = (0, int(answer["outcome"]), int(answer["certified"]), int(answer["reversal"]))
-        numbers = dict.fromkeys(_RESULTS, np.nan) | {"restitution": 0.0}
-        if answer["outcome"]:
-            shown = dict(zip(names, answer["shown"].tolist(), strict=False))
-            time = x0 / impacts["speed"][k]
-            numbers |= {
-                "restitution": shown["restitution"],
-                "tangential_restitution": shown["tangential_restitution"] if impacts["angle"][k] > 0 else np.nan,
-                "slip_restitution": float(answer["slip"]) if oblique else np.nan,
-                "contact_time": float(answer["time"]) * time,
-                "rotation": float(answer["turned"]),
-                "smallest_gap": float(answer["smallest_gap"]) * x0,
-                "final_gap": float(answer["final_gap"]) * x0,
-            }
-            spin = shown.get("final_spin", 0.0) * unit[k]
-            partner = 0.0 if scene.wall else shown.get("final_spin_partner", np.nan) * unit[k]
-            numbers |= {"final_spin": spin, "final_partner_spin": spin if np.isnan(partner) else partner}
-            turning = shown.get("final_rotation_rate", np.nan) * unit[k]
-            numbers["final_rotation_rate"] = 0.0 if not oblique else turning
-        found.append(Vector((), whole, tuple(float(numbers[name]) for name in _RESULTS)))
-    return found
+def pair_table(scene: Scene, rtol: float, tolerance: float) -> list[str]:
+    """Lines of vectors.h: pairs of all outcomes that occur, away from boundaries, one in four of them in a plane."""
+    given = _pairs(scene)
+    normal, velocities, spins = given["normal"], given["velocities"], given["spins"][:, : 1 if scene.wall else 2]
+    found, other = (
+        collide_pair(scene, normal, velocities, spins, rtol=each, engine="taylor") for each in (rtol, rtol / 3)
+    )
+    rows = {name: found[name].values for name in found.data_vars}
+    sound = (rows["outcome"] == other.outcome.values) & (rows["outcome"] >= 0)
+    for name in ("time", "restitution", "velocities", "spins"):
+        one, two = (np.nan_to_num(each[name].values.reshape(_DRAWN, -1)) for each in (found, other))
+        sound &= np.abs(one - two).max(axis=1) <= 0.1 * tolerance * np.abs(one).max(axis=1)
+    chosen = [k for outcome in range(3) for k in np.flatnonzero(sound & (rows["outcome"] == outcome))[:_KEPT]]
+    if not chosen:
+        raise ComputationError("no pair in space could be computed for the test vectors")
+    lines = ["static const struct {", "    law_pair pair;", "    law_pair_after expected;", "} pair_vectors[] = {"]
+    for k in chosen:
+        before = ", ".join(_braced(given[name][k]) for _, name, _, _ in PAIR)
+        numbers = {"status": 0} | {name: values[k] for name, values in rows.items()}
+        after = ", ".join(
+            str(int(numbers[name])) if kind == "int" else _braced(np.asarray(numbers[name], float))
+            for kind, name, _, _ in AFTER
+        )
+        lines.append(f"    {{{{{before}}},\n     {{{after}}}}},")
+    return [*lines, "};", ""]
+
+
+def _pairs(scene: Scene) -> dict[str, np.ndarray]:
+    draw = np.random.default_rng(_SEED)
+    normal = _directions(draw, (_DRAWN,))
+    speed = 10 ** draw.uniform(-1.5, 1.5, _DRAWN)[:, None] / scene.stokes_per_speed
+    radius = float(scene.material["reduced_radius"]) if scene.wall else min(Bodies.of(scene).radius)
+    drift = speed * draw.normal(size=(_DRAWN, 3))
+    across = np.cross(normal, _directions(draw, (_DRAWN,)))
+    relative = speed * (draw.uniform(0, 3, (_DRAWN, 1)) * across - normal)
+    spins = speed[:, None] / radius * draw.uniform(0, 1, (_DRAWN, 2, 1)) * _directions(draw, (_DRAWN, 2))
+    planar = np.arange(_DRAWN) % 4 == 0
+    axis = np.cross(normal, across)[:, None]
+    spins[planar] = np.sum(spins * axis, axis=-1, keepdims=True)[planar] * axis[planar]
+    if scene.wall:
+        spins[:, 1] = 0.0
+    return {"normal": normal, "velocities": np.stack([drift, drift + relative], axis=1), "spins": spins}
+
+
+def _directions(draw: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
+    found = draw.normal(size=(*shape, 3))
+    return np.asarray(found / np.linalg.norm(found, axis=-1, keepdims=True))
+
+
+def _braced(numbers: np.ndarray) -> str:
+    """Numbers of any shape as C's initialisers."""
+    if numbers.ndim == 0:
+        return "NAN" if np.isnan(numbers) else repr(float(numbers))
+    return f"{{{', '.join(_braced(np.asarray(each)) for each in numbers)}}}"

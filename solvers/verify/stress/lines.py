@@ -40,19 +40,19 @@ def drawn(count: int, models: int, seed: int) -> Iterator[Case]:
     """
     random = np.random.default_rng(seed)
     kinds = [_model(random) for _ in range(max(1, models))]
-    made = tries = 0
-    while made < count:
+    drawn_so_far = tries = 0
+    while drawn_so_far < count:
         kind = kinds[tries % len(kinds)]
         tries += 1
         try:
-            scene = _scene(f"line-{seed}-{made}", kind, random)
+            scene = _scene(f"line-{seed}-{drawn_so_far}", kind, random)
         except InputError:
             continue  # an impossible scene, such as a film thicker than its bridge
         steep = [
             float(random.choice([0.0, random.uniform(0.0, 1.5), random.uniform(0.0, 1.55)])) for _ in range(_ANGLES)
         ]
         yield Case(scene.name, scene, "lines", angles=tuple(steep))
-        made += 1
+        drawn_so_far += 1
 
 
 def _model(random: np.random.Generator) -> Model:
@@ -107,27 +107,23 @@ def judge_lines(case: Case) -> Verdict:
     """Trace the lines of a case and compare them with collisions."""
     issues: list[Issue] = []
     start = time.process_time()
-    found = boundary(case.scene, angle=np.array(case.angles), stokes=SPAN, rtol=RTOL)
+    traced = boundary(case.scene, angle=np.array(case.angles), stokes=SPAN, rtol=RTOL)
     cpu = time.process_time() - start
-    by_rosenbrock = number_of(case.name) % _BY_ROSENBROCK == 0
-    for angle, changes, failure in zip(found.angles, found.changes, found.failures, strict=True):
+    by_rosenbrock = int(case.name.rpartition("-")[2]) % _BY_ROSENBROCK == 0
+    for angle, changes, failure in zip(traced.angles, traced.changes, traced.failures, strict=True):
         if failure:
             issues.append(Issue("failure", ("boundary",), failure, physical_reason(failure)))
             continue
         at = np.array([one.stokes for one in changes])
         outcomes = [changes[0].before, *(one.after for one in changes)] if changes else None
-        beside = np.concatenate([at * (1 - _ASIDE), at * (1 + _ASIDE)]) if _apart(at) else np.zeros(0)
+        apart = at.size < 2 or bool(np.min(np.diff(np.log(at))) > 4 * _ASIDE)  # no change lies within another's reach
+        beside = np.concatenate([at * (1 - _ASIDE), at * (1 + _ASIDE)]) if apart else np.zeros(0)
         scans = [(FAST, np.concatenate([np.geomspace(*SPAN, SAMPLES), beside]))]
         if by_rosenbrock:
             scans.append(("rosenbrock", np.concatenate([np.geomspace(*SPAN, _SOME), beside])))
         for engine, stokes in scans:
             issues += _denied(case.scene, angle, at, outcomes, engine, np.clip(stokes, *SPAN))
     return Verdict(case, {"boundary": Result(cpu=cpu)}, tuple(issues), None, None)
-
-
-def _apart(at: np.ndarray) -> bool:
-    """True if no two changes are closer than the distance at which outcomes are compared."""
-    return at.size < 2 or bool(np.min(np.diff(np.log(at))) > 4 * _ASIDE)
 
 
 def _denied(
@@ -142,13 +138,8 @@ def _denied(
     if not wrong.size:
         return []
     k = wrong[0]
-    said = (
+    text = (
         f"at {np.degrees(angle):.8g} deg, St {stokes[k]:.10g}: {OUTCOMES[seen[k]]} by {engine}, "
         f"where the traced line has {OUTCOMES[expected[k]]} ({wrong.size} of {stokes.size} such)"
     )
-    return [Issue("boundary", ("boundary", engine), said)]
-
-
-def number_of(name: str) -> int:
-    """The number at the end of a case's name."""
-    return int(name.rpartition("-")[2])
+    return [Issue("boundary", ("boundary", engine), text)]

@@ -25,11 +25,10 @@ _MARKERS = dict(zip(OUTCOMES, ("o", "^", "s"), strict=True))
 
 def draw(stress: Stress, folder: Path) -> list[Path]:
     """Draw stress-map.png and stress-near.png; returns their paths."""
-    files = []
-    for name, make in (("stress-map.png", over_impacts), ("stress-near.png", near)):
-        files.append(folder / name)
-        save(make(stress), files[-1], dpi=160)
-    return files
+    figures = {folder / "stress-map.png": over_impacts(stress), folder / "stress-near.png": near(stress)}
+    for file, figure in figures.items():
+        save(figure, file, dpi=160)
+    return list(figures)
 
 
 @picture
@@ -53,7 +52,10 @@ def over_impacts(stress: Stress) -> Figure:
             here.sort(key=lambda k: values[k])  # the worst on top
             style: Any = {"norm": norm, "cmap": "viridis_r", "linewidths": 0.3, "edgecolors": "#606060"}
             coloured = [values[k] for k in here]
-            drawn = axes.scatter(*_places(sampled, here), c=coloured, marker=marker, s=_size(len(sampled)), **style)
+            scenes: Any = [sampled[k].case.scene for k in here]
+            places = [each.stokes for each in scenes], [math.degrees(each.angle) for each in scenes]
+            size = float(np.clip(9000.0 / max(len(sampled), 1), 2.0, 20.0))  # smaller for many points
+            drawn = axes.scatter(*places, c=coloured, marker=marker, s=size, **style)
             axes.scatter([], [], marker=marker, s=20, color="#808080", label=outcome)
             shown = drawn if here or shown is None else shown
         bar = figure.colorbar(shown, ax=axes, label=label, pad=0.01, extend="both")
@@ -67,16 +69,6 @@ def over_impacts(stress: Stress) -> Figure:
     handles, labels = left.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=5)
     return figure
-
-
-def _size(count: int) -> float:
-    """Area of a mark, smaller for many points."""
-    return float(np.clip(9000.0 / max(count, 1), 2.0, 20.0))
-
-
-def _places(sampled: list[Any], here: list[int]) -> tuple[list[float], list[float]]:
-    scenes = [sampled[k].case.scene for k in here]
-    return [float(each.stokes) for each in scenes], [float(np.degrees(each.angle)) for each in scenes]
 
 
 def _ends(values: list[float]) -> tuple[float, float]:
@@ -113,12 +105,8 @@ def near(stress: Stress) -> Figure:
         colour = _COLOURS.get(name, "#202020")
         axes.plot(*np.array(points).T, ".", color=colour, alpha=0.25, markersize=4, markeredgewidth=0)
         axes.plot(at, middle, "-o", color=colour, markersize=4, linewidth=1.5, label=f"{name}, median")
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="relative distance from where a doublet begins to escape, in St",
-        ylabel="CPU time (ms)",
-    )
+    axes.set(xscale="log", yscale="log", ylabel="CPU time (ms)")
+    axes.set_xlabel("relative distance from where a doublet begins to escape, in St")
     figure.suptitle("Cost of a collision beside the boundary of escape")
     axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     if beside:

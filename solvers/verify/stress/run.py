@@ -92,7 +92,8 @@ def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None
     """
     start, where = time.perf_counter(), environment()
     tell(0, count)
-    cases = _prepared(count, seed)
+    cases = sample(count, seed)
+    compile_all({_kernel_of(case) for case in cases})
     verdicts: dict[int, Verdict] = {}
     try:
         for block, judged in _judged(cases):
@@ -103,13 +104,6 @@ def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None
             raise
     done = tuple(verdicts[k] for k in sorted(verdicts))
     return Stress(done, time.perf_counter() - start, where, len(cases))
-
-
-def _prepared(count: int, seed: int) -> list[Case]:
-    """The sample, with its kernels compiled once each."""
-    cases = sample(count, seed)
-    compile_all({_kernel_of(case) for case in cases})
-    return cases
 
 
 def _kernel_of(case: Case) -> Variant:

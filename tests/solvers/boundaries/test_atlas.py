@@ -67,6 +67,20 @@ def test_every_random_collision_lies_in_its_region(name: str) -> None:
     assert not found.unsettled
 
 
+def test_each_curve_is_returned_once() -> None:
+    """Where a curve turns sharply, so that it is followed from both sides and through, it is one on either side."""
+    found = atlas("pendulum", span=("0 deg", "89 deg"), stokes=(0.0025, 2.5))
+    assert sorted((one.before, one.after, one.kind) for one in found.curves) == [
+        ("stick", "bounce", "escape reversed"),
+        ("stick", "bounce", "graze"),
+        ("stick", "stick-rotate-separate", "escape"),
+        ("stick-rotate-separate", "bounce", "graze"),
+    ]
+    for x in np.linspace(0.05, 1.3, 40):
+        assert len(at_stokes(found, "stick", "bounce", x)) == (x < 0.7187)
+    assert [one.kind for one in found.points] == ["graze meets escape", "triple point", "St* meets Ce*"]
+
+
 @pytest.mark.parametrize("name", list(SPANS))
 def test_curves_pass_through_the_changes_of_lines(name: str) -> None:
     """Changes of lines that the atlas has not seen lie on curves between their outcomes; no other curve passes."""

@@ -18,51 +18,6 @@ LINES = {"granulation": (75.0, 0.0129581), "pendulum": (60.0, 0.9)}
 PRESETS = tuple(LINES)
 
 
-def lines(name: str) -> tuple[Line, Line]:
-    """The same line by the kernel and by Rosenbrock."""
-    scene, angle = Scene.load(name), math.radians(LINES[name][0])
-    kernel = Line(scene, angle, RTOL)
-    assert kernel.kernel
-    return kernel, Line(scene, angle, RTOL, kernel=False)
-
-
-@pytest.mark.parametrize("name", PRESETS)
-def test_the_approach(name: str):
-    """The largest pressure of an approach, or its smallest gap, wherever in a step it lies, from where doublets escape
-    on: below, Rosenbrock stops at a proof and the kernel does not.
-    """
-    kernel, other = lines(name)
-    for stokes in LINES[name][1] * np.geomspace(1.1, 100, 24):
-        # tens of steps at RTOL each, and the pressure is 1/gap^2
-        assert kernel.criterion(stokes) == pytest.approx(other.criterion(stokes), rel=0, abs=100 * RTOL)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("rebound", [False, True])
-@pytest.mark.parametrize("name", PRESETS)
-def test_the_escape(name: str, rebound: bool):
-    """Whether a doublet separates, with the solids and without; its value has that sign."""
-    kernel, other = lines(name)
-    for stokes in LINES[name][1] * np.geomspace(0.5, 30, 12):
-        mine, theirs = (line.escape(stokes, rebound) for line in (kernel, other))
-        assert mine.separates == theirs.separates, stokes
-        if mine.value is not None:
-            assert (mine.value > 0) == mine.separates
-
-
-@pytest.mark.parametrize("distance", [1e-3, 1e-5, 1e-7])
-def test_creeping_past_the_saddle(distance: float):
-    """Beside the boundary a trajectory that is cut short is decided as Rosenbrock decides it at its end."""
-    kernel, other = lines("granulation")
-    low, high = 0.0129580, 0.0129582
-    for _ in range(40):  # the boundary by the kernel's own signs
-        middle = math.sqrt(low * high)
-        low, high = (low, middle) if kernel.escape(middle, False).separates else (middle, high)
-    for side in (-1, 1):
-        stokes = low * (1 + side * distance)
-        assert kernel.escape(stokes, False).separates == other.escape(stokes, False).separates == (side > 0)
-
-
 @pytest.mark.parametrize("name", PRESETS)
 def test_collisions_looked_at(name: str):
     """Outcome, first criterion, restitution and contact time of a scan in one call are those of single collisions."""

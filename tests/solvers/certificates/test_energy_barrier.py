@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
-from wetdoublet.solvers import ComputationError, Scene
+from wetdoublet.solvers import ComputationError, Scene, collide_many
 from wetdoublet.solvers.certificates import EnergyCertificate, NoCertificate, energy_proof
 from wetdoublet.solvers.certificates.film_and_attraction import FilmAndAttractionCertificate
 from wetdoublet.solvers.engines.casadi import locate
+from wetdoublet.solvers.errors import ModelWarning
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.settings import STEPS
@@ -210,3 +211,36 @@ def test_loose_tolerances_still_prove(angle: float, below: float) -> None:
     found = collide("granulation", stokes=critical * (1 - below), angle=math.radians(angle), rtol=1e-3)
     assert (found.outcome, found.certified) == ("stick", True)
     assert found.steps < 1000
+
+
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_a_well_that_nearly_merges_with_its_barrier_holds(engine: str) -> None:
+    """A doublet that settles in its film is proved to stick up to 1e-7 below the speed at which its well vanishes.
+
+    The barrier is lower there than the error of the energies, and no event ends the trajectory. Followed at 1e-11 the
+    outcome changes at a Stokes number of 0.1605514417.
+    """
+    scene = Scene.from_dict(
+        {
+            "particles": {
+                "reduced_radius": 2.069745080953648e-5, "reduced_mass": 2.5656136517373407e-8,
+                "roughness": 4.077986956298786e-7, "dry_restitution": 0.8408464802023323,
+                "youngs_modulus": 622026721599.3284, "poisson_ratio": 0.42599555498373187,
+            },
+            "partner": {"radius": 3.598060618939934e-5, "mass": 2.922301215509533e-7},
+            "liquid": {
+                "viscosity": 4.143198477928778, "film_thickness": 2.3605703252797384e-5,
+                "glass_transition_pressure": 53395385.65195838,
+            },
+            "bridge": {
+                "surface_tension": 0.014155400923942655, "volume": 0.7004128161009333,
+                "contact_angle": 0.5551754241603308, "law": "willett",
+            },
+            "attraction": {"hamaker": 1.7346929922799675e-19},
+        }
+    )  # fmt: skip
+    stokes = np.array([0.16055, 0.1605514417 * (1 - 2e-7), 0.1605514417 * (1 + 2e-7)])
+    with pytest.warns(ModelWarning, match="bridge.volume"):
+        found = collide_many(scene, stokes=stokes, angle=0.48726821551812494, engine=engine)
+    assert found.outcome.values.tolist() == [0, 0, 1]
+    assert found.certified.values.tolist() == [True, True, False]

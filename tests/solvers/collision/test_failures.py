@@ -17,12 +17,12 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import CheckFailed, ComputationError, InputError, Scene, collide
 from wetdoublet.solvers.collision import by_casadi
-from wetdoublet.solvers.collision.by_casadi import _compute
 from wetdoublet.solvers.engines.casadi.integrators import Tolerance, tolerance_for
 from wetdoublet.solvers.engines.casadi.locate import EventLocator, EventSequence, locate
 from wetdoublet.solvers.engines.casadi.replay import Replay, replay
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import Model
+from wetdoublet.solvers.model.phases import Flow
 
 # the command, made to collide the same spheres for ever, and to say when it has begun
 LONG = """
@@ -141,9 +141,14 @@ def test_nothing_extra_is_integrated() -> None:
     """Without the ledger only the rotation rides along and no spin is kept; a trajectory only where asked for."""
     scene = Scene.load("granulation").with_impact(stokes=0.03, angle="65 deg")
     n = nondimensionalise(scene, *scene.need_impact())
-    flows = [
-        _compute(scene, n, 1e-9, "cvodes", ledger, False, locate, tolerance_for, replay)[2] for ledger in (False, True)
-    ]
+    flows: list[Flow] = []
+
+    def seen(path: EventSequence, plugin: str, tolerance: Tolerance, flow: Flow, start: np.ndarray) -> Replay:
+        flows.append(flow)
+        return replay(path, plugin, tolerance, flow, start)
+
+    for ledger in (False, True):
+        by_casadi.by_casadi(scene, n, 1e-9, "cvodes", ledger, False, replay=seen)
     lean = collide("granulation", stokes=0.03, angle="65 deg", ledger=False)
     full = collide("granulation", stokes=0.03, angle="65 deg")
     assert (flows[0].extras, tuple(flows[0].model.state)) == (

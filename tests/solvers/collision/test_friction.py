@@ -308,3 +308,33 @@ def test_a_doublet_at_rest_that_only_friction_turns_sticks_at_once(engine: str) 
     found = collide(scene, engine=engine, ledger=False)
     assert (found.outcome, found.certified, found.engine) == ("stick", False, engine)
     assert [event.kind for event in found.events] == ["glass", "rests"]
+
+
+def test_a_slide_that_begins_with_no_slip_is_followed() -> None:
+    """Rounding of a slip that is zero ends no slide: one event, few steps, and the end is Rosenbrock's."""
+    scene = Scene.from_dict(
+        {
+            "particles": {
+                "reduced_radius": 1.8010143999255044e-06, "density": 3489.181961648908,
+                "roughness": 1.3274910258114892e-10, "dry_restitution": 0.20082446488017835,
+                "friction": 1.0228846459777265, "contact_tangential_restitution": 0.0,
+            },
+            "liquid": {
+                "viscosity": 0.0004992778839170332, "film_thickness": 4.190263925978391e-09,
+                "glass_transition_pressure": 257462265199.22565,
+            },
+            "attraction": {"hamaker": 2.295212656134125e-19},
+            "partner": {"radius": 8.827806376355772e-07, "density": 506.37121069166585},
+            "model": {"contact_friction": "all"},
+            "impact": {
+                "speed": 6.402927383667082, "angle": 1.4454146792286053, "spin": 15580188.783278335,
+                "partner_spin": 13345651.909063289,
+            },
+        }
+    )  # fmt: skip
+    found, expected = (collide(scene, engine=each, ledger=False) for each in ("taylor", "rosenbrock"))
+    assert found.engine == "taylor"
+    assert found.steps < 1000  # without an end of the slide: as many as there are
+    assert [each.kind for each in found.events] == [each.kind for each in expected.events]
+    assert found.restitution == pytest.approx(expected.restitution, rel=1e-7)
+    assert found.contact_time == pytest.approx(expected.contact_time, rel=1e-7)

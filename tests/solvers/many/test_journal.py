@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from wetdoublet.solvers import InputError, Scene, regime_map
-from wetdoublet.solvers.many.dataset import empty
 from wetdoublet.solvers.many.journal import Journal
+from wetdoublet.solvers.many.results import empty
 
 from ...helpers.command import finished, run
 

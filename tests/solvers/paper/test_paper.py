@@ -14,9 +14,12 @@ from matplotlib.mathtext import MathTextParser
 from wetdoublet.solvers import collide_many
 from wetdoublet.solvers.commands.cli import cli
 from wetdoublet.solvers.errors import InputError
+from wetdoublet.solvers.formatting.document import Table, page
+from wetdoublet.solvers.formatting.document import report as written
+from wetdoublet.solvers.host.files import write_all_in
 from wetdoublet.solvers.paper import PARTS, factors, fig1, fig3, fig4a, fig4b, report, table1
 from wetdoublet.solvers.paper.desk import Desk, Detail, Job, outcomes
-from wetdoublet.solvers.paper.parts import Comparison, Part, Table, number
+from wetdoublet.solvers.paper.parts import Comparison, number
 from wetdoublet.solvers.paper.printed import CURVES, PRINTED, SHOTS
 from wetdoublet.solvers.paper.variants import BRIDGED, PENDULUM, variant
 
@@ -41,7 +44,7 @@ def made(tmp_path_factory):
     modules = {"table1": table1, "fig1": fig1, "fig3": fig3, "fig4a": fig4a, "fig4b": fig4b, "factors": factors}
     assert tuple(modules) == PARTS
     parts = {name: module.make(desk, folder) for name, module in modules.items()}
-    report.write(list(parts.values()), folder, "In a test.")
+    write_all_in(folder, written(report.TITLE, report.blocks(list(parts.values()), "In a test.")))
     return folder, parts, desk
 
 
@@ -194,7 +197,7 @@ def test_page_is_whole(made):
 
 def test_page_is_made_for_a_phone():
     """Under the viewport's width each cell of a table carries the name of its column, which then stands before it."""
-    text = report.page([Part("A part", tables=[Table("numbers", ("what", "how & why"), [("St", "1.4")])])], "")
+    text = page("A part", [Table("numbers", ("what", "how & why"), [("St", "1.4")])])
     assert 'name="viewport"' in text
     assert "max-width: 640px" in text
     assert '<td data-label="what">St</td><td data-label="how &amp; why">1.4</td>' in text

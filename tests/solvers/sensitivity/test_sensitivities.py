@@ -288,16 +288,16 @@ def test_parameters_are_the_files_own() -> None:
 
 def test_only_what_is_asked_for() -> None:
     """One parameter asked for is one direction integrated; rotation and ledger ride along only when asked for."""
-    from wetdoublet.solvers.sensitivity.derivatives import forward
+    from wetdoublet.solvers.sensitivity.derivatives import first_derivatives
     from wetdoublet.solvers.sensitivity.directions import spanning
 
     p, dp = np.arange(1.0, 12.0), np.zeros((11, 3))
     dp[2, 0] = dp[[4, 5], 1] = dp[[4, 5], 2] = 1.0  # the last two are one direction
     assert spanning(p, dp, [True] * 11).shape == (11, 2)
-    forward.cache_clear()
+    first_derivatives.cache_clear()
     sensitivities(GRANULATION, wrt=["bridge.volume"], engine="rosenbrock")
     sensitivities(GRANULATION, wrt=["liquid.viscosity"], engine="rosenbrock")
-    assert forward.cache_info().misses == 1  # built once for the course, whatever the parameter
+    assert first_derivatives.cache_info().misses == 1  # built once for the course, whatever the parameter
 
 
 def test_json_of_the_command() -> None:

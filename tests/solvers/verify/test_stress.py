@@ -30,6 +30,8 @@ from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, sample
 from wetdoublet.solvers.verify.stress.scipy_engine import ScipyLocator
 from wetdoublet.solvers.verify.stress.verdict import FAST, RTOL, Case, Result
 
+from ...helpers.scanned import scanned
+
 pytestmark = pytest.mark.slow
 
 
@@ -128,6 +130,31 @@ def test_a_wrong_certificate_is_caught() -> None:
     engines = checking.runs() | {FAST: lambda *_: Result("stick", 0.0, certified=True)}
     kinds = {issue.kind for issue in judge(Case("one", scene), engines).issues if not issue.explained}
     assert kinds == {"certificate", "outcome"}
+
+
+def test_friction_gives_out_before_the_contact_does() -> None:
+    """A peer whose step leaps from rolling contact beyond its release finds that it slides first, as a dense scan does.
+
+    The grip is negative beyond release, and so is what it leaves; the difference of the squares is positive again.
+    """
+    scene = Scene.from_dict(
+        {
+            "particles": {
+                "reduced_radius": 0.00400025, "density": 6390.69, "roughness": 6.46687e-12, "dry_restitution": 0.0,
+                "youngs_modulus": 1.28379e9, "poisson_ratio": 0.0775354, "friction": 2.0426,
+            },
+            "partner": {"radius": 0.00687061, "density": 1933.86},
+            "liquid": {
+                "viscosity": 0.00148133, "film_thickness": 4.01241e-6, "glass_transition_pressure": 4.27251e10,
+            },
+            "bridge": {"surface_tension": 0.466911, "volume": 0.0166999, "contact_angle": 1.27228, "law": "lambert"},
+            "model": {"glass": "film-corrected"},
+            "impact": {"stokes": 3574.88, "angle": 0.0, "spin": 38.1254, "partner_spin": -4.67286},
+        }
+    )  # fmt: skip
+    found, expected = checking.by_scipy(scene, RTOL / 10), scanned(scene)
+    assert "slides" in [kind for kind, _ in expected.events]
+    assert (found.outcome, found.restitution) == ("bounce", pytest.approx(expected.restitution, rel=1e-6))
 
 
 def test_failures_are_told_apart() -> None:

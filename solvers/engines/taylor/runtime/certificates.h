@@ -273,6 +273,37 @@ static mask tumbles(const constants *c, const vec *y, const barrier *b, double t
 }
 #endif
 
+#define WELLS (TURNS && PROOF_BY_ENERGY && !SURFACE_ARM && !SPACE)
+#if WELLS
+/* Lanes in which the effective potential rises, up to some gap ahead, by more than the energy above it. Where a minimum
+ * and the maximum after it nearly merge, the barrier is too low for the error of the energies, but not for that of its
+ * slope (solvers/certificates/energy_barrier.py).
+ */
+static mask in_a_well(const constants *c, const vec *y, vec end, mask tested, double tolerance)
+{
+    tested &= y[GAP] < end;
+    if (!bits(tested))
+        return tested;
+    double margin = SAFETY*tolerance;
+    vec kinetic = stored_energy(c, y), turning = potential_energy(c, y), above = kinetic - turning;
+    vec size = vec_sqrt(vec_abs(above)*kinetic) + margin*kinetic + vec_abs(slope_at(c, y, y[GAP]))*y[GAP];
+    vec rise = splat(0.0), low = y[GAP];
+    mask held = splat_mask(0);
+    for (int k = 1; k <= AHEAD; k++) {
+        double part = (double)k/(int)AHEAD;
+        vec high = y[GAP] + (end - y[GAP])*(part*part*part), half = 0.5*(high - low);
+        for (int node = 0; node < 12; node++) {
+            double place = node < 6 ? NODES[node] : -NODES[node - 6];
+            rise += WEIGHTS[node % 6]*half*slope_at(c, y, low + half*(1.0 + place));
+        }
+        vec released = turning - energy_at(c, y, high);
+        held |= above - rise < -margin*(size + vec_abs(released) + vec_abs(rise + released));
+        low = high;
+    }
+    return tested & held;
+}
+#endif
+
 /* Lanes in which the certificates of `held_sticks` are tested: at the start of a phase and after each INTERVAL of steps.
  * Where an energy certificate decides most sticks before, only from the fourth phase on.
  */

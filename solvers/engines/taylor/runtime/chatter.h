@@ -57,8 +57,6 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
     return (contact > 0.0) & (contact < y[GAP]) & comes_back(sum*sum*ratio*ratio, lost, SAFETY*tolerance);
 }
 #else
-enum { AHEAD = 48 }; /* gaps ahead at which the margin is evaluated */
-
 /* Works against the inward force from one gap to another, at the present orbital momentum and at none. */
 static void works_ahead(const constants *c, const vec *y, vec low, vec high, vec *pull, vec *attraction)
 {

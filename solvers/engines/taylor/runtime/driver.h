@@ -83,6 +83,10 @@ static void end_sticks(queue *q, lanes *l, fixed *f)
 #if FLOATS
     sticks |= floating(l, f, q->rtol);
 #endif
+#if WELLS
+    mask settles = l->alive & ((l->steps & (8*INTERVAL - 1)) == 8*INTERVAL - 1); /* costs some 20 steps */
+    sticks |= in_a_well(&f->c, l->y, f->end, settles, q->rtol);
+#endif
     mask tests = provable(q, l->closing);
     EACH_OF(lane, bits(l->alive & sticks & tests))
         sticks_for_good(q, l, f, lane, 1);

@@ -53,6 +53,8 @@ static vec integral(
     return sum*half;
 }
 
+enum { AHEAD = 48 }; /* gaps ahead at which a margin is evaluated, denser at small distances */
+
 #if defined(POTENTIAL)
 enum { INNER = 6, OUTER = 12, HALVINGS = 8 }; /* grid points in the film and beyond, iterations for a maximum */
 

@@ -223,6 +223,10 @@ OUTLINE void crawl(queue *q)
     vec least_step = WORTH*l.stride, h = 4.0*least_step;
     for (int count = 0; count < TRIES && bits(busy); count++) {
         mask sticks = proved_underway(&l, &f, q->rtol) | held_sticks(&f.c, l.y, busy, q->rtol);
+#if WELLS
+        if (count % 8 == 7)
+            sticks |= in_a_well(&f.c, l.y, f.end, busy, q->rtol);
+#endif
 #if WITH_LIMIT
         if (bits(busy & sticks) && goes_on_stuck(q, 1))
             sticks = splat_mask(0);

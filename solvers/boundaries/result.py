@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...generated import scaling
 from ...generated.automaton import OUTCOMES
+from ..collision.text import name_of
+from ..formatting.notebook import view
 from ..scene.origin import origin
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
@@ -22,6 +25,11 @@ from .plane import ANGLE
 from .regions import Slab, labelled, slabs
 from .window import STOKES
 
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray
+
+NONE = -1  # outcome code of padding, where there is no change
 LINES = 33  # default number of seed lines of an atlas
 _EDGE = 1e-6  # height in the window up to which a curve ends on its lower edge
 LATTICE = (65, 193)  # columns and rows of the search lattice, with a kernel
@@ -108,6 +116,63 @@ class Lines:
         )
         lines.append(f"{found} for {self.range_text}; strips narrower than {self.resolution:.1%} in St may be missed")
         return "\n".join(lines)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Dataset over `line` and `change`, with units in attributes, padded with NaN, -1 and ""."""
+        import xarray as xr
+
+        most, over = max((len(line) for line in self.changes), default=0), ("line", "change")
+        stokes = _padded([[one.stokes for one in line] for line in self.changes], most)
+        centrifugal = [
+            [np.nan if one.centrifugal is None else one.centrifugal for one in line] for line in self.changes
+        ]
+        kind = [[*(one.kind for one in line), *[""] * (most - len(line))] for line in self.changes]
+        variables: dict[str, Any] = {
+            "stokes": (over, stokes, {"units": "1", "long_name": "Stokes number at which the outcome changes"}),
+            "centrifugal": (over, _padded(centrifugal, most), {"units": "1", "long_name": "centrifugal number there"}),
+            "kind": (over, np.array(kind, dtype=str).reshape(len(kind), most), {"long_name": "what happens there"}),
+            "failure": ("line", np.array(self.failures or [""] * len(self.angles), dtype=str),
+                        {"long_name": "why a line could not be traced"}),
+        }  # fmt: skip
+        for side, meaning in (("before", "outcome below"), ("after", "outcome above")):
+            rows = [[OUTCOMES.index(getattr(one, side)) for one in line] for line in self.changes]
+            variables[side] = over, _padded(rows, most, NONE).astype(np.int8), _flags(meaning)
+        angle = "line", np.array(self.angles), {"units": "rad", "long_name": "impact angle"}
+        attributes: dict[str, Any] = {"resolution": self.resolution, "collisions": self.collisions,
+                                      "searched": self.range_text}  # fmt: skip
+        if self.scene is not None:
+            attributes["scene"] = self.scene.to_toml()
+        return xr.Dataset(variables, {"angle": angle}, attributes)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each change: angle (rad), stokes, centrifugal, normal and relative speed (m/s), outcomes, kind."""
+        from ..formatting.frames import frame
+
+        pairs = [(angle, one) for angle, line in zip(self.angles, self.changes, strict=True) for one in line]
+        rows = [self.change_dict(one, angle) for angle, one in pairs]
+        names = ("stokes", "centrifugal", "speed", "relative_speed")
+        columns = {name: [row.get(name) for row in rows] for name in names}
+        columns |= {name: [getattr(one, name) for _, one in pairs] for name in ("before", "after", "kind")}
+        return frame({"angle": [angle for angle, _ in pairs], **columns})
+
+    def _repr_html_(self) -> str:
+        rows = []
+        failures = self.failures or ("",) * len(self.angles)
+        for angle, line, failure in zip(self.angles, self.changes, failures, strict=True):
+            at = f"{math.degrees(angle):.6g}"
+            rows += [
+                (at, f"{one.stokes:.8g}", "-" if one.centrifugal is None else f"{one.centrifugal:.6g}",
+                 f"{self.speed_at(one.stokes, angle):.6g}", f"{one.before} → {one.after}", one.kind)
+                for one in line
+            ]  # fmt: skip
+            rows += [] if line else [(at, failure or f"no change for {self.range_text}", "", "", "", "")]
+        head = ("angle (deg)", "St", "Ce", self.speed_heading, "change", "kind")
+        notes = [f"{self.collisions} collisions, {self.range_text}"]
+        return view(f"{self._name}: boundaries between outcomes", rows, head, notes)
+
+    @property
+    def _name(self) -> str:
+        return name_of(self.scene) if self.scene is not None else "scene"
 
     @property
     def speed_heading(self) -> str:
@@ -287,3 +352,59 @@ class Curves(Lines):
                 f"; without the compiled kernel, from a lattice of {self.lattice[0]} by {self.lattice[1]} collisions"
             )
         return "\n".join([*lines, "", told])
+
+    def to_dataset(self) -> xarray.Dataset:
+        """The Dataset of the lines, with curves over (curve, vertex), points over point, and x of the lines."""
+        data = super().to_dataset()
+        unit = "rad"
+        if self.over != ANGLE and self.scene is not None:
+            unit = self.scene.fields[self.over].unit or "1"
+        x: dict[str, Any] = {"units": unit, "long_name": self.over}
+        stokes = {"units": "1", "long_name": "Stokes number"}
+        most = max((len(one.x) for one in self.curves), default=0)
+        data["curve_x"] = ("curve", "vertex"), _padded([one.x for one in self.curves], most), x
+        data["curve_stokes"] = ("curve", "vertex"), _padded([one.stokes for one in self.curves], most), stokes
+        for side, meaning in (("before", "outcome below the curve"), ("after", "outcome above the curve")):
+            values = np.array([OUTCOMES.index(getattr(one, side)) for one in self.curves], dtype=np.int8)
+            data[f"curve_{side}"] = "curve", values, _flags(meaning)
+        data["curve_kind"] = "curve", np.array([one.kind for one in self.curves], dtype=str)
+        data["point_kind"] = "point", np.array([one.kind for one in self.points], dtype=str)
+        data["point_x"] = "point", np.array([one.x for one in self.points], dtype=float), x
+        data["point_stokes"] = "point", np.array([one.stokes for one in self.points], dtype=float), stokes
+        more = {"over": self.over} | {f"sought_{name}": value for name, value in self.sought.items()}
+        return data.assign_coords(x=("line", np.array(self.at), x)).assign_attrs(more)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each point of each curve: curve (a number), before, after, kind, x (rad or SI) and stokes."""
+        from ..formatting.frames import frame
+
+        rows = [(k, one, x, stokes) for k, one in enumerate(self.curves) for x, stokes in zip(one.x, one.stokes)]
+        columns = {name: [getattr(one, name) for _, one, *_ in rows] for name in ("before", "after", "kind")}
+        ends = {"x": [x for *_, x, _ in rows], "stokes": [stokes for *_, stokes in rows]}
+        return frame({"curve": [k for k, *_ in rows], **columns, **ends})
+
+    def _repr_html_(self) -> str:
+        scale, x = (math.degrees(1.0), "angle (deg)") if self.over == ANGLE else (1.0, self.over)
+        rows = [
+            (f"{one.before} → {one.after}", one.kind,
+             f"{scale * one.x[0]:.6g} ... {scale * one.x[-1]:.6g}", f"{one.stokes[0]:.6g} ... {one.stokes[-1]:.6g}")
+            for one in self.curves
+        ]  # fmt: skip
+        rows += [("point", one.kind, f"{scale * one.x:.6g}", f"{one.stokes:.6g}") for one in self.points]
+        notes = [f"not settled at {scale * at:.6g}, St {stokes:.6g}: {why}" for at, stokes, why in self.unsettled]
+        return view(f"{self._name}: atlas of boundaries", rows, ("curve", "kind", x, "St"), notes)
+
+
+def _padded(rows: Sequence[Sequence[float]], most: int, filler: float = np.nan) -> np.ndarray:
+    full = np.full((len(rows), most), filler)
+    for k, row in enumerate(rows):
+        full[k, : len(row)] = row
+    return full
+
+
+def _flags(meaning: str) -> dict[str, Any]:
+    return {
+        "long_name": meaning,
+        "flag_values": np.array([NONE, 0, 1, 2], dtype=np.int8),
+        "flag_meanings": "none " + " ".join(name.replace("-", "_") for name in OUTCOMES),
+    }

@@ -1,0 +1,122 @@
+"""Derivatives as figures: of many collisions over the impact, of a trajectory over time, and Sobol indices as bars."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..collision.text import prefix
+from ..formatting.style import picture
+
+if TYPE_CHECKING:
+    import xarray
+
+_PANELS = 4
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+_BARS = (("first", "first order", "#2a6f97", -0.2), ("total", "total", "#c1554a", 0.2))
+_SHOWN = {"gap": "m", "normal_velocity": "m/s", "rotation_rate": "rad/s", "spin": "rad/s"}  # and their units
+_CURVES = 5  # parameters in a panel of a trajectory
+_EVENT: Any = {"color": "#999999", "linewidth": 0.7, "linestyle": ":"}
+
+
+@picture
+def draw_gradients(found: xarray.Dataset) -> Figure:
+    """Elasticities of each result over what of the impact varies; the strongest six parameters are drawn."""
+    quantities = found["quantity"].values[:_PANELS]
+    figure = Figure(figsize=(7.0, 1.2 + 2.3 * len(quantities)), layout="constrained")
+    axes = figure.subplots(len(quantities), 1, sharex=True, squeeze=False)[:, 0]
+    x, label = _across(found)
+    order = np.argsort(x, kind="stable")
+    jumps = np.flatnonzero(np.diff(found["outcome"].values[order])) + 1  # lines are not joined across them
+    for axis, name in zip(axes, quantities, strict=True):
+        values = found["elasticity"].sel(quantity=name).values
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # a parameter without elasticity anywhere
+            size = np.nan_to_num(np.nanmedian(np.abs(values), axis=0))
+        parameters = [str(one) for one in found["parameter"].values]
+        strongest = [k for k in np.argsort(-size) if size[k] > 0 and not _twice(parameters, k)]
+        for k, colour in zip(strongest, _COLOURS):
+            y = np.insert(values[order, k], jumps, np.nan)
+            axis.plot(np.insert(x[order], jumps, np.nan), y, ".-", color=colour, linewidth=1.0, markersize=4,
+                      label=parameters[k])  # fmt: skip
+        axis.axhline(0, color="#202020", linewidth=0.6)
+        axis.set_ylabel(str(name).replace("_", " "))
+        axis.spines[["top", "right"]].set_visible(False)
+        if axis.lines[:-1]:
+            axis.legend(fontsize=7, frameon=False, ncols=2)
+    axes[-1].set_xlabel(label)
+    figure.suptitle("elasticities d ln y/d ln p", fontsize=11)
+    return figure
+
+
+def _twice(parameters: list[str], k: int) -> bool:
+    """Whether it is the Stokes number beside the speed, which moves everything alike."""
+    return parameters[k] == "impact.stokes" and "impact.speed" in parameters
+
+
+def _across(found: xarray.Dataset) -> tuple[np.ndarray, str]:
+    if np.ptp(found["stokes"].values) > 0 or np.ptp(found["angle"].values) == 0:
+        return found["stokes"].values, "Stokes number St"
+    return np.degrees(found["angle"].values), "impact angle (deg)"
+
+
+@picture
+def draw_trajectory(found: xarray.Dataset) -> Figure:
+    """A row for each variable that is not zero: on the left its course, on the right p dy/dp of the parameters p.
+
+    The strongest five parameters of a row are drawn; dotted lines are events.
+    """
+    names = [name for name in _SHOWN if np.any(found[name].values)]
+    figure = Figure(figsize=(9.6, 1.0 + 1.9 * len(names)), layout="constrained")
+    axes = figure.subplots(len(names), 2, sharex=True, squeeze=False)
+    parameters = [str(name) for name in found["parameter"].values]
+    factor, letter = prefix(float(found["time"].values[-1]))
+    time = found["time"].values / factor
+    strongest: dict[str, str] = {}
+    for (left, right), name in zip(axes, names, strict=True):
+        scale, own = prefix(float(np.abs(found[name].values).max())) if name == "gap" else (1.0, "")
+        left.plot(time, found[name].values / scale, color="#202020", linewidth=1.4)
+        left.set_ylabel(f"{name.replace('_', ' ')} ({own.replace('u', 'µ')}{_SHOWN[name]})")
+        change = found[f"d_{name}"].values * found["reference"].values / scale
+        largest = np.abs(change).max(axis=0)
+        if "impact.speed" in parameters and "impact.stokes" in parameters:
+            largest[parameters.index("impact.stokes")] = 0.0  # it moves everything as the speed does
+        for k in np.argsort(-largest)[:_CURVES]:
+            parameter = parameters[k]
+            if largest[k] > 0:
+                colour = strongest.setdefault(parameter, _COLOURS[len(strongest) % _CURVES])
+                style = "-" if list(strongest).index(parameter) < _CURVES else "--"
+                right.plot(time, change[:, k], color=colour, linestyle=style, linewidth=1.2, label=parameter)
+        right.legend(fontsize=6.5, frameon=False)
+        for axis in (left, right):
+            axis.spines[["top", "right"]].set_visible(False)
+            for event in np.unique(found["event_time"].values):
+                axis.axvline(event / factor, **_EVENT)
+    axes[0][0].set_title("trajectory", fontsize=10)
+    axes[0][1].set_title("p dy/dp at fixed time", fontsize=10)
+    for axis in axes[-1]:
+        axis.set_xlabel(f"time ({letter.replace('u', 'µ')}s)")
+    figure.suptitle(f"Sensitivities of the trajectory, {found.attrs['outcome']}", fontsize=11)
+    return figure
+
+
+@picture
+def draw_indices(found: xarray.Dataset) -> Figure:
+    """First-order and total indices with their 95 % intervals, the largest on top."""
+    order = np.argsort(found["total"].values)
+    figure = Figure(figsize=(6.4, 1.4 + 0.5 * order.size), layout="constrained")
+    axes = figure.add_subplot()
+    for name, label, colour, shift in _BARS:
+        values, within = found[name].values[order], found[f"{name}_within"].values[order]
+        axes.barh(np.arange(order.size) - shift, values, 0.36, xerr=within, color=colour, label=label,
+                  error_kw={"linewidth": 0.9})  # fmt: skip
+    axes.set_yticks(range(order.size), found["parameter"].values[order])
+    axes.set_xlabel("part of the variance")
+    of = str(found.attrs["of"]).replace("_", " ")
+    axes.set_title(f"Sobol indices of the {of}, {found.attrs['collisions']} collisions", fontsize=10)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False, fontsize=8, loc="lower right")
+    return figure
