@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 1853abe51a314a9bd8d6d5094658308d2add2b86e4547aafce258c3c193403c3
+# Automaton sha256 c9ebeb94ff604d23b554e30ed735ffe4db65a45243425f0f33259e5e35a525b7
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -186,6 +186,16 @@ def attraction_holds(gap: Any, contact: Any, margin: Any, hold: Any, rebound: An
 def spins_down(gap: Any, contact: Any, margin: Any, momentum: Any, negligible: Any, rate: Any, stays: Any, error: Any, orbital_momentum: Any, inside: Any, apart: Any) -> Any:
     """True if without angular momentum, or without orbital momentum, the film keeps the doublet."""
     return gap >= contact*(1 - margin) and (momentum <= negligible and rate > 0 and stays < -error or orbital_momentum == 0 and inside < 0 and apart < -error)
+
+
+def is_stopped(excess: Any, error: Any) -> Any:
+    """True if the film takes more than what drives a motion."""
+    return excess + error < 0
+
+
+def points_inward(outward: Any, pull: Any, margin: Any) -> Any:
+    """True if all forces but that of the film point inward."""
+    return outward - pull + margin*(outward + pull) < 0
 
 
 def rests_for_good(reaction: Any, margin: Any, largest: Any) -> Any:

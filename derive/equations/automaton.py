@@ -309,6 +309,9 @@ PROOFS = (
     Proof("spins_down", "without angular momentum, or without orbital momentum, the film keeps the doublet",
           ("gap >= contact*(1 - margin) and (momentum <= negligible and rate > 0 and stays < -error"
            " or orbital_momentum == 0 and inside < 0 and apart < -error)")),
+    Proof("is_stopped", "the film takes more than what drives a motion", "excess + error < 0"),
+    Proof("points_inward", "all forces but that of the film point inward",
+          "outward - pull + margin*(outward + pull) < 0"),
     Proof("rests_for_good", "the reaction of a resting doublet stays inward at the largest momentum that slip allows",
           "reaction > margin*largest"),
     Proof("stays_below", "the energy does not suffice for a gap ahead", "needed < -margin*size"),

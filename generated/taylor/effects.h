@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 1853abe51a314a9bd8d6d5094658308d2add2b86e4547aafce258c3c193403c3
+ * Automaton sha256 c9ebeb94ff604d23b554e30ed735ffe4db65a45243425f0f33259e5e35a525b7
  *
  * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
  * known. */

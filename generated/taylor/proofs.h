@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 1853abe51a314a9bd8d6d5094658308d2add2b86e4547aafce258c3c193403c3
+ * Automaton sha256 c9ebeb94ff604d23b554e30ed735ffe4db65a45243425f0f33259e5e35a525b7
  *
  * Inequalities of stick proofs. Included where `vec` and `mask` are known. */
 
@@ -23,6 +23,18 @@ static inline mask spins_down(vec gap, vec contact, double margin, vec momentum,
 {
     return ((gap >= contact*(1 - margin)) & (((momentum <= negligible) & (rate > 0) & (stays < -error)) |
         ((orbital_momentum == 0) & (inside < 0) & (apart < -error))));
+}
+
+/* Lanes in which the film takes more than what drives a motion. */
+static inline mask is_stopped(vec excess, vec error)
+{
+    return (excess + error < 0);
+}
+
+/* Lanes in which all forces but that of the film point inward. */
+static inline mask points_inward(vec outward, vec pull, double margin)
+{
+    return (outward - pull + margin*(outward + pull) < 0);
 }
 
 /* Lanes in which the reaction of a resting doublet stays inward at the largest momentum that slip allows. */

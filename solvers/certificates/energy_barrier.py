@@ -98,12 +98,9 @@ class EnergyCertificate(Certificate):
         beyond = [barrier.height for barrier in self.barriers(y) if barrier.gap >= y[0]]
         if not beyond:
             return False
-        limit = beyond[0] - self.margin * (self.largest + abs(beyond[0]))
-        rest = self.energy(y) - float(y[1]) ** 2 / 2
-        outward = self._approach.outward(y)
-        return any(
-            part.slowed**2 / 2 + rest + outward * (float(y[0]) - part.gap) < limit for part in self._approach.clear(y)
-        )
+        rest, outward = self.energy(y) - float(y[1]) ** 2 / 2, self._approach.outward(y)
+        energies = (part.slowed**2 / 2 + rest + outward * (float(y[0]) - part.gap) for part in self._approach.clear(y))
+        return any(is_below_barrier(energy, beyond[0], self.margin, self.largest, 0.0) for energy in energies)
 
     def rests(self, y: np.ndarray) -> bool:
         """True if a doublet at rest in its gap stays there while its slip decays.

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from casadi import SX, Function
 
-from ...generated.automaton import CLOSING, FILM_DEPTHS, LEAST_DEPTH
+from ...generated.automaton import CLOSING, FILM_DEPTHS, LEAST_DEPTH, is_stopped
 from ..host.thread_caches import own_cache
 from ..model.model import Model
 from ..model.phases import Phase
@@ -29,7 +29,7 @@ class FilmCertificate(Certificate):
         # closing: the film must stop the motion before solid contact and before the glass pressure is reached
         grid = self.approach(gap, FILM_DEPTHS)
         speed = self.slowed(-normal_velocity, grid)
-        if speed[-1] > -self.margin:
+        if not is_stopped(speed[-1], self.margin):
             return False
         # between two depths the speed falls and the pressure per speed rises, so their end values bound the pressure
         return self.clear(grid[PARTS::PARTS], np.maximum(speed[:-1:PARTS], 0.0))
@@ -44,7 +44,7 @@ class FilmCertificate(Certificate):
         if normal_velocity == 0.0:
             return True  # at rest it stays at rest
         loss = 0.0 if self.model.cavitates else self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
-        return bool(normal_velocity - loss < -self.margin)
+        return bool(is_stopped(normal_velocity - loss, self.margin))
 
     def slowed(self, speed: float, grid: np.ndarray) -> np.ndarray:
         """Closing speed along decreasing gaps (losses are negative there); negative beyond the stop."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import ATTRACTED_FILM_DEPTHS, CLOSING
+from ...generated.automaton import ATTRACTED_FILM_DEPTHS, CLOSING, is_stopped
 from ..model.model import Model
 from ..model.phases import Phase
 from .energy_barrier import EnergyCertificate
@@ -47,7 +47,7 @@ class FilmAndAttractionCertificate(EnergyCertificate):
         grid = film.approach(gap if closing else 1.0, ATTRACTED_FILM_DEPTHS)  # an opening pair may reach x0 and return
         if closing:
             speed = film.slowed(-normal_velocity, grid)
-            if speed[-1] > -film.margin:
+            if not is_stopped(speed[-1], film.margin):
                 return False
         elif film.held(gap, normal_velocity):
             speed = np.zeros(grid.size)

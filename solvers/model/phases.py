@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import nan
 from typing import Any
 
 from casadi import SX, cross, densify, fabs, fmax, fmin, if_else, logic_and, vertcat
@@ -209,7 +208,7 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tupl
     if watch.certificate == "energy":
         table.append(Event("certified", mechanical_energy(flow) - level))
     elif watch.certificate == "pendulum":
-        table.append(Event("certified", pendulum_margin(model, level)))
+        table.append(Event("certified", _pendulum_margin(model, level)))
     return tuple(table)
 
 
@@ -237,38 +236,17 @@ def _own(each: OwnEvent, guard: SX, model: Model, region: Region, motion: SX) ->
     return Event(each.name, if_else(model.state[each.mark] > 0.5, value, 1), each.row.dips)
 
 
-def pendulum_impulse(found: Mapping[str, Any], margin: SX | float) -> SX:
-    """Bound of the outward impulse, from the pendulum certificate's margins; zero where all forces point inward.
+def _pendulum_margin(model: Model, margin: SX) -> SX:
+    """The largest of the pendulum certificate's margins where all forces but that of the film point inward.
 
-    NaN if a force is NaN, which fmax within the bound may have hidden.
+    Negative where it holds by the relative `margin`; not negative if a margin is NaN, which fmax would ignore. The
+    impulse of a rotation is not differentiable, so an event that is watched does not allow for it.
     """
-    outward, pull = found["outward"], found["pull"]
-    inward = outward - pull + margin * (outward + pull) < 0
-    bound: SX = if_else(outward + pull >= 0, if_else(inward, 0, found["impulse"]), nan)
-    return bound
-
-
-def pendulum_margin(model: Model, margin: SX | float, turning: bool = False) -> SX:
-    """The largest of the pendulum certificate's inequalities; negative where it holds by the relative `margin`.
-
-    Not negative if one of them is NaN, which fmax would ignore.
-
-    Arguments:
-        turning: allow for the impulse of the rotation, instead of requiring that all forces point inward. It is not
-            differentiable, so an event that is watched does not.
-    """
-    found, stokes = model("pendulum_margins"), model.groups["stokes"]
-    outward, pull = found["outward"], found["pull"]
-    slack = margin * fmax(stokes, 1)
-    parts = [found["film"] + slack, found["recoil"] + slack]
-    if turning:
-        parts = [part + stokes * pendulum_impulse(found, margin) for part in parts]
-    else:
-        parts.append(outward - pull + margin * (outward + pull))
-    worst, holds = parts[0], parts[0] < 0
-    for part in parts[1:]:
-        worst, holds = fmax(worst, part), logic_and(holds, part < 0)
-    return if_else(holds, worst, fmax(worst, 0))
+    margins, error = model("pendulum_margins"), margin * fmax(model.groups["stokes"], 1)
+    outward, pull = margins["outward"], margins["pull"]
+    parts = [margins["film"] + error, margins["recoil"] + error, outward - pull + margin * (outward + pull)]
+    worst = fmax(fmax(*parts[:2]), parts[2])
+    return if_else(logic_and(logic_and(parts[0] < 0, parts[1] < 0), parts[2] < 0), worst, fmax(worst, 0))
 
 
 def mechanical_energy(flow: Flow) -> SX:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
 
 from ..certificates import NoCertificate
-from ..engines.casadi.locate import EventLocator, EventSequence
+from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
@@ -39,13 +40,12 @@ class WithoutCertificate(EventLocator):
     def on(self, until: float) -> EventSequence:
         """Integrate until time `until` (x0/v0); the path is `separated` if the doublet escaped before."""
         self.proof, self.watch, self.deadline = NoCertificate(), replace(self.watch, certificate=None), until
-        try:
-            return self._followed()
-        except _Chatters:
-            return self.path
+        with suppress(_Chatters):
+            self._follow()
+        return self.path
 
-    def _next(self, step: object, phase: Phase) -> None:
-        super()._next(step, phase)  # type: ignore[arg-type]  # a Step
+    def _next(self, step: PhaseRun, phase: Phase | None = None) -> None:
+        super()._next(step, phase)
         if len(self.path.steps) > _PHASES:
             raise _Chatters
 

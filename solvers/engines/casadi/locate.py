@@ -168,54 +168,32 @@ class EventLocator:
                 f"at this angle, with these spins, {REVERSED} within a rounding error of the film thickness",
                 "try a smaller angle or slower spins",
             )
-        path = self._followed()
+        path = self.path
+        self._follow()
         if not path.separated and path.steps[-1].event is None and path.time < self.until:
-            self._follow_on()
+            proved, path.decided, self.deadline = path.certified, path.time, self.until
+            self.proof, self.watch, self.spent = NoCertificate(), replace(self.watch, certificate=None), 0
+            self._follow()
+            if path.separated:
+                word = "proved" if proved else "decided, not proved,"
+                message = f"a stick that is {word} separates when it is followed on"
+                raise self._error(message, "please report the scene" if proved else "leave out --until")
         return path
 
-    def _follow_on(self) -> None:
-        """Continue the integration beyond the certificate of a stick."""
-        path, proved = self.path, self.path.certified
-        path.decided, self.deadline = path.time, self.until
-        self.proof, self.watch, self.spent = NoCertificate(), replace(self.watch, certificate=None), 0
-        self._followed()
-        if path.separated:
-            word = "proved" if proved else "decided, not proved,"
-            message = f"a stick that is {word} separates when it is followed on"
-            raise self._error(message, "please report the scene" if proved else "leave out --until")
-
-    def _followed(self) -> EventSequence:
-        while self.path.time < self.deadline:
-            if self._proved(0.0):
-                return self.path
-            if self._held_in_chatter():
-                return self.path
-            criterion = self._criterion_met() if self.phase.motion == CLOSING and not self.phase.resting else None
-            due = None if criterion else self._own_event_due()
-            if criterion:
-                self._rebound(criterion, 0.0)
-            elif due:
-                if self._own_event(due, 0.0, None):
-                    return self.path
-            elif self._run_phase():
-                return self.path
-            if self.path.separated:
-                return self.path
-        return self.path
+    def _follow(self) -> None:
+        """Integrate phase by phase until the collision is over, or to the deadline."""
+        over = False
+        while not (over or self.path.separated) and self.path.time < self.deadline:
+            over = self._proved(0.0) or self._held_in_chatter() or self._run_or_act()
 
     def _held_in_chatter(self) -> bool:
         """True if the orbital-momentum certificate holds for a doublet in long chatter, which is then a stick."""
         phases, proof = len(self.path.steps), self.proof
-        if (
-            phases < CHATTER_PHASES
-            or phases % _NOW_AND_THEN
-            or not isinstance(proof, OrbitalMomentumCertificate)
-            or self.model.strings
-        ):
+        if phases < CHATTER_PHASES or phases % _NOW_AND_THEN or self.model.strings:
             return False
-        if not (proof.holds(self.y) or proof.settles(self.y)):
+        if not (isinstance(proof, OrbitalMomentumCertificate) and (proof.holds(self.y) or proof.settles(self.y))):
             return False
-        self._stop(PhaseRun(self.phase, 0.0, None, ()))
+        self._next(PhaseRun(self.phase, 0.0, None, ()))
         self.path.certified = proof.theorem
         return True
 
@@ -238,21 +216,19 @@ class EventLocator:
                 f"{why}: try {engine}a larger --rtol, or another impact",
             )
 
-    def _criterion_met(self) -> str | None:
-        """The first criterion in the table that is already met at the start of a phase."""
-        values = self.model.values("events", self.y, self.p)
-        return next((kind for kind in CRITERIA if values[kind] <= 0), None)
-
-    def _own_event_due(self) -> OwnEvent | None:
-        """The first declared event whose guard is not positive at the start of a phase in which it is watched."""
-        if not self.model.own_events or self.phase.resting:
-            return None
-        values = self.model.values("events", self.y, self.p)
-        for each, mark in zip(self.model.own_events, self.model.marks, strict=True):
-            watched = all(getattr(self.phase, part) == value for part, value in each.row.where)
-            if watched and self.y[mark] > 0.5 and values[each.name] <= 0:
-                return each
-        return None
+    def _run_or_act(self) -> bool:
+        """A criterion or declared event that is due at the start of a phase, or else the phase; True if all is over."""
+        if not self.phase.resting and (self.phase.motion == CLOSING or self.model.own_events):
+            values = self.model.values("events", self.y, self.p)
+            for kind in CRITERIA if self.phase.motion == CLOSING else ():
+                if values[kind] <= 0:
+                    self._rebound(kind, 0.0)
+                    return False
+            for each, mark in zip(self.model.own_events, self.model.marks, strict=True):
+                watched = all(getattr(self.phase, part) == value for part, value in each.row.where)
+                if watched and self.y[mark] > 0.5 and values[each.name] <= 0:
+                    return self._own_event(each, 0.0, None)
+        return self._run_phase()
 
     def _proved(self, elapsed: float) -> bool:
         """True if the collision ends here as a stick, by a certificate or by energy."""
@@ -260,7 +236,7 @@ class EventLocator:
             self._maxima.append(self.y)
         certainty = self.proof.decided(self.y, self.phase, self._maxima)
         if certainty:
-            self._stop(PhaseRun(self.phase, elapsed, None, ()))
+            self._next(PhaseRun(self.phase, elapsed, None, ()))
             self.path.certified = certainty is Certainty.PROVED
         elif isinstance(self.proof, SpinDownCertificate) and self.proof.rounded(self.y):
             raise self._error(
@@ -272,10 +248,6 @@ class EventLocator:
 
     def _level(self) -> float | None:
         return self.proof.level(self.y, self.phase) if self.watch.certificate else None
-
-    def _stop(self, step: PhaseRun) -> None:
-        self.path.steps.append(step)
-        self.path.ends.append(self.y)
 
     def _flow(self) -> Flow:
         return Flow(self.model.choice, self.phase.region, self.extras)
@@ -299,7 +271,7 @@ class EventLocator:
                 return self._happens(stop.event, elapsed)
             elif stop.time >= left:
                 self.path.time = self.deadline
-                self._stop(PhaseRun(self.phase, elapsed, None, ()))
+                self._next(PhaseRun(self.phase, elapsed, None, ()))
                 return True
             elif self._proved(elapsed):
                 return True
@@ -308,7 +280,7 @@ class EventLocator:
             else:
                 stretch *= growth
         if self.phase.resting and np.allclose(before, self.y[: before.size], rtol=self.rtol, atol=0.0):
-            self._stop(PhaseRun(self.phase, elapsed, None, ()))  # no force changes any more: a stick without a proof
+            self._next(PhaseRun(self.phase, elapsed, None, ()))  # no force changes any more: a stick without a proof
             return True
         raise self._error(
             f"no event within {elapsed:.3g} x0/v0",
@@ -353,16 +325,11 @@ class EventLocator:
             and row.name != stop.event
             and find.value(row.name, stop.y, self.p, self.phase.motion, level) < 0
         ]
-        return min(crossed, key=lambda found: found.time, default=stop)
+        return min(crossed, key=lambda hit: hit.time, default=stop)
 
     def _refined(self, find: Locator, stop: EventHit, event: str, level: float) -> EventHit:
         """The zero of an event function before a stop at which it is negative: bisection with secant steps."""
         integrate = plain(self._flow(), "rosenbrock", self.tolerance)
-
-        def value(duration: float) -> tuple[float, np.ndarray]:
-            y = integrate(self.y, self.p, duration)
-            self._spend(integrate.steps)
-            return find.value(event, y, self.p, self.phase.motion, level), y
 
         before, after, y_after = 0.0, stop.time, stop.y
         g_after, g_before = find.value(event, stop.y, self.p, self.phase.motion, level), None
@@ -370,7 +337,9 @@ class EventLocator:
             trial = 0.5 * (before + after)
             if g_before is not None and count % 2:
                 trial = before + (after - before) * g_before / (g_before - g_after)
-            g, y = value(trial)
+            y = integrate(self.y, self.p, trial)
+            self._spend(integrate.steps)
+            g = find.value(event, y, self.p, self.phase.motion, level)
             if g < 0:
                 after, g_after, y_after = trial, g, y
             else:
@@ -381,9 +350,7 @@ class EventLocator:
 
     def _happens(self, name: str, elapsed: float) -> bool:
         own = next((each for each in self.model.own_events if each.name == name), None)
-        if own is not None:
-            return self._own_event(own, elapsed, name)
-        return self._act(_EVENT_OF[name], elapsed)
+        return self._own_event(own, elapsed, name) if own else self._act(_EVENT_OF[name], elapsed)
 
     def _own_event(self, event: OwnEvent, elapsed: float, landed: str | None) -> bool:
         """The jump of a declared event and what follows it; True if it ends the collision."""
@@ -402,7 +369,7 @@ class EventLocator:
         velocity = float(self.y[_VELOCITY])
         pull = -velocity if velocity else model.values("inward_force", self.y, self.p)["inward_force"]
         step = PhaseRun(self.phase, elapsed, landed, (event.word,), own=event.name)
-        self._next(step, self._towards(CLOSING if pull > 0 else OPENING))
+        self._next(step, self._towards(CLOSING if pull > 0 else OPENING, self.phase))
         self.path.separated = event.row.actions[-1] == "part"
         return event.row.actions[-1] != "go on"
 
@@ -467,9 +434,11 @@ class EventLocator:
         self.y[position] = value
         self.path.y = self.y
 
-    def _next(self, step: PhaseRun, phase: Phase) -> None:
-        self._stop(step)
-        self.phase = phase
+    def _next(self, step: PhaseRun, phase: Phase | None = None) -> None:
+        """Record a phase that ends here; the next one begins, if there is one."""
+        self.path.steps.append(step)
+        self.path.ends.append(self.y)
+        self.phase = phase or self.phase
 
     def _rebound(self, kind: str, elapsed: float, event: str | None = None) -> None:
         """A rebound; a weak one becomes resting contact, one at the rupture gap separates the doublet.
@@ -478,30 +447,25 @@ class EventLocator:
         (docs/explanation/events.md).
         """
         jump = rebounded(self.model, kind, self.y, self.p)
-        parts = is_parted(jump.after[_GAP], self.rupture_gap)
-        holds = not parts and self._too_weak(jump.after)
+        gap, velocity = map(float, jump.after[: _VELOCITY + 1])
+        parts = is_parted(gap, self.rupture_gap)
+        inward = self.model.values("inward_force", jump.after, self.p)["inward_force"]
+        # without drag it rises by u^2/(2 inward); the chatter that would follow is a geometric series at the same gap
+        holds = not parts and is_too_weak(inward, velocity, self.rtol, gap)
         if holds and self.model.friction:
             jump = rebounded(self.model, kind, self.y, self.p, holds)
         self.path.dry_loss += jump.dry
         self.path.friction_loss += jump.friction
         self.y = self.path.y = np.concatenate([jump.after, self.y[jump.after.size :]])
-        kinds: tuple[str, ...] = (kind,)
-        if parts:
-            self.path.separated = True
-            kinds += (KINDS[EventKind.RUPTURE],)
-            rebound = PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, grip=jump.grip)
-            self._next(rebound, self._opening(self.phase))
-            return
+        self.path.separated, phase = parts, self._opening(self.phase)
+        kinds = (kind, *([KINDS[EventKind.RUPTURE]] if parts else []), *([KINDS[EventKind.RESTS]] if holds else []))
         if holds:
-            kinds += (KINDS[EventKind.RESTS],)
-            self.path.dry_loss += float(self.y[1]) ** 2 / 2
-            self.y[1] = 0.0
-            phase = self._opening(self.phase).with_(resting=True)
+            self.path.dry_loss += float(self.y[_VELOCITY]) ** 2 / 2
+            self.y[_VELOCITY] = 0.0
+            phase = phase.with_(resting=True)
             if self.model.friction:
                 phase = self._rubbing(phase)
                 kinds += (KINDS[EventKind.ROLLS],) if phase.rolling else ()
-        else:
-            phase = self._opening(self.phase)
         self._next(PhaseRun(self.phase, elapsed, event, kinds, rebounds=True, holds=holds, grip=jump.grip), phase)
 
     def _rubbing(self, phase: Phase) -> Phase:
@@ -532,19 +496,9 @@ class EventLocator:
         shear = 0 if is_on_edge(self.y[_GAP], self.edge) else phase.shear
         return self._towards(OPENING, phase).with_(film=film, shear=shear)
 
-    def _towards(self, motion: int, phase: Phase | None = None) -> Phase:
-        """The phase with the given `motion`, otherwise as the present one."""
-        cavitated = self.model.cavitates and motion == OPENING
-        return (phase or self.phase).with_(motion=motion, cavitated=cavitated)
-
-    def _too_weak(self, after: np.ndarray) -> bool:
-        """True if a rebound to this state becomes resting contact.
-
-        It is slower than REST_SPEED, or rises by less than the tolerance. Without drag it rises by u^2/(2 inward);
-        the chatter that would follow is a geometric series that ends at the same gap.
-        """
-        inward = self.model.values("inward_force", after, self.p)["inward_force"]
-        return is_too_weak(inward, float(after[_VELOCITY]), self.rtol, float(after[_GAP]))
+    def _towards(self, motion: int, phase: Phase) -> Phase:
+        """The phase with another motion."""
+        return phase.with_(motion=motion, cavitated=self.model.cavitates and motion == OPENING)
 
     def _error(self, message: str, advice: str) -> ComputationError:
         state = dict(zip(self.model.state, map(float, self.y), strict=False))

@@ -13,7 +13,7 @@ import pytest
 from casadi import SX
 from wetdoublet.generated import oblique_strings
 from wetdoublet.solvers import ComputationError, Scene
-from wetdoublet.solvers.certificates import NoCertificate, pendulum
+from wetdoublet.solvers.certificates import NoCertificate
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.casadi.locate import EventLocator, EventSequence
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
@@ -132,13 +132,19 @@ def test_no_proved_stick_on_strings_escapes(strings: list[Hung]) -> None:
 
 
 def _broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, SX]], dict[str, SX]]) -> None:
-    """Change the emitted margins of the proof on strings."""
-    honest = oblique_strings.pendulum_margins
+    """Change the margins of the proof on strings, as emitted and as numbers."""
+    honest, numbers = oblique_strings.pendulum_margins, Model.values
     monkeypatch.setattr(
         oblique_strings, "pendulum_margins", lambda *args: {**(right := honest(*args)), **change(right)}
     )
-    for module, remembered in ((pendulum, "_pendulum"), (locate, "locator")):
-        monkeypatch.setattr(module, remembered, lru_cache(getattr(module, remembered).__wrapped__))
+
+    def values(model: Model, name: str, *args: object) -> dict[str, float]:
+        right = numbers(model, name, *args)
+        changed = change(right) if name == "pendulum_margins" else {}
+        return right | {each: float(value) for each, value in changed.items()}
+
+    monkeypatch.setattr(Model, "values", values)
+    monkeypatch.setattr(locate, "locator", lru_cache(locate.locator.__wrapped__))
 
 
 def _escapes(strings: list[Hung]) -> int:

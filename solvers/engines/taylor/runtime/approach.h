@@ -34,19 +34,19 @@ static mask held_on_approach(const constants *c, const vec *y, vec contact, doub
 {
     double margin = SAFETY*tolerance;
     vec film, recoil, rebound, beneath, bounds[STATES], there[STATES];
-    vec slack = pendulum_slack(c, y, margin);
+    vec error = pendulum_error(c, y, margin);
     pendulum_stops(c, y, &film, &recoil);
-    mask possible = (contact < y[GAP]) & (film + slack < 0.0);
+    mask possible = (contact < y[GAP]) & is_stopped(film, error);
     memcpy(bounds, y, sizeof bounds);
     memcpy(there, y, sizeof there);
     for (int part = 0; part < APPROACH_PARTS && bits(possible); part++) {
         there[GAP] = bounds[GAP];
         there[NORMAL_VELOCITY] = -next_part(c, bounds);
         pendulum_rebounds(c, there, &rebound, &beneath);
-        possible &= clear_of_glass(c, bounds, -there[NORMAL_VELOCITY], margin) | (rebound + slack < 0.0);
+        possible &= clear_of_glass(c, bounds, -there[NORMAL_VELOCITY], margin) | is_stopped(rebound, error);
     }
     pendulum_rebounds(c, bounds, &rebound, &beneath);
-    return possible & (beneath + slack < 0.0);
+    return possible & is_stopped(beneath, error);
 }
 #elif !STRINGS
 /* Lanes in which the energy falls below the barrier beyond the film before a criterion can be met. */
@@ -55,9 +55,8 @@ static mask held_on_approach(const constants *c, const vec *y, const barrier *b,
     double margin = SAFETY*tolerance;
     vec none = splat(-INFINITY), outward, bounds[STATES];
     vec height = choose(b->near_gap >= y[GAP], b->near_height, choose(b->far_gap >= y[GAP], b->far_height, none));
-    vec limit = height - margin*(b->largest + vec_abs(height)); /* NaN without a barrier: tests false */
-    vec rest = b->largest - 0.5*y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
-    mask possible = (contact < y[GAP]) & (rest < limit), proved = splat_mask(0);
+    vec rest = b->largest - 0.5*y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY], zero = splat(0.0);
+    mask possible = (contact < y[GAP]) & is_below_barrier(rest, height, margin, b->largest, zero), proved = splat_mask(0);
     if (!bits(possible))
         return proved;
     approach_force(c, y, &outward);
@@ -65,7 +64,8 @@ static mask held_on_approach(const constants *c, const vec *y, const barrier *b,
     for (int part = 0; part < APPROACH_PARTS && bits(possible & NOT(proved)); part++) {
         vec fastest = next_part(c, bounds), slowed = bounds[NORMAL_VELOCITY];
         possible &= clear_of_glass(c, bounds, fastest, margin);
-        proved |= possible & (0.5*slowed*slowed + rest + outward*(y[GAP] - bounds[GAP]) < limit);
+        vec energy = 0.5*slowed*slowed + rest + outward*(y[GAP] - bounds[GAP]);
+        proved |= possible & is_below_barrier(energy, height, margin, b->largest, zero);
     }
     return proved;
 }

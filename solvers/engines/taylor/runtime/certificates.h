@@ -9,19 +9,15 @@
 
 #define TURNS (OBLIQUE && !WALL)
 #define PROOF_BY_ENERGY (TURNS ? ATTRACTS && !STRINGS : ATTRACTS || STRINGS)
-#if !TURNS && !STRINGS && !BRIDGE && !(ATTRACTION && CAPILLARY_STATE)
-#define PROOF_BY_FILM FILM_MOMENTUM
-#else
+#if TURNS || STRINGS || BRIDGE || (ATTRACTION && CAPILLARY_STATE) || (OWN_EVENTS && (!OWN_PROOFS || ATTRACTION))
 #define PROOF_BY_FILM 0
+#else
+#define PROOF_BY_FILM FILM_MOMENTUM
 #endif
 
 #if OWN_EVENTS
 #undef PROOF_BY_ENERGY
 #define PROOF_BY_ENERGY 0 /* its barriers are those of the start; held_beside_events instead */
-#if !OWN_PROOFS || ATTRACTION
-#undef PROOF_BY_FILM
-#define PROOF_BY_FILM 0
-#endif
 #endif /* OWN_EVENTS */
 #if PROOF_BY_FILM
 #if ATTRACTION
@@ -70,7 +66,7 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 #if defined(FILM_CAVITATES)
     mask stopped = splat_mask(0);
 #else
-    mask stopped = NOT(closing) & (y[NORMAL_VELOCITY] - film_takes(c, gap, splat(1.0)) < -margin);
+    mask stopped = NOT(closing) & is_stopped(y[NORMAL_VELOCITY] - film_takes(c, gap, splat(1.0)), splat(margin));
 #endif
     mask clear = closing;
     for (int k = 0; k < DEPTHS; k++) {
@@ -78,7 +74,7 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
         speed -= film_takes(c, there[GAP]*ratio, there[GAP]);
         there[GAP] *= ratio;
         clear &= glass_clearance(c, there) > 0.0;
-        stopped |= clear & (speed < -margin);
+        stopped |= clear & is_stopped(speed, splat(margin));
     }
     return stopped;
 }
@@ -94,7 +90,7 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 #if defined(FILM_CAVITATES)
     mask held = splat_mask(0);
 #else
-    mask held = NOT(closing) & (y[NORMAL_VELOCITY] - film_takes(c, y[GAP], splat(1.0)) < -margin);
+    mask held = NOT(closing) & is_stopped(y[NORMAL_VELOCITY] - film_takes(c, y[GAP], splat(1.0)), splat(margin));
 #endif
     vec start = choose(closing, y[GAP], splat(1.0)); /* an opening doublet may reach x0 before it falls back */
     vec speed = only(closing, -y[NORMAL_VELOCITY]), ratio = ratio_of_depths(start, contact), there[STATES];
@@ -109,50 +105,44 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
         there[NORMAL_VELOCITY] = -(fastest + vec_sqrt(2.0*(surface - capillary_work(c, next))))*(1.0/(1.0 - margin));
         clear &= glass_clearance(c, there) > 0.0;
     }
-    return clear & (held | (closing & (speed < -margin)));
+    return clear & (held | (closing & is_stopped(speed, splat(margin))));
 }
 #endif
 #endif
 
 #if PENDULUM
-/* St times the bound of the outward impulse, and the error of a margin (solvers/model/phases.py `pendulum_impulse`). */
-static vec pendulum_slack(const constants *c, const vec *y, double margin)
+/* Lanes in which all forces but that of the film point inward. */
+static mask pulled_inward(const constants *c, const vec *y, double margin)
 {
-    vec outward, pull, impulse;
+    vec outward, pull;
     pendulum_inward(c, y, &outward, &pull);
-    mask inward = outward - pull + margin*(outward + pull) < 0.0;
-    vec slack = margin*vec_larger(c->stokes, splat(1.0));
-    if (!bits(NOT(inward)))
-        return slack;
-    pendulum_impulse(c, y, &impulse);
-    return slack + only(NOT(inward), c->stokes*impulse);
+    return points_inward(outward, pull, margin);
 }
 
-/* Pendulum certificate: lanes where the margins of derive/equations/certificates/pendulum.py exceed their error while
- * all forces but the film's point inward, as in solvers/model/phases.py `pendulum_margin`.
+/* The error of the margins, and what the rotation may still drive outward. */
+static vec pendulum_error(const constants *c, const vec *y, double margin)
+{
+    mask outward = NOT(pulled_inward(c, y, margin));
+    vec error = margin*vec_larger(c->stokes, splat(1.0)), impulse;
+    if (!bits(outward))
+        return error;
+    pendulum_impulse(c, y, &impulse);
+    return error + only(outward, c->stokes*impulse);
+}
+
+/* Pendulum certificate (derive/equations/certificates/pendulum.py): the film stops the doublet, and every rebound. At a
+ * turn the impulse of the rotation is allowed for; elsewhere all other forces must point inward.
  */
-static mask held_by_strings(const constants *c, const vec *y, double tolerance)
+static mask held_by_strings(const constants *c, const vec *y, mask candidates, int turn, double tolerance)
 {
     double margin = SAFETY*tolerance;
-    vec outward, pull, film, recoil, slack = margin*vec_larger(c->stokes, splat(1.0));
-    pendulum_inward(c, y, &outward, &pull);
-    mask held = outward - pull + margin*(outward + pull) < 0.0;
-    if (!bits(held))
-        return held;
-    pendulum_stops(c, y, &film, &recoil);
-    return held & (film + slack < 0.0) & (recoil + slack < 0.0);
-}
-
-/* The same at a turn, with the impulse of the rotation allowed for. */
-static mask held_at_turn(const constants *c, const vec *y, mask candidates, double tolerance)
-{
     vec film, recoil;
-    candidates &= vec_abs(y[NORMAL_VELOCITY]) <= STILL;
+    candidates &= turn ? vec_abs(y[NORMAL_VELOCITY]) <= STILL : pulled_inward(c, y, margin);
     if (!bits(candidates))
         return candidates;
-    vec slack = pendulum_slack(c, y, SAFETY*tolerance);
+    vec error = turn ? pendulum_error(c, y, margin) : margin*vec_larger(c->stokes, splat(1.0));
     pendulum_stops(c, y, &film, &recoil);
-    return candidates & (film + slack < 0.0) & (recoil + slack < 0.0);
+    return candidates & is_stopped(film, error) & is_stopped(recoil, error);
 }
 #endif
 
@@ -170,9 +160,6 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
 }
 #endif
 
-#if !defined(SPIN_DOWN)
-#define SPIN_DOWN 0
-#endif
 #if SPIN_DOWN
 /* Spin-down certificate: without angular momentum the rotation dies out, and the film alone holds the doublet
  * (derive/equations/certificates/spin_down.py). Beyond the edge of the shear, where nothing turns without orbital
@@ -196,18 +183,10 @@ static inline mask spun_down(const constants *c, const vec *y, mask candidates, 
 #elif SPACE
 #define CHATTER_TESTS ATTRACTS
 #else
-#define CHATTER_TESTS (TURNS && ATTRACTS && (ORBITAL_MARGINS || !STRINGS))
-#if OWN_EVENTS
-#undef CHATTER_TESTS
-#define CHATTER_TESTS 0
-#endif /* OWN_EVENTS */
+#define CHATTER_TESTS (TURNS && ATTRACTS && (ORBITAL_MARGINS || !STRINGS) && !OWN_EVENTS)
 #endif
 /* Whether doublets may float beyond the edge of the tangential force for good. */
-#define FLOATS (TURNS && ATTRACTS && !STRINGS && !FRICTION)
-#if OWN_EVENTS
-#undef FLOATS
-#define FLOATS 0
-#endif /* OWN_EVENTS */
+#define FLOATS (TURNS && ATTRACTS && !STRINGS && !FRICTION && !OWN_EVENTS)
 /* Whether the test of chatter is a proof. */
 #define CHATTER_PROVES (SPACE || (ORBITAL_MARGINS && !STRINGS))
 
@@ -270,7 +249,7 @@ static inline mask proved_sticks(
     proved |= NOT(resting) & stopped_by_film(c, y, contact, closing, tolerance);
 #endif
 #if PENDULUM
-    proved |= held_by_strings(c, y, tolerance);
+    proved |= held_by_strings(c, y, splat_mask(TRUTH), 0, tolerance);
 #endif
 #if OWN_EVENTS
 #if OWN_PROOFS
@@ -361,7 +340,7 @@ static inline mask held_sticks(const constants *c, const vec *y, mask candidates
     return spun_down(c, y, candidates, tolerance, 0.0);
 #endif
 #if PENDULUM
-    return held_at_turn(c, y, candidates, tolerance);
+    return held_by_strings(c, y, candidates, 1, tolerance);
 #endif
 #if ATTRACTION_MARGINS
     if (bits(candidates))

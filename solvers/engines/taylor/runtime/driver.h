@@ -87,20 +87,14 @@ static void end_sticks(queue *q, lanes *l, fixed *f)
     mask settles = l->alive & ((l->steps & (8*INTERVAL - 1)) == 8*INTERVAL - 1); /* costs some 20 steps */
     sticks |= in_a_well(&f->c, l->y, f->end, settles, q->rtol);
 #endif
-#if WITH_TRAJECTORY
-    sticks &= provable(q, l->closing);
-    rounded &= provable(q, l->closing);
-#endif
-    EACH_OF(lane, bits(l->alive & sticks))
+    mask tests = provable(q, l->closing);
+    EACH_OF(lane, bits(l->alive & sticks & tests))
         sticks_for_good(q, l, f, lane, 1);
-    EACH_OF(lane, bits(rounded))
+    EACH_OF(lane, bits(rounded & tests))
         finish(q, l, f, lane, WITHIN_ROUNDING, STICK, 0);
 #if CHATTER_TESTS
     mask stays = held_in_chatter(l, f, q->rtol);
-#if WITH_TRAJECTORY
-    stays &= provable(q, l->closing);
-#endif
-    EACH_OF(lane, bits(stays))
+    EACH_OF(lane, bits(stays & provable(q, l->closing)))
         sticks_for_good(q, l, f, lane, CHATTER_PROVES);
 #endif
 #if SPACE && PROOF_BY_ENERGY

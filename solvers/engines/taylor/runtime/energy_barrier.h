@@ -11,9 +11,6 @@
 #include "proofs.h"
 
 #define ATTRACTS (BRIDGE || ATTRACTION)
-#if !defined(BY_ORBITAL_MOMENTUM) /* the structure does not have the orbital-momentum certificate */
-#define BY_ORBITAL_MOMENTUM 0
-#endif
 #if !defined(ORBITAL_MARGINS)
 #define ORBITAL_MARGINS 0
 #endif

@@ -51,6 +51,21 @@ static inline vec sum_at(const vec *a, vec t)
     return sum;
 }
 
+/* The derivative of a series. */
+static inline vec rate_at(const vec *a, vec t)
+{
+    vec rate = ORDER*a[ORDER];
+    for (int k = ORDER - 1; k > 0; k--)
+        rate = rate*t + k*a[k];
+    return rate;
+}
+
+static inline void states_at(const vec (*a)[TERMS], vec t, vec *y)
+{
+    for (int state = 0; state < STATES; state++)
+        y[state] = sum_at(a[state], t);
+}
+
 /* The part of the step up to a turn, which then is the whole step to search. */
 static inline vec up_to_turn(first_event *first)
 {

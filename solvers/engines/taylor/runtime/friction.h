@@ -4,10 +4,6 @@
 #include "automaton.h"
 #include "model.h"
 
-#if !defined(FRICTION) /* the structure has none */
-#define FRICTION 0
-#endif
-
 /* Whether resting contact with friction is integrated (rest_in_friction.h); in space it is left to others. */
 #define RUBS (FRICTION && !GRADIENTS && !WITH_LEDGER && !SPACE)
 

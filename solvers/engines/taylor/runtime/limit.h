@@ -93,8 +93,7 @@ static int reached(queue *q, lanes *l, const fixed *f, vec (*a)[TERMS], vec h)
     if (!(since < LANE(h, lane)))
         return 0;
     vec y[STATES];
-    for (int state = 0; state < STATES; state++)
-        y[state] = sum_at(a[state], splat(since));
+    states_at((const vec (*)[TERMS])a, splat(since), y);
     leave(q, l, f, lane, y, q->contact->limit);
     LANE(l->alive, lane) = 0;
     return 1;

@@ -16,14 +16,6 @@
 static const double WORTH_SAYING = 1e-2;
 enum { PLACES = 8 };
 
-static inline vec polynomial_at(const vec *a, int order, vec t)
-{
-    vec sum = a[order];
-    for (int k = order - 1; k >= 0; k--)
-        sum = sum*t + a[k];
-    return sum;
-}
-
 /* The least relative clearance of the glass criterion within a step: the lowest of some samples, refined by Newton's
  * iteration to the minimum.
  */
@@ -32,9 +24,10 @@ OUTLINE vec least_pressure_margin(const fixed *f, const series *s, vec h)
     const vec (*a)[TERMS] = (const vec (*)[TERMS])s;
     const vec *clearance = s->glass.result;
     vec slope[TERMS], bend[TERMS], lowest = splat(INFINITY), place = splat(0.0);
+    slope[ORDER] = bend[ORDER] = splat(0.0);
     for (int k = 0; k < ORDER; k++)
         slope[k] = (k + 1.0)*clearance[k + 1];
-    for (int k = 0; k + 1 < ORDER; k++)
+    for (int k = 0; k < ORDER; k++)
         bend[k] = (k + 1.0)*slope[k + 1];
     for (int k = 0; k <= PLACES; k++) {
         vec t = h*((double)k/PLACES), here = sum_at(clearance, t);
@@ -43,7 +36,7 @@ OUTLINE vec least_pressure_margin(const fixed *f, const series *s, vec h)
         place = choose(lower, t, place);
     }
     for (int count = 0; count < 4; count++) {
-        vec step = polynomial_at(slope, ORDER - 1, place)/polynomial_at(bend, ORDER - 2, place);
+        vec step = sum_at(slope, place)/sum_at(bend, place);
         vec next = place - step;
         mask lower = (next > 0.0) & (next < h);
         next = choose(lower, next, place);
@@ -51,8 +44,7 @@ OUTLINE vec least_pressure_margin(const fixed *f, const series *s, vec h)
         place = choose(lower, next, place);
     }
     vec y[STATES];
-    for (int state = 0; state < STATES; state++)
-        y[state] = sum_at(a[state], place);
+    states_at(a, place, y);
     return pressure_margin(&f->c, y);
 }
 
@@ -92,17 +84,13 @@ static double slowest(const series *s, double h, int lane)
 {
     double low = 0.0, high = h, sign = LANE(s->normal_velocity[1], lane) < 0.0 ? -1.0 : 1.0;
     for (int count = 0; count < 40; count++) {
-        double t = 0.5*(low + high), rate = 0.0;
-        for (int k = ORDER; k > 0; k--)
-            rate = rate*t + k*LANE(s->normal_velocity[k], lane);
-        if (rate*sign > 0.0)
+        double t = 0.5*(low + high);
+        if (in_lane(rate_at(s->normal_velocity, splat(t)), lane)*sign > 0.0)
             low = t;
         else
             high = t;
     }
-    double t = 0.5*(low + high), speed = 0.0;
-    for (int k = ORDER; k >= 0; k--)
-        speed = speed*t + LANE(s->normal_velocity[k], lane);
+    double speed = in_lane(sum_at(s->normal_velocity, splat(0.5*(low + high))), lane);
     return speed*speed;
 }
 #endif
@@ -161,8 +149,7 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
     }
     if (bits(close)) {
         vec end[STATES];
-        for (int state = 0; state < STATES; state++)
-            end[state] = sum_at(a[state], h);
+        states_at(a, h, end);
         end[NORMAL_VELOCITY] = splat(0.0);
         close &= NOT(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, end));
     }
@@ -174,9 +161,7 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
 #if PROOF_BY_ENERGY
     mask dips = moves & (choose(l->closing, -s->normal_velocity[1], s->normal_velocity[1]) < 0.0) & (vec_abs(s->normal_velocity[0]) < 0.3);
     if (bits(dips)) {
-        vec rate = ORDER*s->normal_velocity[ORDER];
-        for (int k = ORDER - 1; k > 0; k--)
-            rate = rate*h + (double)k*s->normal_velocity[k];
+        vec rate = rate_at(s->normal_velocity, h);
         dips &= choose(l->closing, -rate, rate) > 0.0; /* the speed decreases first and increases last */
     }
     EACH_OF(lane, bits(dips)) {
@@ -190,8 +175,7 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
     if (!bits(falls))
         return;
     vec at[STATES];
-    for (int state = 0; state < STATES; state++)
-        at[state] = sum_at(a[state], h);
+    states_at(a, h, at);
     EACH_OF(lane, bits(falls))
         measure_event(along, l, f, s, at, LANE(h, lane), (int)LANE(event, lane), lane);
 }

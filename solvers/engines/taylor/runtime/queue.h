@@ -72,10 +72,7 @@ static unsigned proved_at_contact(queue *q, const fixed *f, const vec *y)
     if (proved & 1 && goes_on_stuck(q, 1))
         proved = 0;
 #endif
-#if WITH_TRAJECTORY
-    proved &= bits(provable(q, all));
-#endif
-    return proved;
+    return proved & bits(provable(q, all));
 }
 
 /* The next collisions that are not decided at initial contact; those that are never take a lane. */

@@ -20,13 +20,9 @@ static meeting met(const fixed *f, const vec (*a)[TERMS], vec h, mask falls, mas
 {
     meeting m;
     memset(&m, 0, sizeof m);
-    for (int state = 0; state < STATES; state++) {
-        vec rate = ORDER*a[state][ORDER];
-        for (int k = ORDER - 1; k > 0; k--)
-            rate = rate*h + k*a[state][k];
-        m.rate[state] = rate;
-        m.at[state] = sum_at(a[state], h);
-    }
+    for (int state = 0; state < STATES; state++)
+        m.rate[state] = rate_at(a[state], h);
+    states_at(a, h, m.at);
     for (int which = 0; which < MOVING_GAPS; which++)
         m.moving[which] = falls & (event == EVENT_AT[which]);
     m.gap = falls & is_on_gap(event);

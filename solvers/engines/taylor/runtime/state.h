@@ -124,14 +124,12 @@ typedef struct {
 #endif
 } queue;
 
-#if WITH_TRAJECTORY
 /* Lanes in which certificates are evaluated, given the purpose of the trajectory. */
-static mask provable(const queue *q, mask closing)
+static inline mask provable(const queue *q, mask closing)
 {
-    long purpose = q->t->purpose;
+    long purpose = WITH_TRAJECTORY ? q->t->purpose : WHOLE;
     return purpose == WHOLE ? splat_mask(TRUTH) : purpose == ESCAPE ? closing : splat_mask(0);
 }
-#endif
 
 /* A quantity of a collision: its own value, or the common one. */
 static inline double quantity(const queue *q, int k, long index)

@@ -227,10 +227,7 @@ static int rests_ended(queue *q, lanes *l, fixed *f)
     mask rests = l->alive & l->resting;
     if (!bits(rests))
         return 0;
-    mask proved = proved_underway(l, f, q->rtol);
-#if WITH_TRAJECTORY
-    proved &= provable(q, l->closing);
-#endif
+    mask proved = proved_underway(l, f, q->rtol) & provable(q, l->closing);
     EACH_OF(lane, bits(rests)) {
         int certain = LANE(proved, lane) != 0;
         finish(q, l, f, lane, certain ? DECIDED : RESTS_IN_FRICTION, STICK, certain);
@@ -253,9 +250,7 @@ static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
     if (q->contact && q->contact->stuck)
         return 0;
 #endif
-#if WITH_TRAJECTORY
     still &= provable(q, l->closing);
-#endif
     EACH_OF(lane, bits(still))
         sticks_for_good(q, l, f, lane, 0);
     return bits(still) != 0;
