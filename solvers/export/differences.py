@@ -140,7 +140,8 @@ def _folder(path: str) -> dict[str, str]:
     accepted = "a folder made by `wetdoublet generate --out DIR`"
     try:
         listed = json.loads(bounded.text(folder / "manifest.json"))["files"]
-        names = [n for n in listed if n.endswith(".py") and not n.endswith(("__init__.py", "assemble.py", "model.py"))]
+        others = ("__init__.py", "assemble.py", "automaton.py", "model.py")  # which hold no equations
+        names = [name for name in listed if name.endswith(".py") and not name.endswith(others)]
         texts = {name.removesuffix(".py"): bounded.text(folder / name) for name in names}
         return {name: with_imports(each, texts.__getitem__) for name, each in texts.items()}
     except (AttributeError, OSError, ValueError, KeyError, TypeError, SyntaxError, bounded.NotRead):

@@ -117,11 +117,10 @@ def test_an_endless_step_misses_no_rupture() -> None:
     np.testing.assert_allclose(found.restitution, expected.restitution, atol=1e-8)
 
 
-def test_a_pair_at_rest_is_a_proved_stick() -> None:
-    """What attracts two unequal spheres at rest outweighs all that their slip could still add to the rotation."""
+def test_a_weakly_attracted_pair_is_a_proved_stick() -> None:
+    """What attracts two unequal spheres outweighs, up to the end of the film, all the energy that they have left."""
     found = collide(Scene.from_dict(HELD), stokes=8.1e-3, angle=1.466e-4, engine="rosenbrock")
     assert (found.outcome, found.certified) == ("stick", True)
-    assert found.events[-1].kind == "rests"
 
 
 def test_chatter_of_a_pair_ends() -> None:

@@ -125,7 +125,7 @@ def test_a_damaged_netcdf_is_refused(law: Table, tmp_path: Path) -> None:
         file.write_bytes(wrong)
         with pytest.raises(InputError, match=problem) as caught:
             Table.load(file)
-        assert str(file) in str(caught.value)
+        assert str(file)[:60] in str(caught.value)  # a long value is shortened
     file.write_bytes(content)
     assert law(*impacts(5)).identical(Table.load(file)(*impacts(5)))
 

@@ -9,7 +9,7 @@
 
 #define TURNS (OBLIQUE && !WALL)
 #define PROOF_BY_ENERGY (TURNS ? ATTRACTS && !STRINGS : ATTRACTS || STRINGS)
-#if TURNS || STRINGS || BRIDGE || (ATTRACTION && CAPILLARY_STATE) || (OWN_EVENTS && (!OWN_PROOFS || ATTRACTION))
+#if TURNS || STRINGS || BRIDGE || (ATTRACTION && CAPILLARY_STATE)
 #define PROOF_BY_FILM 0
 #else
 #define PROOF_BY_FILM FILM_MOMENTUM
@@ -18,6 +18,10 @@
 #if OWN_EVENTS
 #undef PROOF_BY_ENERGY
 #define PROOF_BY_ENERGY 0 /* its barriers are those of the start; held_beside_events instead */
+#if !OWN_PROOFS || ATTRACTION
+#undef PROOF_BY_FILM
+#define PROOF_BY_FILM 0
+#endif
 #endif /* OWN_EVENTS */
 #if PROOF_BY_FILM
 #if ATTRACTION
@@ -183,10 +187,16 @@ static inline mask spun_down(const constants *c, const vec *y, mask candidates, 
 #elif SPACE
 #define CHATTER_TESTS ATTRACTS
 #else
-#define CHATTER_TESTS (TURNS && ATTRACTS && (ORBITAL_MARGINS || !STRINGS) && !OWN_EVENTS)
+#define CHATTER_TESTS (TURNS && ATTRACTS && (ORBITAL_MARGINS || !STRINGS))
 #endif
 /* Whether doublets may float beyond the edge of the tangential force for good. */
-#define FLOATS (TURNS && ATTRACTS && !STRINGS && !FRICTION && !OWN_EVENTS)
+#define FLOATS (TURNS && ATTRACTS && !STRINGS && !FRICTION)
+#if OWN_EVENTS
+#undef CHATTER_TESTS
+#define CHATTER_TESTS 0
+#undef FLOATS
+#define FLOATS 0
+#endif /* OWN_EVENTS */
 /* Whether the test of chatter is a proof. */
 #define CHATTER_PROVES (SPACE || (ORBITAL_MARGINS && !STRINGS))
 
@@ -317,10 +327,13 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
 /* Lanes that separate only by an angular momentum that rounding changes too much for their figures. */
 static inline mask rounded_separations(const constants *c, const vec *y, mask candidates, double tolerance)
 {
-#if SPIN_DOWN && !OWN_EVENTS
+    (void)c; (void)y; (void)candidates; (void)tolerance;
+#if OWN_EVENTS
+    return splat_mask(0);
+#endif /* OWN_EVENTS */
+#if SPIN_DOWN
     return spun_down(c, y, candidates & (c->first_momentum > 0.0), tolerance, LEAST_MOMENTUM);
 #else
-    (void)c; (void)y; (void)candidates; (void)tolerance;
     return splat_mask(0);
 #endif
 }

@@ -220,7 +220,9 @@ static mask take_step(expansion *e, lanes *l, vec h, mask creeps, vec gap)
     l->steps += 1; /* before a lane may take another collision, which must not depend on this one */
     l->crept = only_whole(creeps, l->crept + 1);
     l->stride = h;
-    return l->alive & NOT((vec_abs(l->y[GAP]) < INFINITY) & (vec_abs(l->y[NORMAL_VELOCITY]) < INFINITY));
+    mask finite = vec_abs(l->y[GAP]) < INFINITY;
+    finite &= vec_abs(l->y[NORMAL_VELOCITY]) < INFINITY;
+    return l->alive & NOT(finite);
 }
 
 /* Hands over what is lost or has no budget left, and parks what creeps for long for implicit.h. */

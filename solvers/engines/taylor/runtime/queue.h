@@ -56,7 +56,7 @@ static unsigned constants_of(const queue *q, long first, int many, fixed *f, vec
 }
 
 /* The lanes whose collisions are proved to stick at initial contact. */
-static unsigned proved_at_contact(queue *q, const fixed *f, const vec *y)
+static unsigned proved_at_start(queue *q, const fixed *f, const vec *y)
 {
     mask all = splat_mask(TRUTH), none = splat_mask(0);
     unsigned proved = bits(proved_sticks(&f->c, y, &f->b, f->contact, all, none, q->rtol)) |
@@ -85,7 +85,7 @@ static void fill_queue(queue *q)
         long first = q->next;
         int many = q->count - first < LANES ? (int)(q->count - first) : LANES;
         q->next += many;
-        unsigned beyond = constants_of(q, first, many, &f, y), proved = proved_at_contact(q, &f, y);
+        unsigned beyond = constants_of(q, first, many, &f, y), proved = proved_at_start(q, &f, y);
 #if LEAPS
         unsigned leaps = q->t->jumps > 1 ? bits(may_leap(&f.c, f.edge, q->rtol)) : 0;
 #endif
