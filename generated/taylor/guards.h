@@ -137,20 +137,22 @@ static mask guards_kept(const lanes *l, const fixed *f, const vec *from, const v
     const vec zero = splat(0.0), one = splat(1.0), away = choose(l->closing, one, -one);
     const mask moves = NOT(l->resting), rests = l->resting;
     (void)zero; (void)moves; (void)rests; (void)inside; (void)beyond;
-    mask event;
+    mask event, far;
     vec gap = next_gap(l, f, &event);
     mask kept = rests | (2.0*away*(to[GAP] - gap) > away*(from[GAP] - gap));
-    kept &= NOT(moves & l->closing) | (2.0*(glass_clearance(&f->c, to)) > vec_max(glass_clearance(&f->c,
-        from), zero));
+    far = 2.0*(glass_clearance(&f->c, to)) > vec_max(glass_clearance(&f->c, from), zero);
+    kept &= NOT(moves & l->closing) | far;
 #if OBLIQUE && !WALL
-    kept &= NOT(rests & (STRINGS ? splat_mask(TRUTH) : l->shear != 0.0)) | (2.0*(inward_force(&f->c, to)) >
-        vec_max(inward_force(&f->c, from), zero));
+    far = 2.0*(inward_force(&f->c, to)) > vec_max(inward_force(&f->c, from), zero);
+    kept &= NOT(rests & (STRINGS ? splat_mask(TRUTH) : l->shear != 0.0)) | far;
 #endif
 #if OBLIQUE && STRINGS
-    kept &= (2.0*(splat(PI) - to[ROTATION]) > vec_max(splat(PI) - from[ROTATION], zero));
+    far = 2.0*(splat(PI) - to[ROTATION]) > vec_max(splat(PI) - from[ROTATION], zero);
+    kept &= far;
 #endif
 #if OBLIQUE && STRINGS
-    kept &= (2.0*(to[ORBITAL_MOMENTUM]) > vec_max(from[ORBITAL_MOMENTUM], zero));
+    far = 2.0*(to[ORBITAL_MOMENTUM]) > vec_max(from[ORBITAL_MOMENTUM], zero);
+    kept &= far;
 #endif
     return kept;
 }

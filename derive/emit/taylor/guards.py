@@ -162,7 +162,7 @@ def _guard(event: Event, value: str) -> str:
 
 
 def _kept() -> list[str]:
-    body = [*_film(), _AWAY, "const mask moves = NOT(l->resting), rests = l->resting;", _UNUSED, "mask event;",
+    body = [*_film(), _AWAY, "const mask moves = NOT(l->resting), rests = l->resting;", _UNUSED, "mask event, far;",
             "vec gap = next_gap(l, f, &event);",
             "mask kept = rests | (2.0*away*(to[GAP] - gap) > away*(from[GAP] - gap));"]  # fmt: skip
     for event in EVENTS:
@@ -170,8 +170,8 @@ def _kept() -> list[str]:
         if not event.at_gap and name not in _AT_REST and name != "normal_velocity":
             value = _SERIES.get(name, ("", f"{name}_at(&f->c, {{y}})"))[1]
             before, after = (_guard(event, value.format(y=y)) for y in ("from", "to"))
-            lanes = f"NOT({' & '.join(watched)}) | " if watched else ""
-            body += _present(event, [f"kept &= {lanes}(2.0*({after}) > vec_max({before}, zero));"])
+            lanes = f"NOT({' & '.join(watched)}) | far" if watched else "far"
+            body += _present(event, [f"far = 2.0*({after}) > vec_max({before}, zero);", f"kept &= {lanes};"])
     return documented(
         "Lanes in which no event lies between two states, as far as shows: each guard keeps half its value. Turns and "
         "resting contact with friction are left to the caller.",

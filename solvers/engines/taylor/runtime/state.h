@@ -127,7 +127,7 @@ typedef struct {
 /* Lanes in which certificates are evaluated, given the purpose of the trajectory. */
 static inline mask provable(const queue *q, mask closing)
 {
-    long purpose = WITH_TRAJECTORY ? q->t->purpose : WHOLE;
+    long purpose = WITH_TRAJECTORY ? q->t->purpose : (long)WHOLE;
     return purpose == WHOLE ? splat_mask(TRUTH) : purpose == ESCAPE ? closing : splat_mask(0);
 }
 
