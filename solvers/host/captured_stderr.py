@@ -41,7 +41,7 @@ class _Sieve:
 @contextlib.contextmanager
 def listening() -> Iterator[io.StringIO]:
     """Capture the text that this thread prints on `sys.stderr`."""
-    global _listeners  # one lock for the process, because sys.stderr is shared
+    global _listeners  # counted for the process, because sys.stderr is shared
     before, heard = _HEARD.text, io.StringIO()
     with _COUNTING:
         _listeners += 1

@@ -62,7 +62,7 @@ class Compiler(NamedTuple):
 
 @once
 def compiler() -> Compiler | None:
-    """The machine's C compiler, preferably $CC; None, with one remark, if there is none.
+    """The machine's first C compiler that passes a trial, preferably $CC; None, with a remark, if there is none.
 
     Raises:
         InputError: WETDOUBLET_COMPILE_SECONDS is not a valid time.
@@ -86,7 +86,7 @@ def compiler() -> Compiler | None:
             wrong = found
             failed += [f"{named}: {wrong}"] if named != wanted else []
         if named == wanted:
-            say(f"CC={named} is no compiler here ({wrong}): another is looked for")
+            say(f"CC={named} does not work here ({wrong}): others are tried")
     say(
         f"no C compiler ({'; '.join(failed) or ', '.join(_COMPILERS)}): there is no Taylor kernel, "
         "other engines answer; their integrators run interpreted, about five times slower"

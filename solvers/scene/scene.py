@@ -209,14 +209,16 @@ class Scene:
         return (*said, *self._flowing())
 
     def _flowing(self) -> tuple[str, ...]:
-        """How much of the coatings is assumed to flow into the bridge."""
+        """The line on the part of the coatings that is assumed to flow into the bridge; none if its volume is given."""
         if self.bridge is None or self.ways.volume != "coating":
             return ()
         given, ratio = self.entries.get("bridge.coating_fraction"), self.radius_ratio
         if given is not None:
             told = f"{given:.3g} of each coating"
-        elif ratio is None or ratio == 1:
-            told = f"{coating_fraction(ratio):.3g} of {'each' if ratio else 'the'} coating, {SHADOW}"
+        elif ratio is None:
+            told = f"0.5 of the sphere's coating and the wall's layer beneath the sphere, {SHADOW}"
+        elif ratio == 1:
+            told = f"{coating_fraction(ratio):.3g} of each coating, {SHADOW}"
         else:
             parts = f"{coating_fraction(ratio):.3g} and {coating_fraction(1 / ratio):.3g}"
             told = f"{parts} of the coatings, {SHADOW}"

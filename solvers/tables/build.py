@@ -174,7 +174,10 @@ class Builder:
         )
 
     def _map(self, strip: Strip, k: int, tolerance: float) -> int:
-        """The map of a cell with which the fewest coefficients are needed along a few lines."""
+        """The coordinate across cell k with which series along a few lines need the fewest coefficients.
+
+        A code holds the maps of both ends, lower + 3 upper; those with the fewest logarithms are tried first.
+        """
         middle = len(strip.layouts) // 2
         best: tuple[float, int] = (np.inf, LINEAR)
         for code in sorted(MAPS, key=lambda one: (one % 3 == LOG) + (one // 3 == LOG)):
@@ -197,7 +200,7 @@ class Builder:
         return best[1]
 
     def data(self, low: np.ndarray, high: np.ndarray, logarithmic: bool, kind: type) -> Data:
-        """The table."""
+        """The arrays of the table, which readers evaluate."""
         outcome, criterion, cell_map, root = (
             np.array([one[k] for one in self.cells], dtype=kind_)
             for k, kind_ in enumerate((np.int8, np.int8, np.int8, np.int32))

@@ -97,7 +97,7 @@ def test_what_is_no_compiler(
         anew.setenv("WETDOUBLET_COMPILE_SECONDS", "0.2")
     assert compiler() is None  # no other is on the path
     said = capfd.readouterr().err.splitlines()
-    assert said[0] == f"CC={path} is no compiler here ({wrong}): another is looked for"
+    assert said[0] == f"CC={path} does not work here ({wrong}): others are tried"
     assert (len(said), said[1].partition(":")[0]) == (2, "no C compiler (cc, gcc, clang)")
 
 

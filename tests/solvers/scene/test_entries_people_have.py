@@ -199,6 +199,10 @@ def test_a_coating_says_what_is_assumed():
     """How much of the coating flows into the bridge is shown with the result, and where that is from."""
     said = str(collide(scene(PEOPLE, {"bridge.volume": "from coating"})))
     assert "(assumed: 0.067 of each coating, Shi & McCarthy 2008)" in said
+    wall = scene(PEOPLE, {**WALL, "bridge.volume": "from coating"}).assumed
+    assert any(
+        "(assumed: 0.5 of the sphere's coating and the wall's layer beneath the sphere, " in line for line in wall
+    )
 
 
 def test_a_volume_varies_in_either_way():

@@ -1,7 +1,10 @@
-/* Distance of a trajectory from boundaries between outcomes, where derivatives jump or diverge: the measures of
+/* How near a trajectory comes to a boundary between outcomes, where derivatives jump or diverge: the measures of
  * solvers/sensitivity/boundary_distance.py, on the series of each step.
  *
- * They are evaluated accurately only where a bound permits a value below WORTH_SAYING.
+ * `along_near` keeps the smallest measure of the trajectory with the boundary that it belongs to. Some measures are
+ * relative distances; those of boundaries before TIE in the enumeration are not (a passage is a squared speed), and say
+ * only that the distance has to be computed (`hint`). A near miss of the glass criterion is not measured where a bound
+ * shows that it exceeds WORTH_SAYING.
  */
 #pragma once
 
@@ -95,6 +98,7 @@ static double slowest(const series *s, double h, int lane)
 }
 #endif
 
+/* Measures of an event in a lane, at a time `h` after the beginning of the step (0: met at the start of a phase). */
 static void measure_event(carried *a, const lanes *l, const fixed *f, const series *s, const vec *at, double h,
     int event, int lane)
 {
@@ -135,13 +139,14 @@ static void measure_event(carried *a, const lanes *l, const fixed *f, const seri
 #endif
 }
 
-static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls, mask event)
+/* Measures of a step, and of the event that ends it in the lanes of `ends`. */
+static void measure(lanes *l, const fixed *f, const series *s, vec h, mask ends, mask event)
 {
     const vec (*a)[TERMS] = (const vec (*)[TERMS])s;
     carried *along = &l->along;
     mask moves = l->alive & NOT(l->resting);
-    mask close = moves & l->closing & NOT(falls & (event == AT_GLASS));
-    if (bits(close)) { /* the clearance without motion falls with the gap: test at the start first */
+    mask close = moves & l->closing & NOT(ends & (event == AT_GLASS));
+    if (bits(close)) { /* the clearance without motion decreases as the gap closes: its least is at an end of the step */
         vec start[STATES];
         memcpy(start, l->y, sizeof start);
         start[NORMAL_VELOCITY] = splat(0.0);
@@ -171,12 +176,12 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask falls
             along_near(along, lane, slowest(s, LANE(h, lane), lane), PASSAGE);
     }
 #endif
-    falls &= (event == AT_GLASS) | (event == AT_CONTACT) | (event == AT_TURNING) | (event == AT_RUPTURE);
-    if (!bits(falls))
+    ends &= (event == AT_GLASS) | (event == AT_CONTACT) | (event == AT_TURNING) | (event == AT_RUPTURE);
+    if (!bits(ends))
         return;
     vec at[STATES];
     states_at(a, h, at);
-    EACH_OF(lane, bits(falls))
+    EACH_OF(lane, bits(ends))
         measure_event(along, l, f, s, at, LANE(h, lane), (int)LANE(event, lane), lane);
 }
 #endif

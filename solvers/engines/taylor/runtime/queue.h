@@ -183,7 +183,8 @@ static void park(queue *q, lanes *l, fixed *f, int lane)
 }
 
 #if JUMPS
-/* Parks lanes that have just turned, where they may jump. */
+/* Moves trajectories that have just turned from approach to separation to those that wait for the jump along the slow
+ * manifold (jump.h), where they may take it. */
 static void park_turned(queue *q, lanes *l, fixed *f, mask turned)
 {
     unsigned left = q->t->jumps ? bits(turned) : 0;
