@@ -27,7 +27,7 @@ def _value(model: Model, function: str, name: str) -> sp.Expr:
 
 @check("resting contact", "rates at rest = rates in motion with u = 0 and du/dt = 0")
 def resting_is_held() -> Evidence:
-    """In resting contact the rotation has the rates of motion at u = 0, and the gap is held, in the paper's structures."""
+    """In resting contact of the paper's structures the rotation has the rates of motion at u = 0; the gap is held."""
     for structure in structures():
         if not structure.oblique:
             continue
