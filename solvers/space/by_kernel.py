@@ -177,7 +177,7 @@ def _rebounding(answer: np.void, thickness: float, speed: float) -> str:
         phase="opening" if velocity > 0 else "closing",
         time=float(answer["time"]) * thickness / speed,
         state={"gap": gap, "normal velocity": velocity},
-        advice=f"{CHATTERS}: try a larger --rtol, or another impact",
+        advice=f"{CHATTERS}: try another impact",
     )
     return str(error)
 

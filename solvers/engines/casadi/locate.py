@@ -205,15 +205,16 @@ class EventLocator:
             if self.path.decided is not None:
                 message = f"{self.steps} steps have not led from the proof to the time that was asked for"
                 raise self._error(message, "try an earlier --until")
-            why, engine = CREEPS, ""
+            why, remedy = CREEPS, "a larger --rtol, or "
             if self.phase.resting:
                 why = RESTS
-                engine = "" if self.model.space and self.model.friction else "engine taylor, "  # it has no such rest
+                if not (self.model.space and self.model.friction):  # the kernel has no such rest in space
+                    remedy = f"engine taylor, {remedy}"
             elif phases > min(CHATTER_PHASES, self.steps // (4 * CALL)):
-                why = CHATTERS
+                why, remedy = CHATTERS, ""  # which no tolerance shortens
             raise self._error(
                 f"{self.steps} steps in {phases + 1} phases have not decided the outcome",
-                f"{why}: try {engine}a larger --rtol, or another impact",
+                f"{why}: try {remedy}another impact",
             )
 
     def _run_or_act(self) -> bool:
