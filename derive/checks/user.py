@@ -14,8 +14,8 @@ import sympy as sp
 from ..physics.laws import LAWS
 from ..physics.laws.base import Law, LawFunction
 from ..physics.scaling import ScalingError
-from ..user_model.modelfile import read
-from ..user_model.structures import UserModel
+from ..user.modelfile import read
+from ..user.structures import UserModel
 from ..vocabulary.dimensions import DimensionError
 from ..vocabulary.quantities import contact_angle, volume
 from .base import Check

@@ -10,7 +10,7 @@ from random import Random
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..user_model.own_events import MARK
+from ..user.own_events import MARK
 from .document.latex import NAMES
 from .read import Read, functions
 

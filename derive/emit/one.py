@@ -12,8 +12,8 @@ from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.laws.base import Law
 from ..physics.structure import Structure, known
-from ..user_model.modelfile import read
-from ..user_model.structures import UserModel
+from ..user.modelfile import read
+from ..user.structures import UserModel
 from ..vocabulary.quantities import normal_velocity
 from .casadi import modules
 from .casadi.automaton import provenance

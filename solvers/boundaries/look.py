@@ -10,13 +10,13 @@ import numpy as np
 from ...generated.automaton import KINDS, OUTCOMES, Purpose
 from ..engines.casadi.locate import CHATTERS, EventLocator
 from ..engines.choice import collision_engine
+from ..engines.settings import KERNEL_STEPS
 from ..errors import ComputationError, InputError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
 from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, si_values
 from ..scene.scene import Scene
-from ..settings import KERNEL_STEPS
 from .by_kernel import LOOK_BUDGET, looked
 from .samples import SAMPLE
 

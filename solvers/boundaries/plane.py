@@ -10,6 +10,7 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, Purpose
 from ..engines.choice import collision_engine
+from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import run_kernel
 from ..engines.taylor.record import run_recorded
 from ..errors import InputError
@@ -18,7 +19,6 @@ from ..many.batch import Batch, checked_numbers, checked_vary
 from ..many.by_casadi import run
 from ..many.by_kernel import impacts_of
 from ..scene.scene import Scene
-from ..settings import KERNEL_STEPS
 from .window import STOKES, stokes_range
 
 ANGLE = "impact.angle"

@@ -14,10 +14,10 @@ from matplotlib.lines import Line2D
 
 from ...generated.automaton import OUTCOMES
 from ..collision.text import against, degrees, name_of, prefix
+from ..engines.settings import RTOL
 from ..errors import InputError
 from ..formatting import ticks
 from ..formatting.style import EDGES, FILLS, HATCHES, INK, patch, picture, plain_text
-from ..settings import RTOL
 from .atlas_curves import curves_of
 from .plane import ANGLE, check_plane
 from .plot_labels import place_names

@@ -13,12 +13,12 @@ import numpy as np
 from ...generated import scaling
 from ...generated.automaton import OUTCOMES
 from ..collision.text import name_of
+from ..engines.settings import RTOL
 from ..formatting.notebook import view
 from ..scene.origin import origin
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, MEETING
-from ..settings import RTOL
 from .arcs import CHORD, Arc
 from .changes import MERGED, Change
 from .plane import ANGLE

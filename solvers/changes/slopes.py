@@ -18,7 +18,7 @@ from functools import partial
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER
-from ..settings import KERNEL_STEPS
+from ..engines.settings import KERNEL_STEPS
 from .brackets import Brackets, Labels, bisect
 from .experiment import Experiment
 from .lines import Lines

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from ..settings import UNTIL
+from ..engines.settings import UNTIL
 from . import options
 from .signature import as_command, passed
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from ..scene.scene import Scene
-from ..settings import CASADI_ENGINES, ENGINES
+from .settings import CASADI_ENGINES, ENGINES
 from .taylor.build import supported
 from .taylor.tangent import differentiates
 

@@ -12,7 +12,7 @@ from ..scene.scene import Scene
 from ..scene.user_model import Package
 
 if TYPE_CHECKING:
-    from ...derive.user_model.structures import UserModel
+    from ...derive.user.structures import UserModel
 
 
 def texts(scene: Scene) -> dict[str, str]:
@@ -41,7 +41,7 @@ def user_model(package: Package | None) -> UserModel | None:
     """A user's model as an object of the derivation, read from the model file in its folder."""
     if package is None:
         return None
-    from ...derive.user_model.modelfile import read
+    from ...derive.user.modelfile import read
 
     return read(Path(f"{package.name}.py"), package.source, package.name)
 

@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..engines.choice import collision_engine
+from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..model.validity import NEEDS
@@ -21,7 +22,6 @@ from ..scene.scene import Scene
 from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
-from ..settings import check_engine, check_rtol
 from .results import MAPPED, VALIDITY
 
 T = TypeVar("T")

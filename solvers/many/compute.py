@@ -10,11 +10,11 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..engines.settings import FEW
 from ..errors import InputError
 from ..host.compiler import compiler
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
-from ..settings import FEW
 from .batch import Batch
 from .by_casadi import run
 from .by_kernel import collide_by_kernel

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..engines.settings import RTOL, check_engine, check_rtol
 from ..errors import InputError
 from ..formatting.labelled import Column
 from ..host import files
@@ -21,7 +22,6 @@ from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from ..scene.user_model import Package
-from ..settings import RTOL, check_engine, check_rtol
 from .batch import Batch, check_outputs, checked_columns
 from .columns import with_impacts
 from .compute import Slow

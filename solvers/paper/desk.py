@@ -12,9 +12,9 @@ import numpy as np
 from ..boundaries.boundary import atlas, boundary
 from ..boundaries.line import ready
 from ..boundaries.look import Look
+from ..engines.settings import RTOL
 from ..errors import ComputationError
 from ..scene.scene import Scene
-from ..settings import RTOL
 from .parts import number
 from .printed import CURVES
 

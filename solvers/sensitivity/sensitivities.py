@@ -10,12 +10,12 @@ import numpy as np
 
 from ..engines.casadi.locate import EventSequence
 from ..engines.choice import casadi_gradient_engine, gradient_engine
+from ..engines.settings import check_engine, check_rtol
 from ..errors import ComputationError, InputError, did_you_mean
 from ..host.arguments import check_mapping
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import ANY, Field
-from ..settings import check_engine, check_rtol
 from . import by_kernel as kernel
 from .parameters import SIDEWAYS, check_wrt
 from .problem import Along, Problem, Slopes

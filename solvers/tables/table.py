@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..engines.choice import collision_engine
+from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function, check_mapping, check_names, check_whole
 from ..many.batch import checked_numbers, checked_vary
 from ..model.validity import warn
 from ..scene.scene import Scene
-from ..settings import RTOL, check_rtol
 from .attack import Attack
 from .attack import attack as attacked
 from .build import Builder

@@ -11,8 +11,8 @@ import numpy as np
 
 from ...generated.automaton import LOOSEST
 from ..collision.collide import collide
+from ..engines.settings import ENGINES
 from ..errors import WetDoubletError
-from ..settings import ENGINES
 from .report import Finding, note
 from .sample import REFERENCE, WHOLE, Collide, Sample, place
 

@@ -24,12 +24,12 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import Scene
+from wetdoublet.solvers.engines.settings import STEPS
 from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, run_kernel
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
 from wetdoublet.solvers.export.law.kernels import PLANE, kernels
 from wetdoublet.solvers.host.environment import environment
-from wetdoublet.solvers.settings import STEPS
 
 from ..helpers.exported_law import Law, written
 from .measured.digits import of_rows

@@ -9,9 +9,9 @@ from itertools import groupby
 
 from ...physics.laws import LAWS, Law
 from ...physics.mechanics import F_c, S_n, S_t
-from ...user_model.declarations import latex_names, unfolded
-from ...user_model.own_events import OwnEvent
-from ...user_model.structures import UserModel
+from ...user.declarations import latex_names, unfolded
+from ...user.own_events import OwnEvent
+from ...user.structures import UserModel
 from ...vocabulary.quantities import p_gt
 from .automaton import watched
 from .latex import latex, naming

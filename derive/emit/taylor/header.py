@@ -27,7 +27,7 @@ from .resting import FLAGS as RUBBING
 from .resting import QUADRATURES, Resting
 
 if TYPE_CHECKING:
-    from ...user_model.own_events import OwnEvent
+    from ...user.own_events import OwnEvent
 
 _FLAGS = (FILM, SHEAR)
 

@@ -16,7 +16,7 @@ from .program import Program
 
 if TYPE_CHECKING:
     from ...equations.model import Model
-    from ...user_model.own_events import OwnEvent
+    from ...user.own_events import OwnEvent
 
 _FIELDS = "event, kind, motion, film, mark, by_gap, opening, closing, known, harmless"
 _SHOWN = 5  # states beside the gap that an answer of the kernel has room for

@@ -49,7 +49,7 @@ from ...model.phases import Flow, Phase, WatchedEvents
 from ...model.rebound import rebounded
 from ...scene.contact import contact_gap, contact_word
 from ...scene.user_model import OwnEvent
-from ...settings import CALL, casadi_steps
+from ..settings import CALL, casadi_steps
 from .integrators import EventHit, IntegrationFailed, Locator, locator, plain, tolerance_for
 
 # why a collision stays undecided, in messages

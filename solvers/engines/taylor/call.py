@@ -18,7 +18,7 @@ from ...model.model import ModelKey, select_model
 from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values, sideways
 from ...scene.scene import Scene
-from ...settings import KERNEL_STEPS
+from ..settings import KERNEL_STEPS
 from .build import Variant, kernel
 from .layout import ANSWER, Task, names
 from .orders import order_for

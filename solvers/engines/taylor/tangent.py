@@ -14,7 +14,7 @@ from ...model.model import select_model
 from ...scene.contact import ENTRIES, TIE
 from ...scene.groups import si_values
 from ...scene.scene import Scene
-from ...settings import KERNEL_STEPS
+from ..settings import KERNEL_STEPS
 from .build import Variant, kernel
 from .call import Impacts, task
 from .headers import headers, tangents

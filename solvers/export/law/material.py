@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ....generated.automaton import Status
+from ...engines.settings import TOLERANCE
 from ...errors import CheckFailed
 from ...scene import user_model
 from ...scene.contact import NEVER_MET
@@ -15,7 +16,6 @@ from ...scene.groups import si_values
 from ...scene.quantities import NO_GLASS
 from ...scene.scene import Scene
 from ...scene.schema import FIELDS, Range
-from ...settings import TOLERANCE
 from .kernels import SPACE, Kernel
 
 LARGEST = 1e30

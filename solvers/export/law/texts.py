@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable
 from importlib.metadata import version
 
+from ...engines.settings import RTOL
 from ...scene.scene import Scene
-from ...settings import RTOL
 from ...space.pairs import Bodies
 from ..equations import file_name
 from . import space

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.engines.settings import RTOL
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.settings import RTOL
 
 from .answers import Impact
 from .reference import Reference

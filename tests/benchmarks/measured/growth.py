@@ -8,8 +8,8 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+from wetdoublet.solvers.engines.settings import ENGINES
 from wetdoublet.solvers.host.cores import usable_cores
-from wetdoublet.solvers.settings import ENGINES
 
 from .peers.engines import in_bulk
 

@@ -19,11 +19,7 @@ from wetdoublet.solvers import (
 )
 from wetdoublet.solvers.boundaries.by_kernel import looked
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
-from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
-from wetdoublet.solvers.export.law.kernels import SPACE, kernels
-from wetdoublet.solvers.model.dimensionless import nondimensionalise
-from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.settings import (
+from wetdoublet.solvers.engines.settings import (
     CASADI_STEPS,
     CASADI_STEPS_IN_SPACE,
     KERNEL_STEPS,
@@ -33,6 +29,10 @@ from wetdoublet.solvers.settings import (
     STEPS_IN_SPACE,
     casadi_steps,
 )
+from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.export.law.kernels import SPACE, kernels
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 
 from ...helpers.reference import collide
 

@@ -11,12 +11,12 @@ from types import ModuleType, SimpleNamespace
 import pytest
 from wetdoublet.solvers.commands.cli import COMMANDS, cli
 from wetdoublet.solvers.commands.texts import entry_range
+from wetdoublet.solvers.engines.settings import check_engine, check_rtol
 from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
 from wetdoublet.solvers.scene.ranges import parse_range
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.scene.scenefile import PRESETS
 from wetdoublet.solvers.scene.schema import FIELDS
-from wetdoublet.solvers.settings import check_engine, check_rtol
 
 from ...helpers.command import run
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.derive.physics.laws import LAWS
-from wetdoublet.derive.user_model.template import TEMPLATE
+from wetdoublet.derive.user.template import TEMPLATE
 from wetdoublet.generated.references import CITED, REFERENCES
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.export.citations import as_bibtex, citations

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from wetdoublet.generated.automaton import LAST_ANSWER, Status
 from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.engines.settings import STEPS
 from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
@@ -21,7 +22,6 @@ from wetdoublet.solvers.export.law.items import items
 from wetdoublet.solvers.export.law.kernels import kernels
 from wetdoublet.solvers.export.law.material import results
 from wetdoublet.solvers.export.law.texts import law_name
-from wetdoublet.solvers.settings import STEPS
 
 from ...helpers.exported_law import COMPILERS, FOUND, Law, written
 

@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from wetdoublet.generated.automaton import LOOSEST, OUTCOMES
 from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.engines.settings import ENGINES
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.settings import ENGINES
 from wetdoublet.solvers.verify.stress.scipy_engine import ScipyLocator
 
 from ..answers import Answer, Impact, answer, dimensionless

@@ -8,9 +8,9 @@ import pytest
 import sympy as sp
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.physics.structure import Structure
-from wetdoublet.derive.user_model.declarations import ModelFileError
-from wetdoublet.derive.user_model.modelfile import read
-from wetdoublet.derive.user_model.structures import UserModel
+from wetdoublet.derive.user.declarations import ModelFileError
+from wetdoublet.derive.user.modelfile import read
+from wetdoublet.derive.user.structures import UserModel
 
 OBLIQUE = Structure(True, True, False)
 HEAD = 'from wetdoublet.derive.user import *\nk = quantity("k", unit="1/s")\nd = quantity("d", unit="m")\n'
