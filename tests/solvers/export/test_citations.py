@@ -17,7 +17,6 @@ from wetdoublet.solvers.export.citations import as_bibtex, citations
 from ...helpers.command import run
 
 ROOT = Path(__file__).resolve().parents[3]
-SPHERE = {"partner.radius": "150 um", "partner.density": "2500 kg/m^3"}
 
 
 def keys(scene: Scene) -> list[str]:
