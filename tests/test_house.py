@@ -4,8 +4,6 @@
 that it stands on directly.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 import sys

@@ -1,7 +1,5 @@
 """Recipes of the architecture page, "Where things go", followed in a copy of the tree: the edits are all it takes."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

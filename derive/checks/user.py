@@ -1,7 +1,5 @@
 """Checks of a user's model by name: dimensions, invariants, dissipation, limits."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Iterator, Mapping

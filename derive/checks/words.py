@@ -1,7 +1,5 @@
 """Conserved quantities and governing groups of a user's model, in words."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 

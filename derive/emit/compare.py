@@ -1,7 +1,5 @@
 """Comparison of two models as mathematics: the equations that differ, by term."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Text of a single emitted module by name, for modules derived on first use."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path

@@ -3,8 +3,6 @@
 The manifest has a digest of every file. `model.py` is the model file itself, from which the rest can be derived again.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Iterable, Mapping

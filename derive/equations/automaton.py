@@ -6,8 +6,6 @@ the table. The kernel's search for events, their effects and their derivatives a
 the search for a root of a series and what the actions call. That both engines decide alike is tested.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Pairs of sizes made from one scene, and their collisions in one call of the kernel."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Kinds of change along the curves of a plane, and classification of the points where the kind changes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Boundaries between outcomes: along lines of constant angle, and as the atlas of a plane."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path as FilePath

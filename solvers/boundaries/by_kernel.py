@@ -1,7 +1,5 @@
 """Collisions for boundaries by the kernel: outcomes, margins and events of many; None without a kernel."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -5,8 +5,6 @@
   unstable mode, at the rupture gap x_f the remaining (or missing) squared speed.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace

@@ -1,7 +1,5 @@
 """Samples for boundaries: outcomes and margins of collisions, by the kernel or one by one by Rosenbrock."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass, field
 

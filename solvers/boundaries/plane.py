@@ -1,7 +1,5 @@
 """A plane of collisions mapped to the unit square: a scene entry as x, ln St as y."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,7 +1,5 @@
 """Placement of region names in a figure: inside the region, clear of curves and marks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Search for all boundaries in a plane, from a lattice and seed lines; curves are followed between meeting points."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field

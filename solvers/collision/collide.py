@@ -1,7 +1,5 @@
 """`collide`: computes one collision of a scene."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path as FilePath
 

@@ -1,7 +1,5 @@
 """`wetdoublet collide`: one collision."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from ..engines.settings import UNTIL

@@ -1,7 +1,5 @@
 """`wetdoublet generate`: derive the equations and emit them, the library's or a user's model."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

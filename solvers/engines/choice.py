@@ -3,8 +3,6 @@
 The request alone decides, and not what is compiled or how many collisions there are: a missing kernel is compiled.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 
 from ..scene.scene import Scene

@@ -1,7 +1,5 @@
 """`compile_kernels`: the Taylor kernels of scenes, compiled before they are needed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Numerical settings of a run: relative tolerance, engine and step budget."""
 
-from __future__ import annotations
-
 from ..errors import InputError, did_you_mean
 from ..scene.schema import Field, Range
 

@@ -1,7 +1,5 @@
 """Laws, films and criteria compared on the same data: AIC, and what each predicts of impacts left out of its fit."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from operator import attrgetter

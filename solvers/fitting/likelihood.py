@@ -8,8 +8,6 @@ Derivatives are taken at a fixed interpolation variable: the points of a segment
 roots cancel.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Reading of files named by users, within bounds of size, time and nesting depth."""
 
-from __future__ import annotations
-
 import os
 import re
 import select

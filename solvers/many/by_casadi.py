@@ -1,7 +1,5 @@
 """A batch of collisions by CasADi, one after another; one that fails is marked with its reason."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

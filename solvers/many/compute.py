@@ -4,8 +4,6 @@ The Taylor kernel computes them in blocks; those that it does not complete, and 
 worker processes. A collision that fails is marked with its reason and the rest go on.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What can be kept of many collisions: results by name, with unit and meaning, and how a column of each is stored."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

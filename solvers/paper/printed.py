@@ -3,8 +3,6 @@
 Donahue, Davis, Kantak and Hrenya, Phys. Rev. E 86, 021303 (2012), DOI 10.1103/PhysRevE.86.021303.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

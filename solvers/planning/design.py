@@ -1,7 +1,5 @@
 """`design()`: where the next impacts should be to learn most about entries of a scene."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path

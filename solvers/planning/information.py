@@ -8,8 +8,6 @@ interpolation along the lines are those of the likelihood, so f_k is a sum of no
 quadrature, with exact derivatives.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

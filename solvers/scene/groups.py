@@ -1,7 +1,5 @@
 """Entries, tables and quantities of a scene, and its dimensionless groups by the emitted formulas."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

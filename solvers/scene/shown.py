@@ -1,7 +1,5 @@
 """A scene as a table: every entry with its unit, what is a default or assumed, and what follows from them."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Derivation of a user's model file: checks, emitted files and a report."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass

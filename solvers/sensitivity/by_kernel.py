@@ -1,7 +1,5 @@
 """Derivatives by the Taylor kernel in a scene's parameters, of one collision or of many of the same scene."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial

@@ -1,7 +1,5 @@
 """`sensitivities()`: derivatives of the results of a scene's collision."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path as FilePath

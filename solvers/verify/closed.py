@@ -4,8 +4,6 @@ Each is derived independently of the emitted equations of motion: a momentum int
 oscillator, an exponential. The scene's numerical values are kept.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from functools import partial

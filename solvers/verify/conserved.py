@@ -1,7 +1,5 @@
 """Conservation of energy and angular momentum along every trajectory, and agreement of the engines."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 

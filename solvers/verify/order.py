@@ -1,7 +1,5 @@
 """Convergence: the error of e_n must decrease about in proportion to the requested tolerance."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from functools import cache

@@ -1,7 +1,5 @@
 """Figure on e_n > 1: a map of e_n, and the terms of e_n^2 - 1 at two angles."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

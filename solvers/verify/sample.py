@@ -1,7 +1,5 @@
 """The sample of collisions for numerical checks: impacts around the scene's, integrated by every engine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field

@@ -5,8 +5,6 @@
 Writes FOLDER/compile_flags.json (docs/engineering/performance).
 """
 
-from __future__ import annotations
-
 import json
 import os
 import sys

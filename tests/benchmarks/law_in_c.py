@@ -8,8 +8,6 @@ in C. All take turns in one process, CPU time, the best of several rounds. Agree
 contraction, where both are the same arithmetic, and as each is compiled by default.
 """
 
-from __future__ import annotations
-
 import ctypes
 import json
 import os

@@ -6,8 +6,6 @@ Central differences of collisions at rtol 1e-13 with steps of 0.4, 0.2 and 0.1 %
 code that differentiates takes part. Parameters that are zero, and quantities that are, have no elasticity.
 """  # fmt: skip
 
-from __future__ import annotations
-
 import json
 import math
 import sys

@@ -10,8 +10,6 @@ without. A line per kind and certificate; status 1 where what is called a stick 
 """
 
 # ruff: noqa: T201 -- a script that prints
-from __future__ import annotations
-
 import contextlib
 import ctypes
 import sys

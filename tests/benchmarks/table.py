@@ -8,8 +8,6 @@ thread, the least of several runs, table and kernel in turn. The tables are writ
 """
 
 # ruff: noqa: T201 -- a script that prints
-from __future__ import annotations
-
 import ctypes
 import shlex
 import subprocess

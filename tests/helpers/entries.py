@@ -1,7 +1,5 @@
 """Entries of a scene as a file has them, and what refuses a wrong one."""
 
-from __future__ import annotations
-
 import pytest
 from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.scene.scene import Scene

@@ -1,7 +1,5 @@
 """Measurements drawn from the model with the scatter that the likelihood assumes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

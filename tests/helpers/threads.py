@@ -8,8 +8,6 @@ exit status 1 if one has not, or fails. `--quick` leaves out what takes more tha
 """
 
 # ruff: noqa: T201 -- a script that prints
-from __future__ import annotations
-
 import argparse
 import atexit
 import hashlib

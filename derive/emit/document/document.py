@@ -1,7 +1,5 @@
 """A model's equations as a document in LaTeX or compact Markdown, arranged as in Table 1 of the paper."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace

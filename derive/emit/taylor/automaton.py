@@ -1,7 +1,5 @@
 """The automaton in C: enumerations, constants, and the kernel's switch over the effects of events."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterable, Sequence
 

@@ -3,8 +3,6 @@
 A structure calls a law through its slot (`bridge_force_next`), so every law of a slot fits every structure.
 """
 
-from __future__ import annotations
-
 from collections.abc import Set as AbstractSet
 
 import sympy as sp

@@ -8,8 +8,6 @@ The lever arm is at mid-gap, so that the torques on the spheres balance that on 
 form the partner's spin follows from the three components of the angular momentum L, and its twist from J . n = 0.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from itertools import chain
 

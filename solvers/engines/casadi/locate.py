@@ -3,8 +3,6 @@
 The events, their effects and the rules of a rebound are those of `generated/automaton.py`; this module interprets them.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Collisions of two spheres in space by the kernel, with vectors in the laboratory's axes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Many collisions by the kernel with derivatives: one direction for each group that the quantities affect."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The kernels of an exported law: which structures they are of, and their texts."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -1,7 +1,5 @@
 """The numbers that a law takes: their names, units and ranges, and the C that refuses others."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The folder of an exported law: its C file and header, and what shows how to use it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from importlib.metadata import version

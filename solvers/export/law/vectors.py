@@ -1,7 +1,5 @@
 """Test vectors of an exported law: impacts and pairs in space, and what this project's engines compute for them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What a ledger, a trajectory and the rotation cost: switched on one at a time, as ratios to the bare collision."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Run time and achieved error of gradients of e_n to twelve parameters: ours, heyoka's, and differences, in one run."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """How cost grows with the number of collisions: wall time, CPU time and memory, on one core and on two."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

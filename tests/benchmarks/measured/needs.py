@@ -1,7 +1,5 @@
 """What a scene pays for having it: strings, a bridge, both; and what a gradient adds to a collision."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Sequence

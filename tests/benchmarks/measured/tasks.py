@@ -1,7 +1,5 @@
 """The collisions that everything is measured on: drawn once, by a fixed seed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Deliberately broken models are caught, each by the check whose law it breaks; the right model passes that check."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any

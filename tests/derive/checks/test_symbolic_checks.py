@@ -1,7 +1,5 @@
 """Every check holds of the derivation, and those of a scene's laws are among them."""
 
-from __future__ import annotations
-
 import pytest
 
 pytestmark = pytest.mark.slow

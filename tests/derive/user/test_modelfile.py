@@ -1,7 +1,5 @@
 """Model files: declarations, groups found, laws brought to their slots, checks that name what fails."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Declared events in the derivation: what is refused, their form in the structures, and what is shown of them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The atlas of a scene: its curves against lines and collisions, its points against bisection, its derivatives."""
 
-from __future__ import annotations
-
 import json
 import math
 from functools import cache

@@ -1,7 +1,5 @@
 """Continuation of curves between labels, on curves known in closed form."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

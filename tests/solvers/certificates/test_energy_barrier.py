@@ -1,7 +1,5 @@
 """Sticks that are called proved: are they, and is the proof given where it should be."""
 
-from __future__ import annotations
-
 import math
 import re
 

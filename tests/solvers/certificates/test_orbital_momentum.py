@@ -1,7 +1,5 @@
 """The proof by the orbit's momentum: what it holds never separates, what separates it never holds."""
 
-from __future__ import annotations
-
 import contextlib
 import math
 from typing import Any

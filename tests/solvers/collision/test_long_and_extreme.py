@@ -1,7 +1,5 @@
 """What physics decides however long it takes, what ends for want of steps, and numbers that are out of range."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

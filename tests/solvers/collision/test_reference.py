@@ -1,7 +1,5 @@
 """One collision against an independent high-precision implementation (tests/data, 80-bit Taylor series)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

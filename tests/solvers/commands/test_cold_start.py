@@ -1,7 +1,5 @@
 """What a command loads: a cold start pays only for what it needs."""
 
-from __future__ import annotations
-
 import json
 import pkgutil
 import subprocess

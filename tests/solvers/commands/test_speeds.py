@@ -1,7 +1,5 @@
 """Whatever a command prints or draws says which speed it is: the normal one, the relative one, or a Stokes number."""
 
-from __future__ import annotations
-
 import csv
 import html
 import json

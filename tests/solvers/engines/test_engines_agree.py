@@ -1,7 +1,5 @@
 """Both engines decide alike: the same events in the same order, and the same certificates on the same states."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from wetdoublet.generated.automaton import CLOSING, EVENTS, KINDS, OUTCOMES, Status

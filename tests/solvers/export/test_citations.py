@@ -1,7 +1,5 @@
 """`wetdoublet cite`: what a scene rests on, as BibTeX and as JSON."""
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """The exported law: it builds everywhere, is our kernel to the last digits, refuses bad input, and shares nothing."""
 
-from __future__ import annotations
-
 import math
 import re
 import shutil

@@ -1,7 +1,5 @@
 """The likelihood of impacts beside a Monte Carlo mean, and its gradient beside differences."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import partial
 

@@ -1,7 +1,5 @@
 """Designs: the search against theory, a design against random ones, what is refused, and the table to fill in."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """A user's model beside a scene: a small file through every command."""
 
-from __future__ import annotations
-
 import json
 import pickle
 from pathlib import Path

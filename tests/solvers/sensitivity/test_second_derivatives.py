@@ -1,7 +1,5 @@
 """Second derivatives, and the traps of differentiating through CasADi's integrators, each kept shut."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import Any
 

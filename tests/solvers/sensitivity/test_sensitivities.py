@@ -1,7 +1,5 @@
 """Sensitivities through the events: against differences, the other method, the other engine, and closed forms."""
 
-from __future__ import annotations
-
 import json
 import math
 from functools import cache

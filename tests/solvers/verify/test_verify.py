@@ -1,7 +1,5 @@
 """The laws hold on the presets; the budget of e_n^2 - 1; the report and its command."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

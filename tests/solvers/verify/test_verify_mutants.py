@@ -1,7 +1,5 @@
 """Each law's check fails, by name and at the right place, when its subject is broken."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The benchmark as pictures: time against achieved error, and what a feature costs."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Pictures of cost near the separatrix, and of gradients: time against achieved error."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What is measured: our engines, and the peers that are installed, behind one call a collision or one for all."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial

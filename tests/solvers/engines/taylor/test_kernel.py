@@ -1,7 +1,5 @@
 """Collisions by the Taylor kernel: the same as by other engines and as the reference, at the tolerance asked for."""
 
-from __future__ import annotations
-
 import platform
 from collections.abc import Iterator
 from dataclasses import replace
