@@ -25,11 +25,7 @@ QUANTITIES, SCALING, AUTOMATON = (
     f"derive/{name}.py" for name in ("vocabulary/quantities", "physics/scaling", "equations/automaton")
 )
 ENTRY = [  # a quantity of the vocabulary, an entry of a scene that is it, and its place in the table of the scene
-    (
-        QUANTITIES,
-        "e_dry = ",
-        'w = _quantity("waviness", "w", LENGTH, "height of the waves", nonnegative=True)\n{}',
-    ),
+    (QUANTITIES, "e_dry = ", 'w = _quantity("waviness", "w", LENGTH, "height of the waves", nonnegative=True)\n{}'),
     (
         "solvers/scene/schema.py",
         '    Field("particles.dry_restitution"',

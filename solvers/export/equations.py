@@ -20,11 +20,7 @@ def texts(scene: Scene) -> dict[str, str]:
     from ...derive.emit.document.document import document
 
     laws = chosen_laws(scene)
-    parts = (
-        ("bridge", scene.bridge),
-        ("strings", scene.pendulum),
-        ("glass", scene.liquid.glass_transition_pressure),
-    )
+    parts = (("bridge", scene.bridge), ("strings", scene.pendulum), ("glass", scene.liquid.glass_transition_pressure))
     lacking = [slot for slot, there in parts if there is None]
     title = f"Oblique collisions of wet particles: {name_of(scene)}"
     made = document(title, laws, user_model(scene.package), lacking, scene.particles.friction is not None)

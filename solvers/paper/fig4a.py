@@ -90,13 +90,7 @@ def near_printed(scene: Scene, angle: float) -> Job:
 
 
 def _compared(
-    desk: Desk,
-    scene: Scene,
-    dry: Scene,
-    stokes: float,
-    ours: float,
-    criticals: Sequence[float],
-    only_head_on: bool,
+    desk: Desk, scene: Scene, dry: Scene, stokes: float, ours: float, criticals: Sequence[float], only_head_on: bool
 ) -> tuple[Comparison, ...]:
     desk.say("fig. 4a: glass-transition pressure of the printed St*")
     pressure, fitted = printed_pressure(scene), desk.pressure_for(scene, PRINTED["stokes_4"].value)

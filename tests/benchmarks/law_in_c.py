@@ -97,10 +97,7 @@ def speed(scene: Scene, law: Law, loops: dict[str, ctypes.CDLL], spinning: bool)
         name: partial(loop.one_by_one, *given, ctypes.c_long(TIMED), ctypes.c_void_p(found.ctypes.data))
         for name, loop in loops.items()
     }
-    calls |= {
-        "batch": lambda: law.collide(rows),
-        "kernel": same_kernel(scene, rows),
-    }
+    calls |= {"batch": lambda: law.collide(rows), "kernel": same_kernel(scene, rows)}
     if not spinning:
         plain = Impacts(scene, rows["speed"].copy(), rows["angle"].copy(), {})
         calls["for maps"] = lambda: run_kernel(plain, RTOL, jumps=2)

@@ -43,10 +43,7 @@ _MARKS = "<!-- measured -->", "<!-- end of measured -->"
 
 def main(queries: int, file: Path | None) -> None:
     """Measure every case, print the rows, and write them."""
-    rows = [
-        f"| {' | '.join(COLUMNS)} |",
-        "|" + "---|" * len(COLUMNS),
-    ]
+    rows = [f"| {' | '.join(COLUMNS)} |", "|" + "---|" * len(COLUMNS)]
     for name, over, error in CASES:
         scene, three = Scene.load(name), len(over) > 2
         started = time.process_time()

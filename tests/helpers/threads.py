@@ -28,16 +28,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from wetdoublet import solvers
-from wetdoublet.solvers import (
-    Scene,
-    atlas,
-    boundary,
-    collide,
-    collide_many,
-    gradients_many,
-    regime_map,
-    sensitivities,
-)
+from wetdoublet.solvers import Scene, atlas, boundary, collide, collide_many, gradients_many, regime_map, sensitivities
 from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, plain
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import load, select_model

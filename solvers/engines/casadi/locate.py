@@ -416,8 +416,7 @@ class EventLocator:
             case "separate":
                 if is_within_rounding(self.y[_VELOCITY], self.groups["obliquity"], self.groups["aspect"]):
                     raise self._error(
-                        f"the doublet separates so slowly that {ROUNDED}",
-                        "try spins with another angular momentum",
+                        f"the doublet separates so slowly that {ROUNDED}", "try spins with another angular momentum"
                     )
                 self.path.separated = True
             case "cut off":

@@ -67,12 +67,7 @@ def variant_for_many(scene: Scene, oblique: bool, rtol: float, rotation: bool, f
 
 
 def run_kernel(
-    impacts: Impacts,
-    rtol: float,
-    rotation: bool = False,
-    threads: int = 1,
-    budget: int = KERNEL_STEPS,
-    jumps: int = 0,
+    impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = KERNEL_STEPS, jumps: int = 0
 ) -> np.ndarray | None:
     """An array of ANSWER, one per collision; None if no kernel is available.
 

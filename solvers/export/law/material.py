@@ -25,10 +25,7 @@ _ALONE = {
     "reduced_mass": "reduced mass, M1 M2/(M1 + M2)",
     "volume": "bridge volume over (2 reduced_radius)^3",
 }
-_BESIDE_WALL = {
-    "reduced_radius": "radius of the sphere",
-    "reduced_mass": "mass of the sphere",
-}
+_BESIDE_WALL = {"reduced_radius": "radius of the sphere", "reduced_mass": "mass of the sphere"}
 _OK = "OK"
 
 

@@ -8,15 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import (
-    Atlas,
-    InputError,
-    Scene,
-    atlas,
-    boundary,
-    boundary_sensitivities,
-    collide_many,
-)
+from wetdoublet.solvers import Atlas, InputError, Scene, atlas, boundary, boundary_sensitivities, collide_many
 from wetdoublet.solvers.boundaries.line import approach
 from wetdoublet.solvers.boundaries.plot import draw
 from wetdoublet.solvers.model.dimensionless import nondimensionalise

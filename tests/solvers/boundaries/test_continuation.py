@@ -5,15 +5,7 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers.boundaries.arcs import Arc, monotone, refined
-from wetdoublet.solvers.boundaries.continuation import (
-    Branch,
-    Followed,
-    Labels,
-    branches,
-    crossings,
-    follow,
-    meeting,
-)
+from wetdoublet.solvers.boundaries.continuation import Branch, Followed, Labels, branches, crossings, follow, meeting
 
 RADIUS = 0.3
 

@@ -6,15 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from wetdoublet.solvers import (
-    ComputationError,
-    InputError,
-    Scene,
-    boundary,
-    collide_many,
-    collide_pair,
-    regime_map,
-)
+from wetdoublet.solvers import ComputationError, InputError, Scene, boundary, collide_many, collide_pair, regime_map
 from wetdoublet.solvers.boundaries.by_kernel import looked
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.engines.settings import (

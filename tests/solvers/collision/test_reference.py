@@ -21,11 +21,7 @@ QUANTITIES = (
 def _collide(reference: dict[str, Any], engine: str) -> Collision:
     scene = Scene.from_dict(reference["scene"])
     return collide(
-        scene,
-        stokes=reference["impact"]["stokes"],
-        angle=reference["impact"]["angle"],
-        rtol=RTOL,
-        engine=engine,
+        scene, stokes=reference["impact"]["stokes"], angle=reference["impact"]["angle"], rtol=RTOL, engine=engine
     )
 
 

@@ -7,13 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import (
-    InputError,
-    Scene,
-    Sensitivities,
-    collide,
-    trajectory_sensitivities,
-)
+from wetdoublet.solvers import InputError, Scene, Sensitivities, collide, trajectory_sensitivities
 from wetdoublet.solvers.sensitivity.parameters import known
 
 from ...helpers.command import run

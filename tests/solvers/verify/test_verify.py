@@ -285,11 +285,7 @@ def test_what_finds_nothing_to_look_at_says_so() -> None:
     """A film so thin that glass is met at initial contact: every law that needs a trajectory is a note that says so."""
     scene = Scene.load("pendulum").with_entries({"liquid.film_thickness": 2e-6})
     collisions = sample.collisions(scene, (0.0, 0.5))
-    findings = [
-        *conserved.conserved(collisions),
-        *backward.backward(collisions),
-        *order.convergence(collisions),
-    ]
+    findings = [*conserved.conserved(collisions), *backward.backward(collisions), *order.convergence(collisions)]
     found = {finding.name: finding for finding in findings}
     for law in ("forward-back, cvodes", "forward-back, rosenbrock", "convergence"):
         assert (found[law].ok, found[law].figure) == (None, "no trajectory lasts: all rebound at initial contact")

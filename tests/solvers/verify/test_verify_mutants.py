@@ -15,16 +15,7 @@ from wetdoublet.solvers.certificates import Certainty
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.casadi.integrators import Plain, plain
 from wetdoublet.solvers.model.phases import expressions
-from wetdoublet.solvers.verify import (
-    audit,
-    backward,
-    budget,
-    closed,
-    conserved,
-    order,
-    region,
-    sample,
-)
+from wetdoublet.solvers.verify import audit, backward, budget, closed, conserved, order, region, sample
 from wetdoublet.solvers.verify.report import Finding
 
 pytestmark = pytest.mark.slow

@@ -29,11 +29,7 @@ _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "scipy LSODA": ("#CC79A7", "^", "--"),
     "scipy Radau": ("#202020", "v", "--"),
 }
-_FILLS = {
-    "ledger": ("#E69F00", "//"),
-    "trajectory": ("#56B4E9", ".."),
-    "rotation": ("#009E73", "xx"),
-}
+_FILLS = {"ledger": ("#E69F00", "//"), "trajectory": ("#56B4E9", ".."), "rotation": ("#009E73", "xx")}
 _RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8, "hatch.linewidth": 0.6}
 
 
