@@ -8,14 +8,9 @@ from wetdoublet.solvers import Collision, Scene, collide
 RTOL = 1e-10
 TOLERANCE = 1e-7  # what both engines owe at RTOL
 QUANTITIES = (
-    "restitution",
-    "tangential_restitution",
-    "rotation",
-    "contact_time",
-    "smallest_gap",
-    "final_spin",
+    "restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap", "final_spin",
     "final_rotation_rate",
-)
+)  # fmt: skip
 
 
 def _collide(reference: dict[str, Any], engine: str) -> Collision:
