@@ -41,7 +41,7 @@ def model(body: str) -> UserModel:
         ('event("snap", guard=d - x)\nevent("snap", guard=d - x)', "line 5: event: 'snap' is taken already"),
         ('event("snap", guard=d - x)\nquantity("before_snap")', "quantity: 'before_snap' is taken already"),
     ],
-)  # fmt: skip
+)
 def test_bad_events_are_named(body: str, said: str):
     """An event that cannot be is one line with file, line, what is wrong and what is accepted."""
     with pytest.raises(ModelFileError) as caught:
