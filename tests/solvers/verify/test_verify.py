@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Collision, Scene, collide, collide_many
+from wetdoublet.solvers import Collision, Scene, collide, collide_many, plot
 from wetdoublet.solvers.verify import (
     Finding,
     Report,
@@ -21,7 +21,6 @@ from wetdoublet.solvers.verify import (
     restitution_budget,
     sample,
 )
-from wetdoublet.solvers.verify.plot import draw_budget
 
 from ...helpers.command import run
 
@@ -120,7 +119,7 @@ def test_the_picture_shows_the_terms(tmp_path) -> None:
     """Map and two panels; the line of a panel is e_n^2 - 1, one point a Stokes number."""
     angles = np.radians([45, 60, 75]).tolist()
     budget = restitution_budget("granulation", stokes=[0.01, 0.03, 0.1, 0.3], angle=angles)
-    figure = draw_budget(budget, tmp_path / "budget.png")
+    figure = plot(budget, tmp_path / "budget.png")
     assert (tmp_path / "budget.png").stat().st_size > 10_000
     lines = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == 4]
     drawn = [line.get_ydata() for line in lines]
