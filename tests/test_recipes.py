@@ -70,7 +70,7 @@ LAW = [  # an entry of BRIDGES, and its name among the scene's
         "    _willett(),\n",
         '{}    _law("halved", "half as much", LAMBERT, sp.cos(phi)),\n',
     ),
-    ("solvers/scene/schema.py", '    "constant",\n', '{}    "halved",\n'),
+    ("solvers/scene/schema.py", '"soulie", "constant"', '{}, "halved"'),
 ]
 RESULT = [  # its row, and its expression
     ("solvers/sensitivity/results.py", '    Quantity("contact_time"', '    Quantity("lost_speed", "1"),\n{}'),
