@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -221,7 +220,7 @@ def test_an_interrupted_command_says_what_it_has_checked(monkeypatch) -> None:
 def test_the_command_draws(monkeypatch, tmp_path) -> None:
     """`--plot` draws the budget of the report; the report goes to standard output all the same."""
     budget = restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0])
-    good = SimpleNamespace(ok=True, budget=budget, failed=(), __str__=lambda self: "fine")
+    good = Report((), budget)
     monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress, recompute: good)
     result = run("verify", "pendulum", "--plot", str(tmp_path / "p.png"))
     assert result.exit_code == 0
