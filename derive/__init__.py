@@ -2,6 +2,6 @@
 
 Pure sympy. `vocabulary`: quantities, their dimensions and allowed values. `physics`: mechanics, laws (one a file),
 partners, structures and scaling. `equations`: those of a structure, from intermediates and rates to certificates.
-`user_model`: a user's laws and events. `checks`: what must hold of all of them. `emit`: Python with CasADi, C, and
+`user`: a user's laws and events. `checks`: what must hold of all of them. `emit`: Python with CasADi, C, and
 documents.
 """

@@ -1,8 +1,6 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
 """From a structure module to CasADi Functions over vectors ordered as its STATES and GROUPS."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from inspect import signature
 from types import ModuleType

@@ -1,7 +1,5 @@
 """Exceptions of the package: each prints as one line and has an exit status."""
 
-from __future__ import annotations
-
 import reprlib
 from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar

@@ -1,7 +1,5 @@
 """Settings, and shared data: the public reference collisions and boundaries, copied into the repository."""
 
-from __future__ import annotations
-
 import os
 from typing import Any
 

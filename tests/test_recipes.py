@@ -1,7 +1,5 @@
 """Recipes of the architecture page, "Where things go", followed in a copy of the tree: the edits are all it takes."""
 
-from __future__ import annotations
-
 import json
 import math
 import os
@@ -27,11 +25,7 @@ QUANTITIES, SCALING, AUTOMATON = (
     f"derive/{name}.py" for name in ("vocabulary/quantities", "physics/scaling", "equations/automaton")
 )
 ENTRY = [  # a quantity of the vocabulary, an entry of a scene that is it, and its place in the table of the scene
-    (
-        QUANTITIES,
-        "e_dry = ",
-        'w = _quantity("waviness", "w", LENGTH, "height of the waves", nonnegative=True)\n{}',
-    ),
+    (QUANTITIES, "e_dry = ", 'w = _quantity("waviness", "w", LENGTH, "height of the waves", nonnegative=True)\n{}'),
     (
         "solvers/scene/schema.py",
         '    Field("particles.dry_restitution"',
@@ -76,7 +70,7 @@ LAW = [  # an entry of BRIDGES, and its name among the scene's
         "    _willett(),\n",
         '{}    _law("halved", "half as much", LAMBERT, sp.cos(phi)),\n',
     ),
-    ("solvers/scene/schema.py", '    "constant",\n', '{}    "halved",\n'),
+    ("solvers/scene/schema.py", '"soulie", "constant"', '{}, "halved"'),
 ]
 RESULT = [  # its row, and its expression
     ("solvers/sensitivity/results.py", '    Quantity("contact_time"', '    Quantity("lost_speed", "1"),\n{}'),

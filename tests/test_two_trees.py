@@ -1,7 +1,5 @@
 """The comparison of two trees sees what differs, and only that."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import math

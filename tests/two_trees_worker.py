@@ -3,8 +3,6 @@
 Floats are written in hexadecimal. What raises answers with the name of the class and the message.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import hashlib
 import json

@@ -4,8 +4,6 @@ Every check works symbolically on the expressions that are emitted, or on the SI
 that passes holds for all values. `symbolic_checks` runs them all.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib import import_module

@@ -1,7 +1,5 @@
 """The stick certificate that a model admits: its preconditions, each computed, or the reason for having none."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Checks of the attraction certificate: its margins as emitted, and the laws whose force decreases with the gap."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import sympy as sp

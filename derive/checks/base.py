@@ -1,7 +1,5 @@
 """Checks: a statement, and expressions that must vanish identically, or have a sign, for it to hold."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, replace

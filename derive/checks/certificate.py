@@ -1,7 +1,5 @@
 """Energy certificate: its energy is the least one at fixed angular momentum, and its slope that of the energy."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ..equations.invariants import conserved_momentum

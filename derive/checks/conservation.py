@@ -1,7 +1,5 @@
 """Mechanics and conservation: inertia, potentials, energy along the emitted equations, the rate of angular momentum."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from functools import cache
 

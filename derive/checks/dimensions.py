@@ -1,7 +1,5 @@
 """Dimensions of every SI equation, the number of dimensionless groups, and the paper's groups."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import sympy as sp

@@ -6,8 +6,6 @@ square, and L is conserved, only for arm = r/2. For any other arm the check repo
 energy.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Emitted functions besides the right-hand side, against SI definitions: resting contact, events, momentum, outputs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import sympy as sp

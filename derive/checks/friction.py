@@ -1,7 +1,5 @@
 """Friction of the dry contact: the emitted impulse, its loss and the force of resting contact against the equations."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """Limits of the laws: where each force vanishes, films and attractions, the generalised number Ce_F."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
 

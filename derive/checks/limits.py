@@ -1,7 +1,5 @@
 """Special cases and symmetries of the full equations: reduced, head-on, reflected, beyond the reach of the shear."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from operator import methodcaller
 

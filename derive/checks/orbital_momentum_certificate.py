@@ -1,7 +1,5 @@
 """Checks of the orbital-momentum certificate: the exchange by F_t, and that it never increases the margin."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """Unequal partners: conserved quantities of a general pair (found by nullspace), friction, equal and wall limits."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import sympy as sp

@@ -3,8 +3,6 @@
 `equations/certificates/pendulum.py` combines the steps. The emitted margins are these bounds in the worst case.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import sympy as sp

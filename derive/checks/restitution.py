@@ -1,7 +1,5 @@
 """The excess of e_n over 1: its exact decomposition by the ledger, and an upper bound from L and the energy."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """Checks of the slow manifold: the form of the rates, the difference of two solutions, and what falls with the gap."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ..equations.certificates.slow_manifold import admits, coefficients

@@ -1,7 +1,5 @@
 """Two spheres in space: what is conserved (found by nullspace), energy, the bound of the certificate, the plane."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 

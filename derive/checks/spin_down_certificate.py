@@ -1,7 +1,5 @@
 """Checks of the spin-down certificate: each of its steps, on the emitted equations."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """Checks of a user's model by name: dimensions, invariants, dissipation, limits."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Iterator, Mapping
@@ -14,8 +12,8 @@ import sympy as sp
 from ..physics.laws import LAWS
 from ..physics.laws.base import Law, LawFunction
 from ..physics.scaling import ScalingError
-from ..user_model.modelfile import read
-from ..user_model.structures import UserModel
+from ..user.modelfile import read
+from ..user.structures import UserModel
 from ..vocabulary.dimensions import DimensionError
 from ..vocabulary.quantities import contact_angle, volume
 from .base import Check

@@ -1,7 +1,5 @@
 """Conserved quantities and governing groups of a user's model, in words."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 
@@ -12,8 +10,8 @@ from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.laws.base import Law, filled
 from ..physics.structure import Structure
-from ..user_model.own_events import OwnEvent
-from ..user_model.structures import UserModel
+from ..user.own_events import OwnEvent
+from ..user.structures import UserModel
 from .conservation import momentum_rate
 
 _ANGULAR_MOMENTUM = "angular momentum L = m [r^2 omega + (32/5) a^2 xi]"

@@ -1,7 +1,5 @@
 """Comparison of two models as mathematics: the equations that differ, by term."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -10,7 +8,7 @@ from random import Random
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..user_model.own_events import MARK
+from ..user.own_events import MARK
 from .document.latex import NAMES
 from .read import Read, functions
 

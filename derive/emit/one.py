@@ -1,7 +1,5 @@
 """Text of a single emitted module by name, for modules derived on first use."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -12,8 +10,8 @@ from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.laws.base import Law
 from ..physics.structure import Structure, known
-from ..user_model.modelfile import read
-from ..user_model.structures import UserModel
+from ..user.modelfile import read
+from ..user.structures import UserModel
 from ..vocabulary.quantities import normal_velocity
 from .casadi import modules
 from .casadi.automaton import provenance

@@ -1,7 +1,5 @@
 """What stands at the head of an emitted file: its origin, the digest of its equations, and what it describes."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Mapping
 from functools import cache

@@ -1,7 +1,5 @@
 """Parsing of emitted modules: text to sympy expressions, without executing it."""
 
-from __future__ import annotations
-
 import ast
 import operator
 from collections.abc import Callable

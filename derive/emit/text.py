@@ -1,7 +1,5 @@
 """Source text of emitted Python functions: docstrings, assignments in order, long sums broken at their terms."""
 
-from __future__ import annotations
-
 import re
 import textwrap
 from collections.abc import Iterable, Sequence

@@ -3,19 +3,16 @@
 The manifest has a digest of every file. `model.py` is the model file itself, from which the rest can be derived again.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 
-from ..checks.words import conserved, in_words
 from ..equations.model import derive
 from ..physics.structure import Structure, structures
-from ..user_model.own_events import OwnEvent
-from ..user_model.structures import UserModel
+from ..user.own_events import OwnEvent
+from ..user.structures import UserModel
 from ..vocabulary.quantities import VOCABULARY
 from .casadi.modules import groups_module, law_module, structure_module
 from .provenance import Own, digest, law_digest, model_digest
@@ -28,10 +25,13 @@ _DOC = (
 )
 
 
-def package(model: UserModel, source: str, library: str, origin: str = "") -> dict[str, str]:
+def package(
+    model: UserModel, source: str, library: str, conserves: Iterable[str], words: Iterable[str], origin: str = ""
+) -> dict[str, str]:
     """Relative path -> text of every file of a model's package, manifest included.
 
     Arguments:
+        conserves, words: what its checks say of the model.
         source: text of the model file.
         library: digest of the library's own equations, which the model extends.
         origin: path of the model file as seen from the package.
@@ -66,7 +66,7 @@ def package(model: UserModel, source: str, library: str, origin: str = "") -> di
         "structures": digests, "scaling": scaling,
         "extra": {key: [symbol.name for symbol in extra] for key, extra in model.extra.items()},
         "quantities": [_quantity(model, name) for name in model.declarations.quantities],
-        "conserves": list(conserved(model)), "words": list(in_words(model)),
+        "conserves": list(conserves), "words": list(words),
         "files": {name: sha256(text) for name, text in sorted(files.items())},
     }  # fmt: skip
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True, ensure_ascii=False) + "\n"

@@ -1,7 +1,5 @@
 """Texts of all emitted files, and comparison with the package's own folder."""
 
-from __future__ import annotations
-
 import difflib
 import hashlib
 import json

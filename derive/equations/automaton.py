@@ -6,8 +6,6 @@ the table. The kernel's search for events, their effects and their derivatives a
 the search for a root of a series and what the actions call. That both engines decide alike is tested.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 
@@ -117,7 +115,7 @@ WORDS = (
     Word("half turn", "the line of centres has turned by pi and the strings cross"),
     Word("rolls", "friction holds the surfaces of a resting doublet together: its slip stays zero"),
     Word("slides", "the surfaces of a resting doublet slide from zero slip: rolling needs more than friction gives"),
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True)
@@ -140,7 +138,7 @@ ACTIONS = (
     Action("slide", "sliding in the direction in which the surfaces are driven past each other"),
     Action("separate", "the collision ends: separated"),
     Action("cut off", "the collision ends: a stick without a certificate"),
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True)
@@ -335,7 +333,7 @@ OUTCOMES = (
     Outcome("stick", "STICK", "a certificate excludes separation, or the collision is cut off"),
     Outcome("stick-rotate-separate", "ROTATE", "separated, and no rebound criterion was met"),
     Outcome("bounce", "BOUNCE", "separated after a rebound criterion was met"),
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True)
@@ -361,7 +359,7 @@ STATUSES = (
     Status("RESTS_IN_FRICTION", "resting contact with friction, whose modes this kernel does not integrate"),
     Status("ESCAPED", "a stick that is proved separates when it is followed on: a defect"),
     Status("WITHIN_ROUNDING", "the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM"),
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True)
@@ -376,7 +374,7 @@ PURPOSES = (
     Purpose("WHOLE", "to the end of the collision"),
     Purpose("APPROACH", "to the first turning point or rebound; without the glass criterion and certificates"),
     Purpose("ESCAPE", "until the doublet separates, falls back or rests; with certificates only while it approaches"),
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,5 @@
 """Initial state, event functions, and the jump of the state at a rebound with its energy loss."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import sympy as sp

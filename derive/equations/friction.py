@@ -1,7 +1,5 @@
 """Friction of the dry contact in the states of a structure: the impulse of a rebound, and the force while it rests."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ..physics.contact_friction import rubbing

@@ -4,8 +4,6 @@ Each has the docstring of its emitted form; what it computes is in `rates`, `eve
 `certificates`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property

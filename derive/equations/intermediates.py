@@ -1,7 +1,5 @@
 """Named intermediates of a structure by their emitted names, and the rates of its states per v0/x0 in terms of them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache

@@ -6,8 +6,6 @@ yet chosen, and logarithms, roots and exponentials of the states, count as indep
 is therefore conserved for any law left open; one that relies on an identity between such functions is not found.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache

@@ -4,8 +4,6 @@ A model combines `intermediates` and the definitions of the certificates with `f
 and slots that they use.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cache

@@ -1,7 +1,5 @@
 """Functions of a state: ledger of energy and angular momentum, outputs, and the least energy of the certificate."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ..physics.forces import TANGENTIAL

@@ -6,8 +6,6 @@ sticks, with the impulse that turns the slip v_s into -beta_0 v_s, unless Coulom
 impulse, is smaller; then it slides.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache

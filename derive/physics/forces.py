@@ -4,8 +4,6 @@ Laws remain calls (`bridge.force(...)`), and film and shear are flags (1 where t
 one set of forces serves every variant. The string forces are scaled in a form without cancellation.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import sympy as sp

@@ -4,8 +4,6 @@ Two equal spheres (radius R = 2a, mass M = 2m) have centres at distance r = 4a +
 about their own centres. Forces enter through their virtual work.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache

@@ -4,8 +4,6 @@ Scales are x0 for the gap, v0 for velocities, x0/v0 for time, and for angular ve
 largest tangential speed v0 T at initial contact (omega0 where nothing spins): states are of order one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 from itertools import chain

@@ -1,7 +1,5 @@
 """The functions of each slot: their dimensionless arguments, these in SI, and the scale of the value."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """Structures: the combinations of states, terms, events and parameters that scenes need."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Literal

@@ -54,9 +54,7 @@ class DimensionError(ValueError):
     """A dimensionally inhomogeneous expression; the message names the term at fault."""
 
 
-_TRANSCENDENTAL = (
-    sp.exp, sp.log, sp.sin, sp.cos, sp.tan, sp.asin, sp.acos, sp.atan, sp.sinh, sp.cosh, sp.tanh,
-)  # fmt: skip
+_TRANSCENDENTAL = (sp.exp, sp.log, sp.sin, sp.cos, sp.tan, sp.asin, sp.acos, sp.atan, sp.sinh, sp.cosh, sp.tanh)
 
 
 def dimension_of(

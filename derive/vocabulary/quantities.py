@@ -4,8 +4,6 @@ Names are the names that emitted code, scene files and documentation use. `PAPER
 Hrenya, Phys. Rev. E 86, 021303 (2012).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import sympy as sp

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..changes.experiment import free_names
+from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_function, check_name, check_names
 from ..host.cores import usable_cores
@@ -22,7 +23,6 @@ from ..many.scan import software
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, Field, Range
-from ..settings import RTOL, check_rtol
 from .dataset import Columns, dataset
 from .geometry import COLUMNS
 from .gradients import gradients

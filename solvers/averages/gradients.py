@@ -1,7 +1,5 @@
 """Derivatives of means by entries of the scene, by Leibniz' rule: of the integrand, and of the angles of changes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

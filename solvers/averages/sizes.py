@@ -1,7 +1,5 @@
 """Pairs of sizes made from one scene, and their collisions in one call of the kernel."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,10 +8,10 @@ import numpy as np
 
 from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES
 from ..changes.experiment import STEEPEST, UNDECIDED, Experiment, Rows
+from ..engines.settings import FEW, KERNEL_STEPS
 from ..host.cores import usable_cores
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
-from ..settings import FEW, KERNEL_STEPS
 
 FIXED, PROPORTIONAL = FILMS = ("fixed", "proportional")
 BOUNCES = OUTCOMES.index(BOUNCE)

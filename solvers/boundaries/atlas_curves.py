@@ -4,8 +4,6 @@ The search starts from a lattice of collisions and from seed lines (`trace`). Cu
 `continuation`), classified (`atlas_points`), and compared with the lines, the lattice and random collisions.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

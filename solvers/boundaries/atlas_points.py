@@ -1,7 +1,5 @@
 """Kinds of change along the curves of a plane, and classification of the points where the kind changes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -95,12 +93,7 @@ def _filled(codes: np.ndarray) -> np.ndarray:
     return np.asarray(codes[known[nearest]])
 
 
-def _cut(
-    plane: Plane,
-    arc: Arc,
-    codes: np.ndarray,
-    points: list[tuple[str, np.ndarray]],
-) -> list[tuple[Arc, int]]:
+def _cut(plane: Plane, arc: Arc, codes: np.ndarray, points: list[tuple[str, np.ndarray]]) -> list[tuple[Arc, int]]:
     """A curve split into parts of one code each; the places between them are located and named."""
     parts, first, begin = [], 0, arc.points[0]
     for k in np.flatnonzero(np.diff(codes)).tolist():

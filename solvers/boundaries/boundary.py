@@ -1,7 +1,5 @@
 """Boundaries between outcomes: along lines of constant angle, and as the atlas of a plane."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path as FilePath
@@ -10,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from ..engines.choice import collision_engine
+from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_function, check_whole
 from ..host.cores import usable_cores
 from ..many.batch import checked_numbers, checked_span
 from ..model.validity import warn
 from ..scene.scene import Scene
-from ..settings import RTOL, check_rtol
 from .plane import ANGLE, check_plane
 from .result import LINES, Curves, Lines
 from .trace import Traced, traces

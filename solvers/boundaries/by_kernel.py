@@ -1,7 +1,5 @@
 """Collisions for boundaries by the kernel: outcomes, margins and events of many; None without a kernel."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np
@@ -88,9 +86,7 @@ def events(
 ) -> list[Events] | None:
     """The events of collisions at normal speeds (m/s) and an angle (rad); None if one is not completed."""
     impacts = Impacts(scene, speed, np.full(speed.size, angle), {})
-    recorded = run_recorded(
-        impacts, scene.turns(angle), rtol, trajectory=True, budget=budget, keep=False, fold=False
-    )  # fmt: skip
+    recorded = run_recorded(impacts, scene.turns(angle), rtol, trajectory=True, budget=budget, keep=False, fold=False)
     if recorded is None or (recorded.answers["status"] > LAST_ANSWER).any():
         return None
     words = words_of(scene)

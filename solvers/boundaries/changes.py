@@ -1,7 +1,5 @@
 """Changes of outcome along a line of constant angle: bracketed by samples, located, and confirmed by collisions."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace

@@ -5,8 +5,6 @@ normal of the predicted tangent for the change of label, by batches of points th
 every point of a curve is a change of label, and the curve ends where there is no such change.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

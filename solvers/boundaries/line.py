@@ -5,8 +5,6 @@
   unstable mode, at the rupture gap x_f the remaining (or missing) squared speed.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
@@ -18,6 +16,7 @@ from ..certificates import Barrier, energy_proof
 from ..engines.casadi.integrators import IntegrationFailed, locator, tolerance_for
 from ..engines.casadi.locate import FIRST_STRETCH, GROWTH, STRETCHES, EventLocator, EventSequence
 from ..engines.choice import collision_engine
+from ..engines.settings import RTOL
 from ..engines.taylor.build import compile_all
 from ..engines.taylor.call import variant
 from ..errors import ComputationError
@@ -26,7 +25,6 @@ from ..model.model import Model, load, select_model
 from ..model.phases import Flow
 from ..scene.contact import GAPS, contact_gap
 from ..scene.scene import Scene
-from ..settings import RTOL
 from . import by_kernel
 from .by_kernel import Events
 from .resampled import resampled

@@ -1,7 +1,5 @@
 """Samples for boundaries: outcomes and margins of collisions, by the kernel or one by one by Rosenbrock."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass, field
 
@@ -10,13 +8,13 @@ import numpy as np
 from ...generated.automaton import KINDS, OUTCOMES, Purpose
 from ..engines.casadi.locate import CHATTERS, EventLocator
 from ..engines.choice import collision_engine
+from ..engines.settings import KERNEL_STEPS
 from ..errors import ComputationError, InputError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
 from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, si_values
 from ..scene.scene import Scene
-from ..settings import KERNEL_STEPS
 from .by_kernel import LOOK_BUDGET, looked
 from .samples import SAMPLE
 

@@ -1,7 +1,5 @@
 """A plane of collisions mapped to the unit square: a scene entry as x, ln St as y."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,15 +8,15 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, Purpose
 from ..engines.choice import collision_engine
+from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import run_kernel
 from ..engines.taylor.record import run_recorded
 from ..errors import InputError
 from ..host.cores import usable_cores
-from ..many.batch import Batch, checked_numbers, checked_vary
+from ..many.batch import Batch, ascending, checked_numbers, checked_vary
 from ..many.by_casadi import run
 from ..many.by_kernel import impacts_of
 from ..scene.scene import Scene
-from ..settings import KERNEL_STEPS
 from .window import STOKES, stokes_range
 
 ANGLE = "impact.angle"
@@ -172,15 +170,15 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, la
     """
     if not isinstance(over, str):
         raise InputError(label, over, "the dotted name of an entry", "is not a name")
-    ends = STOKES if stokes is None else _ascending("stokes", checked_numbers("impact.stokes", stokes))
+    ends = STOKES if stokes is None else ascending("stokes", checked_numbers("impact.stokes", stokes))
     if scene.package is not None and scene.package.events:  # the kinds of its curves would be told wrongly
         accepted = "boundaries along lines, or a model without declared events"
         raise InputError(label, over, accepted, "spans no atlas of a model that declares events")
     if over == ANGLE:
-        plane = Plane(scene, over, _ascending("span", checked_numbers(ANGLE, span)), ends, rtol)
+        plane = Plane(scene, over, ascending("span", checked_numbers(ANGLE, span)), ends, rtol)
     else:
         scene, varied = checked_vary(scene, {over: span}, label)
-        plane = Plane(scene, over, _ascending("span", varied[over]), ends, rtol)
+        plane = Plane(scene, over, ascending("span", varied[over]), ends, rtol)
         if scene.angle is None:
             raise InputError("impact.angle", None, 'an angle, as angle = "60 deg" in [impact] or --set impact.angle')
         for x in plane.span:
@@ -189,10 +187,3 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, la
         low, high = zip(*(stokes_range(at, [angle]) for at, angle in map(plane.scene_at, plane.span)))
         plane.stokes = min(low), max(high)
     return plane
-
-
-def _ascending(name: str, ends: np.ndarray) -> tuple[float, float]:
-    if ends.shape != (2,) or not ends[0] < ends[1]:
-        raise InputError(name, ":".join(f"{end:g}" for end in ends.reshape(-1)), "LO:HI with LO below HI",
-                         "is not ascending")  # fmt: skip
-    return float(ends[0]), float(ends[1])

@@ -1,11 +1,9 @@
 """Boundaries as a figure: filled regions of each outcome, the curves between them, and their meeting points."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,17 +12,15 @@ from matplotlib.lines import Line2D
 
 from ...generated.automaton import OUTCOMES
 from ..collision.text import against, degrees, name_of, prefix
+from ..engines.settings import RTOL
 from ..errors import InputError
 from ..formatting import ticks
 from ..formatting.style import EDGES, FILLS, HATCHES, INK, patch, picture, plain_text
-from ..settings import RTOL
+from ..scene.scene import Scene
 from .atlas_curves import curves_of
 from .plane import ANGLE, check_plane
 from .plot_labels import place_names
 from .result import LINES, Curve, Curves, Lines, Point
-
-if TYPE_CHECKING:
-    from ..scene.scene import Scene
 
 _ROOM = 1.8  # factor of the Stokes number shown beyond the outermost curves
 _MARKS = {

@@ -1,7 +1,5 @@
 """Placement of region names in a figure: inside the region, clear of curves and marks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import numpy as np
@@ -16,19 +14,11 @@ from ..formatting.style import INK, halo
 _CELL = 3.0  # margin, pixels
 _CLEAR = 2  # cells between a name and the edge of its region
 # Possible names of a region, the preferred first
-_NAMES = (
-    (OUTCOMES[0], "S"),
-    (OUTCOMES[1], "stick-rotate-\nseparate", "SRS"),
-    (OUTCOMES[2], "B"),
-)
+_NAMES = ((OUTCOMES[0], "S"), (OUTCOMES[1], "stick-rotate-\nseparate", "SRS"), (OUTCOMES[2], "B"))
 _FONT = 9.0
 
 
-def place_names(
-    figure: Figure,
-    axes: Axes,
-    outcome: Callable[[np.ndarray, np.ndarray], np.ndarray],
-) -> None:
+def place_names(figure: Figure, axes: Axes, outcome: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> None:
     """Write each region's name in it, or its letters if there is no room, or nothing if these do not fit either.
 
     Arguments:

@@ -1,7 +1,5 @@
 """The regions of a plane: the outcomes between its curves."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """States inside the phases of a located trajectory, integrated again."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import numpy as np

@@ -13,12 +13,13 @@ import numpy as np
 from ...generated import scaling
 from ...generated.automaton import OUTCOMES
 from ..collision.text import name_of
+from ..engines.settings import RTOL
 from ..formatting.notebook import view
+from ..many.results import outcome_attributes
 from ..scene.origin import origin
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, MEETING
-from ..settings import RTOL
 from .arcs import CHORD, Arc
 from .changes import MERGED, Change
 from .plane import ANGLE
@@ -136,7 +137,7 @@ class Lines:
         }  # fmt: skip
         for side, meaning in (("before", "outcome below"), ("after", "outcome above")):
             rows = [[OUTCOMES.index(getattr(one, side)) for one in line] for line in self.changes]
-            variables[side] = over, _padded(rows, most, NONE).astype(np.int8), _flags(meaning)
+            variables[side] = over, _padded(rows, most, NONE).astype(np.int8), outcome_attributes(meaning, "none")
         angle = "line", np.array(self.angles), {"units": "rad", "long_name": "impact angle"}
         attributes: dict[str, Any] = {"resolution": self.resolution, "collisions": self.collisions,
                                       "searched": self.range_text}  # fmt: skip
@@ -366,7 +367,7 @@ class Curves(Lines):
         data["curve_stokes"] = ("curve", "vertex"), _padded([one.stokes for one in self.curves], most), stokes
         for side, meaning in (("before", "outcome below the curve"), ("after", "outcome above the curve")):
             values = np.array([OUTCOMES.index(getattr(one, side)) for one in self.curves], dtype=np.int8)
-            data[f"curve_{side}"] = "curve", values, _flags(meaning)
+            data[f"curve_{side}"] = "curve", values, outcome_attributes(meaning, "none")
         data["curve_kind"] = "curve", np.array([one.kind for one in self.curves], dtype=str)
         data["point_kind"] = "point", np.array([one.kind for one in self.points], dtype=str)
         data["point_x"] = "point", np.array([one.x for one in self.points], dtype=float), x
@@ -400,11 +401,3 @@ def _padded(rows: Sequence[Sequence[float]], most: int, filler: float = np.nan) 
     for k, row in enumerate(rows):
         full[k, : len(row)] = row
     return full
-
-
-def _flags(meaning: str) -> dict[str, Any]:
-    return {
-        "long_name": meaning,
-        "flag_values": np.array([NONE, 0, 1, 2], dtype=np.int8),
-        "flag_meanings": "none " + " ".join(name.replace("-", "_") for name in OUTCOMES),
-    }

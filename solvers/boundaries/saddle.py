@@ -1,7 +1,5 @@
 """The saddle of an escape: rigid rotation at the maximum of the effective potential, and its modes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ More collisions are sampled between two neighbours that differ in outcome, crite
 margin may have an extremum towards zero between them.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Search for all boundaries in a plane, from a lattice and seed lines; curves are followed between meeting points."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
@@ -17,10 +15,7 @@ from .regions import apart
 LONGEST = 0.03  # step of the continuation, relative to the window
 _MOST_CURVES = 400
 _SAME = 3e-5  # meeting points closer than this are identical, relative to the window
-_COVERED, _SLACK = (
-    5e-3,
-    5e-4,
-)  # distances within which a known curve accounts for a seed or an edge of the lattice
+_COVERED, _SLACK = (5e-3, 5e-4)  # distances within which a known curve accounts for a seed or an edge of the lattice
 _SAME_PLACE = 1e-6  # distance within which a seed lies on it
 _STEP = 1e-3  # first step from a seed
 _ZOOMS = 4  # rounds of dividing an interval that contains a third outcome

@@ -1,7 +1,5 @@
 """The Stokes numbers between which the outcomes of a scene may change, from closed forms."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection
 

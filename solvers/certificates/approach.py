@@ -1,7 +1,5 @@
 """Bounds of an approach through the film, part by part (`derive/equations/certificates/approach.py`)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Attraction certificate: an attraction that decreases with the gap and confines the doublet permanently."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -4,8 +4,6 @@ The energy certificate is taken for the forces that act now: its barriers are se
 work of the attractions is that from the gap of initial contact at these forces, not what was spent while others acted.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

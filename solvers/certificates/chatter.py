@@ -1,7 +1,5 @@
 """Criterion for chatter without a proof: cycles whose maxima do not grow, confined by an attraction."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Choice of the certificate for a model."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..model.model import Model

@@ -10,8 +10,6 @@ test this. With the surface lever arm angular momentum drifts in the film, and t
 between the two states, per decrease of the barrier, at most, as the cycles become less deep.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ barrier of U_eff = L^2/(2 I) + W_c (+ U_s) never crosses it. A wall is treated a
 rotates.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache

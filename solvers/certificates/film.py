@@ -1,7 +1,5 @@
 """Film certificate, head-on with a film alone: by the film's momentum integral."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

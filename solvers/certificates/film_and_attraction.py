@@ -1,7 +1,5 @@
 """Certificate for film and attractions, head-on or with a wall: by energy, or by the film that stops the approach."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

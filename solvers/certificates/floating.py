@@ -5,8 +5,6 @@ rebounds only take energy. If the energy is below the potential at the edge and 
 between the two for ever. At a maximum of the gap the second condition holds.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...generated.automaton import stays_below

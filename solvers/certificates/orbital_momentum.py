@@ -4,8 +4,6 @@ It decides cases that the energy certificate does not: fast spin that the orbit 
 on glassy liquid with small losses, and the surface lever arm, for which angular momentum is not conserved.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Pendulum certificate: the film takes more than the rotation can give, and stops every rebound."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

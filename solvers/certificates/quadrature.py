@@ -1,7 +1,5 @@
 """Integrals between the points of a grid, by Gauss-Legendre rules."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

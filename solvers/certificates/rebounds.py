@@ -1,7 +1,5 @@
 """Certificate for chatter in space: every rebound ends below the last maximum of the gap."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Spin-down certificate: without angular momentum the rotation dies out, and a film alone keeps the doublet."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Criterion for a doublet that tumbles in space: held, whatever its angular momentum does, but without a proof."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

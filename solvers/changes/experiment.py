@@ -14,6 +14,7 @@ import numpy as np
 from casadi import SX, Function, densify, jacobian, vertcat
 
 from ...generated.automaton import LAST_ANSWER, Status
+from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.tangent import COLUMNS, differentiates, run_tangent
 from ..errors import ComputationError
@@ -24,7 +25,6 @@ from ..many.results import Block, empty
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPINS
-from ..settings import KERNEL_STEPS
 
 UNDECIDED = -1
 STEEPEST = np.arccos(4e-5)

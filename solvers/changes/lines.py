@@ -1,7 +1,5 @@
 """Straight lines over impact speed and angle, along which an outcome changes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

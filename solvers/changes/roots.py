@@ -1,7 +1,5 @@
 """Roots in ln St of functions with a sign everywhere and a value where they are smooth."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

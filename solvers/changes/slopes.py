@@ -9,8 +9,6 @@ A boundary that is met at initial contact has no such gradient: its place follow
 where the gradients do not grow as they should, the change is located again with displaced entries.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -18,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER
-from ..settings import KERNEL_STEPS
+from ..engines.settings import KERNEL_STEPS
 from .brackets import Brackets, Labels, bisect
 from .experiment import Experiment
 from .lines import Lines

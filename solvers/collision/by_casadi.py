@@ -13,12 +13,12 @@ import numpy as np
 from ..engines.casadi.integrators import Tolerance, tolerance_for
 from ..engines.casadi.locate import EventSequence, locate
 from ..engines.casadi.replay import Replay, Stopped, as_located, replay
+from ..engines.settings import casadi_steps
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups
 from ..model.model import Model, load, select_model, slip_restitution
 from ..model.phases import Flow, Region
 from ..scene.scene import Scene
-from ..settings import casadi_steps
 from .assemble import assembled
 from .outcome import Energy
 from .result import Collision

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOMES, Status
+from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, Steps, run_recorded
 from ..model.dimensionless import DimensionlessGroups
@@ -15,7 +16,6 @@ from ..model.model import load, select_model
 from ..model.phases import Phase
 from ..model.rebound import rebounded
 from ..scene.scene import Scene
-from ..settings import KERNEL_STEPS
 from .assemble import assembled
 from .outcome import KERNEL_TERMS, Energy, absent_terms
 from .result import Collision

@@ -1,16 +1,14 @@
 """`collide`: computes one collision of a scene."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path as FilePath
 
 from ...generated.automaton import STICK
+from ..engines.settings import UNTIL, casadi_steps, check_engine, check_rtol
 from ..host.arguments import check_flag
 from ..model.dimensionless import nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
-from ..settings import UNTIL, casadi_steps, check_engine, check_rtol
 from .by_casadi import by_casadi
 from .by_kernel import collision
 from .result import Collision

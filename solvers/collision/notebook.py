@@ -1,7 +1,5 @@
 """A collision as a small table for a notebook."""
 
-from __future__ import annotations
-
 from ..formatting.notebook import view
 from .outcome import Outcome
 from .text import assumed, degrees, name_of, plain, quantity, reason

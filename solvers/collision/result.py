@@ -1,7 +1,5 @@
 """The result of one collision: immutable; prints as a table, converts to the JSON object, draws a figure."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

@@ -1,18 +1,13 @@
 """A collision as a short text table: ASCII except for the scene's name, at most 88 columns."""
 
-from __future__ import annotations
-
 import math
 import re
 from textwrap import wrap
-from typing import TYPE_CHECKING
 
 from ...generated.automaton import BOUNCE, CRITERIA, KINDS, STICK, EventKind
-from .outcome import Event, Outcome
-
-if TYPE_CHECKING:
-    from ..scene.scene import Scene
+from ..scene.scene import Scene
 from ..scene.user_model import OwnEvent
+from .outcome import Event, Outcome
 
 WIDTH = 88
 CUT_OFFS = {

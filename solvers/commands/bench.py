@@ -1,7 +1,5 @@
 """`wetdoublet bench`: run time against achieved error of the engines for a scene, and a recommendation."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from ..scene.schema import Field, Range

@@ -1,7 +1,5 @@
 """`wetdoublet cite`: what to cite for a scene."""
 
-from __future__ import annotations
-
 import json
 
 from ..scene.origin import origin

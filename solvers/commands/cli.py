@@ -1,7 +1,5 @@
 """The command line `wetdoublet`: imports commands by name and reports every failure as one line and an exit status."""
 
-from __future__ import annotations
-
 import logging
 import os
 import sys

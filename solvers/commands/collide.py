@@ -1,10 +1,8 @@
 """`wetdoublet collide`: one collision."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
-from ..settings import UNTIL
+from ..engines.settings import UNTIL
 from . import options
 from .signature import as_command, passed
 

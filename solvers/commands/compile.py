@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING, Annotated
 
-from ..settings import check_rtol
+from ..engines.settings import check_rtol
 from . import options
 from .signature import as_command, passed
 

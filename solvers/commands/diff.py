@@ -1,7 +1,5 @@
 """`wetdoublet diff`: differences between two models, in their equations and in a few collisions."""
 
-from __future__ import annotations
-
 from ..errors import InputError
 from . import options
 from .signature import as_command

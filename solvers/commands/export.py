@@ -1,7 +1,5 @@
 """`wetdoublet export`: the law of a scene in C, its model as LaTeX, or the model's functions."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Annotated
 

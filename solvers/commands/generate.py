@@ -1,7 +1,5 @@
 """`wetdoublet generate`: derive the equations and emit them, the library's or a user's model."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click
@@ -37,7 +35,7 @@ def command(model: str | None, out: options.Folder, check: bool, template: bool)
     if template:
         for option, value in passed(**{"MODEL.py": model, "--out": out, "--check": check or None}).items():
             raise InputError(option, value, "--template alone: it prints a model file", "is given with --template")
-        from ...derive.user_model.template import TEMPLATE
+        from ...derive.user.template import TEMPLATE
 
         click.echo(TEMPLATE.rstrip("\n"))
         return

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import click
 
+from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError, shown
 from ..host import files, outputs
 from ..scene.held import check_hold
 from ..scene.schema import FIELDS, SPEEDS, SPINS, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.user_model_source import open_package
-from ..settings import check_engine, check_rtol
 from .signature import Group, Option, options_of, passed
 from .texts import assigned, typed, with_degrees
 

@@ -1,7 +1,5 @@
 """`wetdoublet reproduce`: the paper's figures and numbers compared with ours."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

@@ -1,7 +1,5 @@
 """The journal of a command that continues an interrupted run, and what the command reports of it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`wetdoublet scenes`: lists, prints and begins scene files."""
 
-from __future__ import annotations
-
 import click
 
 from ..errors import InputError

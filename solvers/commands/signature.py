@@ -1,7 +1,5 @@
 """Commands made of functions: options read off a signature and its docstring, and checked before any file is read."""
 
-from __future__ import annotations
-
 import inspect
 import re
 from collections.abc import Callable, Mapping

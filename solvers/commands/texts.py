@@ -3,8 +3,6 @@
 An InputError without a field is about the option that is read.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from ..errors import InputError, did_you_mean, shown

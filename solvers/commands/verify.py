@@ -100,9 +100,7 @@ def command(
     if output is not None:
         write(output, report.to_markdown().rstrip("\n") + "\n")
     if plot is not None and report.budget is not None:
-        from ..verify.plot import draw_budget
-
-        draw_budget(report.budget, plot)
+        report.plot(plot)
     if not report.ok:
         failed = report.failed
         more = f"; and {len(failed) - 1} more, see the report" if len(failed) > 1 else ""

@@ -1,7 +1,5 @@
 """What the last digits of a result depend on besides the request: equations, programs and this machine's processor."""
 
-from __future__ import annotations
-
 import hashlib
 import platform
 from collections.abc import Mapping

@@ -3,12 +3,10 @@
 The request alone decides, and not what is compiled or how many collisions there are: a missing kernel is compiled.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 
 from ..scene.scene import Scene
-from ..settings import CASADI_ENGINES, ENGINES
+from .settings import CASADI_ENGINES, ENGINES
 from .taylor.build import supported
 from .taylor.tangent import differentiates
 

@@ -1,7 +1,5 @@
 """`compile_kernels`: the Taylor kernels of scenes, compiled before they are needed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -12,7 +10,7 @@ from ..host.arguments import check_flag
 from ..host.compiler import compiler
 from ..host.user_cache import folder, unwritable
 from ..scene.scene import Scene
-from ..settings import RTOL, check_rtol
+from .settings import RTOL, check_rtol
 from .taylor.build import Variant, compile_all, is_compiled, size_of, supported
 from .taylor.call import variant_for_many
 from .taylor.orders import order_for

@@ -1,7 +1,5 @@
 """What to cite for a scene: the paper, and where each law that it uses is published."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any

@@ -12,7 +12,7 @@ from ..scene.scene import Scene
 from ..scene.user_model import Package
 
 if TYPE_CHECKING:
-    from ...derive.user_model.structures import UserModel
+    from ...derive.user.structures import UserModel
 
 
 def texts(scene: Scene) -> dict[str, str]:
@@ -20,11 +20,7 @@ def texts(scene: Scene) -> dict[str, str]:
     from ...derive.emit.document.document import document
 
     laws = chosen_laws(scene)
-    parts = (
-        ("bridge", scene.bridge),
-        ("strings", scene.pendulum),
-        ("glass", scene.liquid.glass_transition_pressure),
-    )
+    parts = (("bridge", scene.bridge), ("strings", scene.pendulum), ("glass", scene.liquid.glass_transition_pressure))
     lacking = [slot for slot, there in parts if there is None]
     title = f"Oblique collisions of wet particles: {name_of(scene)}"
     made = document(title, laws, user_model(scene.package), lacking, scene.particles.friction is not None)
@@ -41,7 +37,7 @@ def user_model(package: Package | None) -> UserModel | None:
     """A user's model as an object of the derivation, read from the model file in its folder."""
     if package is None:
         return None
-    from ...derive.user_model.modelfile import read
+    from ...derive.user.modelfile import read
 
     return read(Path(f"{package.name}.py"), package.source, package.name)
 

@@ -1,7 +1,5 @@
 """The functions of a scene's model as self-contained C, by CasADi's code generation."""
 
-from __future__ import annotations
-
 from casadi import CodeGenerator, Function
 
 from ...generated.assemble import casadi_functions

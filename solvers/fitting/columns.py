@@ -1,7 +1,5 @@
 """Columns of a table of measurements, from a CSV file, pandas, xarray or a mapping, with the units of their names."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

@@ -1,7 +1,5 @@
 """Laws, films and criteria compared on the same data: AIC, and what each predicts of impacts left out of its fit."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from operator import attrgetter
@@ -10,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from ..engines.settings import check_rtol
 from ..errors import ComputationError, InputError, did_you_mean
 from ..formatting.markdown import aligned
 from ..host.arguments import check_names
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
 from ..scene.scene import Scene
-from ..settings import check_rtol
 from .fit import RTOL
 from .free_entries import FreeEntries, free_entries, in_unit
 from .likelihood import Likelihood

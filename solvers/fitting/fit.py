@@ -10,9 +10,9 @@ import numpy as np
 from scipy.stats import chi2
 
 from ...generated.automaton import OUTCOMES, STICK
+from ..engines.settings import check_rtol
 from ..model.validity import warn
 from ..scene.scene import Scene
-from ..settings import check_rtol
 from .free_entries import IDENTIFIED, NOT_AT_ALL, FreeEntries, combinations, free_entries, in_unit
 from .likelihood import Evaluation, Likelihood
 from .measurements import UNKNOWN, Measurements, read_data

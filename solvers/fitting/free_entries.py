@@ -3,8 +3,6 @@
 An entry that is positive by its meaning varies in its logarithm; fractions and angles vary as they are.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping, Sequence

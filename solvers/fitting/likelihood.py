@@ -8,18 +8,16 @@ Derivatives are taken at a fixed interpolation variable: the points of a segment
 roots cancel.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..changes.experiment import Experiment
+from ..engines.settings import RTOL
 from ..errors import InputError
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
-from ..settings import RTOL
 from .measurements import Measurements, rows_of
 from .rare import RARE, beyond_reach
 from .scatter import Resolution, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals

@@ -1,10 +1,9 @@
 """A fit as a figure: data over the regime map, results with their band, profiles of the likelihood, residuals."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -19,10 +18,6 @@ from .free_entries import unit_shown
 from .optimise import whitening
 from .profiles import DROP, profile_point
 from .result import Fit
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 
 _GRID = 40  # points of the map along each axis
 _FINE = 120  # of the outcomes of the estimates

@@ -5,8 +5,6 @@ ends where the logarithm of the profile is 1.92 below its maximum (chi-squared w
 profile is that high at several places, the farthest counts.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -5,8 +5,6 @@ is zero and says nothing of how far beyond. Then the likelihood is the tail of t
 change to the observed outcome on, times the density of what was measured about the results there.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -162,14 +162,12 @@ class Fit:
             "correlation": {name: dict(zip(names, row)) for name, row in zip(names, self.correlation.tolist())},
             "combinations": list(self.combinations),
             "remarks": list(self.remarks),
-            "residuals": {
-                "probability": self.rows.probability.tolist(), **residuals, "pull": self.rows.pull.tolist()
-            },
+            "residuals": {"probability": self.rows.probability.tolist(), **residuals, "pull": self.rows.pull.tolist()},
             "quadrature": self.quadrature,
             "others": [{"values": dict(values), "log_likelihood": height} for values, height in self.others],
             **origin(self.first),
             "units": {name: self.first.fields[name].unit or "1" for name in names},
-        }  # fmt: skip
+        }
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each impact: what was observed, and what the fitted scene predicts of it."""

@@ -19,7 +19,7 @@ from ..changes.brackets import Brackets, Changes, locate
 from ..changes.experiment import Experiment
 from ..changes.lines import Lines
 from ..changes.slopes import normals, outcomes_along, slopes
-from ..settings import KERNEL_STEPS
+from ..engines.settings import KERNEL_STEPS
 from .measurements import Measurements
 
 REACH = 5.0  # standard deviations to either side within which an integral is taken

@@ -1,7 +1,5 @@
 """Reports: one sequence of blocks, written as Markdown and as one HTML page that loads nothing from elsewhere."""
 
-from __future__ import annotations
-
 import html
 import re
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """Small HTML tables for notebooks: everything escaped, colours inherited, so that light and dark pages can be read."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from html import escape
 

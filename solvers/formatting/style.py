@@ -1,7 +1,5 @@
 """One style for all figures: the style file, and the colours, hatches and letters of the outcomes."""
 
-from __future__ import annotations
-
 import functools
 import threading
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """Labels of a logarithmic axis as plain numbers."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter

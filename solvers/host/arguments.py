@@ -1,7 +1,5 @@
 """Type checks for arguments of public functions that are not physical quantities."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping, Sequence
 from numbers import Integral
 from typing import Any

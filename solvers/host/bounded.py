@@ -1,7 +1,5 @@
 """Reading of files named by users, within bounds of size, time and nesting depth."""
 
-from __future__ import annotations
-
 import os
 import re
 import select
@@ -17,8 +15,7 @@ LARGEST = 1_000_000  # bytes; most of a model file or an emitted file
 _PART = 65536
 _DEEPEST = 8  # nested tables; a scene has one level
 _TEXT = re.compile(  # comments and the four kinds of TOML strings; an unclosed string extends to the end
-    r'#[^\n]*|"""(?:\\.|[^\\])*?(?:"{3,5}|\Z)|\'\'\'.*?(?:\'{3,5}|\Z)|"(?:\\.|[^"\\\n])*"?|\'[^\'\n]*\'?',
-    re.DOTALL,
+    r'#[^\n]*|"""(?:\\.|[^\\])*?(?:"{3,5}|\Z)|\'\'\'.*?(?:\'{3,5}|\Z)|"(?:\\.|[^"\\\n])*"?|\'[^\'\n]*\'?', re.DOTALL
 )
 _KEY = r"(?:[\w-]++|\"\")"
 _CHAIN = re.compile(rf"(?<![\w-]){_KEY}(?:[ \t]*+\.[ \t]*+{_KEY}){{{_DEEPEST}}}")

@@ -1,7 +1,5 @@
 """Calls of CasADi functions on numpy arrays without conversion to CasADi matrices; about ten times faster."""
 
-from __future__ import annotations
-
 import numpy as np
 from casadi import Function
 

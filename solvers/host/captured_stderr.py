@@ -4,8 +4,6 @@ CasADi prints on `sys.stderr`, which all threads share. A temporary replacement 
 and passes the output of all others to the original stream. Threads may start and end capturing in any order.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import sys

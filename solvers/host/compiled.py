@@ -1,7 +1,5 @@
 """CasADi functions compiled as C and loaded. Without a compiler they are interpreted."""
 
-from __future__ import annotations
-
 from casadi import Function, external
 
 from .compiler import CannotCompile, compiler, key, library, more_flags

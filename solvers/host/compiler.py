@@ -4,8 +4,6 @@ A compiler is accepted if it compiles a two-line program that then runs. Without
 remark on standard error. WETDOUBLET_COMPILE_SECONDS sets the time limit for a file.
 """
 
-from __future__ import annotations
-
 import hashlib
 import math
 import os

@@ -1,7 +1,5 @@
 """The number of cores available to this process."""
 
-from __future__ import annotations
-
 import os
 
 

@@ -4,8 +4,6 @@ Derived modules are cached for the user under a digest of the derivation's sourc
 needed only once. Modules are imported only from `generated/` and from the cache.
 """
 
-from __future__ import annotations
-
 import ast
 import hashlib
 import json

@@ -1,7 +1,5 @@
 """Description of the machine and software of a benchmark."""
 
-from __future__ import annotations
-
 import os
 import platform
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Common handling of Ctrl-C and SIGTERM: finished results are kept, unfinished ones are removed."""
 
-from __future__ import annotations
-
 import signal
 import threading
 from collections.abc import Iterator

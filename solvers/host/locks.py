@@ -4,8 +4,6 @@ The system releases the lock when that process ends, so a folder that another pr
 deleted. Nothing is deleted on systems where folders cannot be locked.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import stat

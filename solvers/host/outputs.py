@@ -1,7 +1,5 @@
 """Checks of output files and folders, made before anything is computed."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from pathlib import Path

@@ -4,8 +4,6 @@ They are neither errors nor part of a result. Worker processes are silent, becau
 a worker reports only what concerns it alone.
 """
 
-from __future__ import annotations
-
 import contextlib
 import os
 import sys

@@ -5,8 +5,6 @@ their symbols may be used by two threads at a time, so objects that hold them ar
 may be cached by `functools.lru_cache`, where at worst two threads compute the same; `once` avoids that too.
 """
 
-from __future__ import annotations
-
 import threading
 from collections import deque
 from collections.abc import Callable, Hashable

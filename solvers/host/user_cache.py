@@ -9,8 +9,6 @@ A folder that other users can write to is refused, because its content is execut
 go to a private temporary folder that is removed with the process, or to memory, with one remark.
 """
 
-from __future__ import annotations
-
 import atexit
 import errno
 import hashlib

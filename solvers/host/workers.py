@@ -1,7 +1,5 @@
 """Worker processes, which ignore Ctrl-C and end with their parent."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import signal

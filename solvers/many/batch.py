@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..engines.choice import collision_engine
+from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..model.validity import NEEDS
@@ -21,7 +22,6 @@ from ..scene.scene import Scene
 from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
-from ..settings import check_engine, check_rtol
 from .results import MAPPED, VALIDITY
 
 T = TypeVar("T")
@@ -322,11 +322,12 @@ def checked_numbers(name: str, values: Any, entry: Field | None = None, most: in
 
 def checked_span(name: str, values: Any) -> tuple[float, float]:
     """Two ascending SI numbers; InputError for anything else."""
-    pair = checked_numbers(name, values)
-    accepted = "(LO, HI) with LO below HI"
-    if pair.shape != (2,):
-        raise InputError(name, values, accepted, "is not a pair of numbers")
-    low, high = pair.tolist()
-    if not low < high:
-        raise InputError(name, f"{low}:{high}", accepted, "is not ascending")
-    return low, high
+    return ascending(name, checked_numbers(name, values))
+
+
+def ascending(name: str, ends: np.ndarray) -> tuple[float, float]:
+    """The ends of a range; InputError unless they are two that ascend."""
+    if ends.shape != (2,) or not ends[0] < ends[1]:
+        problem = "is not ascending" if ends.shape == (2,) else "is not a pair of numbers"
+        raise InputError(name, ":".join(f"{end:g}" for end in ends.reshape(-1)), "LO:HI with LO below HI", problem)
+    return float(ends[0]), float(ends[1])

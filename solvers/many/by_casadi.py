@@ -1,7 +1,5 @@
 """A batch of collisions by CasADi, one after another; one that fails is marked with its reason."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
@@ -12,11 +10,11 @@ from ..collision.by_casadi import by_casadi
 from ..engines.casadi.integrators import Tolerance
 from ..engines.casadi.locate import EventSequence, locate
 from ..engines.casadi.replay import Replay, as_located, replay
+from ..engines.settings import casadi_steps
 from ..errors import WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import Model
 from ..model.phases import Flow
-from ..settings import casadi_steps
 from .batch import Batch
 from .results import FAILED, INTEGRATED, LEDGER, NONE, REVERSALS, Block, empty
 

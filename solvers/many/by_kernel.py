@@ -1,7 +1,5 @@
 """A batch of collisions by the Taylor kernel: columns of SI quantities in, columns of results out."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import lru_cache, partial
 

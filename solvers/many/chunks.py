@@ -4,8 +4,6 @@ Neither the number of cores or workers nor what an earlier run has finished move
 collisions wherever and whenever it is computed.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
+from ..engines.settings import RTOL, check_engine, check_rtol
 from ..errors import InputError
 from ..scene.scene import Scene
-from ..settings import RTOL, check_engine, check_rtol
 from .batch import check_outputs, checked_columns
 from .results import RESULTS
 from .scan import Scan, laid_out

@@ -1,7 +1,5 @@
 """Quantities of many collisions as columns of one length, without any integration: from scene, impacts and entries."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

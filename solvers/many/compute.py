@@ -4,17 +4,15 @@ The Taylor kernel computes them in blocks; those that it does not complete, and 
 worker processes. A collision that fails is marked with its reason and the rest go on.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
 
+from ..engines.settings import FEW
 from ..errors import InputError
 from ..host.compiler import compiler
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
-from ..settings import FEW
 from .batch import Batch
 from .by_casadi import run
 from .by_kernel import collide_by_kernel

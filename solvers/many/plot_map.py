@@ -372,14 +372,7 @@ def _points(data: xarray.Dataset) -> Figure:
         here = outcome == code
         if here.any():
             edge: Any = {"linewidths": 0.4, "edgecolors": "#404040", "label": f"{name} ({int(here.sum())})"}
-            axes.scatter(
-                np.degrees(x[here]),
-                y[here],
-                s=26,
-                c=EDGES[name],
-                marker=mark,
-                **edge,
-            )
+            axes.scatter(np.degrees(x[here]), y[here], s=26, c=EDGES[name], marker=mark, **edge)
     failed = outcome == FAILED
     if failed.any():
         axes.scatter(np.degrees(x[failed]), y[failed], s=30, c="#C00000", marker="x", label=f"failed ({failed.sum()})")

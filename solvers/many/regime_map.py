@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from contextlib import nullcontext
 from importlib.metadata import version
 from pathlib import Path
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..engines.settings import RTOL, check_engine, check_rtol
 from ..errors import InputError
 from ..formatting.labelled import Column
 from ..host import files
@@ -21,7 +22,6 @@ from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from ..scene.user_model import Package
-from ..settings import RTOL, check_engine, check_rtol
 from .batch import Batch, check_outputs, checked_columns
 from .columns import with_impacts
 from .compute import Slow
@@ -181,11 +181,16 @@ def scene_of(data: xarray.Dataset) -> Scene:
 
 def write(data: xarray.Dataset, path: str | Path) -> None:
     """Write a map as NetCDF4, atomically. OSError if it cannot be written."""
+    encoding = {name: {"zlib": True} for name in data.data_vars if data[name].dtype.kind == "f"}
+    files.write(path, netcdf(data, encoding))
+
+
+def netcdf(data: xarray.Dataset, encoding: Mapping[Hashable, Any] | None = None) -> memoryview:
+    """A Dataset as NetCDF4, built in memory: on a full disk HDF5 aborts the process."""
     from h5netcdf import File
     from xarray.backends import H5NetCDFStore
 
-    content = io.BytesIO()  # on a full disk HDF5 aborts the process, so write the file from memory
+    content = io.BytesIO()
     with File(content, "w") as file:
-        encoding = {name: {"zlib": True} for name in data.data_vars if data[name].dtype.kind == "f"}
         data.dump_to_store(H5NetCDFStore(file), encoding=encoding)
-    files.write(path, content.getbuffer())
+    return content.getbuffer()

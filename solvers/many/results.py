@@ -1,7 +1,5 @@
 """What can be kept of many collisions: results by name, with unit and meaning, and how a column of each is stored."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -97,10 +95,10 @@ def attributes(name: str) -> dict[str, Any]:
     return {"units": unit, "long_name": meaning}
 
 
-def outcome_attributes() -> dict[str, Any]:
-    """CF flag attributes of an outcome variable."""
+def outcome_attributes(meaning: str = "outcome", none: str = "failed") -> dict[str, Any]:
+    """CF flag attributes of an outcome variable; `none` is the word for -1."""
     return {
-        "long_name": "outcome",
+        "long_name": meaning,
         "flag_values": np.array([FAILED, 0, 1, 2], dtype=np.int8),
-        "flag_meanings": "failed " + " ".join(name.replace("-", "_") for name in OUTCOMES),
+        "flag_meanings": f"{none} " + " ".join(name.replace("-", "_") for name in OUTCOMES),
     }

@@ -1,7 +1,5 @@
 """The attraction at initial contact and the generalised centrifugal number."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...generated import scaling

@@ -1,19 +1,13 @@
 """Dimensionless groups of a collision, and the scales for conversion to SI."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from ..errors import ComputationError, InputError
 from ..scene.contact import GAPS
 from ..scene.groups import Formula, formulas, si_values
-
-if TYPE_CHECKING:
-    from ..scene.scene import Scene
-
+from ..scene.scene import Scene
 
 FIRST_RATES = ("initial_turning", "initial_spin", "initial_partner_spin")
 

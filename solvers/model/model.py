@@ -1,12 +1,11 @@
 """The model of a scene: its structure module with the chosen laws in their slots, as CasADi expressions."""
 
-from __future__ import annotations
-
 import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, reduce
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from casadi import SX, Function, densify, fmax, fmin, vertcat
@@ -17,12 +16,8 @@ from ..host import emitted
 from ..host.buffered import Buffered
 from ..host.thread_caches import own_cache
 from ..scene.contact import GAPS
+from ..scene.scene import Scene
 from ..scene.user_model import OwnEvent, Package
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from ..scene.scene import Scene
 
 # Fraction of the contact gap. Solutions stay above the contact gap; the floor keeps trial stages out of x <= 0.
 _FLOOR = 0.5

@@ -1,7 +1,5 @@
 """The jump of a state at a rebound, with the friction of the dry contact where a scene has it."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 The numbers are computed by formulas that take floats or arrays, so that one table serves a collision and a map.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable, Mapping

@@ -17,11 +17,7 @@ PARTS = ("table1", "fig1", "fig3", "fig4a", "fig4b", "factors")
 
 
 def reproduce(
-    which: Sequence[str],
-    folder: Path,
-    *,
-    detail: Detail | None = None,
-    say: Callable[[str], None] | None = None,
+    which: Sequence[str], folder: Path, *, detail: Detail | None = None, say: Callable[[str], None] | None = None
 ) -> list[Path]:
     """Compute parts of the paper and write the report on them.
 

@@ -1,26 +1,20 @@
 """Boundaries shared by several parts and traced once per run, and the resolution of figures."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..boundaries.boundary import atlas, boundary
+from ..boundaries.boundary import Atlas, atlas, boundary
+from ..boundaries.changes import Change
 from ..boundaries.line import ready
 from ..boundaries.look import Look
+from ..engines.settings import RTOL
 from ..errors import ComputationError
 from ..scene.scene import Scene
-from ..settings import RTOL
 from .parts import number
 from .printed import CURVES
-
-if TYPE_CHECKING:
-    from ..boundaries.boundary import Atlas
-    from ..boundaries.changes import Change
 
 Line = tuple["Change", ...]
 Span = tuple[float, float]  # range of St

@@ -1,7 +1,5 @@
 """Factors of Ce* when one quantity is doubled and all others are fixed, with the glass criterion disabled."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

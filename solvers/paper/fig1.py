@@ -1,7 +1,5 @@
 """Fig. 1: top views of three collisions of the pendulum at the paper's intervals between frames."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

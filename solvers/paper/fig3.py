@@ -1,13 +1,12 @@
 """Fig. 3: regime map of the pendulum with the theoretical boundaries."""
 
-from __future__ import annotations
-
 import math
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...generated.automaton import ROTATE
+from ..boundaries.boundary import Atlas
 from ..formatting.document import Picture, Table
 from ..formatting.style import halo
 from ..scene.scene import Scene
@@ -17,9 +16,6 @@ from .parts import Comparison, Part, number
 from .printed import PRINTED
 from .style import ANGLE, COLUMN, GREY, STOKES, sheet
 from .variants import PENDULUM, STRING_VARIANTS, described, variant
-
-if TYPE_CHECKING:
-    from ..boundaries.boundary import Atlas
 
 _REACH = 2.5  # St at the right edge
 _BESIDE = 1 + 1e-6

@@ -1,16 +1,15 @@
 """Fig. 4a: regime map of the free granules with lines of constant Ce and St; inset without capillary force."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..boundaries.boundary import Atlas
 from ..errors import ComputationError
 from ..formatting.document import Picture, Table
 from ..formatting.style import INK, halo
@@ -22,9 +21,6 @@ from .parts import Comparison, Part, degrees, number
 from .printed import PRINTED
 from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, sheet
 from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant
-
-if TYPE_CHECKING:
-    from ..boundaries.boundary import Atlas
 
 _REACH = 0.26  # St at the right edge
 _NO_BRIDGE = "without a bridge there is no centrifugal number"
@@ -90,13 +86,7 @@ def near_printed(scene: Scene, angle: float) -> Job:
 
 
 def _compared(
-    desk: Desk,
-    scene: Scene,
-    dry: Scene,
-    stokes: float,
-    ours: float,
-    criticals: Sequence[float],
-    only_head_on: bool,
+    desk: Desk, scene: Scene, dry: Scene, stokes: float, ours: float, criticals: Sequence[float], only_head_on: bool
 ) -> tuple[Comparison, ...]:
     desk.say("fig. 4a: glass-transition pressure of the printed St*")
     pressure, fitted = printed_pressure(scene), desk.pressure_for(scene, PRINTED["stokes_4"].value)

@@ -1,7 +1,5 @@
 """Fig. 4b: restitution against St at six angles; inset against Ce for stick-rotate-separate."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path

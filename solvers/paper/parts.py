@@ -1,7 +1,5 @@
 """Data of a part of the reproduction for the report: comparisons, tables, figures and text."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

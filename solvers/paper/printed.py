@@ -3,8 +3,6 @@
 Donahue, Davis, Kantak and Hrenya, Phys. Rev. E 86, 021303 (2012), DOI 10.1103/PhysRevE.86.021303.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -50,11 +48,7 @@ class Shot:
     outcome: str
 
 
-SHOTS = (
-    Shot("a", 1.0, 79.0, "stick"),
-    Shot("b", 1.3, 61.0, "stick-rotate-separate"),
-    Shot("c", 1.5, 49.0, "bounce"),
-)
+SHOTS = (Shot("a", 1.0, 79.0, "stick"), Shot("b", 1.3, 61.0, "stick-rotate-separate"), Shot("c", 1.5, 49.0, "bounce"))
 SHOT_ANGLE = math.radians(45)  # caption of Fig. 1
 
 _FACTORS = "doubling the values of V, x0, mu, sigma, m and a leads to a change in Ce* by factors of ..."

@@ -1,17 +1,13 @@
 """Regime map: regions of the outcomes and the boundaries between them; x axis St, y axis impact angle."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from ...generated.automaton import OUTCOMES
+from ..boundaries.boundary import Atlas
 from ..formatting.style import EDGES, FILLS, HATCHES, INK
-
-if TYPE_CHECKING:
-    from ..boundaries.boundary import Atlas
 
 _ROWS, _COLUMNS = 541, 781  # of the raster of outcomes; their edges are drawn over by the curves
 

@@ -1,7 +1,5 @@
 """The report: printed numbers compared with ours, then each part with figures, equations and variants."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from ..formatting.document import Block, Formulas, Table

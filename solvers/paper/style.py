@@ -1,7 +1,5 @@
 """Style of the figures: width of one printed column, colour-blind safe colours, symbols of the paper."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path

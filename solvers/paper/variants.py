@@ -1,7 +1,5 @@
 """The paper's scenes and their variants: choices that the paper leaves open, each changed alone."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

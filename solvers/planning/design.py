@@ -1,7 +1,5 @@
 """`design()`: where the next impacts should be to learn most about entries of a scene."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -11,6 +9,7 @@ import numpy as np
 from scipy.stats import norm, qmc
 
 from ...generated.automaton import OUTCOMES, STICK
+from ..engines.settings import check_rtol
 from ..errors import InputError
 from ..fitting.fit import RTOL, fit
 from ..fitting.free_entries import FreeEntries, free_entries
@@ -18,7 +17,6 @@ from ..fitting.measurements import Measurements, read_data
 from ..host.arguments import check_name, check_whole
 from ..model.validity import warn
 from ..scene.scene import Scene
-from ..settings import check_rtol
 from .information import information, reliable_information
 from .result import Design
 from .search import Criterion, search

@@ -8,19 +8,17 @@ interpolation along the lines are those of the likelihood, so f_k is a sum of no
 quadrature, with exact derivatives.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
 from ..changes.experiment import Experiment
+from ..engines.settings import RTOL
 from ..fitting.likelihood import NEGLIGIBLE, Likelihood
 from ..fitting.measurements import Measurements
 from ..fitting.scatter import Resolution, ScatterLines, Segments, nearest_normals
 from ..scene.scene import Scene
-from ..settings import RTOL
 from .density import Curve, information_of
 
 FINE = Resolution(points=64)

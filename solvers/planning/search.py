@@ -4,8 +4,6 @@ Information adds up over impacts, so a design is as good as a function of the su
 functions used here are concave in that sum, which bounds how much better any other choice among the candidates can be.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The gap of solid contact: the largest of the gaps at which a rebound criterion is met."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

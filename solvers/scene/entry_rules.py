@@ -26,7 +26,7 @@ from .schema import (
 from .tables import Attraction, Bridge, Liquid, Particles, Partner, Pendulum, Table
 
 if TYPE_CHECKING:
-    from .system import System
+    from .groups import System
     from .user_model import Package
 
 

@@ -1,24 +1,154 @@
-"""Quantities and dimensionless groups of a scene, by the emitted formulas."""
-
-from __future__ import annotations
+"""Entries, tables and quantities of a scene, and its dimensionless groups by the emitted formulas."""
 
 import math
 from collections.abc import Callable, Mapping
-from functools import lru_cache
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
 
 from ...generated import scaling
 from ..host import emitted
-from .system import System
-from .user_model import Package
+from .quantities import Ways, normal_speed, quantities, shared
+from .schema import MEETING, Field, Raw
+from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
+from .user_model import Package, fields
 
 Formula = tuple[Callable[..., Any], tuple[str, ...]]
 _VARIANTS = (
     "initial_rate_pair", "centrifugal_pair", "generalised_centrifugal", "obliquity_pair", "obliquity_wall",
     "obliquity_space", "rate_scale_pair", "rate_scale_wall",
 )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class System:
+    """A `Scene` without the ways to read, write and change it: its entries, tables and quantities, SI."""
+
+    name: str
+    given: tuple[tuple[str, Raw], ...] = field(compare=False, repr=False)
+    comments: tuple[tuple[str, str], ...] = field(default=(), compare=False, repr=False)
+    package: Package | None = field(default=None, repr=False)
+    held: str = field(default="", compare=False, repr=False)
+
+    particles: Particles = field(init=False, compare=False)
+    partner: Partner | None = field(init=False, compare=False)
+    liquid: Liquid = field(init=False, compare=False)
+    bridge: Bridge | None = field(init=False, compare=False)
+    attraction: Attraction | None = field(init=False, compare=False)
+    pendulum: Pendulum | None = field(init=False, compare=False)
+    model: Model = field(init=False, compare=False)
+    impact: Impact = field(init=False, compare=False)
+    si: tuple[tuple[str, float | str], ...] = field(init=False, repr=False)
+    ways: Ways = field(init=False, repr=False)
+
+    @property
+    def fields(self) -> Mapping[str, Field]:
+        """The entries that this scene may have: dotted name -> `Field`, with the unit of the value in `si`."""
+        known = fields(self.package)
+        if self.ways.volume != "absolute":
+            return known
+        return {**known, "bridge.volume": known["bridge.volume"].measured}
+
+    @property
+    def entries(self) -> Mapping[str, float | str]:
+        """The given entries: dotted name -> SI number or choice, in the order of the file."""
+        return dict(self.si)
+
+    # ---- quantities of the pair
+
+    @cached_property
+    def material(self) -> Mapping[str, float]:
+        """The quantities by vocabulary name, SI, without speed and angle of the impact. Read only."""
+        return quantities({name: value for name, value in self.si if name not in MEETING}, self.ways)
+
+    @property
+    def wall(self) -> bool:
+        """True if the partner is a wall."""
+        return self.ways.wall
+
+    @property
+    def pair(self) -> bool:
+        """True if each of two spheres has its own spin: unequal ones, or equal ones with a spin each."""
+        return not self.wall and (self.partner is not None or self.impact.partner_spin is not None)
+
+    @property
+    def radius_ratio(self) -> float | None:
+        """R_2/R_1: 1 without a partner, None for a wall."""
+        if self.partner is None:
+            return 1.0
+        return None if self.partner.radius is None else self.partner.radius / (2 * self.particles.reduced_radius)
+
+    @property
+    def mass_ratio(self) -> float | None:
+        """M_2/M_1: 1 without a partner, None for a wall."""
+        if self.partner is None:
+            return 1.0
+        return None if self.partner.mass is None else self.partner.mass / (2 * self.particles.reduced_mass)
+
+    @property
+    def reduced_radius(self) -> float:
+        """The pair's a = R_1 R_2/(R_1 + R_2) in m; R_1 with a wall."""
+        return float(self.particles.reduced_radius * shared(self.radius_ratio))
+
+    @property
+    def reduced_mass(self) -> float:
+        """The pair's m = M_1 M_2/(M_1 + M_2) in kg; M_1 with a wall."""
+        return float(self.particles.reduced_mass * shared(self.mass_ratio))
+
+    # ---- lengths, and the impact as Stokes number and as speed
+
+    @cached_property
+    def rupture_gap(self) -> float:
+        """x_f in m: rupture gap of the bridge, or without one the film thickness."""
+        if self.bridge is None:
+            return self.liquid.film_thickness
+        return scaled("rupture_gap", self) * self.liquid.film_thickness
+
+    def elastic_length(self, speed: float) -> float | None:
+        """Return x_r in m, the gap at which elastic deformation stops `speed` (m/s); None without Young's modulus."""
+        if self.particles.youngs_modulus is None:
+            return None
+        return scaled("elastic_gap", self, speed) * self.liquid.film_thickness
+
+    @cached_property
+    def stokes_per_speed(self) -> float:
+        """m/(6 pi mu a^2) in s/m: ratio of the Stokes number to the normal speed."""
+        return scaled("stokes", self, speed=1.0)
+
+    def stokes_of(self, speed: float) -> float:
+        """Return the Stokes number of a normal speed (m/s)."""
+        return speed * self.stokes_per_speed
+
+    def speed_of(self, stokes: float) -> float:
+        """Return the normal speed (m/s) of a Stokes number."""
+        return stokes / self.stokes_per_speed
+
+    @property
+    def stokes(self) -> float | None:
+        """Normal Stokes number of the impact, None if it has none."""
+        if self.impact.stokes is not None:
+            return self.impact.stokes
+        return None if self.speed is None else self.stokes_of(self.speed)
+
+    @property
+    def speed(self) -> float | None:
+        """Normal approach speed v0 of the impact in m/s, None if it has none."""
+        if self.impact.stokes is not None:
+            return self.speed_of(self.impact.stokes)
+        if self.impact.relative_speed is None or self.impact.angle is None:
+            return self.impact.speed
+        return float(normal_speed(self.impact.relative_speed, self.impact.angle))
+
+    @property
+    def angle(self) -> float | None:
+        """Impact angle in rad, None if the impact has none."""
+        return self.impact.angle
+
+    def turns(self, angle: float) -> bool:
+        """True if something moves sideways at this angle (rad): the impact has one, or a sphere spins."""
+        return angle > 0 or bool(self.impact.spin) or bool(self.impact.partner_spin)
 
 
 def formulas(scene: System) -> Mapping[str, Formula]:

@@ -9,7 +9,7 @@ from ..errors import InputError, did_you_mean
 from .schema import SPEEDS
 
 if TYPE_CHECKING:
-    from .system import System  # imports casadi, which the check of an option does without
+    from .groups import System  # imports casadi, which the check of an option does without
 
 HOLDS = ("speed", "stokes", "relative_speed")
 NAMES = {"speed": "normal speed", "stokes": "Stokes number", "relative_speed": "relative speed"}

@@ -84,18 +84,12 @@ CHOICES = {
         "common": r"$x_f = 2a V^{1/3} (1 + \phi/2)$ with every law",
         "own": "the distance that the authors of the law give; an error where they give none",
     },
-    "pendulum.law": {
-        "exact": "strings of length $l$",
-        "small-angle": "forces linear in the swing",
-    },
+    "pendulum.law": {"exact": "strings of length $l$", "small-angle": "forces linear in the swing"},
     "model.arm": {
         "midgap": "$r/2$, halfway between the surfaces: conserves angular momentum",
         "surface": "$2a$, on the surfaces: leading order, loses 0.2 to 1 % of the angular momentum; no stick is proved",
     },
-    "model.tangential": {
-        "immersed": r"$\ln(2a/x)$, until $x = 2a$",
-        "film": r"$\ln(x_0/x)$, inside the film only",
-    },
+    "model.tangential": {"immersed": r"$\ln(2a/x)$, until $x = 2a$", "film": r"$\ln(x_0/x)$, inside the film only"},
     "model.glass": {
         "literal": r"$3 \mu a |u|/x^2$ as published; it can be met at initial contact",
         "film-corrected": "with the pressure at the rim of the film, $1/x^2 - 1/x_0^2$: zero at initial contact",

@@ -1,7 +1,5 @@
 """What every JSON object says of where its numbers come from."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from .scene import Scene

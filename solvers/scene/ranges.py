@@ -1,7 +1,5 @@
 """Ranges on the command line: `LO:HI:N`, or `log:LO:HI:N`, both ends included."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Mapping

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any, Self
@@ -13,17 +13,17 @@ from ..errors import InputError
 from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
-from .groups import scaled
+from .groups import System
 from .held import adjusted_impact, held_quantity, impact_quantity
-from .quantities import SHADOW, Ways, coating_fraction, normal_speed, quantities, shared
-from .schema import FIELDS, MEETING, SPEEDS, TABLES, Field, Raw
-from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
+from .quantities import SHADOW, Ways, coating_fraction
+from .schema import FIELDS, SPEEDS, TABLES, Field, Raw
+from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Pendulum
 from .user_model import Package, fields
 from .user_model_source import open_package
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene(System):
     """A colliding pair and its impact, in SI units and radians.
 
     A scene stores its entries as the file or the caller gave them; the tables are derived from those, so the two cannot
@@ -43,23 +43,6 @@ class Scene:
     >>> scene.liquid.viscosity
     3.0
     """
-
-    name: str
-    given: tuple[tuple[str, Raw], ...] = field(compare=False, repr=False)
-    comments: tuple[tuple[str, str], ...] = field(default=(), compare=False, repr=False)
-    package: Package | None = field(default=None, repr=False)
-    held: str = field(default="", compare=False, repr=False)
-
-    particles: Particles = field(init=False, compare=False)
-    partner: Partner | None = field(init=False, compare=False)
-    liquid: Liquid = field(init=False, compare=False)
-    bridge: Bridge | None = field(init=False, compare=False)
-    attraction: Attraction | None = field(init=False, compare=False)
-    pendulum: Pendulum | None = field(init=False, compare=False)
-    model: Model = field(init=False, compare=False)
-    impact: Impact = field(init=False, compare=False)
-    si: tuple[tuple[str, float | str], ...] = field(init=False, repr=False)
-    ways: Ways = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Read the tables and check the rules."""
@@ -173,14 +156,6 @@ class Scene:
         return html(self)
 
     @property
-    def fields(self) -> Mapping[str, Field]:
-        """The entries that this scene may have: dotted name -> `Field`, with the unit of the value in `si`."""
-        known = fields(self.package)
-        if self.ways.volume != "absolute":
-            return known
-        return {**known, "bridge.volume": known["bridge.volume"].measured}
-
-    @property
     def custom(self) -> Mapping[str, Raw]:
         """Quantities declared by a user's model: name -> value with its unit, given or default."""
         return {name.partition(".")[2]: value for name, value in self.given if name.startswith("custom.")}
@@ -190,11 +165,6 @@ class Scene:
         kept = entry.kept(raw)
         own = entry.name not in FIELDS and entry.unit and not isinstance(kept, str)
         return f"{kept!r} {entry.unit}" if own else kept
-
-    @property
-    def entries(self) -> Mapping[str, float | str]:
-        """The given entries: dotted name -> SI number or choice, in the order of the file."""
-        return dict(self.si)
 
     @property
     def guesses(self) -> tuple[tuple[str, str], ...]:
@@ -349,100 +319,6 @@ class Scene:
         )
         rules.check_speed(made)
         return made
-
-    # ---- quantities of the pair
-
-    @cached_property
-    def material(self) -> Mapping[str, float]:
-        """The quantities by vocabulary name, SI, without speed and angle of the impact. Read only."""
-        return quantities({name: value for name, value in self.si if name not in MEETING}, self.ways)
-
-    @property
-    def wall(self) -> bool:
-        """True if the partner is a wall."""
-        return self.ways.wall
-
-    @property
-    def pair(self) -> bool:
-        """True if each of two spheres has its own spin: unequal ones, or equal ones with a spin each."""
-        return not self.wall and (self.partner is not None or self.impact.partner_spin is not None)
-
-    @property
-    def radius_ratio(self) -> float | None:
-        """R_2/R_1: 1 without a partner, None for a wall."""
-        if self.partner is None:
-            return 1.0
-        return None if self.partner.radius is None else self.partner.radius / (2 * self.particles.reduced_radius)
-
-    @property
-    def mass_ratio(self) -> float | None:
-        """M_2/M_1: 1 without a partner, None for a wall."""
-        if self.partner is None:
-            return 1.0
-        return None if self.partner.mass is None else self.partner.mass / (2 * self.particles.reduced_mass)
-
-    @property
-    def reduced_radius(self) -> float:
-        """The pair's a = R_1 R_2/(R_1 + R_2) in m; R_1 with a wall."""
-        return float(self.particles.reduced_radius * shared(self.radius_ratio))
-
-    @property
-    def reduced_mass(self) -> float:
-        """The pair's m = M_1 M_2/(M_1 + M_2) in kg; M_1 with a wall."""
-        return float(self.particles.reduced_mass * shared(self.mass_ratio))
-
-    # ---- lengths, and the impact as Stokes number and as speed
-
-    @cached_property
-    def rupture_gap(self) -> float:
-        """x_f in m: rupture gap of the bridge, or without one the film thickness."""
-        if self.bridge is None:
-            return self.liquid.film_thickness
-        return scaled("rupture_gap", self) * self.liquid.film_thickness
-
-    def elastic_length(self, speed: float) -> float | None:
-        """Return x_r in m, the gap at which elastic deformation stops `speed` (m/s); None without Young's modulus."""
-        if self.particles.youngs_modulus is None:
-            return None
-        return scaled("elastic_gap", self, speed) * self.liquid.film_thickness
-
-    @cached_property
-    def stokes_per_speed(self) -> float:
-        """m/(6 pi mu a^2) in s/m: ratio of the Stokes number to the normal speed."""
-        return scaled("stokes", self, speed=1.0)
-
-    def stokes_of(self, speed: float) -> float:
-        """Return the Stokes number of a normal speed (m/s)."""
-        return speed * self.stokes_per_speed
-
-    def speed_of(self, stokes: float) -> float:
-        """Return the normal speed (m/s) of a Stokes number."""
-        return stokes / self.stokes_per_speed
-
-    @property
-    def stokes(self) -> float | None:
-        """Normal Stokes number of the impact, None if it has none."""
-        if self.impact.stokes is not None:
-            return self.impact.stokes
-        return None if self.speed is None else self.stokes_of(self.speed)
-
-    @property
-    def speed(self) -> float | None:
-        """Normal approach speed v0 of the impact in m/s, None if it has none."""
-        if self.impact.stokes is not None:
-            return self.speed_of(self.impact.stokes)
-        if self.impact.relative_speed is None or self.impact.angle is None:
-            return self.impact.speed
-        return float(normal_speed(self.impact.relative_speed, self.impact.angle))
-
-    @property
-    def angle(self) -> float | None:
-        """Impact angle in rad, None if the impact has none."""
-        return self.impact.angle
-
-    def turns(self, angle: float) -> bool:
-        """True if something moves sideways at this angle (rad): the impact has one, or a sphere spins."""
-        return angle > 0 or bool(self.impact.spin) or bool(self.impact.partner_spin)
 
     def need_impact(self) -> tuple[float, float]:
         """Return (normal speed in m/s, angle in rad); InputError if the scene does not give both."""

@@ -12,16 +12,7 @@ from . import units
 
 Raw = float | int | str
 """An entry as a scene keeps it: text with its unit, a choice, or a plain number."""
-BRIDGE_LAWS = (
-    "mikami",
-    "mikami-log10",
-    "willett",
-    "willett-simple",
-    "rabinovich",
-    "lambert",
-    "soulie",
-    "constant",
-)
+BRIDGE_LAWS = ("mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
 FROM_COATING = "from coating"
 """What `bridge.volume` says where the liquid of the bridge is what flows out of the coatings."""
 FILM_LAWS = ("finite", "infinite", "cavitating", "constant-volume")

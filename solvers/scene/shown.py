@@ -1,16 +1,12 @@
 """A scene as a table: every entry with its unit, what is a default or assumed, and what follows from them."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from textwrap import shorten
-from typing import Protocol
 
 from ..formatting.notebook import view
-from .schema import Field
-from .system import System
+from .groups import System
 
 _WIDTH = 100  # characters of a line
 _VALUE = 16  # at least, of a value
@@ -18,25 +14,14 @@ _VALUE = 16  # at least, of a value
 Row = tuple[str, str, str]
 
 
-class Scene(System, Protocol):
-    """What is shown of a `Scene`."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def comments(self) -> tuple[tuple[str, str], ...]: ...
-    @property
-    def fields(self) -> Mapping[str, Field]: ...
-
-
-def entries(scene: Scene) -> list[Row]:
+def entries(scene: System) -> list[Row]:
     """Name, value and remark of every entry: those given, then the defaults that act."""
     assumed = dict(scene.comments)
     given = [(name, _value(scene, name), assumed.get(name, "")) for name, _ in scene.given]
     return given + [(name, value, "default") for name, value in _defaults(scene)]
 
 
-def derived(scene: Scene) -> list[Row]:
+def derived(scene: System) -> list[Row]:
     """What follows from the entries: the impact both ways, and the gap at which the two separate."""
     rows = [("film separates at" if scene.bridge is None else "bridge ruptures at", _si(scene.rupture_gap, "m"), "")]
     if scene.stokes is not None and scene.speed is not None:
@@ -45,7 +30,7 @@ def derived(scene: Scene) -> list[Row]:
     return rows
 
 
-def text(scene: Scene) -> str:
+def text(scene: System) -> str:
     """The table for a terminal."""
     blocks = [entries(scene), derived(scene)]
     name = max(len(row[0]) for rows in blocks for row in rows)
@@ -61,20 +46,20 @@ def _line(entry: str, remark: str) -> str:
     return (entry + shorten(remark, max(_WIDTH - len(entry), 20), placeholder=" ...")).rstrip()
 
 
-def html(scene: Scene) -> str:
+def html(scene: System) -> str:
     """The table for a notebook."""
     rows = [*entries(scene), *derived(scene)]
     return view(scene.name or "unnamed scene", rows, ("entry", "value", ""), most=len(rows))
 
 
-def _value(scene: Scene, name: str) -> str:
+def _value(scene: System, name: str) -> str:
     raw, unit = dict(scene.given)[name], scene.fields[name].unit
     if isinstance(raw, str) or unit is None:
         return "true" if raw is True else str(raw)
     return f"{scene.entries[name]:.6g} {unit}"
 
 
-def _defaults(scene: Scene) -> Iterator[tuple[str, str]]:
+def _defaults(scene: System) -> Iterator[tuple[str, str]]:
     given = dict(scene.given)
     for table in (scene.particles, scene.liquid, scene.bridge, scene.attraction, scene.pendulum, scene.model):
         if table is None:

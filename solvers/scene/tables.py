@@ -1,7 +1,5 @@
 """The tables of a scene, in SI; immutable, and each validates its own entries."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass

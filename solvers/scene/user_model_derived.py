@@ -1,7 +1,5 @@
 """Derivation of a user's model file: checks, emitted files and a report."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -28,8 +26,9 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
         InputError: not a valid model file; names the line, and what is accepted.
     """
     from ...derive.checks.user import model_checks
+    from ...derive.checks.words import conserved, in_words
     from ...derive.emit.user import package
-    from ...derive.user_model.declarations import ModelFileError
+    from ...derive.user.declarations import ModelFileError
 
     try:
         model, checks = model_checks(path)
@@ -40,7 +39,8 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
     failing = [check.name for check in checks if not check.ok]
     if model is None or failing:
         return Derived("\n".join(lines), {}, f"fails {', '.join(failing)}; nothing is emitted")
-    files = package(model, path.read_text(encoding="utf-8"), library_digest(), _origin(path, folder))
+    source, words = path.read_text(encoding="utf-8"), in_words(model)
+    files = package(model, source, library_digest(), conserved(model), words, _origin(path, folder))
     made = Package(files["manifest.json"])
     for name, value in made.defaults.items():
         try:
@@ -49,7 +49,7 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
             raise InputError(f"{path}: {name}, default", value, error.accepted, error.problem) from None
     said = [f"{model.name}: {model.meaning}.", *(f"  {law.slot} law {law.name}: {law.meaning}" for law in model.laws)]
     said += [f"  event {event.proposed.word}: {event.proposed.meaning}" for event in model.events]
-    return Derived("\n".join([*said, "", *lines, "", *made.manifest["words"]]), files, "")
+    return Derived("\n".join([*said, "", *lines, "", *words]), files, "")
 
 
 def _origin(path: Path, folder: Path | None) -> str:

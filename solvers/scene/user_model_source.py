@@ -1,7 +1,5 @@
 """Opening of a user's model: an emitted folder, or a model file, derived on first use. A stale one is refused."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

@@ -3,8 +3,6 @@
 Values that numpy would convert silently are refused: masked values, truth values, dates, complex numbers, text.
 """
 
-from __future__ import annotations
-
 import re
 from numbers import Real
 from typing import Any, Protocol

@@ -14,11 +14,11 @@ from ..boundaries.boundary import Boundaries, boundary
 from ..boundaries.changes import Change, changes_along
 from ..boundaries.line import Line
 from ..boundaries.look import Look
+from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function
 from ..scene.scene import Scene
 from ..scene.schema import DEFAULTS, FIELDS, SPEEDS
-from ..settings import RTOL, check_rtol
 from .boundary_slope import slope
 from .parameters import check_wrt, kind_of, parameter_map, references
 from .results import Row

@@ -1,7 +1,5 @@
 """Sensitivities of boundaries as a figure: the elasticities of every change of outcome as bars."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

@@ -5,8 +5,6 @@ misses a criterion, the speed at which it passes the barrier. Where an estimate 
 number is computed with the functions that are smooth through the boundary (`boundaries.line`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 

@@ -6,8 +6,6 @@ the gap at which an escape stops short of the rim, the amplitude of the unstable
 different sides. Its gradient in the groups is one adjoint; the implicit function theorem gives the derivatives of St*.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Derivatives by the Taylor kernel in a scene's parameters, of one collision or of many of the same scene."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
@@ -10,6 +8,7 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.casadi.locate import EventSequence
+from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_for
 from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, differentiates, run_tangent
@@ -17,7 +16,6 @@ from ..model.dimensionless import nondimensionalise
 from ..scene.groups import rate_scales, si_values
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
-from ..settings import KERNEL_STEPS
 from .parameters import RELATIVE, SCALES, Kind, parameter_map, references
 from .problem import Problem, Slopes, sharpened
 from .result import Near

@@ -1,7 +1,5 @@
 """CasADi functions of a trajectory's first and second derivatives, forward and adjoint, cached by course."""
 
-from __future__ import annotations
-
 import numpy as np
 from casadi import DM, MX, Function, densify, jtimes
 

@@ -1,7 +1,5 @@
 """First and second derivatives of a trajectory along as few directions in its groups as needed."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .derivatives import LANDED, LANDED_WELL, curvature, evaluate, first_derivatives, lands, settled

@@ -13,6 +13,7 @@ import numpy as np
 from ...generated.automaton import LAST_ANSWER, OUTCOMES, Status
 from ...generated.automaton import STICK as STICKS
 from ..engines.choice import gradient_engine
+from ..engines.settings import KERNEL_STEPS, RTOL, check_engine
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_for
 from ..engines.taylor.tangent import DISTANCES, Carried, order_backward, run_tangent
@@ -27,7 +28,6 @@ from ..scene.groups import sideways
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
-from ..settings import KERNEL_STEPS, RTOL, check_engine
 from . import by_kernel as kernel
 from .boundary_distance import LOOK, limit, refused
 from .parameters import RELATIVE, SIDEWAYS, Kind, check_wrt, kind_of, references

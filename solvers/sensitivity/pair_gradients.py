@@ -14,6 +14,7 @@ from ...generated.automaton import OUTCOMES
 from ..changes.experiment import free_names
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance_for
 from ..engines.casadi.locate import EventLocator
+from ..engines.settings import check_rtol
 from ..errors import ComputationError, WetDoubletError
 from ..host.arguments import check_names
 from ..host.pictures import register
@@ -23,7 +24,6 @@ from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.validity import warn
 from ..scene.scene import Scene
-from ..settings import check_rtol
 from ..space.by_casadi import groups_of, own_axes
 from ..space.collide_pair import AXES, NUMBERS, VECTORS, check_scene, refusals
 from ..space.pairs import Pairs, checked

@@ -3,8 +3,6 @@
 Derivatives are in theta, p = p_ref (1 + theta), or p = scale theta where p_ref is 0, so that each is of order one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any

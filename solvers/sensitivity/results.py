@@ -1,7 +1,5 @@
 """The differentiable results of a collision by name, and the requirements of each."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """`sensitivities()`: derivatives of the results of a scene's collision."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path as FilePath
@@ -10,12 +8,12 @@ import numpy as np
 
 from ..engines.casadi.locate import EventSequence
 from ..engines.choice import casadi_gradient_engine, gradient_engine
+from ..engines.settings import check_engine, check_rtol
 from ..errors import ComputationError, InputError, did_you_mean
 from ..host.arguments import check_mapping
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import ANY, Field
-from ..settings import check_engine, check_rtol
 from . import by_kernel as kernel
 from .parameters import SIDEWAYS, check_wrt
 from .problem import Along, Problem, Slopes

@@ -1,7 +1,5 @@
 """Tornado chart: elasticities as bars, the largest on top."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Sequence
 from typing import Any

@@ -17,6 +17,7 @@ from casadi import MX, SX, Function, densify, horzcat, jtimes, vec, vertcat
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, quiet, tolerance_for
 from ..engines.casadi.locate import EventSequence
 from ..engines.choice import casadi_gradient_engine
+from ..engines.settings import check_plugin, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.pictures import register
 from ..host.thread_caches import own_cache
@@ -24,7 +25,6 @@ from ..model.model import select_model
 from ..model.phases import Flow, expressions
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
-from ..settings import check_plugin, check_rtol
 from .derivatives import evaluate, settled
 from .directions import inverse, landed, spanning
 from .parameters import SIDEWAYS, check_wrt, parameter_map

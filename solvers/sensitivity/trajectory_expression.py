@@ -4,8 +4,6 @@ A landing is a correction of the state onto the event's surface. At the located 
 first and second derivatives are those of the saltation. So CasADi differentiates the whole trajectory.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

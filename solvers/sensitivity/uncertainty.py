@@ -71,11 +71,11 @@ def _value(scene: Scene, name: str) -> float:
 def first_order(found: Sensitivities, deviation: Mapping[str, float]) -> dict[str, float | None]:
     """Standard deviation of each result for independent parameters: sqrt(sum (dy/dp sigma_p)^2)."""
     return {
-        name: None if found.value[name] is None else float(np.sqrt(sum(
-            (float(row[p] or 0.0) * sigma) ** 2 for p, sigma in deviation.items()
-        )))
+        name: None
+        if found.value[name] is None
+        else float(np.sqrt(sum((float(row[p] or 0.0) * sigma) ** 2 for p, sigma in deviation.items())))
         for name, row in found.gradient.items()
-    }  # fmt: skip
+    }
 
 
 def spoken(found: Sensitivities, spread: Mapping[str, float | None]) -> str:
@@ -194,8 +194,7 @@ def _sampled(
         if RELATIVE in varied or (relative is not None and not {*SPEEDS} & {*varied}):
             moved = normal_speed(varied.get(RELATIVE, np.full(samples, relative)), angles[-1])
         speeds.append(moved)
-    vary = {name: at[0].as_given(name, np.concatenate(parts)) for name, parts in columns.items()
-            if name not in MEETING}  # fmt: skip
+    vary = {name: at[0].as_given(name, np.concatenate(parts)) for name, parts in columns.items() if name not in MEETING}
     names = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
     meeting: dict[str, Any] = {"speed": np.concatenate(speeds), "angle": np.concatenate(angles)}
     if hold == "stokes":

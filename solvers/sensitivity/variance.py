@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..engines.settings import check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_mapping, check_name, check_whole
 from ..host.pictures import register
@@ -18,7 +19,6 @@ from ..many.stream import check_places
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
-from ..settings import check_rtol
 from .parameters import check_wrt
 from .uncertainty import check_samples
 

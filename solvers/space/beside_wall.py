@@ -8,8 +8,6 @@ Energies are quadratic in both vectors: for a ledger two more collisions, of whi
 coefficients.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Energy ledgers of collisions in space: terms over m v0^2 by either engine, a row each, and in J."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -5,8 +5,6 @@ centres, the second lies along what rotates most across it. Turning the picture 
 the integration they turn about the angular momentum as a rigid doublet would (`model.phases`).
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Pairs by the Taylor kernel: in their plane where they have one, else with vectors."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

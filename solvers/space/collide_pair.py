@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..engines.choice import collision_engine
+from ..engines.settings import FEW, RTOL, casadi_steps, check_engine, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_flag
 from ..host.cores import usable_cores
@@ -16,7 +17,6 @@ from ..many.results import attributes, outcome_attributes
 from ..model.validity import sentences_of_many, warn
 from ..scene.groups import si_values
 from ..scene.scene import Scene
-from ..settings import FEW, RTOL, casadi_steps, check_engine, check_rtol
 from .beside_wall import beside_wall, planar_by_casadi, planar_by_kernel
 from .books import GREW, OPEN, named
 from .by_casadi import by_casadi

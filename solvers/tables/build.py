@@ -1,7 +1,5 @@
 """Construction of a table: layouts, boundaries as series, results between them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,11 +1,9 @@
 """A table as one header in C99 (and C++): its data and a reader."""
 
-from __future__ import annotations
-
 import zlib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,10 +11,8 @@ from ...generated.automaton import CRITERIA, KINDS, OUTCOMES
 from ..export.equations import file_name
 from ..many.results import attributes
 from .labelled import where
+from .law import Law
 from .maps import LEAST
-
-if TYPE_CHECKING:
-    from .law import Law
 
 _WIDTH = 110
 

@@ -1,7 +1,5 @@
 """Collisions at points of a cell: between two boundaries of an angle panel, at the nodes of the third variable."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

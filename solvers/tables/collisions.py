@@ -4,8 +4,6 @@ Results are smooth functions of the impact only where the sequence of events doe
 with that sequence; the boundaries of a table are those between signatures.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 

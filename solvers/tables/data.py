@@ -1,7 +1,5 @@
 """Data of a table: its ranges; panels, boundaries, cells and series as flat arrays, as files and readers have them."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Adaptive fit of a function on the unit square by a tree of tensor Chebyshev series."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Queries of an attack: random ones, and ones beside the boundaries, angles and edges of a table."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .data import Data

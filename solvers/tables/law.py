@@ -1,7 +1,5 @@
 """A tabulated collision law as plain data: scene, ranges, errors and arrays."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from ..scene.scene import Scene

@@ -3,8 +3,6 @@
 Boundaries are those between signatures: outcomes, and sequences of events at which the equations change.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

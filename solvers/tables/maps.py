@@ -5,8 +5,6 @@ is g(w) scaled to 0..1, where g is w, or a sum of sqrt(w) or ln(w) for the lower
 -ln(1 - w) for the upper one.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 LINEAR, ROOT, LOG = 0, 1, 2  # code of an end; a map is low + 3 high

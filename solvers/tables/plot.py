@@ -1,7 +1,5 @@
 """Picture of a table: restitution between its boundaries, and its patches."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

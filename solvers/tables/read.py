@@ -1,7 +1,5 @@
 """Reader of a table with numpy; the reader in C (`reader.h`) does the same, operation by operation."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ Coordinates: t (of the third variable, in 0..1), x (across an angle panel), z (a
 each of its leaves is a patch with a series in t, x and z.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Slices of the third variable: ranges in which all planes have the same layout, and the layouts at their nodes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field

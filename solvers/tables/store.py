@@ -12,8 +12,7 @@ import numpy as np
 from ..errors import InputError
 from ..host import files
 from ..host.outputs import check_file
-from ..scene.scene import Scene
-from ..scene.user_model import Package
+from ..many.regime_map import netcdf, scene_of
 from .attack import Attack
 from .data import Data, Range
 from .law import Law
@@ -105,13 +104,7 @@ def save(table: Law, path: str | Path) -> None:
 
         files.write(file, header(table))
         return
-    from h5netcdf import File
-    from xarray.backends import H5NetCDFStore
-
-    made = io.BytesIO()  # on a full disk HDF5 aborts the process, so write the file from memory
-    with File(made, "w") as written:
-        dataset(table).dump_to_store(H5NetCDFStore(written))
-    files.write(file, sealed(made.getvalue()))
+    files.write(file, sealed(bytes(netcdf(dataset(table)))))
 
 
 def sealed(content: bytes) -> bytes:
@@ -144,8 +137,6 @@ def load(path: str | Path) -> Law:
     with xr.open_dataset(io.BytesIO(_content(path)), engine="h5netcdf") as opened:
         found = opened.load()
     said = found.attrs
-    model = said.get("model")
-    scene = Scene.from_toml(said["scene"], package=None if model is None else Package(str(model)))
     of = tuple(str(said["results"]).split())
 
     def ends(name: str) -> tuple[float, float]:
@@ -161,4 +152,4 @@ def load(path: str | Path) -> Law:
         for prefix, count in (("shape", 1), ("result", len(of)))
     ]
     data = Data(*ranges.corners, ranges.logarithmic, *(found[name].values for name in _OWN), *trees)
-    return Law(scene, of, ranges, float(said["error"]), attack, float(said["rtol"]), data)
+    return Law(scene_of(found), of, ranges, float(said["error"]), attack, float(said["rtol"]), data)

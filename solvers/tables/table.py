@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..engines.choice import collision_engine
+from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function, check_mapping, check_names, check_whole
-from ..many.batch import checked_numbers, checked_vary
+from ..many.batch import ascending, checked_numbers, checked_span, checked_vary
 from ..model.validity import warn
 from ..scene.scene import Scene
-from ..settings import RTOL, check_rtol
+from ..scene.schema import Field
+from ..scene.schema import Range as Interval
 from .attack import Attack
 from .attack import attack as attacked
 from .build import Builder
@@ -32,7 +34,7 @@ RESULTS = ("restitution", "tangential_restitution", "rotation")
 """Results that a table may have."""
 ATTACK = 1_000_000  # default number of queries
 _SHORT = {"stokes": STOKES, "angle": ANGLE}
-_FINEST, _COARSEST = 1e-7, 0.1
+_ERROR = Field("error", "an error", "1e-4", Interval("from 1e-7 to 0.1", 1e-7, 0.1, low_open=False, high_open=False))
 _DOUBLE_BELOW = 1e-5  # error below which results are kept in double precision
 _SHARPER = 0.3  # factor of the tolerance after an attack that was lost
 _ATTEMPTS = 3
@@ -163,7 +165,7 @@ def table(
     """
     loaded = Scene.load(scene)
     loaded, ranges = _ranges(loaded, over)
-    asked = _error(error)
+    asked = _ERROR.number(error)
     kept, rtol = check_names(of, RESULTS, "of"), check_rtol(rtol)
     count = check_whole(attack, "attack", 1, 10**9)
     tell = check_function(progress, "progress") or (lambda _said: None)
@@ -181,8 +183,7 @@ def _made(
         builder = Builder(slicer.signatures, of, tolerance, lambda k: tell(f"{k} panels"))
         slicer.fill(builder)
         data = builder.data(*ranges.corners, ranges.logarithmic, np.float64 if error < _DOUBLE_BELOW else np.float32)
-        found = attacked(data, scene, ranges.third, of, error, rtol, count, attempt + 1,
-                       lambda k: tell(f"{k} queries"))  # fmt: skip
+        found = attacked(data, scene, ranges.third, of, error, rtol, count, attempt + 1, lambda k: tell(f"{k} queries"))
         if not found.failed:
             return Table(scene, of, ranges, error, found, rtol, data)
         doubts = np.vstack([doubts, [place for place, _ in found.failures]])
@@ -211,30 +212,14 @@ def _ranges(scene: Scene, over: object) -> tuple[Scene, Range]:
     others = [name for name in named if name not in (STOKES, ANGLE)]
     if len(others) > 1 or len(named) != len(given):
         raise InputError("over", ", ".join(given), _ACCEPTED, "has too many variables")
-    stokes, angle = (_ends(name, checked_numbers(name, named[name])) for name in (STOKES, ANGLE))
+    stokes, angle = (checked_span(name, named[name]) for name in (STOKES, ANGLE))
     if not others:
         return scene, Range(None, (0.0, 1.0), angle, stokes)
     scene, varied = checked_vary(scene, {others[0]: named[others[0]]}, "over")
-    ends = _ends(others[0], varied[others[0]])
+    ends = ascending(others[0], varied[others[0]])
     for end in ends:
         scene.with_si({others[0]: end})  # the scene validates it
     return scene, Range(others[0], ends, angle, stokes)
-
-
-def _ends(name: str, ends: np.ndarray) -> tuple[float, float]:
-    if ends.shape != (2,) or not ends[0] < ends[1]:
-        raise InputError(name, ":".join(f"{end:g}" for end in ends.reshape(-1)), "LO:HI with LO below HI",
-                         "is not ascending")  # fmt: skip
-    return float(ends[0]), float(ends[1])
-
-
-def _error(error: object) -> float:
-    accepted = f"a number from {_FINEST:g} to {_COARSEST:g}"
-    if isinstance(error, bool) or not isinstance(error, (int, float, np.floating)):
-        raise InputError("error", error, accepted)
-    if not _FINEST <= error <= _COARSEST:
-        raise InputError("error", error, accepted, "is out of range")
-    return float(error)
 
 
 def _check_supported(scene: Scene, ranges: Range) -> None:

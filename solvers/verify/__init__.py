@@ -1,7 +1,5 @@
 """`wetdoublet verify`: symbolic identities of the derivation, and numerical checks against bounds."""
 
-from __future__ import annotations
-
 from .budget import restitution_budget
 from .identities import symbolic
 from .report import Finding, Report

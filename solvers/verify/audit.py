@@ -1,7 +1,5 @@
 """Audit of the stick certificates: certified sticks are integrated further without certificates and must not escape."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Iterator

@@ -4,8 +4,6 @@ Relaxing modes grow backward in time, such as the spin of a wet sphere by many d
 therefore short, and the bound is the tolerance times the norm of the inverse of the section's variational matrix.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ Each is derived independently of the emitted equations of motion: a momentum int
 oscillator, an exponential. The scene's numerical values are kept.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -172,10 +170,7 @@ def straight_line(scene: Scene, engine: str, plain: Integrators = plain) -> tupl
     for time in (longest * _INSTANTS).tolist():
         y = _integrated(plain, flow, engine, n, start, time)
         ahead, aside = distance + time, sideways * time
-        errors = (
-            abs((y[0] + 4 / aspect) / math.hypot(ahead, aside) - 1),
-            abs(y[4] - math.atan2(aside, ahead)),
-        )
+        errors = (abs((y[0] + 4 / aspect) / math.hypot(ahead, aside) - 1), abs(y[4] - math.atan2(aside, ahead)))
         worst = max(worst, (max(errors), place(n.stokes, n.angle, engine, f"{time:.3g} x0/v0")))
     return worst
 

@@ -1,7 +1,5 @@
 """Conservation of energy and angular momentum along every trajectory, and agreement of the engines."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 
@@ -10,10 +8,10 @@ from casadi import SX, Function, integrator, vertcat
 from ..collision.collide import collide
 from ..collision.result import Collision
 from ..engines.casadi.integrators import quiet
+from ..engines.settings import ENGINES
 from ..errors import WetDoubletError
 from ..host.thread_caches import own_cache
 from ..model.phases import Flow, expressions
-from ..settings import ENGINES
 from .backward import Replayed, replayed
 from .report import Finding, bounded, note
 from .sample import REFERENCE, RTOL, Sample, place, where

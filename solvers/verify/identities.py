@@ -5,8 +5,6 @@ sources, the versions of sympy, Python and the libraries below, and the selected
 content, so a damaged one is computed again.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os
@@ -15,16 +13,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, fields, replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..host import user_cache
 from ..host.emitted import DERIVING, derivation
 from ..model.model import select_model
+from ..scene.scene import Scene
+from ..scene.user_model import Package
 from .report import Finding
-
-if TYPE_CHECKING:
-    from ..scene.scene import Scene
-    from ..scene.user_model import Package
 
 _BENEATH = ("mpmath", "gmpy2", "python-flint")  # what sympy computes with, as far as it is installed
 

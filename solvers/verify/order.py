@@ -1,7 +1,5 @@
 """Convergence: the error of e_n must decrease about in proportion to the requested tolerance."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from functools import cache
@@ -11,8 +9,8 @@ import numpy as np
 
 from ...generated.automaton import LOOSEST
 from ..collision.collide import collide
+from ..engines.settings import ENGINES
 from ..errors import WetDoubletError
-from ..settings import ENGINES
 from .report import Finding, note
 from .sample import REFERENCE, WHOLE, Collide, Sample, place
 

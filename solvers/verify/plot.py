@@ -1,9 +1,6 @@
 """Figure on e_n > 1: a map of e_n, and the terms of e_n^2 - 1 at two angles."""
 
-from __future__ import annotations
-
 import math
-from pathlib import Path
 
 import numpy as np
 import xarray
@@ -19,7 +16,6 @@ from ..collision.text import name_of
 from ..engines.choice import collision_engine
 from ..formatting import ticks
 from ..formatting.style import INK, NOTHING, picture, plain_text
-from ..host.files import save
 from ..many.plot_map import draw_contours, label_scale
 from ..many.regime_map import regime_map
 from ..scene.scene import Scene
@@ -40,12 +36,8 @@ _STEEP = math.radians(75)  # angle of the upper panel, degrees; the lower one is
 
 
 @picture
-def draw_budget(data: xarray.Dataset, path: str | Path | None = None) -> Figure:
-    """Draw a budget over angle and Stokes number, as returned by `restitution_budget`.
-
-    Arguments:
-        path: file to write (.png, .pdf or .svg); None only draws.
-    """
+def draw_budget(data: xarray.Dataset) -> Figure:
+    """Draw a budget over angle and Stokes number, as returned by `restitution_budget`."""
     scene = Scene.from_toml(data.attrs["scene"])
     figure = Figure(figsize=(10.5, 5.4), layout="constrained")
     grid = figure.add_gridspec(2, 2, width_ratios=[1, 1.15])
@@ -59,8 +51,6 @@ def draw_budget(data: xarray.Dataset, path: str | Path | None = None) -> Figure:
     _legend(figure, data)
     title = plain_text(name_of(scene))
     figure.suptitle(f"{title}: energy of rotation released against losses, and the restitution that they leave")
-    if path is not None:
-        save(figure, path, dpi=150)
     return figure
 
 

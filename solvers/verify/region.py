@@ -1,7 +1,5 @@
 """Findings on e_n > 1: the budget identity, the upper limit of e_n, and the region with e_n > 1."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

@@ -1,16 +1,14 @@
 """The sample of collisions for numerical checks: impacts around the scene's, integrated by every engine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from ..collision.collide import collide
 from ..collision.result import Collision
+from ..engines.settings import CASADI_ENGINES, ENGINES
 from ..errors import InputError, WetDoubletError
 from ..scene.scene import Scene
-from ..settings import CASADI_ENGINES, ENGINES
 
 RTOL = 1e-10
 ANGLES = (0.0, math.radians(30), math.radians(60), math.radians(80))

@@ -1,7 +1,5 @@
 """Run time against achieved error of each engine for one scene on this machine, and recommended settings."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """Run time against achieved error as text, JSON and a figure."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict
 from pathlib import Path

@@ -9,8 +9,6 @@ collision disagrees with its region, or a place is not settled.
 """
 
 # ruff: noqa: T201 -- a script that prints
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Iterator

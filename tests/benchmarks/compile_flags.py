@@ -5,8 +5,6 @@
 Writes FOLDER/compile_flags.json (docs/engineering/performance).
 """
 
-from __future__ import annotations
-
 import json
 import os
 import sys
@@ -66,13 +64,7 @@ def measure(task: Task, level: str) -> dict[str, Any]:
                 _run(collisions)
                 spent.append(clock.spent / len(collisions))
             libraries = len(list(Path(cache).glob("*.so")))
-    return {
-        "task": task.preset,
-        "level": level,
-        "libraries": libraries,
-        "first_pass": first,
-        "integrators": min(spent),
-    }
+    return {"task": task.preset, "level": level, "libraries": libraries, "first_pass": first, "integrators": min(spent)}
 
 
 def _run(collisions: list[Any]) -> None:

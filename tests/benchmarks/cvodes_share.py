@@ -6,8 +6,6 @@ Writes FOLDER/cvodes_share.json (docs/engineering/performance). The paths are lo
 integrate the same phases and land on the same events, so that only the integrators differ.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

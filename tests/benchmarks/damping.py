@@ -4,8 +4,6 @@ For each order, the three factors that keep |R(z)| <= 0.6 from z = 2.5 up to the
 programming; the largest z by bisection.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

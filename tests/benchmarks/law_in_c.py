@@ -8,8 +8,6 @@ in C. All take turns in one process, CPU time, the best of several rounds. Agree
 contraction, where both are the same arithmetic, and as each is compiled by default.
 """
 
-from __future__ import annotations
-
 import ctypes
 import json
 import os
@@ -24,12 +22,12 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import Scene
+from wetdoublet.solvers.engines.settings import STEPS
 from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, run_kernel
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
 from wetdoublet.solvers.export.law.kernels import PLANE, kernels
 from wetdoublet.solvers.host.environment import environment
-from wetdoublet.solvers.settings import STEPS
 
 from ..helpers.exported_law import Law, written
 from .measured.digits import of_rows
@@ -99,10 +97,7 @@ def speed(scene: Scene, law: Law, loops: dict[str, ctypes.CDLL], spinning: bool)
         name: partial(loop.one_by_one, *given, ctypes.c_long(TIMED), ctypes.c_void_p(found.ctypes.data))
         for name, loop in loops.items()
     }
-    calls |= {
-        "batch": lambda: law.collide(rows),
-        "kernel": same_kernel(scene, rows),
-    }
+    calls |= {"batch": lambda: law.collide(rows), "kernel": same_kernel(scene, rows)}
     if not spinning:
         plain = Impacts(scene, rows["speed"].copy(), rows["angle"].copy(), {})
         calls["for maps"] = lambda: run_kernel(plain, RTOL, jumps=2)

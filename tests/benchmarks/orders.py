@@ -24,13 +24,13 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import Scene
+from wetdoublet.solvers.engines.settings import STEPS
 from wetdoublet.solvers.engines.taylor.build import Variant, compile_all, kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, variant
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
 from wetdoublet.solvers.engines.taylor.orders import order_for
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.model.model import select_model
-from wetdoublet.solvers.settings import STEPS
 
 from .measured.digits import of_rows
 from .measured.tasks import TASKS, Task

@@ -9,8 +9,6 @@ by more than 1e-7 is compared with the change of the scan's own answer for a spe
 """
 
 # ruff: noqa: T201 -- a script that prints
-from __future__ import annotations
-
 import json
 import math
 import sys

@@ -4,9 +4,7 @@ python -m tests.benchmarks.sensitivity_reference > tests/data/sensitivities.json
 
 Central differences of collisions at rtol 1e-13 with steps of 0.4, 0.2 and 0.1 %, extrapolated twice: nothing of the
 code that differentiates takes part. Parameters that are zero, and quantities that are, have no elasticity.
-"""  # fmt: skip
-
-from __future__ import annotations
+"""
 
 import json
 import math

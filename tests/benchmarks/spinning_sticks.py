@@ -10,8 +10,6 @@ without. A line per kind and certificate; status 1 where what is called a stick 
 """
 
 # ruff: noqa: T201 -- a script that prints
-from __future__ import annotations
-
 import contextlib
 import ctypes
 import sys
@@ -24,6 +22,7 @@ import numpy as np
 from wetdoublet.generated.automaton import LAST_ANSWER, Status
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.certificates import NoCertificate, OrbitalMomentumCertificate, at_maximum
+from wetdoublet.solvers.engines.settings import RTOL
 from wetdoublet.solvers.engines.taylor.build import FLAGS, source
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, run_kernel, variant_for_many
 from wetdoublet.solvers.engines.taylor.headers import headers
@@ -36,7 +35,6 @@ from wetdoublet.solvers.many.by_kernel import impacts_of
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Phase
-from wetdoublet.solvers.settings import RTOL
 from wetdoublet.solvers.verify.audit import LONG, WithoutCertificate
 
 from .atlas_random import SCALED

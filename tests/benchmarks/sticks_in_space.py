@@ -9,8 +9,6 @@ than an engine has is left out, and counted.
 """
 
 # ruff: noqa: T201 -- a script that prints
-from __future__ import annotations
-
 import sys
 import warnings
 from collections import Counter

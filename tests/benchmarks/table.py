@@ -8,8 +8,6 @@ thread, the least of several runs, table and kernel in turn. The tables are writ
 """
 
 # ruff: noqa: T201 -- a script that prints
-from __future__ import annotations
-
 import ctypes
 import shlex
 import subprocess
@@ -45,10 +43,7 @@ _MARKS = "<!-- measured -->", "<!-- end of measured -->"
 
 def main(queries: int, file: Path | None) -> None:
     """Measure every case, print the rows, and write them."""
-    rows = [
-        f"| {' | '.join(COLUMNS)} |",
-        "|" + "---|" * len(COLUMNS),
-    ]
+    rows = [f"| {' | '.join(COLUMNS)} |", "|" + "---|" * len(COLUMNS)]
     for name, over, error in CASES:
         scene, three = Scene.load(name), len(over) > 2
         started = time.process_time()

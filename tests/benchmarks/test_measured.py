@@ -1,7 +1,5 @@
 """The benchmark measures what it says: peers solve the same problem, the record is complete. No time is asserted."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Models of all structures, derived once a session; and derivations with one thing deliberately wrong."""
 
-from __future__ import annotations
-
 import ast
 import sys
 from collections.abc import Callable, Iterator

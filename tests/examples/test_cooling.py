@@ -1,7 +1,5 @@
 """The example of a cooling gas: momentum, energy, and Haff's law where the restitution is constant."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import subprocess

@@ -1,7 +1,5 @@
 """Every emitted function against the expression it was printed from, in 30 digits."""
 
-from __future__ import annotations
-
 import importlib
 import math
 import random

@@ -1,7 +1,5 @@
 """The committed folder is what the derivation emits, byte for byte, on any hash seed; and it stands on its own."""
 
-from __future__ import annotations
-
 import ast
 import json
 import os

@@ -1,7 +1,5 @@
 """Stiff equations: Radau IIA with ten stages, order 19, for states that are scaled to order one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The command line, run in this process, and what its processes leave behind."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The public reference collisions and boundaries, copied into the repository."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """A real file system that is small."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Iterator

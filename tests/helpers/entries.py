@@ -1,7 +1,5 @@
 """Entries of a scene as a file has them, and what refuses a wrong one."""
 
-from __future__ import annotations
-
 import pytest
 from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.scene.scene import Scene
@@ -16,6 +14,16 @@ BASE = {  # granulation, as a file has it
     "liquid.glass_transition_pressure": "20 MPa",
 }
 BRIDGE = {"bridge.surface_tension": "0.025 N/m", "bridge.volume": 0.1, "bridge.contact_angle": "0 deg"}
+
+CIRCLES = {  # a doublet that dips ever less into its film
+    "particles": {
+        "reduced_radius": 1.61e-4, "reduced_mass": 5.4e-10, "roughness": 1.25e-6, "dry_restitution": 0.938,
+        "youngs_modulus": 3.2e10, "poisson_ratio": 0.0156,
+    },
+    "liquid": {"viscosity": 1.794, "film_thickness": 4.66e-5, "glass_transition_pressure": 1.1e8},
+    "bridge": {"surface_tension": 0.096, "volume": 0.9565, "contact_angle": 0.981, "law": "mikami-log10"},
+    "model": {"arm": "midgap", "tangential": "film"},
+}  # fmt: skip
 
 
 def tables(entries):

@@ -1,7 +1,5 @@
 """An exported law as a library: compiled, and called with numpy arrays."""
 
-from __future__ import annotations
-
 import ctypes
 import re
 import shutil

@@ -4,8 +4,6 @@ Scipy's DOP853 where it is not stiff, collocation where it is. A guard is crosse
 located by integrating again from the beginning of the step, not on an interpolant, so that its error is rounding's.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence

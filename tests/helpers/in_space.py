@@ -4,8 +4,6 @@ Nothing is eliminated; the gap is a state of its own because the difference of t
 a wall the second body is a plane at rest. Twist about the line of centres meets no resistance.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

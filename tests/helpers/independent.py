@@ -3,8 +3,6 @@
 Nothing here comes from the package but the numbers of a scene.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field

@@ -5,8 +5,6 @@
 takes some minutes, says how long the slowest took and how much memory all of them, and keeps what breaks the rule.
 """
 
-from __future__ import annotations
-
 import argparse
 import random
 import re

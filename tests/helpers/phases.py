@@ -3,8 +3,6 @@
 Written from the documents: rebound criteria while closing, edges, rupture while opening, and when a stick is one.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field

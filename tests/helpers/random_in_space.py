@@ -1,7 +1,5 @@
 """Random arrivals in space at random scenes, and how far two ends of one collision are apart."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 

@@ -1,7 +1,5 @@
 """Random scenes of any two wet bodies that arrive with spins: a few models, and numbers for each that matter."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The library's functions by CasADi's engines, for scenes that few tests have: no kernel is compiled for them."""
 
-from __future__ import annotations
-
 from functools import partial
 
 from wetdoublet import solvers

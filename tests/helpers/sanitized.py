@@ -8,8 +8,6 @@ WETDOUBLET_CFLAGS into a folder of their own and loaded into processes that have
 """
 
 # ruff: noqa: T201 -- a script that prints
-from __future__ import annotations
-
 import json
 import math
 import os

@@ -5,8 +5,6 @@ relative velocity is a vector in the laboratory's axes, which turns by no centri
 between samples each event function that dips is minimised: a graze is not stepped over.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field

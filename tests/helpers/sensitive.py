@@ -1,7 +1,5 @@
 """Twelve collisions through every kind of event, and derivatives by extrapolated differences of accurate values."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise

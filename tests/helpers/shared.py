@@ -1,7 +1,5 @@
 """What several test files need and is costly to make: made once a run, by whichever worker comes first."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 import pickle

@@ -1,7 +1,5 @@
 """A model file with declared events, and the same collisions integrated independently of the package."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

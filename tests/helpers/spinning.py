@@ -4,8 +4,6 @@ Two spheres, equal or not, or a sphere beside a wall. The state is gap, its rate
 centres (beside a wall: the velocity along it), both spins, the angle turned, and what film, shear and attraction took.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,14 +1,12 @@
 """Measurements drawn from the model with the scatter that the likelihood assumes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 from wetdoublet.generated.automaton import OUTCOMES, STICK
 from wetdoublet.solvers import Scene
+from wetdoublet.solvers.engines.settings import RTOL
 from wetdoublet.solvers.fitting.measurements import Measurements, rows_of
-from wetdoublet.solvers.settings import RTOL
 
 
 def drawn(scene: Scene, plan: Measurements, seed: int | None, rtol: float = RTOL) -> Measurements:

@@ -8,8 +8,6 @@ exit status 1 if one has not, or fails. `--quick` leaves out what takes more tha
 """
 
 # ruff: noqa: T201 -- a script that prints
-from __future__ import annotations
-
 import argparse
 import atexit
 import hashlib
@@ -30,16 +28,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from wetdoublet import solvers
-from wetdoublet.solvers import (
-    Scene,
-    atlas,
-    boundary,
-    collide,
-    collide_many,
-    gradients_many,
-    regime_map,
-    sensitivities,
-)
+from wetdoublet.solvers import Scene, atlas, boundary, collide, collide_many, gradients_many, regime_map, sensitivities
 from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, plain
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import load, select_model

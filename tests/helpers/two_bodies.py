@@ -3,8 +3,6 @@
 Nothing here comes from the package but the entries of a scene.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_right
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """A small model file that tests share."""
 
-from __future__ import annotations
-
 # A law in fewer than thirty lines: Mikami's, written as the library has it, and a yield stress over the neck.
 LAW = '''"""Mikami's bridge whose liquid yields."""
 from wetdoublet.derive.user import *

@@ -2,8 +2,6 @@
 
 ASSEMBLE = '''"""From a structure module to CasADi Functions over vectors ordered as its STATES and GROUPS."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from inspect import signature
 from types import ModuleType

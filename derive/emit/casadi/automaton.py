@@ -1,7 +1,5 @@
 """The automaton as a Python module for the solvers: enumerations, tables and constants."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 
 from ...equations import automaton

@@ -1,7 +1,5 @@
 """Texts of the emitted modules: laws, structures, scaling."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Mapping, Sequence
 

@@ -4,8 +4,6 @@ sympy's own printers fall back on the node's name, and so emit functions that Ca
 another meaning (`and`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """The publications of laws as a Python module, read by `wetdoublet cite`."""
 
-from __future__ import annotations
-
 from ...physics.laws import LAWS
 from ...physics.laws.bridge import COMMON
 from ...physics.laws.glass import ELASTIC

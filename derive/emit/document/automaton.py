@@ -1,7 +1,5 @@
 """The automaton as a Markdown page: tables of modes, events, rules, outcomes and constants."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 from ...equations import automaton

@@ -1,7 +1,5 @@
 """The automaton as an SVG diagram: modes as boxes, events as arrows between them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from html import escape
 

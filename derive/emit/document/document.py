@@ -1,7 +1,5 @@
 """A model's equations as a document in LaTeX or compact Markdown, arranged as in Table 1 of the paper."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -9,9 +7,9 @@ from itertools import groupby
 
 from ...physics.laws import LAWS, Law
 from ...physics.mechanics import F_c, S_n, S_t
-from ...user_model.declarations import latex_names, unfolded
-from ...user_model.own_events import OwnEvent
-from ...user_model.structures import UserModel
+from ...user.declarations import latex_names, unfolded
+from ...user.own_events import OwnEvent
+from ...user.structures import UserModel
 from ...vocabulary.quantities import p_gt
 from .automaton import watched
 from .latex import latex, naming

@@ -4,8 +4,6 @@ Only LaTeX that matplotlib's mathtext supports is written, so the same text can 
 order of the literature (6 pi mu a^2 u), sums follow fractions, and negative terms are last.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 

@@ -1,7 +1,5 @@
 """The theory of the paper's Table 1 as lines of equations: SI equations of the derivation with the laws filled in."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 

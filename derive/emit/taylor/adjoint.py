@@ -7,8 +7,6 @@ tangent is never formed. Derivatives by the constants of the recurrences are acc
 become derivatives by the groups at its end.
 """
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ...physics.forces import FILM, SHEAR

@@ -1,7 +1,5 @@
 """The automaton in C: enumerations, constants, and the kernel's switch over the effects of events."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterable, Sequence
 
@@ -96,10 +94,7 @@ def criteria_header(provenance: str) -> str:
     lines = comment(f"{provenance}\n\nRebound criteria that are met at a gap. Included where `constants` is known.")
     lines += ["", *comment("The gap at which the solids meet: the largest at which a criterion is met.")]
     lines += function("static inline vec contact_gap(const constants *c)", [f"return {_nested('vec_max', groups)};"])
-    lines += [
-        "",
-        *comment("What is reported of contact: the first whose gap is largest and positive, else the last."),
-    ]
+    lines += ["", *comment("What is reported of contact: the first whose gap is largest and positive, else the last.")]
     lines += function(
         "static inline int contact_kind(const constants *c, int lane)",
         [

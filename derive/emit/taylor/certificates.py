@@ -1,7 +1,5 @@
 """Margins of the stick certificates, and the coefficients of the slow manifold, in C."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 
 import sympy as sp

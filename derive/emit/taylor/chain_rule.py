@@ -4,8 +4,6 @@ Intermediates and values of laws stay symbols, so derivatives are as short as th
 the flow has already computed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Sequence
 
 import sympy as sp

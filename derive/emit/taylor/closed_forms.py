@@ -1,7 +1,5 @@
 """Functions of a structure in closed form: edge of the tangential force, work of attractions, momentum of the film."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ...equations.model import Model

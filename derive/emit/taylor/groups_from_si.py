@@ -1,7 +1,5 @@
 """C function from quantities in SI to the groups of a collision."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 import sympy as sp

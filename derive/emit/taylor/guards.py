@@ -1,19 +1,13 @@
 """The kernel's search for the events of the automaton, and what their derivatives need, in C."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 from ...equations.automaton import CLOSING, COMPONENTS, EVENTS, OPENING, Event
 from ...equations.events import SERIES
+from ...equations.model import Model
 from ..casadi.printer import EmissionError
 from .c_text import Constants, Recurrences
 from .layout import comment, compiled_if, documented, function, struct
+from .ledger import Valued
 from .program import Program
-
-if TYPE_CHECKING:
-    from ...equations.model import Model
-    from .ledger import Valued
 
 # Series of the kernel, and their values at the states `y`; those of resting contact with friction
 _STATES = ("gap", "normal_velocity", "rotation", "orbital_momentum", "spin")

@@ -1,10 +1,7 @@
 """The C header of a structure: constants, Taylor recurrences of its flow, and the functions that the runtime calls."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import sympy as sp
 
@@ -12,6 +9,7 @@ from ...equations import friction
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import slot_calls
+from ...user.own_events import OwnEvent
 from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
 from ..provenance import Own, describe, header, model_digest
 from .c_text import Constants, Recurrences
@@ -25,9 +23,6 @@ from .own_events import own_event_functions
 from .program import Program
 from .resting import FLAGS as RUBBING
 from .resting import QUADRATURES, Resting
-
-if TYPE_CHECKING:
-    from ...user_model.own_events import OwnEvent
 
 _FLAGS = (FILM, SHEAR)
 

@@ -3,8 +3,6 @@
 A structure calls a law through its slot (`bridge_force_next`), so every law of a slot fits every structure.
 """
 
-from __future__ import annotations
-
 from collections.abc import Set as AbstractSet
 
 import sympy as sp
@@ -149,11 +147,7 @@ def work_lines(name: str, work: sp.Expr, constants: Constants, moving: sp.Symbol
 
 
 def _clearance(
-    name: str,
-    each: LawFunction,
-    kept: list[Definition],
-    moving: tuple[sp.Symbol, ...],
-    still: tuple[sp.Symbol, ...],
+    name: str, each: LawFunction, kept: list[Definition], moving: tuple[sp.Symbol, ...], still: tuple[sp.Symbol, ...]
 ) -> list[str]:
     """`limit - value` times the positive denominator of the value: same sign, without division along a trajectory."""
     result = each.result

@@ -1,7 +1,5 @@
 """C headers with the derivatives of a law by each argument, as series in terms of the law's own series."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from functools import cache

@@ -1,7 +1,5 @@
 """Layout of emitted C: comments, functions, loops over coefficients."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterable
 

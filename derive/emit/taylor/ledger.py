@@ -4,8 +4,6 @@ Kernels without a ledger have none of these series, constants and functions. Onl
 them, so that a drift of angular momentum is visible.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 

@@ -1,7 +1,5 @@
 """A structure's tangent as linear equations, v' = A v + b: entries of A and b as series of the flow, or constants."""
 
-from __future__ import annotations
-
 from typing import TypeAlias
 
 import sympy as sp

@@ -1,22 +1,17 @@
 """Declared events of a user's model in C: series of their guards, their values and jumps, and a table of them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import sympy as sp
 
 from ...equations.automaton import EVENTS, WORDS
+from ...equations.model import Model
+from ...user.own_events import OwnEvent
 from ..casadi.printer import EmissionError
 from .c_text import Constants, Recurrences
 from .layout import comment, function, struct
 from .ledger import Valued
 from .program import Program
-
-if TYPE_CHECKING:
-    from ...equations.model import Model
-    from ...user_model.own_events import OwnEvent
 
 _FIELDS = "event, kind, motion, film, mark, by_gap, opening, closing, known, harmless"
 _SHOWN = 5  # states beside the gap that an answer of the kernel has room for

@@ -4,8 +4,6 @@ The gap is held; the tangential states slide or roll. The recurrences are those 
 own, so that the motion before and after costs no more than without friction.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import sympy as sp

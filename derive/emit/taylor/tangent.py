@@ -4,8 +4,6 @@ A derivative of the states obeys a linear equation, v' = A v + b, whose matrix a
 per step from those of the flow. A direction then costs as many products as the matrix has varying entries.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from itertools import groupby
 from types import MappingProxyType

@@ -21,8 +21,6 @@ in, for any partner and any rotation at the start:
 On strings the same bound of w, with the largest pull for P, limits every rebound (`pendulum`).
 """
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ...physics.forces import FILM

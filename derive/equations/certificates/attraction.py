@@ -19,8 +19,6 @@ The energy certificate covers most sticks earlier. This one also covers doublets
 liquid in its glassy state.
 """
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ...physics.laws.base import Definition

@@ -24,8 +24,6 @@ attractions:
 With the lever arm at mid-gap, G + slip energy is the energy above the least one with this L at d.
 """
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ...physics.laws.base import Definition

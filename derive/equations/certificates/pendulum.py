@@ -27,8 +27,6 @@ xi, J and L are never negative.
 `checks.pendulum_certificate` proves the steps on the emitted equations.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 import sympy as sp

@@ -28,8 +28,6 @@ Friction of the dry contact keeps L and never adds to E_rot (`checks.friction`),
 off J, so that what is said of J = 0 does not: `inside` is then positive.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import sympy as sp

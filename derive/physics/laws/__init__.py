@@ -4,8 +4,6 @@
 laws are eight small modules and not eight copies of the equations.
 """
 
-from __future__ import annotations
-
 from .arm import ARMS
 from .attraction import ATTRACTIONS
 from .base import Law, LawFunction, fill, slot_call

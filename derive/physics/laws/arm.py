@@ -1,7 +1,5 @@
 """Lever arm of the tangential force about each sphere's centre."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from .base import Law, LawFunction

@@ -1,7 +1,5 @@
 """Van der Waals attraction, integrated over the bodies (Hamaker) and over the gap (Derjaguin)."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import sympy as sp

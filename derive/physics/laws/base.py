@@ -1,7 +1,5 @@
 """Laws: named pure functions of dimensionless arguments, with their intermediates and their source."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ All are published fits at constant volume (nothing to derive); natural logarithm
 doublet separates at the rupture distance of the bridge (common, or a law's own), or without one at the film's edge.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import sympy as sp

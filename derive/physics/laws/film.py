@@ -1,7 +1,5 @@
 """Normal lubrication force of a thin film: the film pressure integrated over the wetted disc."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import sympy as sp

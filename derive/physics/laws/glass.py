@@ -1,7 +1,5 @@
 """Where an approach rebounds: the film pressure on the axis reaches the glass transition, or the solids deform."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ...vocabulary.quantities import E, a, gap, glass_number, mu, nu, u, v0, x, x0

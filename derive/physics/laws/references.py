@@ -3,8 +3,6 @@
 A DOI is given where it is certain.
 """
 
-from __future__ import annotations
-
 import unicodedata
 from dataclasses import dataclass
 

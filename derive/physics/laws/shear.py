@@ -5,8 +5,6 @@ neither side), so the shear stress is mu U/h and only its integral is needed. Th
 the sphere ends. This outer thickness is ambiguous, hence two laws.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import sympy as sp

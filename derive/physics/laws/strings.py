@@ -1,7 +1,5 @@
 """Pendulum strings: forces from the potential of two equal spheres hung from pivots one diameter apart."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """The rotational part of a structure with an unequal partner, nondimensional."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 

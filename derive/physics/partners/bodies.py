@@ -3,8 +3,6 @@
 The centre of mass is among the coordinates, so that conservation of linear momentum can be checked.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Two unequal spheres, each with its own spin: rotation, friction and angular momentum in dimensionless form."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import sympy as sp

@@ -5,8 +5,6 @@ h = x + s^2/(2a). The sum of the surface velocities drags liquid along the narro
 difference shears the liquid. Each torque follows from the stress on its sphere; torques and lever arms give the force.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import sympy as sp

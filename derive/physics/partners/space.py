@@ -8,8 +8,6 @@ The lever arm is at mid-gap, so that the torques on the spheres balance that on 
 form the partner's spin follows from the three components of the angular momentum L, and its twist from J . n = 0.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from itertools import chain
 
@@ -69,10 +67,7 @@ def _twists(eliminated: Eliminated) -> list[Definition]:
         return [(TWIST, dot(SLIPS, q.normal)), (PARTNER_TWIST, dot(PARTNER_SLIPS, q.normal))]
     follows = sp.expand(dict(eliminated)[q.partner_spins[0]])
     by_momentum, by_spin = (follows.coeff(symbol) for symbol in (MOMENTA[0], q.spins[0]))
-    return [
-        (TWIST, -dot(q.spins, q.normal)),
-        (PARTNER_TWIST, by_spin * TWIST - by_momentum * dot(MOMENTA, q.normal)),
-    ]
+    return [(TWIST, -dot(q.spins, q.normal)), (PARTNER_TWIST, by_spin * TWIST - by_momentum * dot(MOMENTA, q.normal))]
 
 
 def definitions(eliminated: Eliminated = ()) -> tuple[Definition, ...]:

@@ -5,8 +5,6 @@ component along n. The angular velocity of each sphere is any vector. Sphere 2 e
 opposite.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 

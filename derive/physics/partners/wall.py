@@ -10,8 +10,6 @@ no step size and keeps its sign. A tangential impulse of the dry contact starts 
 just after it, which are then states that only a rebound changes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """A collision as a figure: its quantities over time, and the doublet at a few instants."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Pictures of the doublet at a few instants, side by side and to the same scale."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -3,8 +3,6 @@
 The approach takes a small part of the time of a pair that rotates before it separates; it then has a column of its own.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -20,7 +20,7 @@ from ...host.captured_stderr import listening
 from ...host.interrupts import check
 from ...host.thread_caches import own_cache
 from ...model.phases import Flow, WatchedEvents, event_table, expressions, mechanical_energy
-from ...settings import STEPS, casadi_steps
+from ..settings import STEPS, casadi_steps
 
 _EXPECTED = "Event support is experimental"
 _LOOSER = 1e3  # factor from a tolerance that an integrator cannot meet to the next one

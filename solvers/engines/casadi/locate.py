@@ -3,8 +3,6 @@
 The events, their effects and the rules of a rebound are those of `generated/automaton.py`; this module interprets them.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -49,7 +47,7 @@ from ...model.phases import Flow, Phase, WatchedEvents
 from ...model.rebound import rebounded
 from ...scene.contact import contact_gap, contact_word
 from ...scene.user_model import OwnEvent
-from ...settings import CALL, casadi_steps
+from ..settings import CALL, casadi_steps
 from .integrators import EventHit, IntegrationFailed, Locator, locator, plain, tolerance_for
 
 # why a collision stays undecided, in messages
@@ -419,8 +417,7 @@ class EventLocator:
             case "separate":
                 if is_within_rounding(self.y[_VELOCITY], self.groups["obliquity"], self.groups["aspect"]):
                     raise self._error(
-                        f"the doublet separates so slowly that {ROUNDED}",
-                        "try spins with another angular momentum",
+                        f"the doublet separates so slowly that {ROUNDED}", "try spins with another angular momentum"
                     )
                 self.path.separated = True
             case "cut off":

@@ -4,8 +4,6 @@ The sequence of phases and events is given. The engine's own solution meets each
 which the landing step corrects, so that events and their derivatives are those of the engine.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 

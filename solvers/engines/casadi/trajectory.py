@@ -1,7 +1,5 @@
 """A trajectory as an xarray Dataset: gap, velocities, rates and angle against time, with units."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version

@@ -1,7 +1,5 @@
 """The kernel as a loaded library: source from emitted headers and the runtime, compiled once into the user's cache."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 import platform
@@ -12,7 +10,6 @@ from collections.abc import Callable, Collection
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from functools import cache
-from typing import TYPE_CHECKING
 
 from ...host.compiler import CannotCompile, compiler, key, more_flags, stop
 from ...host.compiler import library as compiled
@@ -21,13 +18,11 @@ from ...host.remarks import say_after, say_once
 from ...host.thread_caches import once
 from ...host.user_cache import found, has, kept, loaded
 from ...model.model import ModelKey, select_model
+from ...scene.scene import Scene
 from .headers import automaton, has_events, headers, tangents
 from .includes import resolved
 from .layout import MORE_RESULTS, MOST_STEPS, SHOWN, SHOWN_IN_SPACE, declarations
 from .machine import described, lanes, native
-
-if TYPE_CHECKING:
-    from ...scene.scene import Scene
 
 # No -ffast-math: NaN and infinity are compared. Products may be fused with sums; sqrt does not set errno.
 # -w: the tests compile every file with -Wall -Wextra -Werror; warnings of a newer compiler should not reach users.

@@ -18,7 +18,7 @@ from ...model.model import ModelKey, select_model
 from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values, sideways
 from ...scene.scene import Scene
-from ...settings import KERNEL_STEPS
+from ..settings import KERNEL_STEPS
 from .build import Variant, kernel
 from .layout import ANSWER, Task, names
 from .orders import order_for
@@ -67,12 +67,7 @@ def variant_for_many(scene: Scene, oblique: bool, rtol: float, rotation: bool, f
 
 
 def run_kernel(
-    impacts: Impacts,
-    rtol: float,
-    rotation: bool = False,
-    threads: int = 1,
-    budget: int = KERNEL_STEPS,
-    jumps: int = 0,
+    impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = KERNEL_STEPS, jumps: int = 0
 ) -> np.ndarray | None:
     """An array of ANSWER, one per collision; None if no kernel is available.
 

@@ -1,7 +1,5 @@
 """Chatter that has exhausted the kernel's steps: the limit that it approaches."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ....generated.automaton import Status

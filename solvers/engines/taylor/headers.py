@@ -1,7 +1,5 @@
 """The emitted C headers of a scene's model and of its tangent: committed, or derived on first use and cached."""
 
-from __future__ import annotations
-
 from ...host import emitted
 from ...host.remarks import say
 from ...host.thread_caches import once

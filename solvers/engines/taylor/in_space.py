@@ -1,7 +1,5 @@
 """Collisions of two spheres in space by the kernel, with vectors in the laboratory's axes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np
@@ -11,7 +9,7 @@ from ...model.model import select_model
 from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values
 from ...scene.scene import Scene
-from ...settings import KERNEL_STEPS_IN_SPACE
+from ..settings import KERNEL_STEPS_IN_SPACE
 from .build import Variant, kernel
 from .call import CHUNK, in_chunks, variant
 from .layout import ANSWER_IN_SPACE, LEDGER, Task, names

@@ -1,7 +1,5 @@
 """Expansion of #include lines: the complete source of a kernel, for its compilation and its name in the cache."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from pathlib import Path

@@ -4,8 +4,6 @@ The kernel's source begins with `declarations()`; the C compiler checks it again
 passed with its size in bytes, and the kernel writes only as many rows as it holds.
 """
 
-from __future__ import annotations
-
 import ctypes
 from functools import cache
 

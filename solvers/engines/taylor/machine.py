@@ -1,7 +1,5 @@
 """What kernels are compiled for: the processor's features, the lanes that follow from them, and its compiler flag."""
 
-from __future__ import annotations
-
 import platform
 from collections.abc import Collection
 from functools import cache

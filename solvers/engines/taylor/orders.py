@@ -5,8 +5,6 @@ time, and a neighbouring one little. With these two no decade of the tolerance c
 (`python -m tests.benchmarks.orders`, docs/engineering/kernel-figures.md).
 """
 
-from __future__ import annotations
-
 ORDERS = ((3e-10, 9), (0.0, 11))
 """Least tolerance, and the order of the series from there on; descending."""
 LEAST, LARGEST = 8, 16

@@ -9,7 +9,7 @@ import numpy as np
 from ....generated.automaton import Purpose
 from ...model.model import select_model
 from ...scene.scene import Scene
-from ...settings import KERNEL_STEPS
+from ..settings import KERNEL_STEPS
 from .build import Variant, kernel
 from .call import CHUNK, Impacts, in_chunks, task, variant
 from .headers import has_events

@@ -1,7 +1,5 @@
 """Many collisions by the kernel with derivatives: one direction for each group that the quantities affect."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
@@ -14,7 +12,7 @@ from ...model.model import select_model
 from ...scene.contact import ENTRIES, TIE
 from ...scene.groups import si_values
 from ...scene.scene import Scene
-from ...settings import KERNEL_STEPS
+from ..settings import KERNEL_STEPS
 from .build import Variant, kernel
 from .call import Impacts, task
 from .headers import headers, tangents

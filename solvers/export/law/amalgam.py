@@ -1,7 +1,5 @@
 """One C file of several kernels: what they share once, the rest with prefixes, and nothing that is not called."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass

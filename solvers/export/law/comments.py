@@ -1,7 +1,5 @@
 """Comments of the exported C."""
 
-from __future__ import annotations
-
 import textwrap
 
 _WIDTH = 94  # characters of a comment's text

@@ -3,8 +3,6 @@
 By hand, since `pcpp` also replaces macros in the code that it keeps, which an exported law leaves to its reader.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """The part of NAME.h about contacts that a host interrupts."""
 
-from __future__ import annotations
-
 from .comments import comment
 
 MEMORY = 64  # doubles; the C compiler asserts that they suffice

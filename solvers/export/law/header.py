@@ -1,7 +1,5 @@
 """NAME.h: the law as a host sees it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 from ....generated.automaton import CRITERIA, KINDS, OUTCOMES

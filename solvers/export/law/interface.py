@@ -1,7 +1,5 @@
 """The law's structures and functions as its header declares them, for Fortran (iso_c_binding) and ctypes."""
 
-from __future__ import annotations
-
 import re
 
 _KINDS = {"int": "integer(c_int)", "long": "integer(c_long)", "double": "real(c_double)"}

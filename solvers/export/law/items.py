@@ -1,7 +1,5 @@
 """C text as items: the declarations, definitions and macros of a file, with the names they define and use."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field

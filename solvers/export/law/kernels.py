@@ -1,11 +1,10 @@
 """The kernels of an exported law: which structures they are of, and their texts."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from ...engines.settings import STEPS, STEPS_IN_SPACE
 from ...engines.taylor.build import Variant, files
 from ...engines.taylor.call import variant
 from ...engines.taylor.headers import headers
@@ -13,7 +12,6 @@ from ...engines.taylor.in_space import variant_in_space
 from ...errors import CheckFailed, InputError
 from ...model.model import ModelKey, load, select_model
 from ...scene.scene import Scene
-from ...settings import STEPS, STEPS_IN_SPACE
 from ...space.collide_pair import check_scene
 from .amalgam import Source
 

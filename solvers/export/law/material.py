@@ -1,12 +1,11 @@
 """The numbers that a law takes: their names, units and ranges, and the C that refuses others."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ....generated.automaton import Status
+from ...engines.settings import TOLERANCE
 from ...errors import CheckFailed
 from ...scene import user_model
 from ...scene.contact import NEVER_MET
@@ -15,7 +14,6 @@ from ...scene.groups import si_values
 from ...scene.quantities import NO_GLASS
 from ...scene.scene import Scene
 from ...scene.schema import FIELDS, Range
-from ...settings import TOLERANCE
 from .kernels import SPACE, Kernel
 
 LARGEST = 1e30
@@ -27,10 +25,7 @@ _ALONE = {
     "reduced_mass": "reduced mass, M1 M2/(M1 + M2)",
     "volume": "bridge volume over (2 reduced_radius)^3",
 }
-_BESIDE_WALL = {
-    "reduced_radius": "radius of the sphere",
-    "reduced_mass": "mass of the sphere",
-}
+_BESIDE_WALL = {"reduced_radius": "radius of the sphere", "reduced_mass": "mass of the sphere"}
 _OK = "OK"
 
 

@@ -1,7 +1,5 @@
 """Collisions in space as part of an exported law: what its header says of them, and its C files."""
 
-from __future__ import annotations
-
 from ...scene.scene import Scene
 from .comments import comment
 from .kernels import only_in_a_plane

@@ -1,13 +1,11 @@
 """The folder of an exported law: its C file and header, and what shows how to use it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from importlib.metadata import version
 
+from ...engines.settings import RTOL
 from ...scene.scene import Scene
-from ...settings import RTOL
 from ...space.pairs import Bodies
 from ..equations import file_name
 from . import space

@@ -1,13 +1,12 @@
 """Test vectors of an exported law: impacts and pairs in space, and what this project's engines compute for them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ....generated.automaton import LAST_ANSWER
+from ...engines.settings import STEPS
 from ...engines.taylor.build import kernel
 from ...engines.taylor.call import Impacts, bind_kernel
 from ...engines.taylor.layout import ANSWER
@@ -16,7 +15,6 @@ from ...host.compiler import compiler
 from ...many.batch import Batch
 from ...many.by_kernel import block_of
 from ...scene.scene import Scene
-from ...settings import STEPS
 from ...space.collide_pair import collide_pair
 from ...space.pairs import Bodies
 from .kernels import HEAD_ON, IMPACT, Kernel, only_in_a_plane

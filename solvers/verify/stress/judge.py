@@ -1,7 +1,5 @@
 """One case of the stress test: computation by all engines, and comparison of the results."""
 
-from __future__ import annotations
-
 import math
 import re
 import time

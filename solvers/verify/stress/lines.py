@@ -1,7 +1,5 @@
 """Comparison of traced boundaries with a dense scan of outcomes, on scenes derived from the presets."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator, Sequence
 

@@ -1,7 +1,5 @@
 """Figures of the stress test: error and cost over Stokes number and angle, and cost beside a boundary."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Report of the stress test: a record, tables in Markdown, the worst cases as scene files, two figures."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

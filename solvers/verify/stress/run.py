@@ -1,7 +1,5 @@
 """The stress test: every engine on a quasi-random sample of the space of scenes, on all cores."""
 
-from __future__ import annotations
-
 import os
 import re
 import sys

@@ -1,7 +1,5 @@
 """Sample of the stress test: a quasi-random sample of all scenes, and points close to boundaries."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from itertools import islice, product

@@ -6,8 +6,6 @@ step in one call, one call of `solve_ivp` from event to event, and grazing minim
 (as events of their own they double LSODA's time).
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable

@@ -7,8 +7,6 @@ the usual folder the figures of README.md and docs/engineering/kernel-figures.md
 named at the end, and the rest is measured all the same; the page is then made from the older record of that part.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import shutil

@@ -1,7 +1,5 @@
 """Input and output of the engines that are compared."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from wetdoublet.solvers.engines.casadi.locate import EventSequence

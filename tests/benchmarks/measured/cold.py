@@ -1,7 +1,5 @@
 """Cold start and first use: what the first result costs in a fresh process, with and without something compiled."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

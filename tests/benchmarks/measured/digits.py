@@ -1,7 +1,5 @@
 """Times and tables of records, as text."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from wetdoublet.solvers.formatting.markdown import unpadded

@@ -1,7 +1,5 @@
 """What a ledger, a trajectory and the rotation cost: switched on one at a time, as ratios to the bare collision."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -9,10 +7,10 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.engines.settings import RTOL
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.settings import RTOL
 
 from .answers import Impact
 from .reference import Reference

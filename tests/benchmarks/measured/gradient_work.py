@@ -1,7 +1,5 @@
 """Run time and achieved error of gradients of e_n to twelve parameters: ours, heyoka's, and differences, in one run."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Sequence
@@ -81,13 +79,7 @@ def _gradients_many(asked: Gradients, copies: int, rtol: float) -> Run:
 
     def run() -> np.ndarray:
         found = gradients_many(
-            asked.scene,
-            stokes=stokes,
-            angle=angle,
-            wrt=list(asked.names),
-            of="restitution",
-            rtol=rtol,
-            engine="taylor",
+            asked.scene, stokes=stokes, angle=angle, wrt=list(asked.names), of="restitution", rtol=rtol, engine="taylor"
         )
         rows: np.ndarray = found["gradient"].values[0] * units
         return rows

@@ -1,15 +1,13 @@
 """How cost grows with the number of collisions: wall time, CPU time and memory, on one core and on two."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
 from collections.abc import Callable
 from typing import Any
 
+from wetdoublet.solvers.engines.settings import ENGINES
 from wetdoublet.solvers.host.cores import usable_cores
-from wetdoublet.solvers.settings import ENGINES
 
 from .peers.engines import in_bulk
 

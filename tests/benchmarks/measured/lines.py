@@ -1,7 +1,5 @@
 """Boundaries: traced as roots of smooth functions, beside searching for the change of outcome with the same engines."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Sequence

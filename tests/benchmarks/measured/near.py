@@ -1,7 +1,5 @@
 """What a collision costs near the separatrix between sticking and escaping, where a trajectory lingers at a saddle."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence

@@ -1,7 +1,5 @@
 """What a scene pays for having it: strings, a bridge, both; and what a gradient adds to a collision."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Sequence
@@ -9,12 +7,12 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.engines.settings import ENGINES, RTOL
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.sensitivity.gradients_many import gradients_many
 from wetdoublet.solvers.sensitivity.sensitivities import sensitivities
-from wetdoublet.solvers.settings import ENGINES, RTOL
 
 from .peers.engines import in_bulk
 

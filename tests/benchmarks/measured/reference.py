@@ -1,7 +1,5 @@
 """What the answers should be: by a method that no engine under test uses, with an estimate of its own error."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec

@@ -1,7 +1,5 @@
 """The whole benchmark as one record: everything that `bench.json` holds and the tables and plots are made of."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict

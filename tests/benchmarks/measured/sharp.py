@@ -1,7 +1,5 @@
 """How exact an answer can be asked for: e_n of the kernel against 80-bit numbers, in units of its conditioning."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from importlib.util import find_spec

@@ -1,7 +1,5 @@
 """The collisions that everything is measured on: drawn once, by a fixed seed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -55,7 +53,4 @@ class Task:
         return f"{self.preset}: {self.count} collisions, St {low:g}..{high:g}, angle 0..{self.degrees:g} deg"
 
 
-TASKS = (
-    Task("granulation", 60, (0.005, 0.5), 85.0),
-    Task("pendulum", 20, (0.3, 3.0), 80.0),
-)
+TASKS = (Task("granulation", 60, (0.005, 0.5), 85.0), Task("pendulum", 20, (0.3, 3.0), 80.0))

@@ -1,7 +1,5 @@
 """Run time and achieved error of every engine at every tolerance, on the same collisions in the same run."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Sequence

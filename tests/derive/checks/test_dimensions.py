@@ -1,7 +1,5 @@
 """The dimension walker looks at every term and names what is wrong; the checks fail where they must."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

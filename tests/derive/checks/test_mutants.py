@@ -1,7 +1,5 @@
 """Deliberately broken models are caught, each by the check whose law it breaks; the right model passes that check."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
@@ -19,18 +17,8 @@ from wetdoublet.derive.checks.dimensions import (
     groups_span_the_nullspace,
     si_equations,
 )
-from wetdoublet.derive.checks.dissipation import (
-    arms,
-    bridge_does_work,
-    film_dissipates,
-    rebound_dissipates,
-)
-from wetdoublet.derive.checks.laws import (
-    film_ends,
-    head_on_closed_form,
-    rigid_rotation_is_free,
-    small_angle_is_linear,
-)
+from wetdoublet.derive.checks.dissipation import arms, bridge_does_work, film_dissipates, rebound_dissipates
+from wetdoublet.derive.checks.laws import film_ends, head_on_closed_form, rigid_rotation_is_free, small_angle_is_linear
 from wetdoublet.derive.checks.limits import reduced_is_full
 from wetdoublet.derive.checks.restitution import ceiling_is_the_published
 from wetdoublet.derive.equations import observables
@@ -179,8 +167,7 @@ def test_a_rebound_that_gains_energy(mutate: Mutate, healthy: Healthy):
 def test_a_rebound_that_books_its_gain(mutate: Mutate, healthy: Healthy):
     """A gain that the ledger knows of balances, and is still a gain."""
     mutate(
-        rebound,
-        lambda states: {s: -(2 - q.e_dry) * q.normal_velocity if s == q.normal_velocity else s for s in states},
+        rebound, lambda states: {s: -(2 - q.e_dry) * q.normal_velocity if s == q.normal_velocity else s for s in states}
     )
     mutate(rebound_loss, lambda *_: q.normal_velocity**2 * (1 - (2 - q.e_dry) ** 2) / 2)
     caught(rebound_dissipates(), healthy, "rebound dissipates")

@@ -1,7 +1,5 @@
 """Functions emitted beside the right-hand side, and the margins of the stick proof: each mutant caught by its check."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The printer: exact numbers, right precedence, guarded branches, a refusal by name of what it does not know."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Derivatives by the chain rule with names kept: those of the expressions written out, for every structure and law."""
 
-from __future__ import annotations
-
 import math
 import random
 

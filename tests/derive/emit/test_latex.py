@@ -1,7 +1,5 @@
 """The equations as LaTeX: complete, drawable, and the same mathematics that they were derived as."""
 
-from __future__ import annotations
-
 import pytest
 import sympy as sp
 from matplotlib.mathtext import MathTextParser

@@ -1,7 +1,5 @@
 """Emitted functions against the equations retyped in plain floats and SI, law by law, structure by structure."""
 
-from __future__ import annotations
-
 import importlib
 import math
 import random

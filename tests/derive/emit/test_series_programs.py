@@ -1,7 +1,5 @@
 """Series programs: which recurrences an expression becomes, what is constant, and what has no recurrence."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

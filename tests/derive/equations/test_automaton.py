@@ -1,7 +1,5 @@
 """The automaton has what the structures have and what the interface promises, and is emitted without being read."""
 
-from __future__ import annotations
-
 import ast
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Invariants are found from the rates, what they eliminate is eliminated, and signs and certificates follow."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The derivation arrives at the published equations (retyped here), symbol for symbol."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

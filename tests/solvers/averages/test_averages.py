@@ -1,7 +1,5 @@
 """Collision averages against sums over many collisions, and against derivatives that are exact."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The atlas of a scene: its curves against lines and collisions, its points against bisection, its derivatives."""
 
-from __future__ import annotations
-
 import json
 import math
 from functools import cache
@@ -10,15 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import (
-    Atlas,
-    InputError,
-    Scene,
-    atlas,
-    boundary,
-    boundary_sensitivities,
-    collide_many,
-)
+from wetdoublet.solvers import Atlas, InputError, Scene, atlas, boundary, boundary_sensitivities, collide_many
 from wetdoublet.solvers.boundaries.line import approach
 from wetdoublet.solvers.boundaries.plot import draw
 from wetdoublet.solvers.model.dimensionless import nondimensionalise

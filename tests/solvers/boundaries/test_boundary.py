@@ -1,7 +1,5 @@
 """Boundaries between outcomes: against the reference, against dense grids of outcomes, and on other structures."""
 
-from __future__ import annotations
-
 import json
 import math
 from typing import Any

@@ -1,21 +1,11 @@
 """Continuation of curves between labels, on curves known in closed form."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
 from wetdoublet.solvers.boundaries.arcs import Arc, monotone, refined
-from wetdoublet.solvers.boundaries.continuation import (
-    Branch,
-    Followed,
-    Labels,
-    branches,
-    crossings,
-    follow,
-    meeting,
-)
+from wetdoublet.solvers.boundaries.continuation import Branch, Followed, Labels, branches, crossings, follow, meeting
 
 RADIUS = 0.3
 

@@ -1,7 +1,5 @@
 """What boundaries ask of a trajectory: the kernel's answers beside Rosenbrock's."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

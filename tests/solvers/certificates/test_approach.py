@@ -1,7 +1,5 @@
 """The proofs at initial contact: what they decide never separates, in whatever scene, and both engines agree."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The proof that attraction alone holds a doublet: what it proves never separates, and what it must not prove."""
 
-from __future__ import annotations
-
 import contextlib
 import math
 

@@ -1,7 +1,5 @@
 """Sticks that are called proved: are they, and is the proof given where it should be."""
 
-from __future__ import annotations
-
 import math
 import re
 
@@ -13,10 +11,10 @@ from wetdoublet.solvers import ComputationError, Scene, collide_many
 from wetdoublet.solvers.certificates import EnergyCertificate, NoCertificate, energy_proof
 from wetdoublet.solvers.certificates.film_and_attraction import FilmAndAttractionCertificate
 from wetdoublet.solvers.engines.casadi import locate
+from wetdoublet.solvers.engines.settings import STEPS
 from wetdoublet.solvers.errors import ModelWarning
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.settings import STEPS
 
 from ...helpers.independent import Spheres
 from ...helpers.reference import collide

@@ -1,7 +1,5 @@
 """Doublets that a weak bridge holds in a thick film, beyond the edge of the tangential force."""
 
-from __future__ import annotations
-
 import pytest
 from wetdoublet.generated.automaton import OPENING
 from wetdoublet.solvers import Scene, collide

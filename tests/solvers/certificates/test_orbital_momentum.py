@@ -1,7 +1,5 @@
 """The proof by the orbit's momentum: what it holds never separates, what separates it never holds."""
 
-from __future__ import annotations
-
 import contextlib
 import math
 from typing import Any
@@ -12,11 +10,11 @@ from wetdoublet.solvers import ComputationError, Scene, boundary, collide_many
 from wetdoublet.solvers.certificates import NoCertificate, OrbitalMomentumCertificate
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
+from wetdoublet.solvers.engines.settings import STEPS
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
-from wetdoublet.solvers.settings import STEPS
 from wetdoublet.solvers.verify.audit import WithoutCertificate
 
 from ...helpers.reference import collide

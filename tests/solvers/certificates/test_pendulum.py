@@ -1,7 +1,5 @@
 """The proof of sticks on strings: none escapes, every margin is needed, and no margin may be missing."""
 
-from __future__ import annotations
-
 import contextlib
 import math
 from collections.abc import Callable

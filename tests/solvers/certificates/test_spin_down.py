@@ -1,7 +1,5 @@
 """A doublet with a film alone and no angular momentum: what is proved to stick does, and what is not separates."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

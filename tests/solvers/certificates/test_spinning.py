@@ -1,7 +1,5 @@
 """Proofs for spins of any sense: a reflection changes nothing, and what separates is never called a stick."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

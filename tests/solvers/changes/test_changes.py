@@ -1,7 +1,5 @@
 """Brackets, roots, experiments and slopes of changes, beside known places and beside collisions of single scenes."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Van der Waals attraction: its closed-form work, where it enters, and the generalised centrifugal number."""
 
-from __future__ import annotations
-
 import json
 import math
 

@@ -1,7 +1,5 @@
 """Bridge laws as parts: the critical centrifugal number of each, own rupture distances, ranges that are left."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess

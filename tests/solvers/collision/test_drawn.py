@@ -1,7 +1,5 @@
 """Every result draws itself and, where it is tabular, is a DataFrame and a Dataset."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Interrupts, threads, failures: what a run does when something goes wrong."""
 
-from __future__ import annotations
-
 import math
 import pickle
 import signal

@@ -1,7 +1,5 @@
 """Film laws against closed forms of the head-on collision, and against Newton's law for the oblique one."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

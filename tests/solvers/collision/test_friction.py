@@ -1,7 +1,5 @@
 """Friction of the dry contact against closed forms, between engines, and against differences."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

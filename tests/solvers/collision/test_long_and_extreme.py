@@ -1,29 +1,15 @@
 """What physics decides however long it takes, what ends for want of steps, and numbers that are out of range."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from wetdoublet.solvers import (
-    ComputationError,
-    InputError,
-    Scene,
-    boundary,
-    collide_many,
-    collide_pair,
-    regime_map,
-)
+from wetdoublet.solvers import ComputationError, InputError, Scene, boundary, collide_many, collide_pair, regime_map
 from wetdoublet.solvers.boundaries.by_kernel import looked
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
-from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
-from wetdoublet.solvers.export.law.kernels import SPACE, kernels
-from wetdoublet.solvers.model.dimensionless import nondimensionalise
-from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.settings import (
+from wetdoublet.solvers.engines.settings import (
     CASADI_STEPS,
     CASADI_STEPS_IN_SPACE,
     KERNEL_STEPS,
@@ -33,7 +19,12 @@ from wetdoublet.solvers.settings import (
     STEPS_IN_SPACE,
     casadi_steps,
 )
+from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.export.law.kernels import SPACE, kernels
+from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
 
+from ...helpers.entries import CIRCLES
 from ...helpers.reference import collide
 
 pytestmark = pytest.mark.slow
@@ -224,17 +215,6 @@ def test_a_spin_beyond_all_bounds_is_named() -> None:
     """A spin that no double resolves beside the speed is refused by its own name."""
     with pytest.raises(InputError, match=r"^impact.spin: 1e\+150 is too far off; accepted: "):
         collide(Scene.load("granulation").with_entries({"impact.spin": 1e150}))
-
-
-CIRCLES = {
-    "particles": {
-        "reduced_radius": 1.61e-4, "reduced_mass": 5.4e-10, "roughness": 1.25e-6, "dry_restitution": 0.938,
-        "youngs_modulus": 3.2e10, "poisson_ratio": 0.0156,
-    },
-    "liquid": {"viscosity": 1.794, "film_thickness": 4.66e-5, "glass_transition_pressure": 1.1e8},
-    "bridge": {"surface_tension": 0.096, "volume": 0.9565, "contact_angle": 0.981, "law": "mikami-log10"},
-    "model": {"arm": "midgap", "tangential": "film"},
-}  # fmt: skip
 
 
 def test_circling_is_decided_by_its_limit() -> None:

@@ -1,7 +1,5 @@
 """Unequal spheres and walls against Newton's law in the laboratory frame, and their limits."""
 
-from __future__ import annotations
-
 import json
 import math
 

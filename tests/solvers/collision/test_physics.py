@@ -1,7 +1,5 @@
 """One collision against closed forms, limits, similarity and the paper's statements."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

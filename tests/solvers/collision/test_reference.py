@@ -1,7 +1,5 @@
 """One collision against an independent high-precision implementation (tests/data, 80-bit Taylor series)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest
@@ -10,24 +8,15 @@ from wetdoublet.solvers import Collision, Scene, collide
 RTOL = 1e-10
 TOLERANCE = 1e-7  # what both engines owe at RTOL
 QUANTITIES = (
-    "restitution",
-    "tangential_restitution",
-    "rotation",
-    "contact_time",
-    "smallest_gap",
-    "final_spin",
+    "restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap", "final_spin",
     "final_rotation_rate",
-)
+)  # fmt: skip
 
 
 def _collide(reference: dict[str, Any], engine: str) -> Collision:
     scene = Scene.from_dict(reference["scene"])
     return collide(
-        scene,
-        stokes=reference["impact"]["stokes"],
-        angle=reference["impact"]["angle"],
-        rtol=RTOL,
-        engine=engine,
+        scene, stokes=reference["impact"]["stokes"], angle=reference["impact"]["angle"], rtol=RTOL, engine=engine
     )
 
 

@@ -1,7 +1,5 @@
 """Bodies that arrive with spins, beside references written from the physics alone."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

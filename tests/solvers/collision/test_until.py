@@ -1,7 +1,5 @@
 """`collide(until=...)`: a stick is followed on after it is certain."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What results show in a notebook, and a scene when it is printed."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Callable

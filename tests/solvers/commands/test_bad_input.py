@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shlex
 import subprocess
 import sys
 import warnings
@@ -11,12 +12,12 @@ from types import ModuleType, SimpleNamespace
 import pytest
 from wetdoublet.solvers.commands.cli import COMMANDS, cli
 from wetdoublet.solvers.commands.texts import entry_range
+from wetdoublet.solvers.engines.settings import check_engine, check_rtol
 from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
 from wetdoublet.solvers.scene.ranges import parse_range
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.scene.scenefile import PRESETS
 from wetdoublet.solvers.scene.schema import FIELDS
-from wetdoublet.solvers.settings import check_engine, check_rtol
 
 from ...helpers.command import run
 
@@ -187,18 +188,7 @@ def test_options_come_before_what_is_missing(tmp_path):
 def test_collide_passes_on_what_was_asked(collision, tmp_path):
     """Options reach the solver, JSON is one object on standard output, pictures and files are written where asked."""
     picture, file = tmp_path / "a.png", tmp_path / "a.txt"
-    line = [
-        "collide",
-        "granulation",
-        "--speed",
-        "54 cm/s",
-        "--angle",
-        "75 deg",
-        "--rtol",
-        "1e-7",
-        "--engine",
-        "rosenbrock",
-    ]
+    line = shlex.split("collide granulation --speed '54 cm/s' --angle '75 deg' --rtol 1e-7 --engine rosenbrock")
     result = run(*line, "--set", "liquid.viscosity=3 Pa s", "--json")
     assert (result.exit_code, result.stderr, json.loads(result.stdout)) == (0, "", {"outcome": "stick"})
     assert (collision["rtol"], collision["engine"], collision["trajectory"]) == (1e-7, "rosenbrock", False)

@@ -1,7 +1,5 @@
 """What a command loads: a cold start pays only for what it needs."""
 
-from __future__ import annotations
-
 import json
 import pkgutil
 import subprocess
@@ -54,5 +52,5 @@ def test_an_input_error_loads_no_integrator() -> None:
 def test_no_public_name_is_a_modules() -> None:
     """A module of the same name would take its place, once something had imported it."""
     modules = {module.name for module in pkgutil.iter_modules(solvers.__path__)}
-    assert modules > {"scene", "settings"}
+    assert modules > {"scene", "errors"}
     assert not modules & set(solvers.__all__)

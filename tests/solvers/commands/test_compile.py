@@ -1,7 +1,5 @@
 """`wetdoublet compile`: kernels before they are needed."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """What JSON objects say of where their numbers come from."""
 
-from __future__ import annotations
-
 import json
 from importlib.metadata import version
 from typing import Any

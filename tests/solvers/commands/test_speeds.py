@@ -1,7 +1,5 @@
 """Whatever a command prints or draws says which speed it is: the normal one, the relative one, or a Stokes number."""
 
-from __future__ import annotations
-
 import csv
 import html
 import json
@@ -32,7 +30,7 @@ SHOWN: dict[str, tuple[str, ...]] = {
     "averages": ("--tolerance", "1e-2"),
     "fit": ("--free", "liquid.viscosity"),
     "table": ("--over", "stokes=0.2:0.21,angle=10:12", "--error", "1e-2", "--attack", "100"),
-}  # fmt: skip
+}
 DRAWN = {"collide", "sensitivity", "sensitivity band", "map", "boundary", "fit", "table"}
 SILENT = {  # why the others show no speed
     "reproduce": "the paper's figures are over Stokes numbers and angles",

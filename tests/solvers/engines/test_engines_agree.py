@@ -1,7 +1,5 @@
 """Both engines decide alike: the same events in the same order, and the same certificates on the same states."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from wetdoublet.generated.automaton import CLOSING, EVENTS, KINDS, OUTCOMES, Status
@@ -14,6 +12,8 @@ from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Phase
+
+from ...helpers.entries import CIRCLES
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 
@@ -142,17 +142,6 @@ def test_both_engines_prove_the_same_sticks_by_the_film(tables):
         own.append(bool(proof_for(model, p, 1e-9).decided(state, Phase(film=1, shear=0, motion=CLOSING))))
     assert own == (told["status"] == Status.PROVED_AT_TOUCH).tolist()
     assert len(set(own)) == 2
-
-
-CIRCLES = {
-    "particles": {
-        "reduced_radius": 1.61e-4, "reduced_mass": 5.4e-10, "roughness": 1.25e-6, "dry_restitution": 0.938,
-        "youngs_modulus": 3.2e10, "poisson_ratio": 0.0156,
-    },
-    "liquid": {"viscosity": 1.794, "film_thickness": 4.66e-5, "glass_transition_pressure": 1.1e8},
-    "bridge": {"surface_tension": 0.096, "volume": 0.9565, "contact_angle": 0.981, "law": "mikami-log10"},
-    "model": {"tangential": "film"},
-}  # fmt: skip
 
 
 @pytest.mark.slow

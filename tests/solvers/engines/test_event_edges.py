@@ -1,7 +1,5 @@
 """Events at the edges: coincident ones, grazes, steps that see nothing."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The first use of a scene: its kernel is compiled and waited for, so that what is compiled never decides an answer."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

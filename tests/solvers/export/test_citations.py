@@ -1,7 +1,5 @@
 """`wetdoublet cite`: what a scene rests on, as BibTeX and as JSON."""
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib
@@ -9,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.derive.physics.laws import LAWS
-from wetdoublet.derive.user_model.template import TEMPLATE
+from wetdoublet.derive.user.template import TEMPLATE
 from wetdoublet.generated.references import CITED, REFERENCES
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.export.citations import as_bibtex, citations
@@ -17,7 +15,6 @@ from wetdoublet.solvers.export.citations import as_bibtex, citations
 from ...helpers.command import run
 
 ROOT = Path(__file__).resolve().parents[3]
-SPHERE = {"partner.radius": "150 um", "partner.density": "2500 kg/m^3"}
 
 
 def keys(scene: Scene) -> list[str]:

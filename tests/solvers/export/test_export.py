@@ -1,7 +1,5 @@
 """`diff`: exactly the terms that differ, and what they do; `export`: equations that read, C that computes the same."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

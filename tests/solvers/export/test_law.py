@@ -1,7 +1,5 @@
 """The exported law: it builds everywhere, is our kernel to the last digits, refuses bad input, and shares nothing."""
 
-from __future__ import annotations
-
 import math
 import re
 import shutil
@@ -13,6 +11,7 @@ import numpy as np
 import pytest
 from wetdoublet.generated.automaton import LAST_ANSWER, Status
 from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.engines.settings import STEPS
 from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
@@ -21,7 +20,6 @@ from wetdoublet.solvers.export.law.items import items
 from wetdoublet.solvers.export.law.kernels import kernels
 from wetdoublet.solvers.export.law.material import results
 from wetdoublet.solvers.export.law.texts import law_name
-from wetdoublet.solvers.settings import STEPS
 
 from ...helpers.exported_law import COMPILERS, FOUND, Law, written
 
@@ -87,15 +85,8 @@ def test_spheres_that_spin_are_cpp_in_lanes(compiler: str, standard: str, granul
 def test_needs_no_x86_and_names_its_own_macro(granulation: Path):
     """No header of x86 is included, its instructions are asked for, and texts name the macro that the file reads."""
     code = (granulation / "granulation.c").read_text()
-    assert set(re.findall(r"#include <(.*)>", code)) <= {
-        "float.h",
-        "limits.h",
-        "math.h",
-        "stddef.h",
-        "stdint.h",
-        "stdlib.h",
-        "string.h",
-    }
+    standard = {"float.h", "limits.h", "math.h", "stddef.h", "stdint.h", "stdlib.h", "string.h"}
+    assert set(re.findall(r"#include <(.*)>", code)) <= standard
     assert [line.count("defined(__AVX") for line in code.splitlines() if "HAS_BUILTIN(__builtin" in line] == [1, 1]
     for name in ("granulation.c", "README.md"):
         assert "-DGRANULATION_LANES=1" in (granulation / name).read_text()

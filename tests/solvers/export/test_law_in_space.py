@@ -1,7 +1,5 @@
 """Collisions in space by the exported law: as `collide_pair`, in every frame, with no silent NaN."""
 
-from __future__ import annotations
-
 import math
 import subprocess
 from pathlib import Path

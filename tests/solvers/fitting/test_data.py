@@ -1,7 +1,5 @@
 """Measurements as they are read."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

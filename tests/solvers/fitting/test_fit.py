@@ -1,7 +1,5 @@
 """Fits of synthetic impacts."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

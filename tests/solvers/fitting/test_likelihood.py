@@ -1,7 +1,5 @@
 """The likelihood of impacts beside a Monte Carlo mean, and its gradient beside differences."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import partial
 
@@ -59,10 +57,7 @@ def test_likelihood_is_the_mean_over_the_scatter():
 
 @pytest.mark.parametrize(
     ("name", "table"),
-    [
-        ("pendulum", PENDULUM),
-        ("granulation", ([0.05, 0.117, 0.2], [45.0, 45.0, 60.0], [1, 2, 2], [0.25, 0.6, 0.9])),
-    ],
+    [("pendulum", PENDULUM), ("granulation", ([0.05, 0.117, 0.2], [45.0, 45.0, 60.0], [1, 2, 2], [0.25, 0.6, 0.9]))],
 )
 def test_gradient_is_that_of_differences(name: str, table: tuple):
     """The gradient agrees with differences, also where outcomes change within the scatter."""

@@ -1,7 +1,5 @@
 """The cache: damaged entries, full and foreign folders, several processes, what a kill leaves."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import re

@@ -1,7 +1,5 @@
 """Compilers: which are accepted, how long they may take, and what happens where none does its work."""
 
-from __future__ import annotations
-
 import os
 import select
 import shutil

@@ -1,7 +1,5 @@
 """Emitted modules: verified before they run, refused if tampered with or stale, derived once and kept."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

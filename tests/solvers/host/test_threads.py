@@ -1,7 +1,5 @@
 """Any number of threads: the same numbers as one, nothing built twice, nothing shared that may not be."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import subprocess

@@ -1,7 +1,5 @@
 """What a user asks to be written: whole or not at all, on a real disk that is full."""
 
-from __future__ import annotations
-
 import errno
 import os
 import re

@@ -1,7 +1,5 @@
 """The paper's figures and numbers: computed in the run, complete, and beside the printed ones."""
 
-from __future__ import annotations
-
 import html.parser
 import math
 import re

@@ -1,7 +1,5 @@
 """Designs: the search against theory, a design against random ones, what is refused, and the table to fill in."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any
@@ -172,7 +170,7 @@ def test_the_table_shows_the_impacts(found: Design) -> None:
         ({"restitution_sd": 0}, "restitution_sd"),
         ({"prior": {"particles.roughness": "1 um +- 10 %"}}, "prior"),
     ],
-)  # fmt: skip
+)
 def test_what_is_refused(changes: dict[str, Any], field: str) -> None:
     """A wrong argument is named, and so is an entry on which nothing in the window depends."""
     asked: dict[str, Any] = {"scene": "granulation", "free": FREE, "over": OVER, "n": 4} | changes

@@ -1,7 +1,5 @@
 """The information of planned impacts: what the likelihood of a fit, or a closed form, says it is."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

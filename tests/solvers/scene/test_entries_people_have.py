@@ -1,7 +1,5 @@
 """Entries as people have them, each against the same scene written in the model's own quantities."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What an impact keeps while other entries of its scene change: one rule for all ways of changing them."""
 
-from __future__ import annotations
-
 import json
 import math
 

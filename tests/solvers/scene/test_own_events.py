@@ -1,7 +1,5 @@
 """Events that a model file declares: by every engine, with ledger, derivatives, boundaries and proofs."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A scene entry's way into the model: one table, for scenes, batches and sensitivities."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY

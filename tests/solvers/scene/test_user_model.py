@@ -1,7 +1,5 @@
 """A user's model beside a scene: a small file through every command."""
 
-from __future__ import annotations
-
 import json
 import pickle
 from pathlib import Path
@@ -9,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from wetdoublet.derive.checks.user import model_checks
-from wetdoublet.derive.user_model.template import TEMPLATE
+from wetdoublet.derive.user.template import TEMPLATE
 from wetdoublet.solvers import InputError, Scene, collide, collide_many, regime_map
 from wetdoublet.solvers.verify.conserved import conserved
 from wetdoublet.solvers.verify.identities import of_the_model

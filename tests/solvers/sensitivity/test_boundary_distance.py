@@ -1,7 +1,5 @@
 """Near a boundary there is no derivative: it is refused by the boundary's name, with the distance."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

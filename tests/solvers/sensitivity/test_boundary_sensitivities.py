@@ -1,7 +1,5 @@
 """How boundaries move: against boundaries traced at other parameters, the doubling table, and closed forms."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace

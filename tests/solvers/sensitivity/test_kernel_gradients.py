@@ -1,7 +1,5 @@
 """Derivatives by the Taylor kernel: those of differences and of the CasADi engines, and laws that any must keep."""
 
-from __future__ import annotations
-
 import json
 from functools import cache
 

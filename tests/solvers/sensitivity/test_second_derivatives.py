@@ -1,7 +1,5 @@
 """Second derivatives, and the traps of differentiating through CasADi's integrators, each kept shut."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import Any
 
@@ -115,14 +113,10 @@ def test_the_first_order_landing_is_not_enough(monkeypatch: pytest.MonkeyPatch) 
     """With it the gradient is right and the Hessian wrong by a part of order one: why there is a second-order term."""
     right = sensitivities(GLASS, wrt=WRT, hessian=True, rtol=1e-10)
     monkeypatch.setattr(graph, "landing", first_order)
-    for cached in (
-        graph.trajectory_expression, graph.ending, derivatives.first_derivatives, derivatives.curvature,
-    ):  # fmt: skip
+    for cached in (graph.trajectory_expression, graph.ending, derivatives.first_derivatives, derivatives.curvature):
         cached.cache_clear()
     wrong = sensitivities(GLASS, wrt=WRT, hessian=True, rtol=1e-10)
-    for cached in (
-        graph.trajectory_expression, graph.ending, derivatives.first_derivatives, derivatives.curvature,
-    ):  # fmt: skip
+    for cached in (graph.trajectory_expression, graph.ending, derivatives.first_derivatives, derivatives.curvature):
         cached.cache_clear()
     for name in WRT:
         expected = right.elasticity["restitution"][name]

@@ -1,7 +1,5 @@
 """Sensitivities through the events: against differences, the other method, the other engine, and closed forms."""
 
-from __future__ import annotations
-
 import json
 import math
 from functools import cache
@@ -9,13 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import (
-    InputError,
-    Scene,
-    Sensitivities,
-    collide,
-    trajectory_sensitivities,
-)
+from wetdoublet.solvers import InputError, Scene, Sensitivities, collide, trajectory_sensitivities
 from wetdoublet.solvers.sensitivity.parameters import known
 
 from ...helpers.command import run
@@ -315,14 +307,14 @@ def test_json_of_the_command() -> None:
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["--of", "restitutoin"], "--of: \"restitutoin\" is not known, did you mean restitution?"),
+        (["--of", "restitutoin"], '--of: "restitutoin" is not known, did you mean restitution?'),
         (["--wrt", "liquid.viscocity"], "did you mean liquid.viscosity?"),
         (["--wrt", "pendulum.length"], "--wrt"),
-        (["--method", "backward"], "--method: \"backward\" is not known; accepted: forward, adjoint"),
+        (["--method", "backward"], '--method: "backward" is not known; accepted: forward, adjoint'),
         (["--hold", "speeed"], "did you mean speed?"),
         (["--hessian", "--engine", "cvodes"], "--engine"),
     ],
-)  # fmt: skip
+)
 def test_input_errors(arguments: list[str], says: str) -> None:
     """Exit status 2 and one line that names the option and the nearest known."""
     shown = run("sensitivity", "granulation", *arguments)

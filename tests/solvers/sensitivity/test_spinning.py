@@ -1,7 +1,5 @@
 """Derivatives of collisions in which spheres arrive spinning, beside central differences of collisions."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

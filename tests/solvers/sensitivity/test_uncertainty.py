@@ -1,7 +1,5 @@
 """What is made of sensitivities: trajectories, bands of uncertainty, Sobol indices, pictures, what a gradient costs."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A table of the granulation preset across three outcomes, its files and readers, against collisions."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 import re

@@ -1,7 +1,5 @@
 """The engines' event location against a search of the tests' own, which shares neither equations nor method."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

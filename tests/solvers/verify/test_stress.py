@@ -1,7 +1,5 @@
 """The stress test finds what is wrong with an engine, and explains what is not: small samples, no time is asserted."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

@@ -1,7 +1,5 @@
 """Symbolic verdicts are made once for the same equations, and again where anything that they depend on is another."""
 
-from __future__ import annotations
-
 import ast
 import sys
 from collections.abc import Callable, Iterator

@@ -1,16 +1,13 @@
 """The laws hold on the presets; the budget of e_n^2 - 1; the report and its command."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Collision, Scene, collide, collide_many
+from wetdoublet.solvers import Collision, Scene, collide, collide_many, plot
 from wetdoublet.solvers.verify import (
     Finding,
     Report,
@@ -23,7 +20,6 @@ from wetdoublet.solvers.verify import (
     restitution_budget,
     sample,
 )
-from wetdoublet.solvers.verify.plot import draw_budget
 
 from ...helpers.command import run
 
@@ -122,7 +118,7 @@ def test_the_picture_shows_the_terms(tmp_path) -> None:
     """Map and two panels; the line of a panel is e_n^2 - 1, one point a Stokes number."""
     angles = np.radians([45, 60, 75]).tolist()
     budget = restitution_budget("granulation", stokes=[0.01, 0.03, 0.1, 0.3], angle=angles)
-    figure = draw_budget(budget, tmp_path / "budget.png")
+    figure = plot(budget, tmp_path / "budget.png")
     assert (tmp_path / "budget.png").stat().st_size > 10_000
     lines = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == 4]
     drawn = [line.get_ydata() for line in lines]
@@ -224,7 +220,7 @@ def test_an_interrupted_command_says_what_it_has_checked(monkeypatch) -> None:
 def test_the_command_draws(monkeypatch, tmp_path) -> None:
     """`--plot` draws the budget of the report; the report goes to standard output all the same."""
     budget = restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0])
-    good = SimpleNamespace(ok=True, budget=budget, failed=(), __str__=lambda self: "fine")
+    good = Report((), budget)
     monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress, recompute: good)
     result = run("verify", "pendulum", "--plot", str(tmp_path / "p.png"))
     assert result.exit_code == 0
@@ -287,11 +283,7 @@ def test_what_finds_nothing_to_look_at_says_so() -> None:
     """A film so thin that glass is met at initial contact: every law that needs a trajectory is a note that says so."""
     scene = Scene.load("pendulum").with_entries({"liquid.film_thickness": 2e-6})
     collisions = sample.collisions(scene, (0.0, 0.5))
-    findings = [
-        *conserved.conserved(collisions),
-        *backward.backward(collisions),
-        *order.convergence(collisions),
-    ]
+    findings = [*conserved.conserved(collisions), *backward.backward(collisions), *order.convergence(collisions)]
     found = {finding.name: finding for finding in findings}
     for law in ("forward-back, cvodes", "forward-back, rosenbrock", "convergence"):
         assert (found[law].ok, found[law].figure) == (None, "no trajectory lasts: all rebound at initial contact")

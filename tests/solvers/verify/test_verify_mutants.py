@@ -1,7 +1,5 @@
 """Each law's check fails, by name and at the right place, when its subject is broken."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
@@ -17,16 +15,7 @@ from wetdoublet.solvers.certificates import Certainty
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.casadi.integrators import Plain, plain
 from wetdoublet.solvers.model.phases import expressions
-from wetdoublet.solvers.verify import (
-    audit,
-    backward,
-    budget,
-    closed,
-    conserved,
-    order,
-    region,
-    sample,
-)
+from wetdoublet.solvers.verify import audit, backward, budget, closed, conserved, order, region, sample
 from wetdoublet.solvers.verify.report import Finding
 
 pytestmark = pytest.mark.slow

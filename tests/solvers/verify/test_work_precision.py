@@ -1,7 +1,5 @@
 """`bench`: cost and error of the engines on a scene's collisions, and the setting recommended. No time is asserted."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """What a collision and a gradient cost beside heyoka, whose callbacks are Python's: three ways, at equal error."""
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 from wetdoublet.solvers.formatting.markdown import table

@@ -6,8 +6,6 @@ FOLDER (docs/engineering/performance) holds bench.json, compile_flags.json, cvod
 stress.json and law_in_c.json. With the usual folder also the figures on the front page, README.md, between its marks.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

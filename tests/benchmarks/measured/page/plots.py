@@ -1,7 +1,5 @@
 """The benchmark as pictures: time against achieved error, and what a feature costs."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -10,11 +8,10 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 from wetdoublet.solvers.host.files import save
 
 from ..features import FEATURES
-from .plots_more import gradient_curves, near_curves
 
 Record = dict[str, Any]
 
@@ -30,12 +27,17 @@ _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "diffrax Tsit5": ("#7F7F7F", "<", "--"),
     "scipy LSODA": ("#CC79A7", "^", "--"),
     "scipy Radau": ("#202020", "v", "--"),
+    "rosenbrock, generated C": ("#D55E00", "s", "-"),
+    "gradients_many": ("#E69F00", "*", "-"),
+    "rosenbrock, forward": ("#D55E00", "s", "-"),
+    "rosenbrock, adjoint": ("#0072B2", "o", "-"),
+    "heyoka, variational equations": ("#56B4E9", "P", "--"),
+    "heyoka's, without callbacks": ("#56B4E9", "x", ":"),
+    "diffrax, forward derivatives": ("#7F7F7F", "<", "--"),
+    "central differences of taylor": ("#CC79A7", "^", "--"),
 }
-_FILLS = {
-    "ledger": ("#E69F00", "//"),
-    "trajectory": ("#56B4E9", ".."),
-    "rotation": ("#009E73", "xx"),
-}
+_OTHER = ("#AA3377", ".", ":")
+_FILLS = {"ledger": ("#E69F00", "//"), "trajectory": ("#56B4E9", ".."), "rotation": ("#009E73", "xx")}
 _RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8, "hatch.linewidth": 0.6}
 
 
@@ -65,7 +67,7 @@ def work_error(record: Record) -> Figure:
     for axes, task in zip(panels, tasks):
         for name in dict.fromkeys(point["engine"] for point in task["points"]):
             good, bad = _curve(task, name)
-            colour, marker, line = _STYLES.get(name, ("#AA3377", ".", ":"))
+            colour, marker, line = _STYLES.get(name, _OTHER)
             style: Any = {"color": colour, "marker": marker, "markersize": 5.5}
             axes.loglog(*good, linestyle=line, linewidth=1.3, label=name, **style)
             if bad[0]:
@@ -73,9 +75,7 @@ def work_error(record: Record) -> Figure:
         known[task["preset"]] = task["collisions"]["own_error"]
         _frame(axes, task)
     _limits(panels, list(known.values()))
-    panels[0].set_ylabel("CPU time a collision (us)")
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
+    _legend(figure, panels[0], "CPU time a collision (us)", 3)
     return figure
 
 
@@ -174,7 +174,7 @@ def growth_curves(record: Record) -> Figure:
     figure = Figure(figsize=(7.2, 3.4), layout="constrained")
     panels = figure.subplots(1, 2, sharex=True)
     for engine in dict.fromkeys(each["engine"] for each in record["growth"]):
-        colour, marker, _ = _STYLES.get(engine, ("#AA3377", ".", ":"))
+        colour, marker, _ = _STYLES.get(engine, _OTHER)
         for cores, line in ((1, "-"), (2, "--")):
             here = [each for each in record["growth"] if (each["engine"], each["cores"]) == (engine, cores)]
             counts = [each["collisions"] for each in here]
@@ -191,3 +191,64 @@ def growth_curves(record: Record) -> Figure:
         axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
     figure.legend(loc="outside upper center", ncols=2, frameon=False)
     return figure
+
+
+def near_curves(record: Record) -> Figure:
+    """CPU time of a collision against its distance from the separatrix, a panel a tolerance."""
+    rows = record["near"]
+    rtols = list(dict.fromkeys(row["rtol"] for row in rows))
+    figure = Figure(figsize=(9.2, 3.9), layout="constrained")
+    panels: Sequence[Axes] = figure.subplots(1, len(rtols), sharex=True, sharey=True, squeeze=False)[0]
+    for axes, rtol in zip(panels, rtols, strict=True):
+        for name in dict.fromkeys(row["engine"] for row in rows):
+            here = [row for row in rows if (row["engine"], row["rtol"]) == (name, rtol)]
+            colour, marker, line = _STYLES.get(name, _OTHER)
+            xs, ys = [row["distance"] for row in here], [row["cpu"] * 1e3 for row in here]
+            axes.loglog(xs, ys, line, color=colour, marker=marker, markersize=5.5, linewidth=1.3, label=name)
+            failed = [(x, y) for x, y, row in zip(xs, ys, here, strict=True) if row["failed"]]
+            if failed:
+                style: Any = {"color": colour, "marker": marker, "markersize": 5.5, "markerfacecolor": "white"}
+                axes.loglog(*zip(*failed), linestyle="none", **style)
+        _grid(axes)
+        axes.set_title(f"rtol {rtol:.0e}", fontsize=9.5)
+        axes.set_xlabel("relative distance in St from the separatrix")
+    panels[0].invert_xaxis()
+    _legend(figure, panels[0], "CPU time a collision (ms)", 4)
+    figure.supxlabel("hollow: some collisions failed", fontsize=8, color="#555555")
+    return figure
+
+
+def gradient_curves(record: Record) -> Figure:
+    """CPU time of a gradient against its largest error, a panel a task."""
+    tasks = record["gradient_work"]
+    figure = Figure(figsize=(9.2, 4.3), layout="constrained")
+    panels: Sequence[Axes] = figure.subplots(1, len(tasks), sharex=True, sharey=True, squeeze=False)[0]
+    for axes, task in zip(panels, tasks, strict=True):
+        for name in dict.fromkeys(row["method"] for row in task["rows"]):
+            here = [row for row in task["rows"] if row["method"] == name and row["error_largest"]]
+            colour, marker, line = _STYLES.get(name, _OTHER)
+            xs, ys = [row["error_largest"] for row in here], [row["cpu"] * 1e6 for row in here]
+            axes.loglog(xs, ys, line, color=colour, marker=marker, markersize=5.5, linewidth=1.3, label=name)
+        _grid(axes)
+        axes.set_title(
+            f"{task['preset']}: {task['collisions']} gradients, {len(task['parameters'])} parameters", fontsize=9.5
+        )
+        axes.set_xlabel("largest error, over the largest derivative")
+    panels[0].invert_xaxis()
+    _legend(figure, panels[0], "CPU time a gradient (us)", 3)
+    return figure
+
+
+def _legend(figure: Figure, first: Axes, label: str, columns: int) -> None:
+    first.set_ylabel(label)
+    figure.legend(*first.get_legend_handles_labels(), loc="outside upper center", ncols=columns, frameon=False)
+
+
+def _grid(axes: Axes) -> None:
+    axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
+    axes.xaxis.set_major_locator(LogLocator(base=100, numticks=20))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_locator(LogLocator(base=10, subs=(1.0, 2.0, 5.0), numticks=20))
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.tick_params(labelleft=True)

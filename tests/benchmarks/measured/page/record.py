@@ -6,8 +6,6 @@ Measures everything that is in it: some minutes, the first time longer, as integ
 holds a kernel made by hand (`peers/by_hand.py`), measured beside the others where it is named.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

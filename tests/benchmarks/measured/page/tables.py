@@ -1,7 +1,5 @@
 """A benchmark's record as Markdown."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What was aimed at, and what a record shows of it."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What is timed: a function that computes one collision, or a call for many."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -4,8 +4,6 @@ A trajectory is a loop over phases, each ended by diffrax's own event with a New
 looks at signs at the ends of steps. The level that proves a stick is an event of the energy, computed beforehand.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -5,8 +5,6 @@ find of optimistix, which differentiates it implicitly; with it the state at the
 all parameters and all collisions vectorised.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from importlib.util import find_spec
 

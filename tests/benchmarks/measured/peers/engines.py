@@ -1,7 +1,5 @@
 """What is measured: our engines, and the peers that are installed, behind one call a collision or one for all."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -11,11 +9,11 @@ from typing import Any
 import numpy as np
 from wetdoublet.generated.automaton import LOOSEST, OUTCOMES
 from wetdoublet.solvers.collision.collide import collide
+from wetdoublet.solvers.engines.settings import ENGINES
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.settings import ENGINES
 from wetdoublet.solvers.verify.stress.scipy_engine import ScipyLocator
 
 from ..answers import Answer, Impact, answer, dimensionless

@@ -1,7 +1,5 @@
 """The time that heyoka spends in callbacks written in Python, which somebody who calls it from C++ does not have."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable

@@ -6,8 +6,6 @@ callbacks that reverse, refill a finished lane from the queue, and go on; one ca
 The level that proves a stick is an event of the energy; it is computed beforehand, at no cost to heyoka.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field

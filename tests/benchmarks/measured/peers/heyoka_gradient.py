@@ -8,8 +8,6 @@ reversal. Last, all collisions land on the rupture together, and one product wit
 the groups leads to the parameters.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -4,8 +4,6 @@ CVODE's own root finding ends a trajectory at its events; grazing minima are loo
 functions are straight-line code, compiled once for a flow.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any

@@ -1,7 +1,5 @@
 """The emitted modules for another library's expressions: copies whose elementary functions are that library's."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from importlib.util import find_spec, module_from_spec
 from types import ModuleType, SimpleNamespace

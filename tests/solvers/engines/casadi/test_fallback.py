@@ -1,7 +1,5 @@
 """Collisions end where an integrator fails at the tolerance it is given, or lands beside their events."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Weak rebounds that come to rest, and the cut-offs of strings."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

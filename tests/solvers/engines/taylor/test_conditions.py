@@ -1,7 +1,5 @@
 """The conditions of rules and the inequalities of stick proofs decide alike in both engines."""
 
-from __future__ import annotations
-
 import ctypes
 import inspect
 import subprocess

@@ -1,7 +1,5 @@
 """The damped sum of creeping trajectories (solvers/engines/taylor/runtime/damped_sum.h): its table and its effect."""
 
-from __future__ import annotations
-
 import math
 import re
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """The kernel's headers as files: each says what it needs, none needs itself, and a compiler finds nothing amiss."""
 
-from __future__ import annotations
-
 import subprocess
 from graphlib import TopologicalSorter
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Trajectories that creep for long (runtime/implicit.h): beside a saddle, and in a film that opens slowly."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

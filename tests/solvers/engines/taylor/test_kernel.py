@@ -1,7 +1,5 @@
 """Collisions by the Taylor kernel: the same as by other engines and as the reference, at the tolerance asked for."""
 
-from __future__ import annotations
-
 import platform
 from collections.abc import Iterator
 from dataclasses import replace
@@ -11,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide, collide_many
+from wetdoublet.solvers.engines.settings import STEPS
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
@@ -18,7 +17,6 @@ from wetdoublet.solvers.engines.taylor.machine import lanes_of, native
 from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.results import QUANTITIES
-from wetdoublet.solvers.settings import STEPS
 
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
 EVERYTHING = tuple(QUANTITIES)

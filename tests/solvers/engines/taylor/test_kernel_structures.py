@@ -1,7 +1,5 @@
 """What the kernel knows beyond the paper's structures: partners, attractions, films, ruptures, a user's laws."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

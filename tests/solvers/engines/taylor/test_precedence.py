@@ -1,7 +1,5 @@
 """What the kernel watches for, and which of coincident events it reports: as the table of the automaton has it."""
 
-from __future__ import annotations
-
 import ctypes
 import subprocess
 from itertools import combinations

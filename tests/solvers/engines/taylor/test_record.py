@@ -1,7 +1,5 @@
 """What the kernel's variants write beside answers: the energy ledger, and the steps' own series as a trajectory."""
 
-from __future__ import annotations
-
 import subprocess
 from functools import cache
 from typing import Any

@@ -1,7 +1,5 @@
 """The kernel's own arithmetic: functions against libm, recurrences against the equations they solve, roots."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 import subprocess

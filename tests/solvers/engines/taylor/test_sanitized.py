@@ -3,8 +3,6 @@
 A sample that compiles quickly; `python tests/helpers/sanitized.py` integrates everything.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

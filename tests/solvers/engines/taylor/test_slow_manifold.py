@@ -1,7 +1,5 @@
 """The slow-manifold jump: the same results as whole trajectories, wherever it is taken."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

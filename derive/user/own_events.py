@@ -6,8 +6,6 @@ Each event has a state of its own, its mark: 1 before the event, 0 after it. `ev
 same file may use as a factor. As a state it needs no further machinery in derivatives, recurrences and records.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """From declarations to laws: SI expressions in terms of the slots' arguments, new groups, extended structures."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations

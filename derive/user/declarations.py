@@ -9,8 +9,6 @@ A law fills a slot of the library's (`film`, `shear`, `arm`, `glass`, `bridge`, 
 as they are in SI, or dimensionless in the slot's own arguments; `declared` reads such a file.
 """
 
-from __future__ import annotations
-
 import keyword
 import re
 from collections.abc import Iterator, Mapping

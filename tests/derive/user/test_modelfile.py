@@ -1,7 +1,5 @@
 """Model files: declarations, groups found, laws brought to their slots, checks that name what fails."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
@@ -13,9 +11,9 @@ from wetdoublet.derive.emit.document.document import document
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.physics.laws import LAWS, fill
 from wetdoublet.derive.physics.structure import Structure, structures
-from wetdoublet.derive.user_model.declarations import ModelFileError
-from wetdoublet.derive.user_model.modelfile import read
-from wetdoublet.derive.user_model.template import TEMPLATE
+from wetdoublet.derive.user.declarations import ModelFileError
+from wetdoublet.derive.user.modelfile import read
+from wetdoublet.derive.user.template import TEMPLATE
 from wetdoublet.derive.vocabulary.allowed_values import Bounds, BoundsError
 from wetdoublet.derive.vocabulary.dimensions import (
     FORCE,

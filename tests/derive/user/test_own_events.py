@@ -1,16 +1,14 @@
 """Declared events in the derivation: what is refused, their form in the structures, and what is shown of them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
 import sympy as sp
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.physics.structure import Structure
-from wetdoublet.derive.user_model.declarations import ModelFileError
-from wetdoublet.derive.user_model.modelfile import read
-from wetdoublet.derive.user_model.structures import UserModel
+from wetdoublet.derive.user.declarations import ModelFileError
+from wetdoublet.derive.user.modelfile import read
+from wetdoublet.derive.user.structures import UserModel
 
 OBLIQUE = Structure(True, True, False)
 HEAD = 'from wetdoublet.derive.user import *\nk = quantity("k", unit="1/s")\nd = quantity("d", unit="m")\n'
@@ -43,7 +41,7 @@ def model(body: str) -> UserModel:
         ('event("snap", guard=d - x)\nevent("snap", guard=d - x)', "line 5: event: 'snap' is taken already"),
         ('event("snap", guard=d - x)\nquantity("before_snap")', "quantity: 'before_snap' is taken already"),
     ],
-)  # fmt: skip
+)
 def test_bad_events_are_named(body: str, said: str):
     """An event that cannot be is one line with file, line, what is wrong and what is accepted."""
     with pytest.raises(ModelFileError) as caught:

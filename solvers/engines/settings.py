@@ -1,9 +1,7 @@
 """Numerical settings of a run: relative tolerance, engine and step budget."""
 
-from __future__ import annotations
-
-from .errors import InputError, did_you_mean
-from .scene.schema import Field, Range
+from ..errors import InputError, did_you_mean
+from ..scene.schema import Field, Range
 
 CASADI_ENGINES = ("cvodes", "rosenbrock")  # plugins of CasADi's `integrator`
 ENGINES = (*CASADI_ENGINES, "taylor")

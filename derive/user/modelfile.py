@@ -1,7 +1,5 @@
 """Reading of a model file: run it, collect its declarations, derive its laws."""
 
-from __future__ import annotations
-
 import traceback
 from pathlib import Path
 

@@ -1,0 +1,61 @@
+"""A user's laws, events and quantities; a model file begins with `from wetdoublet.derive.user import *`."""
+
+# ruff: noqa: F401 -- the names of people's model files
+import sympy as sp
+from sympy import (
+    Abs,
+    Max,
+    Min,
+    Piecewise,
+    Rational,
+    acos,
+    asin,
+    atan,
+    cos,
+    cosh,
+    exp,
+    log,
+    pi,
+    sin,
+    sinh,
+    sqrt,
+    tan,
+    tanh,
+)
+
+from ..physics.laws.arm import distance
+from ..physics.laws.bridge import h
+from ..physics.laws.glass import approach
+from ..physics.laws.strings import offset_squared
+from ..vocabulary.quantities import (
+    E,
+    R,
+    a,
+    aspect,
+    e_dry,
+    g,
+    gap,
+    glass_number,
+    l_s,
+    m,
+    mu,
+    normal_velocity,
+    nu,
+    omega,
+    omega0,
+    p_gt,
+    r,
+    rho,
+    sigma,
+    string_ratio,
+    u,
+    v0,
+    x,
+    x0,
+    x_b,
+    xi,
+)
+from ..vocabulary.quantities import contact_angle as phi
+from ..vocabulary.quantities import normal_velocity as opening  # its name in older model files
+from ..vocabulary.quantities import volume as V
+from .declarations import event, law, let, quantity

@@ -1,1 +1,0 @@
-"""A user's own laws and quantities, and the structures that include them."""
