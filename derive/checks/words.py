@@ -63,8 +63,8 @@ def in_words(model: UserModel) -> tuple[str, ...]:
     takers = "Mechanical energy is not conserved: film and shear take it, the solids' dry contact as well"
     lines.append(f"{takers}; the bridge stores it (its force depends on the gap alone).")
     groups = model.extended(derive(_FULL)).groups
-    own = {group.symbol: group for group in model.groups}
-    known = ", ".join(symbol.name for symbol in groups if symbol not in own)
+    new = {group.symbol: group for group in model.groups}
+    known = ", ".join(symbol.name for symbol in groups if symbol not in new)
     lines.append(f"An oblique collision with a bridge is governed by the library's groups {known}.")
     for group in model.groups:
         name, meaning = group.symbol.name, group.quantity.meaning

@@ -65,8 +65,8 @@ class Text:
         raise EmissionError(f"no lane-wise C for {type(node).__name__}: {node}")
 
     def _at_least(self, node: sp.Basic, strength: int) -> str:
-        text, own = self._print(node)
-        return text if own >= strength else f"({text})"
+        text, binding = self._print(node)
+        return text if binding >= strength else f"({text})"
 
     def _sum(self, node: sp.Add) -> str:
         terms = sorted(node.as_ordered_terms(), key=lambda term: term.could_extract_minus_sign())
@@ -306,10 +306,10 @@ class Recurrences:
         if kind in _RECURRENCES:
             inner = f"{place}slope_of_{operation.series[0]}"
             over, slope = f"&{place}over_{name}", f"{place}slope_of_{name}"
-            made = _RECURRENCES[kind].format(
+            recurrence = _RECURRENCES[kind].format(
                 *series, whole=whole, over=over, slope=slope, inner=inner, factor=factors[0] if factors else ""
             )
-            return f"{target} = {made};"
+            return f"{target} = {recurrence};"
         if kind == "sine":
             inner = operation.series[0]
             cosine = self.array(f"cosine_of_{inner}")
