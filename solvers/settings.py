@@ -47,7 +47,7 @@ def check_engine(engine: object, label: str = "engine") -> str | None:
 
 def check_plugin(engine: object, label: str = "engine") -> str | None:
     """Return the engine as `check_engine` does, only for engines that CasADi can differentiate."""
-    found = check_engine(engine, label)
-    if found is not None and found not in CASADI_ENGINES:
-        raise InputError(label, found, ", ".join(CASADI_ENGINES), "has no derivatives of this kind")
-    return found
+    plugin = check_engine(engine, label)
+    if plugin is not None and plugin not in CASADI_ENGINES:
+        raise InputError(label, plugin, ", ".join(CASADI_ENGINES), "has no derivatives of this kind")
+    return plugin

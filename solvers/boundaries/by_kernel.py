@@ -53,7 +53,7 @@ def looked(
     Arguments:
         solids: SI quantities of the rebound criteria that replace the scene's.
     """
-    found = np.zeros(speed.size, LOOK)
+    result = np.zeros(speed.size, LOOK)
     for oblique in (True, False):
         which = np.flatnonzero(sideways(scene, angle, {}) == oblique)
         if not which.size:
@@ -79,8 +79,8 @@ def looked(
             part[name] = answers[name]
         if purpose == Purpose.WHOLE and not others:
             _take_limits(part, impacts, answers, oblique, rtol, budget)
-        found[which] = part
-    return found
+        result[which] = part
+    return result
 
 
 def events(
@@ -95,7 +95,7 @@ def events(
         return None
     words = words_of(scene)
     rows = [log[:count] for log, count in zip(recorded.events, recorded.answers["events"], strict=True)]
-    return [[(words[int(row["kind"])], float(row["time"])) for row in own] for own in rows]
+    return [[(words[int(row["kind"])], float(row["time"])) for row in collision_rows] for collision_rows in rows]
 
 
 def _take_limits(
@@ -105,11 +105,11 @@ def _take_limits(
     endless = np.flatnonzero(part["chatters"])
     if not endless.size:
         return
-    those = impacts.part(endless)
-    before = run_recorded(those, oblique, rtol, trajectory=True, budget=budget // _EARLIER, keep=False, events=False)
+    stopped = impacts.part(endless)
+    before = run_recorded(stopped, oblique, rtol, trajectory=True, budget=budget // _EARLIER, keep=False, events=False)
     assert before is not None  # the kernel is available
     choice = select_model(impacts.scene, oblique, fold=False)
-    held = limits(before.answers, answers[endless], impacts.scene, those.speed, those.angle, choice, rtol)
+    held = limits(before.answers, answers[endless], impacts.scene, stopped.speed, stopped.angle, choice, rtol)
     for k, stays in zip(endless.tolist(), held, strict=True):
         if stays is not None:
             reached = BOUNCE if part["reversal"][k] >= 0 else ROTATE

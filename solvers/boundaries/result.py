@@ -70,11 +70,11 @@ class Lines:
 
     def change_dict(self, change: Change, angle: float) -> dict[str, Any]:
         """A change on the line of an angle (rad) as in the JSON objects: with its speeds, of boundaries of a scene."""
-        found = change.to_dict() | {"angle": angle}
+        result = change.to_dict() | {"angle": angle}
         if self.scene is None:
-            return found
+            return result
         speed = self.scene.speed_of(change.stokes)
-        return found | {"speed": speed, "relative_speed": speed / math.cos(angle)}
+        return result | {"speed": speed, "relative_speed": speed / math.cos(angle)}
 
     @property
     def range_text(self) -> str:
@@ -111,10 +111,10 @@ class Lines:
         points = sum(len(changes) for changes in self.changes)
         merged = sum(one.merged for line in self.changes for one in line)
         lines += [f"{merged} of the changes stand for several closer than {MERGED:g}"] if merged else []
-        found = f"{points} change{'s' * (points != 1)} from " + (
+        text = f"{points} change{'s' * (points != 1)} from " + (
             f"{self.collisions} collisions" if self.collisions else "proofs at initial contact, without a collision"
         )
-        lines.append(f"{found} for {self.range_text}; strips narrower than {self.resolution:.1%} in St may be missed")
+        lines.append(f"{text} for {self.range_text}; strips narrower than {self.resolution:.1%} in St may be missed")
         return "\n".join(lines)
 
     def to_dataset(self) -> xarray.Dataset:
@@ -257,14 +257,14 @@ class Curves(Lines):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --angle LO:HI --json`."""
-        found = {
+        result = {
             "curves": [one.to_dict() | self._speeds(one.x, one.stokes) for one in self.curves],
             "points": [one.to_dict() | self._speeds(one.x, one.stokes) for one in self.points],
             "resolution": self.sought,
         }
         if self.unsettled:
-            found["unsettled"] = [{"x": x, "stokes": stokes, "reason": why} for x, stokes, why in self.unsettled]
-        return found | self.origin(x=(self.scene.fields if self.scene else FIELDS)[self.over].unit or "1")
+            result["unsettled"] = [{"x": x, "stokes": stokes, "reason": why} for x, stokes, why in self.unsettled]
+        return result | self.origin(x=(self.scene.fields if self.scene else FIELDS)[self.over].unit or "1")
 
     def _speeds(self, x: Any, stokes: Any) -> dict[str, Any]:
         """Normal and relative speeds (m/s) of points of the plane, for JSON; empty without a scene."""
@@ -303,9 +303,9 @@ class Curves(Lines):
         """
         x, stokes = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(stokes, dtype=float))
         inside = (x >= self.span[0]) & (x <= self.span[1]) & (stokes >= self.window[0]) & (stokes <= self.window[1])
-        found = np.full(x.shape, -1, dtype=np.int8)
-        found[inside] = labelled(self.slabs(), self.unit(x[inside], stokes[inside]))[0]
-        return found
+        outcomes = np.full(x.shape, -1, dtype=np.int8)
+        outcomes[inside] = labelled(self.slabs(), self.unit(x[inside], stokes[inside]))[0]
+        return outcomes
 
     def unit(self, x: Any, stokes: Any) -> np.ndarray:
         """Points of the unit square, n x 2, for values of x and Stokes numbers."""
@@ -341,17 +341,17 @@ class Curves(Lines):
         lines += [f"not settled at {shown(x):.6g}, St {stokes:.6g}: {why}" for x, stokes, why in self.unsettled]
         sought, spacing = self.sought, self.sought["line_spacing"]
         assert isinstance(spacing, float)
-        told = (
+        text = (
             f"{self.range_text}; from {len(self.at)} lines, {shown(spacing):.3g} {'deg' if angle else '(SI)'} apart, "
             f"sampled every {self.resolution:.2%} in St; "
             f"{self.collisions} collisions; straight lines between the points of a curve are within "
             f"{sought['chord_stokes']:.1e} of St, relative"
         )
         if self.lattice != LATTICE:
-            told += (
+            text += (
                 f"; without the compiled kernel, from a lattice of {self.lattice[0]} by {self.lattice[1]} collisions"
             )
-        return "\n".join([*lines, "", told])
+        return "\n".join([*lines, "", text])
 
     def to_dataset(self) -> xarray.Dataset:
         """The Dataset of the lines, with curves over (curve, vertex), points over point, and x of the lines."""

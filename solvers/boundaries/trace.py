@@ -117,12 +117,14 @@ def _block(
         complete.append(samples)
         places.append(k)
         widths.append(widest)
-    for k, line, width, found in zip(places, lines, widths, changes_along(lines, look, complete), strict=True):
+    for k, line, width, outcome_changes in zip(
+        places, lines, widths, changes_along(lines, look, complete), strict=True
+    ):
         traced.collisions += line.collisions
-        if isinstance(found, ComputationError):
-            failures[k] = str(found)
+        if isinstance(outcome_changes, ComputationError):
+            failures[k] = str(outcome_changes)
         else:
-            changes[k] = tuple(found)
+            changes[k] = tuple(outcome_changes)
             traced.resolution = max(traced.resolution, width)
     traced.collisions += look.collisions
     return changes, failures
@@ -141,9 +143,9 @@ def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) 
     missing = missing[at[place] - at[place - 1] > _ROUNDED * spacing]
     if missing.size:
         some = missing[np.unique(np.linspace(0, missing.size - 1, _SLOW).astype(int))]
-        found = blank(some)
-        found["outcome"] = look.outcomes(np.full(some.size, angle), some)["outcome"]
-        samples = merged(samples, found)
+        recomputed = blank(some)
+        recomputed["outcome"] = look.outcomes(np.full(some.size, angle), some)["outcome"]
+        samples = merged(samples, recomputed)
         at = _spaced(samples, grid)
     widest = int(np.argmax(np.diff(at)))
     low, high = float(np.exp(at[widest])), float(np.exp(at[widest + 1]))

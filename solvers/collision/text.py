@@ -154,7 +154,9 @@ def table(collision: Outcome) -> str:
     """Return the short table that `wetdoublet collide` prints."""
     lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
     lines += [*_energy(collision), "", *_numerics(collision)]
-    remarks = [line for said in collision.validity for line in wrap(f"note: {said}", WIDTH, break_on_hyphens=False)]
+    remarks = [
+        line for sentence in collision.validity for line in wrap(f"note: {sentence}", WIDTH, break_on_hyphens=False)
+    ]
     return "\n".join([*lines, *_model(collision.scene), *assumed(collision.scene), *remarks])
 
 
@@ -237,11 +239,11 @@ def _partner(scene: Scene) -> str:
     return f"a sphere of {plain(radius)} times the radius and {plain(mass)} times the mass"
 
 
-def _spins(scene: Scene, name: str, own: float | None, partner: float | None) -> list[str]:
+def _spins(scene: Scene, name: str, spin: float | None, partner: float | None) -> list[str]:
     """The spins before or after the collision, rad/s."""
     if not (scene.pair or scene.wall):
-        return [_line(name, plain(own, "rad/s"), "xi, of each sphere")]
-    lines = [_line(name, plain(own, "rad/s"), "xi, of the sphere")]
+        return [_line(name, plain(spin, "rad/s"), "xi, of each sphere")]
+    lines = [_line(name, plain(spin, "rad/s"), "xi, of the sphere")]
     if not scene.wall:
         lines.append(_line("", plain(partner, "rad/s"), "xi, of its partner"))
     return lines
@@ -251,8 +253,8 @@ def _first_spins(scene: Scene) -> list[str]:
     """The spins before the collision, where the scene gives any."""
     if not _arrives_spinning(scene):
         return []
-    found = scene.material
-    return _spins(scene, "initial spin", found["impact_spin"], found.get("impact_partner_spin"))
+    material = scene.material
+    return _spins(scene, "initial spin", material["impact_spin"], material.get("impact_partner_spin"))
 
 
 def _arrives_spinning(scene: Scene) -> bool:

@@ -27,9 +27,9 @@ def texts(scene: Scene) -> dict[str, str]:
     )
     lacking = [slot for slot, there in parts if there is None]
     title = f"Oblique collisions of wet particles: {name_of(scene)}"
-    made = document(title, laws, user_model(scene.package), lacking, scene.particles.friction is not None)
+    rendered = document(title, laws, user_model(scene.package), lacking, scene.particles.friction is not None)
     name = file_name(scene)
-    return {f"{name}.tex": made.tex(), f"{name}.md": made.markdown()}
+    return {f"{name}.tex": rendered.tex(), f"{name}.md": rendered.markdown()}
 
 
 def chosen_laws(scene: Scene) -> dict[str, str]:

@@ -35,11 +35,11 @@ def to_csv(data: xarray.Dataset) -> str:
         header.append(name if unit == "1" else f"{name} [{unit}]")
         cells = np.broadcast_to(values, shape).ravel()
         columns.append(_flags(cells) if name == "validity" else _cells(name, cells))
-    made = io.StringIO()
-    table = csv.writer(made, lineterminator="\n")
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
     table.writerow(header)
     table.writerows(zip(*columns, strict=True))
-    return made.getvalue()
+    return text.getvalue()
 
 
 def write_csv(data: xarray.Dataset, path: str | Path) -> None:

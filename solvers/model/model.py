@@ -114,8 +114,8 @@ class _Narrow:
         self._law, self._package, self._slot = law, package, slot
 
     def __getattr__(self, function: str) -> Any:
-        found, more = getattr(self._law, function), len(self._package.extra(self._slot, function))
-        return (lambda *arguments: found(*arguments[: len(arguments) - more])) if more else found
+        law_function, more = getattr(self._law, function), len(self._package.extra(self._slot, function))
+        return (lambda *arguments: law_function(*arguments[: len(arguments) - more])) if more else law_function
 
 
 class Model:
@@ -225,10 +225,10 @@ class Model:
         self, name: str, state: Mapping[str, SX] | None = None, region: Mapping[str, int | SX] | None = None
     ) -> dict[str, SX]:
         """A function of the structure module as named expressions."""
-        found: dict[str, SX] = getattr(self.structure, name)(
+        outputs: dict[str, SX] = getattr(self.structure, name)(
             self.state if state is None else state, self.groups, self.laws, **(region or {})
         )
-        return found
+        return outputs
 
     def extra(self, slot: str, function: str) -> list[SX]:
         """Additional arguments that a user's model passes to a slot's function: symbols of groups or states."""

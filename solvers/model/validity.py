@@ -136,8 +136,8 @@ def _cavitating(scene: Scene, values: Values) -> Any:
 
 
 def _own_rupture(scene: Scene, values: Values) -> Any:
-    own = scene.bridge is not None and scene.bridge.rupture == "own"
-    return _unlike(scene, values) if own else math.nan
+    at_own_distance = scene.bridge is not None and scene.bridge.rupture == "own"
+    return _unlike(scene, values) if at_own_distance else math.nan
 
 
 def _idle_friction(scene: Scene, values: Values) -> Any:
@@ -239,12 +239,12 @@ def sentences(scene: Scene, speed: float, angle: float, outcome: str, results: M
     """
     known = {name: math.nan if results[name] is None or outcome == STICK else results[name] for name in NEEDS}
     values = si_values(scene, speed, angle) | known | {"outcome": OUTCOMES.index(outcome)}
-    said = []
+    result = []
     for limit in LIMITS:
         number = float(limit.number(scene, values))
         if limit.passed(number):
-            said.append(limit.says(number))
-    return [*said, *remarks(scene)]
+            result.append(limit.says(number))
+    return [*result, *remarks(scene)]
 
 
 def sentences_of_many(scene: Scene, values: Values) -> list[str]:
@@ -253,14 +253,14 @@ def sentences_of_many(scene: Scene, values: Values) -> list[str]:
     Arguments:
         values: as for `flags`.
     """
-    said = []
+    result = []
     with np.errstate(all="ignore"):
         for limit in LIMITS:
             numbers = np.atleast_1d(np.asarray(limit.number(scene, values), float))
             outside = numbers[limit.passed(numbers)]
             if outside.size:
-                said.append(limit.says(float(outside.max() if math.isfinite(limit.most) else outside.min())))
-    return [*said, *remarks(scene)]
+                result.append(limit.says(float(outside.max() if math.isfinite(limit.most) else outside.min())))
+    return [*result, *remarks(scene)]
 
 
 def flags(scene: Scene, values: Values, size: int) -> np.ndarray:
@@ -269,14 +269,14 @@ def flags(scene: Scene, values: Values, size: int) -> np.ndarray:
     Arguments:
         scene: has the partner, the bridge and the laws; its numbers are those of `values`.
     """
-    found = np.zeros(size, dtype=np.int16)
+    bits = np.zeros(size, dtype=np.int16)
     with np.errstate(all="ignore"):
         for bit, limit in enumerate(LIMITS):
-            found |= np.where(limit.passed(limit.number(scene, values)), 1 << bit, 0).astype(np.int16)
+            bits |= np.where(limit.passed(limit.number(scene, values)), 1 << bit, 0).astype(np.int16)
         for limit in _law_limits(scene):
             outside = limit.passed(limit.number(scene, values))
-            found |= np.where(outside, 1 << FLAGS.index(LAW_RANGE), 0).astype(np.int16)
-    return found
+            bits |= np.where(outside, 1 << FLAGS.index(LAW_RANGE), 0).astype(np.int16)
+    return bits
 
 
 def flag_attributes() -> dict[str, Any]:
@@ -324,22 +324,22 @@ def _law_limits(scene: Scene) -> list[Limit]:
         return []
     law = law_module(scene, "bridge", scene.bridge.law)
     ranges: dict[str, tuple[float | None, float | None]] = getattr(law, "VALIDITY", {})
-    made = []
+    limits = []
     for name, (least, most) in ranges.items():
         low, high = -math.inf if least is None else least, math.inf if most is None else most
 
         def says(number: float, name: str = name, low: float = low, high: float = high) -> str:
             side, bound = ("below", low) if number < low else ("above", high)
-            given, limit = (
+            value, limit = (
                 f"{math.degrees(each):.4g} deg" if name == "contact_angle" else f"{each:.4g}"
                 for each in (number, bound)
             )
             bridge = scene.bridge.law if scene.bridge else ""
             where = f"outside the range of the law {bridge} ({law.VALIDITY_SOURCE})"
-            return f"{_ENTRIES[name]} = {given} is {side} {limit}, {where}"
+            return f"{_ENTRIES[name]} = {value} is {side} {limit}, {where}"
 
-        made.append(Limit(LAW_RANGE, _LAW_NUMBERS[name], says, low, high))
-    return made
+        limits.append(Limit(LAW_RANGE, _LAW_NUMBERS[name], says, low, high))
+    return limits
 
 
 _ENTRIES = {"volume": "bridge.volume", "contact_angle": "bridge.contact_angle", "separation": "x_f/R"}
@@ -352,7 +352,7 @@ _LAW_NUMBERS: dict[str, Callable[[Scene, Values], Any]] = {
 
 def warn(scene: Scene, stacklevel: int = 3) -> tuple[str, ...]:
     """Warn of every law used outside its range (ModelWarning), and return the sentences."""
-    said = remarks(scene)
-    for sentence in said:
+    result = remarks(scene)
+    for sentence in result:
         warnings.warn(sentence, ModelWarning, stacklevel=stacklevel)
-    return said
+    return result

@@ -104,10 +104,10 @@ class Field:
         if self.choices:
             return "one of " + ", ".join(self.choices)
         with_unit = " with its unit" if self.unit else ""
-        said = f"{self.what} {self.range.text}{with_unit}, such as {self.example}"
+        text = f"{self.what} {self.range.text}{with_unit}, such as {self.example}"
         if self.or_unit:
-            said += f", or {units.DIMENSIONS[self.or_unit]} with its unit"
-        return said + "".join(f', or "{word}"' for word in self.words)
+            text += f", or {units.DIMENSIONS[self.or_unit]} with its unit"
+        return text + "".join(f', or "{word}"' for word in self.words)
 
     def read(self, raw: object, *, label: str | None = None, from_file: bool = False) -> float | str:
         """Return the SI number or the choice given by `raw`.

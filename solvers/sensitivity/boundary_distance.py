@@ -92,17 +92,17 @@ def explained(scene: Scene, n: DimensionlessGroups, error: ComputationError, rto
 
 def _nearest(scene: Scene, n: DimensionlessGroups, suspects: list[Near], least: float) -> Near | None:
     """The nearest of the estimated boundaries; distances of near ones are computed, other hints dropped."""
-    found = []
+    candidates = []
     hints = sorted((one for one in suspects if one.of == _HINT), key=lambda one: one.distance)
     suspects = [one for one in suspects if one.of != _HINT] + hints[:1]  # one function has the roots of all
     for boundary in dict.fromkeys(one.boundary for one in suspects):
         near = min((one for one in suspects if one.boundary == boundary), key=lambda one: one.distance)
         if near.distance < max(LOOK * least, _SLOW * (near.of == _HINT)):
             measured = _measured(scene, n, near)
-            found += [measured] if measured.of != _HINT else []
+            candidates += [measured] if measured.of != _HINT else []
         elif near.of != _HINT and near.distance < _WORTH_SAYING:
-            found.append(near)
-    return min(found, key=lambda one: one.distance, default=None)
+            candidates.append(near)
+    return min(candidates, key=lambda one: one.distance, default=None)
 
 
 def refused(near: Near, least: float) -> ComputationError:

@@ -24,14 +24,14 @@ def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray
     check()
     with listening() as heard:
         try:
-            found = function.call([DM(each) for each in arguments])
+            results = function.call([DM(each) for each in arguments])
         except (RuntimeError, SystemError) as error:
             if "KeyboardInterrupt" in str(error) + heard.getvalue():
                 raise KeyboardInterrupt from None
             raise IntegrationFailed("the integrator gave up") from None
     if "KeyboardInterrupt" in heard.getvalue():  # an interrupt that CVODES has treated as a failed step
         raise KeyboardInterrupt
-    arrays = [np.asarray(each.full()) for each in found]
+    arrays = [np.asarray(each.full()) for each in results]
     if not all(np.isfinite(each).all() for each in arrays):
         raise IntegrationFailed("a result is not finite")
     return arrays

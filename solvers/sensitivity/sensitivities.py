@@ -79,11 +79,11 @@ def sensitivities(
         True
     """
     of, method = check_quantities(of), check_method(method)
-    rtol, asked = check_rtol(rtol), check_engine(engine)
-    if asked == "taylor" and method != "forward":
+    rtol, requested = check_rtol(rtol), check_engine(engine)
+    if requested == "taylor" and method != "forward":
         raise InputError("method", method, "forward with engine taylor", "is not the kernel's")
-    if hessian is not False and asked not in (None, "rosenbrock"):
-        raise InputError("engine", asked, "rosenbrock", "has no second derivatives")
+    if hessian is not False and requested not in (None, "rosenbrock"):
+        raise InputError("engine", requested, "rosenbrock", "has no second derivatives")
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     held = held_quantity(loaded, hold)
     names = check_wrt(loaded, wrt)
@@ -95,7 +95,7 @@ def sensitivities(
     odd = np.array([DIFFERENTIATED[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
     tilts = bool(todo and sideways.any() and (odd.any() or along is not None)) and not problem.n.oblique
-    plugin, free = casadi_gradient_engine(asked), asked is None and method == "forward" and along is None
+    plugin, free = casadi_gradient_engine(requested), requested is None and method == "forward" and along is None
     if free:
         plugin = gradient_engine(loaded, of, kernel.KNOWN, {problem.n.oblique, problem.n.oblique or tilts})
     run = _Run(todo, method, rtol, near, free)
