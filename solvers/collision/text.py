@@ -132,6 +132,7 @@ def _last(collision: Outcome) -> str:
 
 
 def _stuck(collision: Outcome) -> str:
+    """Why a collision counts as a stick: a cut-off, a proof, or a decision without proof."""
     last, scene = _last(collision), collision.scene
     if _is_cut_off(collision):
         declared = _declared(collision)
@@ -178,6 +179,7 @@ def _title(collision: Outcome) -> list[str]:
 
 
 def _outcome(collision: Outcome) -> list[str]:
+    """The lines on outcome, restitution and final state; of a stick those alone that are defined."""
     restitution = collision.restitution
     gained = "> 1: rotation has given it energy" if restitution > 1 else ""
     lines = [_line("outcome", collision.outcome), _line("", reason(collision))]

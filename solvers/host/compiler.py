@@ -223,7 +223,7 @@ def _ran(program: bytes, place: Path, limit: float) -> tuple[int, str]:
 
 
 def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit: float) -> bytes:
-    """Path of the compiled `source.c` of a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
+    """The binary compiled from `source.c` of a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
     binary = place / "made"
     status, output = _run((*command, *flags, "-o", str(binary), str(place / "source.c"), "-lm"), limit, place)
     if status:

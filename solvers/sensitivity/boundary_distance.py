@@ -31,7 +31,7 @@ from .result import Near
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
 LOOK = 30.0  # multiple of the limit; at smaller estimates the distance is computed
 _SLOW = 3e-2  # of v0 squared: so slow, a trajectory may lie where it amplifies errors (`problem.NEAR`)
-_WORTH_SAYING = 0.5  # largest logarithmic distance that is reported
+_FARTHEST = 0.5  # largest logarithmic distance that is reported
 _HINT = "v0 squared"  # marks an estimate that is no distance; it is computed or dropped
 _ESTIMATE = "the energy of approach, by an estimate"
 _COARSE, _FINE = 1e-6, 1e-11
@@ -100,7 +100,7 @@ def _nearest(scene: Scene, n: DimensionlessGroups, suspects: list[Near], least: 
         if near.distance < max(LOOK * least, _SLOW * (near.of == _HINT)):
             measured = _measured(scene, n, near)
             candidates += [measured] if measured.of != _HINT else []
-        elif near.of != _HINT and near.distance < _WORTH_SAYING:
+        elif near.of != _HINT and near.distance < _FARTHEST:
             candidates.append(near)
     return min(candidates, key=lambda one: one.distance, default=None)
 

@@ -62,6 +62,7 @@ def _ranked(result: Any, names: Sequence[str]) -> list[str]:
 
 
 def _panel(axis: Any, result: Any, name: str, order: Sequence[str]) -> None:
+    """Draw the bars of one quantity, each labelled with its elasticity."""
     values = [result.elasticity[name][p] or 0.0 for p in order]
     bars = axis.barh(range(len(order)), values, color=[_UP if v >= 0 else _DOWN for v in values], height=0.7)
     axis.set_yticks(range(len(order)), [_label(p) for p in order])
@@ -76,8 +77,7 @@ def _panel(axis: Any, result: Any, name: str, order: Sequence[str]) -> None:
             ha="left" if side > 0 else "right", va="center", fontsize=7.5, color=_INK,
         )  # fmt: skip
     unit = DIFFERENTIATED[name].unit
-    value_ = result.value[name]
-    axis.set_title(f"{name.replace('_', ' ')}\n{value_:.4g}{'' if unit == '1' else ' ' + unit}", color=_INK)
+    axis.set_title(f"{name.replace('_', ' ')}\n{result.value[name]:.4g}{'' if unit == '1' else ' ' + unit}", color=_INK)
     axis.spines[["top", "right", "left"]].set_visible(False)
     axis.tick_params(axis="y", length=0)
 

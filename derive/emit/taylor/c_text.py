@@ -146,7 +146,7 @@ def split_flags(expression: sp.Expr, flags: Iterable[sp.Symbol]) -> tuple[list[s
 
 
 class Constants:
-    """Quantities computed once per collision: given and named values, and factors hoisted out of the recurrences."""
+    """Quantities computed once per collision: groups, named values, and factors hoisted out of the recurrences."""
 
     def __init__(self, places: Mapping[sp.Symbol, str], flags: tuple[sp.Symbol, ...] = (), place: str = "c->") -> None:
         self._places = dict(places)
@@ -194,10 +194,11 @@ class Constants:
     def factor(self, expression: sp.Expr, hint: str) -> str:
         """Text of a constant: a literal, a name, or a value hoisted under `hint`; the region's flags as factors."""
         flags, rest = split_flags(expression, self._flags)
-        text = self._plain(rest, hint)
+        text = self._without_flags(rest, hint)
         return "*".join([*(flag.name for flag in flags), *([text] if text != "1.0" else [])]) or text
 
-    def _plain(self, rest: sp.Expr, hint: str) -> str:
+    def _without_flags(self, rest: sp.Expr, hint: str) -> str:
+        """Text of a constant without flags: a literal, a name, or a value hoisted under `hint`."""
         if rest.is_number and not rest.free_symbols:
             return number(rest)
         if isinstance(rest, sp.Symbol):
@@ -300,7 +301,9 @@ class Recurrences:
                 return f"{target} = {terms};"
             return f"{target} = k == 0 ? {terms} + {offset} : {terms};"
         if kind == "product":
-            ages = {each.name: age for age, each in enumerate(self.program.operations)}  # given series come first
+            ages = {
+                each.name: age for age, each in enumerate(self.program.operations)
+            }  # series that the program does not compute come first
             older, newer = (self.array(part) for part in sorted(operation.series, key=lambda part: ages.get(part, -1)))
             return f"{target} = {_times(factors[0])}product({older}, {newer}, k);"
         if kind in _RECURRENCES:

@@ -195,6 +195,7 @@ def _renamer(kernel: _Kernel, parts: Sequence[Item]) -> Callable[[Item], str]:
         return f"{kernel.prefix.upper()}_{name}" if name.isupper() else f"{kernel.prefix}_{name}"
 
     def renamed(item: Item) -> str:
+        """The text of an item; names that it declares for itself stay, unless they are called as functions."""
         hidden = own_names(item) & defined
         text = item.code
 

@@ -21,7 +21,7 @@ from .vectors import table
 
 ROOTS = ("integrate.h", "follow.h")
 """Files of a kernel whose functions the law calls, with what they include."""
-CALLERS = ("law.h", "contact.h")
+CALLERS = ("collide.h", "contact.h")
 """Files behind the kernels, which call their functions."""
 _TAKEN = ("check", "example", "vectors", "add", "oblique", HEAD_ON, PLANE, SPACE, f"{SPACE}_set")
 """Names of other files of the folder, and beginnings of names within the law that would be those of its types."""
@@ -108,6 +108,7 @@ def _sizes(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
 
 
 def _law(scene: Scene, law_kernels: tuple[Kernel, ...]) -> str:
+    """Text of NAME.c: its kernels, and behind them the functions that a host calls."""
     of_material, of_impact = material(scene, law_kernels), impact(scene)
     called, parts = list(CALLERS), []
     if not only_in_a_plane(scene):

@@ -55,7 +55,7 @@ class Detail:
     critical: tuple[float, ...] = CURVES[2:]
 
 
-class Desk:
+class BoundaryCache:
     """Cache of traced lines by scene and angle; `say` is called with the current step."""
 
     def __init__(self, detail: Detail | None = None, say: Callable[[str], None] | None = None) -> None:
