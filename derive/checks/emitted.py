@@ -89,7 +89,7 @@ def _si_events() -> dict[str, sp.Expr]:
     elastic = (3 * sp.pi * compliance * q.mu * sp.sqrt(q.a) ** 3 * q.v0 / sp.sqrt(2)) ** sp.Rational(2, 5)
     definitions = group_definitions()
     by_group = {word: q.x / q.x0 - definitions[limit] for word, limit in CONTACT_GAPS.items()}
-    return by_group | {  # of those with a published form, that
+    return by_group | {  # in their published form, where there is one
         "glass": (q.p_gt - 3 * q.mu * q.a * (-q.u) / q.x**2) * q.x0**2 / (3 * q.mu * q.a * q.v0),
         "elastic": (q.x - elastic) / q.x0,
         "rough": (q.x - q.x_b) / q.x0,

@@ -30,7 +30,7 @@ def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
 
 
 def _of_event(event: OwnEvent) -> str:
-    """What is shown of a declared event."""
+    """A sentence on what the checks show of a declared event."""
     ends = {"": "", "separated": ", ends the collision as separated", "stick": ", cuts the collision off as a stick"}
     text = f"Event {event.proposed.word}, {event.proposed.where}{ends[event.proposed.ends]}: "
     if event.jump:

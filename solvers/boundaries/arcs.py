@@ -51,7 +51,7 @@ def monotone(plane: Plane, arc: Arc) -> tuple[list[Arc], list[np.ndarray]]:
 
 
 def _ascending(arc: Arc) -> Arc:
-    """The points without those outside the ends or not beyond their predecessor in x."""
+    """The points between the ends whose x is above that of the point before."""
     x = arc.points[:, 0]
     highest = np.maximum.accumulate(x)
     kept = np.concatenate([[True], x[1:] > highest[:-1]]) & (x < x[-1])

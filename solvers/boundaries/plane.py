@@ -173,7 +173,7 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, la
     if not isinstance(over, str):
         raise InputError(label, over, "the dotted name of an entry", "is not a name")
     ends = STOKES if stokes is None else _ascending("stokes", checked_numbers("impact.stokes", stokes))
-    if scene.package is not None and scene.package.events:  # the kinds of its curves would be told wrongly
+    if scene.package is not None and scene.package.events:  # kinds of curves are unknown with these
         accepted = "boundaries along lines, or a model without declared events"
         raise InputError(label, over, accepted, "spans no atlas of a model that declares events")
     if over == ANGLE:

@@ -35,7 +35,7 @@ _MOST_DOTS = 60  # most lines whose changes are marked
 
 
 def plot(lines: Lines) -> Figure:
-    """The picture of boundaries; InputError if they do not say whose they are."""
+    """The picture of boundaries; InputError if they have no scene."""
     if lines.scene is None:
         raise InputError("scene", None, "boundaries of a scene, as `boundary` and `atlas` return them")
     return draw(lines.scene, lines)
@@ -155,8 +155,8 @@ def _fill(axes: Axes, whole: Curves, factor: float) -> None:
             name = OUTCOMES[label]
             axes.fill(x, stokes, color=FILLS[name], linewidth=0, antialiased=False, zorder=1)
             if HATCHES[name]:
-                look: Any = {"facecolor": "none", "edgecolor": EDGES[name], "hatch": HATCHES[name], "linewidth": 0}
-                axes.fill(x, stokes, zorder=1.5, **look)
+                style: Any = {"facecolor": "none", "edgecolor": EDGES[name], "hatch": HATCHES[name], "linewidth": 0}
+                axes.fill(x, stokes, zorder=1.5, **style)
 
 
 def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: float) -> list[Any]:

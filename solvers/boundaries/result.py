@@ -87,11 +87,11 @@ class Lines:
 
     @property
     def _scale_varies(self) -> bool:
-        """Whether a Stokes number means another speed from line to line."""
+        """True if the speed of a Stokes number differs from line to line."""
         return False
 
     def origin(self, **units: str) -> dict[str, Any]:
-        """What the JSON objects say of where their numbers come from; `units` by key, beside those of changes."""
+        """Provenance for the JSON objects; `units` by key, in addition to those of changes."""
         known = {} if self.scene is None else origin(self.scene)
         always = {"stokes": "1", "centrifugal": "1", "speed": "m/s", "relative_speed": "m/s", "angle": "rad"}
         return {"rtol": self.rtol, "searched": list(self.window), "units": {**units, **always}} | known
@@ -176,7 +176,7 @@ class Lines:
 
     @property
     def speed_heading(self) -> str:
-        """Which speed `speed_at` gives."""
+        """Name of the speed that `speed_at` returns."""
         return "rel. speed (m/s)" if self._relative else "normal speed (m/s)"
 
     def speed_at(self, stokes: float, angle: float) -> float:
@@ -320,7 +320,7 @@ class Curves(Lines):
             for one in self.curves
         ]
         parts = slabs(arcs, np.array([0.5]), np.array([OUTCOMES.index(self.background)]))
-        for order in (1, -1):  # where all curves have ended, the region goes on that none of them has cut off
+        for order in (1, -1):  # beyond the last curve only the region goes on that no curve has closed
             for before, k in pairwise(range(len(parts))[::order]):
                 if parts[before].arcs and not parts[k].arcs:
                     below = sum(arc.points[-1 if order > 0 else 0, 1] < _EDGE for arc in parts[before].arcs)

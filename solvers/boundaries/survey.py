@@ -167,7 +167,7 @@ class Survey:
         return point
 
     def _keep(self, arc: Arc) -> None:
-        """Add a curve, unless known ones cover it: what stops a curve at a corner need not stop one from beyond it."""
+        """Add a curve unless known ones cover it. A curve that was lost at a corner may be found from its other end."""
         if len(arc.points) > 1:
             [fine] = refined(self.plane, [arc])  # so that points on it are recognised
             alike = [one for one in self.arcs if {one.right, one.left} == {arc.right, arc.left}]

@@ -64,7 +64,7 @@ def name_of(scene: Scene, longest: int = 32) -> str:
 
 
 def against(scene: Scene) -> str:
-    """Return what the sphere meets, for a title; nothing if it is its equal."""
+    """Return the partner in words, for a title; empty for an equal sphere."""
     if scene.partner is None:
         return ""
     return " against a wall" if scene.wall else f" against a sphere of {plain(scene.radius_ratio)} times the radius"
@@ -110,14 +110,14 @@ def is_followed_on(collision: Outcome) -> bool:
 
 
 def _is_cut_off(collision: Outcome) -> bool:
-    """Whether the experiment's own end is what ended a stick, not a proof before it."""
+    """True if a cut-off of the experiment ended a stick, and no proof before it."""
     declared = _declared(collision)
     cut = _last(collision) in CUT_OFFS or (declared is not None and declared.row.actions[-1] == "cut off")
     return cut and not is_followed_on(collision)
 
 
 def _end_of(collision: Outcome) -> str:
-    """What the state at the end of the integration is."""
+    """Words for the state at the end of the integration."""
     if collision.outcome != STICK:
         return "final"
     if is_followed_on(collision):
@@ -221,7 +221,7 @@ def _outcome(collision: Outcome) -> list[str]:
 
 
 def _speed_note(collision: Outcome) -> str:
-    """Which speed the approach speed is."""
+    """The note that says which speed is shown."""
     relative = collision.scene.impact.relative_speed
     whole = "" if relative is None else f" of the relative speed {plain(relative, 'm/s')}"
     return f"normal component{whole}"

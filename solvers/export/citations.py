@@ -63,7 +63,7 @@ def _oblique(scene: Scene) -> bool:
 
 
 def _uses(scene: Scene) -> Iterator[tuple[str, str]]:
-    """What the scene uses in words, and its name in the table of what is published."""
+    """What the scene uses, in words, and its key in the table of publications."""
     choice = select_model(scene, _oblique(scene), full=True, fold=True)
     yield "equations", "paper"
     for slot, law in choice.laws:

@@ -176,7 +176,7 @@ def _results(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
 
 
 def _caveat(fit: Fit) -> str:
-    """What a picture for one value of every entry says where entries differ from impact to impact."""
+    """The note of a picture for one value of every entry, where entries differ from impact to impact."""
     names = ", ".join(fit.data.columns)
     return f",\nwith the scene's group {names}" if names else ""
 

@@ -45,7 +45,7 @@ _REFUSALS = 3  # of one chunk, by workers of another arithmetic
 
 @dataclass(frozen=True)
 class Refused:
-    """What a worker answers that would compute other digits."""
+    """The answer of a worker that would compute other digits."""
 
     worker: str
     why: str

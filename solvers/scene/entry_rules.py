@@ -118,7 +118,7 @@ def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None 
 
 
 def check_ways(entries: Mapping[str, Any], values: Mapping[str, Any]) -> None:
-    """InputError for entries (as they are kept, and SI) that lack those which they are meant with."""
+    """InputError for entries (as stored, and in SI) without others that they require."""
     _check_friction(entries)
     coating, its, fraction = "liquid.coating_thickness", "partner.coating_thickness", "bridge.coating_fraction"
     if its in entries and coating not in entries:
@@ -179,7 +179,7 @@ def table(kind: type[Table], values: Mapping[str, Any], ways: Ways) -> Table | N
 
 
 def _relative_volume(values: Mapping[str, Any], ways: Ways) -> float:
-    """V/R^3 of a volume that is said in another way."""
+    """V/R^3 of a volume that is given in m^3 or by coatings."""
     try:
         volume = float(quantities({k: v for k, v in values.items() if k not in MEETING}, ways)["volume"])
     except (OverflowError, ZeroDivisionError):
@@ -195,7 +195,7 @@ def check_together(scene: System) -> None:
     _check_partner(scene)
     _check_laws(scene)
     x0 = scene.liquid.film_thickness
-    film_text = _film_said(entries, x0)
+    film_text = _film_in_words(entries, x0)
     ruptured = scene.rupture_gap
     for word in AT_ANY_SPEED:
         name = ENTRIES[word]
@@ -207,7 +207,7 @@ def check_together(scene: System) -> None:
         ratio = x0 / (radius * (1 + scene.bridge.contact_angle / 2))
         least = ratio * ratio * ratio  # ** would raise OverflowError; this becomes inf
         if math.isinf(least):
-            name = _given_way("particles.reduced_radius", entries)
+            name = _given_alternative("particles.reduced_radius", entries)
             accepted = f"a radius that is not so small beside {film_text}"
             raise InputError(name, entries[name], accepted, "is too small for a bridge across the film")
         problem = f"ruptures at x_f = {ruptured:.4g} m, not beyond the film thickness {x0:.4g} m"
@@ -222,21 +222,21 @@ def check_together(scene: System) -> None:
     check_speed(scene)
 
 
-def _film_said(entries: Mapping[str, Any], x0: float) -> str:
-    """The film thickness as the scene says it."""
+def _film_in_words(entries: Mapping[str, Any], x0: float) -> str:
+    """The film thickness in words, as the scene gives it."""
     if "liquid.film_thickness" in entries:
         return f"liquid.film_thickness = {shown(entries['liquid.film_thickness'])}"
     return f"the film of both coatings, {x0:.4g} m"
 
 
-def _given_way(first: str, entries: Mapping[str, Any]) -> str:
-    """Which of the entries that say the same thing is given."""
+def _given_alternative(first: str, entries: Mapping[str, Any]) -> str:
+    """The one of several equivalent entries that is given."""
     ways = next(ways for ways in ALTERNATIVES if ways[0] == first)
     return next(name for name in ways if name in entries)
 
 
 def _larger(scene: System, least: float, radius: float) -> str:
-    """What volume is accepted where it is too small."""
+    """The accepted volumes in words, for one that is too small."""
     volume, common = dict(scene.given)["bridge.volume"], scene.bridge is not None and scene.bridge.rupture == "common"
     if volume == FROM_COATING:
         return "a larger bridge.coating_fraction, a thinner coating, or a volume of its own"
@@ -257,12 +257,12 @@ def _check_partner(scene: System) -> None:
         raise InputError(name, entries[name], "impact.spin alone beside a wall", "is of a wall, which does not spin")
     if scene.partner is None:
         return
-    entry = _given_way("partner.radius", entries)
+    entry = _given_alternative("partner.radius", entries)
     if scene.pendulum is not None:
         raise InputError(entry, entries[entry], "no [partner] beside [pendulum]", "is given together with strings")
     for name, ratio in (("partner.radius", scene.radius_ratio), ("partner.mass", scene.mass_ratio)):
         if ratio is not None and not FARTHEST**-1 <= ratio <= FARTHEST:
-            known = _given_way(name, entries)
+            known = _given_alternative(name, entries)
             accepted = f"a partner of {FARTHEST**-1:g} to {FARTHEST:g} times the sphere's, or wall = true"
             raise InputError(known, entries[known], accepted, "is too far from the sphere's")
 

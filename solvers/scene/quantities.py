@@ -18,13 +18,13 @@ from .schema import DEFAULTS, FIELDS, FROM_COATING
 
 _OWN = "custom."
 SHADOW = "Shi & McCarthy 2008"
-"""Who has it that what covers the caps facing each other flows into the bridge: Powder Technology 184, 64."""
+"""Source of the assumption that the coatings of the facing caps flow into the bridge: Powder Technology 184, 64."""
 NO_GLASS = 1e60  # Pa: of a liquid that never turns solid; no film has such a pressure
 
 
 @dataclass(frozen=True)
 class Ways:
-    """How the numbers of entries are meant where their names do not say it.
+    """Meaning of the entries whose names leave it open.
 
     Arguments:
         wall: the partner is a wall.
@@ -36,7 +36,7 @@ class Ways:
 
     @classmethod
     def of(cls, entries: Mapping[str, object]) -> Ways:
-        """How the entries of a scene, as it keeps them, are meant."""
+        """The meaning of a scene's entries, as stored."""
         volume, wall = entries.get("bridge.volume"), "partner.wall" in entries
         if not isinstance(volume, str):
             return cls(wall)
@@ -97,7 +97,7 @@ def sphere(entries: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def film(entries: Mapping[str, Any]) -> Any:
-    """The gap at initial contact, m: as it is given, or both coatings; a partner is coated alike if nothing is said."""
+    """The gap at initial contact, m: as it is given, or both coatings; by default a partner is coated alike."""
     if "liquid.film_thickness" in entries:
         return entries["liquid.film_thickness"]
     coating = entries["liquid.coating_thickness"]

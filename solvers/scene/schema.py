@@ -23,7 +23,7 @@ BRIDGE_LAWS = (
     "constant",
 )
 FROM_COATING = "from coating"
-"""What `bridge.volume` says where the liquid of the bridge is what flows out of the coatings."""
+"""Value of `bridge.volume` for a bridge whose liquid flows out of the coatings."""
 FILM_LAWS = ("finite", "infinite", "cavitating", "constant-volume")
 
 
@@ -257,10 +257,10 @@ ONE_OF_EACH = (*REQUIRED_TABLES, "partner")
 """Tables, where they are there, that need one of each of their alternatives."""
 
 SPEEDS = ("impact.stokes", "impact.speed", "impact.relative_speed")
-"""What says how fast the spheres meet: one variable, at an angle."""
+"""Entries that give the speed of an impact: one variable, at an angle."""
 
 MEETING = (*SPEEDS, "impact.angle")
-"""What is asked for one collision after the other; the rest of a scene is the same for all, its spins included."""
+"""Entries that may differ from collision to collision; all others are common to a batch, spins included."""
 
 SPINS = ("impact.spin", "impact.partner_spin")
 

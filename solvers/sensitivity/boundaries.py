@@ -13,7 +13,7 @@ import numpy as np
 from ..boundaries.boundary import Boundaries, boundary
 from ..boundaries.changes import Change, changes_along
 from ..boundaries.line import Line
-from ..boundaries.look import Look
+from ..boundaries.scene_sampler import SceneSampler
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function
 from ..scene.scene import Scene
@@ -52,7 +52,7 @@ class Moving:
 
     @property
     def shown(self) -> tuple[str, ...]:
-        """What texts and pictures show of it, the last first; Ce* vanishes head-on."""
+        """Quantities that texts and pictures show, the preferred one last; Ce* vanishes head-on."""
         return ("stokes", "speed", "centrifugal") if self.change.centrifugal else ("stokes", "speed")
 
     def to_dict(self) -> dict[str, Any]:
@@ -352,8 +352,8 @@ def _moved(scene: Scene, angle: float, change: Change, moves: dict[str, float], 
     """
     aside, angle = _beside(scene, angle, moves)
     stokes = change.stokes * np.exp(expected + _REACH * np.linspace(-1, 1, 6))
-    look, line = Look(aside, rtol), Line(aside, angle, rtol)
-    [changes] = changes_along([line], look, [look(np.full(stokes.size, angle), stokes)])
+    sampler, line = SceneSampler(aside, rtol), Line(aside, angle, rtol)
+    [changes] = changes_along([line], sampler, [sampler(np.full(stokes.size, angle), stokes)])
     if isinstance(changes, ComputationError):
         raise changes
     same = [math.log(one.stokes / change.stokes) for one in changes

@@ -29,7 +29,7 @@ from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..settings import KERNEL_STEPS, RTOL, check_engine
 from . import by_kernel as kernel
-from .boundary_distance import LOOK, limit, refused
+from .boundary_distance import COMPUTED, limit, refused
 from .parameters import RELATIVE, SIDEWAYS, Kind, check_wrt, kind_of, references
 from .problem import NEAR, SHARPEST
 from .result import Near
@@ -210,8 +210,8 @@ def _stretch(request: _Request, which: np.ndarray) -> np.ndarray:
         plain = _without(request, which[slow], request.rtol)
         answers[slow], measures[slow] = plain.answers, plain.near
     # nearer than NEAR to a boundary errors are amplified, so these are repeated with tolerances smaller by decades
-    is_clear = np.isin(measures[:, 1], tuple(DISTANCES)) & (measures[:, 2] > LOOK * least)  # no distance to compute
-    close = (answers["outcome"] > 0) & ~far & ((near > LOOK * least) | (is_clear & (near >= least)))
+    is_clear = np.isin(measures[:, 1], tuple(DISTANCES)) & (measures[:, 2] > COMPUTED * least)  # no distance to compute
+    close = (answers["outcome"] > 0) & ~far & ((near > COMPUTED * least) | (is_clear & (near >= least)))
     decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, near, NEAR))), 0.0)
     for decade in np.unique(decades[close]):
         part = which[close & (decades == decade)]
@@ -262,15 +262,15 @@ def _keep(request: _Request, which: np.ndarray, answered: kernel.Along, part: np
 def _sticks(request: _Request, which: np.ndarray, answers: np.ndarray, by_energy: bool) -> np.ndarray:
     """Mask of sticks without a boundary nearby, tested as in `boundary_distance`."""
     stuck = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
-    sure = stuck & (answers["status"] == Status.PROVED_AT_TOUCH) & by_energy
-    look = np.flatnonzero(stuck & ~sure)
+    far = stuck & (answers["status"] == Status.PROVED_AT_TOUCH) & by_energy
+    checked = np.flatnonzero(stuck & ~far)
     least = limit(request.rtol)
     for factor in (1 - least, 1 + least):
-        if look.size:
-            aside = _without(request, which[look], min(request.rtol, 1e-10), factor).answers
+        if checked.size:
+            aside = _without(request, which[checked], min(request.rtol, 1e-10), factor).answers
             stays = (aside["outcome"] == OUTCOMES.index(STICKS)) & (aside["status"] <= LAST_ANSWER)
-            stuck[look[~stays]] = False
-            look = look[stays]
+            stuck[checked[~stays]] = False
+            checked = checked[stays]
     return np.asarray(stuck)
 
 

@@ -62,9 +62,9 @@ def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) 
     reason = np.full(answers.size, "", object)
     opening, slide, _, roll = answers["shown"].T[:4]
     left = answers["status"] > LAST_ANSWER
-    sure = answers["certified"] != 0
+    certified = answers["certified"] != 0
     return Planar(
-        answers["outcome"], sure, reason, left, answers["time"], answers["final_gap"], opening, slide, roll, terms
+        answers["outcome"], certified, reason, left, answers["time"], answers["final_gap"], opening, slide, roll, terms
     )
 
 

@@ -1,8 +1,8 @@
 """One pair in space by Rosenbrock or CVODES, in axes that go with the pair.
 
 CasADi's integrators measure errors by component, so the axes must not be the laboratory's: the first is the line of
-centres, the second lies along what rotates most across it. Turning the picture then changes rounding only. During
-the integration they turn about the angular momentum as a rigid doublet would (`model.phases`).
+centres, the second lies along what rotates most across it. A rotation of the whole pair then changes rounding only.
+During the integration they turn about the angular momentum as a rigid doublet would (`model.phases`).
 """
 
 from __future__ import annotations

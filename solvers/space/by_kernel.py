@@ -183,7 +183,7 @@ def _rebounding(answer: np.void, thickness: float, speed: float) -> str:
 
 
 def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None) -> tuple[Ends, np.ndarray]:
-    """What answers of any structure say."""
+    """Ends from the answers of any structure, and a mask of the collisions left to another engine."""
     ends = Ends.blank(pairs.size)
     left = answers["status"] > LAST_ANSWER
     touch = answers["status"] == Status.PROVED_AT_TOUCH

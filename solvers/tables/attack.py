@@ -15,7 +15,7 @@ from ...generated.automaton import OUTCOMES
 from ..scene.scene import Scene
 from .collisions import Signatures, collisions
 from .data import Data
-from .hugging import queries
+from .queries import queries
 from .read import read
 
 WITHIN = 1e-6  # relative distance of the impact at which the kernel has to agree
@@ -117,13 +117,13 @@ def _distance(outcome: np.ndarray, values: np.ndarray, right: np.ndarray, exact:
 
 
 def _beside(
-    run: _Kernel, known: Signatures, at: np.ndarray, outcome: np.ndarray, values: np.ndarray, sure: float
+    run: _Kernel, known: Signatures, at: np.ndarray, outcome: np.ndarray, values: np.ndarray, sufficient: float
 ) -> np.ndarray:
     """Smallest error of answers against collisions at most WITHIN away; between two of them results are continuous."""
     best = np.full(outcome.size, np.inf)
     steps = np.concatenate([-_STEPS[::-1], [0.0], _STEPS])
     for ways in ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (0.0, 1.0, 1.0), (0.0, 1.0, -1.0)):
-        some = np.flatnonzero(~(best <= sure))
+        some = np.flatnonzero(~(best <= sufficient))
         if not some.size:
             break
         moved = np.repeat(at[:, some, None], steps.size, axis=2)

@@ -24,7 +24,7 @@ _STATEMENTS = {
     ),
     "cross tangential edge": ("LANE(l->shear, lane) = 1.0 - LANE(l->shear, lane);",),
     "open": ("LANE(l->y[NORMAL_VELOCITY], lane) = RELEASE_SPEED;", "opens(l, f, lane);"),
-    "roll or slide": (),  # by its word
+    "roll or slide": (),  # the function that decides between the two words
     "slide": ("slides(l, f, lane);",),
     "separate": ("parts(q, l, f, lane);",),
     "cut off": ("finish(q, l, f, lane, DECIDED, STICK, 0);",),

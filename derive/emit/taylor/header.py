@@ -318,7 +318,7 @@ class Header:
         margins = Margins(model, self.constants, prepared)
         lines += margins.lines()
         if self.beside.events:
-            lines += ["#define SLOW_MANIFOLD 0", ""]  # whose tubes know of no declared event
+            lines += ["#define SLOW_MANIFOLD 0", ""]  # the bounds of the slow manifold do not hold with declared events
         else:
             lines += slow_manifold_functions(model, self.constants, prepared)
         lines += margins.approach()

@@ -10,7 +10,7 @@ from .material import Result
 ROOTS = ("space_rows.h",)
 """Files of the kernel with vectors, besides those of every kernel."""
 TYPES = ("ends.h",)
-"""Files of what is passed between kernels and callers."""
+"""Files with the types that kernels and callers exchange."""
 PAIR = (
     ("double", "normal", (3,), "from the first particle to the second, of any length but zero"),
     ("double", "velocities", (2, 3), "m/s, of the centres, or of the centre and the wall"),
