@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from .errors import InputError, did_you_mean
+from .errors import InputError
+from .host.arguments import check_name
 from .scene.schema import Field, Range
 
 CASADI_ENGINES = ("cvodes", "rosenbrock")  # plugins of CasADi's `integrator`
@@ -38,11 +39,7 @@ def check_rtol(rtol: object, label: str = "rtol") -> float:
 
 def check_engine(engine: object, label: str = "engine") -> str | None:
     """Return the engine, None for the default; InputError naming `label` if it is unknown."""
-    if engine is None:
-        return None
-    if not isinstance(engine, str) or engine not in ENGINES:
-        raise InputError(label, engine, ", ".join(ENGINES), "is not known" + did_you_mean(engine, ENGINES))
-    return engine
+    return None if engine is None else check_name(engine, ENGINES, label)
 
 
 def check_plugin(engine: object, label: str = "engine") -> str | None:

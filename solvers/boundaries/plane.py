@@ -172,15 +172,15 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, la
     """
     if not isinstance(over, str):
         raise InputError(label, over, "the dotted name of an entry", "is not a name")
-    ends = STOKES if stokes is None else _ascending("stokes", checked_numbers("impact.stokes", stokes))
+    ends = STOKES if stokes is None else ascending("stokes", checked_numbers("impact.stokes", stokes))
     if scene.package is not None and scene.package.events:  # kinds of curves are unknown with these
         accepted = "boundaries along lines, or a model without declared events"
         raise InputError(label, over, accepted, "spans no atlas of a model that declares events")
     if over == ANGLE:
-        plane = Plane(scene, over, _ascending("span", checked_numbers(ANGLE, span)), ends, rtol)
+        plane = Plane(scene, over, ascending("span", checked_numbers(ANGLE, span)), ends, rtol)
     else:
         scene, varied = checked_vary(scene, {over: span}, label)
-        plane = Plane(scene, over, _ascending("span", varied[over]), ends, rtol)
+        plane = Plane(scene, over, ascending("span", varied[over]), ends, rtol)
         if scene.angle is None:
             raise InputError("impact.angle", None, 'an angle, as angle = "60 deg" in [impact] or --set impact.angle')
         for x in plane.span:
@@ -191,7 +191,8 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, la
     return plane
 
 
-def _ascending(name: str, ends: np.ndarray) -> tuple[float, float]:
+def ascending(name: str, ends: np.ndarray) -> tuple[float, float]:
+    """Two ends as numbers; InputError unless they are in ascending order."""
     if ends.shape != (2,) or not ends[0] < ends[1]:
         raise InputError(name, ":".join(f"{end:g}" for end in ends.reshape(-1)), "LO:HI with LO below HI",
                          "is not ascending")  # fmt: skip

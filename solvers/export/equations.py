@@ -19,7 +19,7 @@ def texts(scene: Scene) -> dict[str, str]:
     """Texts of NAME.tex and NAME.md of a scene's model."""
     from ...derive.emit.document.document import document
 
-    laws = chosen_laws(scene)
+    laws = dict(select_model(scene, oblique=True, full=True).laws)
     parts = (
         ("bridge", scene.bridge),
         ("strings", scene.pendulum),
@@ -30,11 +30,6 @@ def texts(scene: Scene) -> dict[str, str]:
     rendered = document(title, laws, user_model(scene.package), lacking, scene.particles.friction is not None)
     name = file_name(scene)
     return {f"{name}.tex": rendered.tex(), f"{name}.md": rendered.markdown()}
-
-
-def chosen_laws(scene: Scene) -> dict[str, str]:
-    """Slot -> law for an oblique collision of the scene."""
-    return dict(select_model(scene, oblique=True, full=True).laws)
 
 
 def user_model(package: Package | None) -> UserModel | None:

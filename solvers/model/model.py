@@ -20,7 +20,7 @@ from ..scene.contact import GAPS
 from ..scene.user_model import OwnEvent, Package
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
 
     from ..scene.scene import Scene
 
@@ -84,12 +84,9 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
         laws.append(("attraction", "van-der-waals"))
     if scene.package is None:
         return ModelKey("_".join(parts), tuple(laws))
-    return ModelKey("_".join(parts), own_laws(scene.package, laws), scene.package)
-
-
-def own_laws(package: Package, laws: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
-    """The laws by slot, with the user model's laws in slots that no entry of a scene selects."""
-    return tuple((slot, package.laws(slot)[0] if slot in package.unnamed else name) for slot, name in laws)
+    unnamed = scene.package.unnamed  # slots that no entry of a scene fills
+    laws = [(slot, scene.package.laws(slot)[0] if slot in unnamed else name) for slot, name in laws]
+    return ModelKey("_".join(parts), tuple(laws), scene.package)
 
 
 def _structure(choice: ModelKey) -> ModuleType:

@@ -204,7 +204,11 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tupl
             if part != "motion" and VOID_WITHOUT.get(part, "turning") in guards
         )
     ]
-    table += [_own(each, guards[each.name], model, region, motion) for each in model.own_events if _may(each, region)]
+    table += [
+        _own(each, guards[each.name], model, region, motion)
+        for each in model.own_events
+        if all(getattr(region, part) == value for part, value in each.row.where if part != "motion")
+    ]
     if watch.certificate == "energy":
         table.append(Event("certified", mechanical_energy(flow) - level))
     elif watch.certificate == "pendulum":
@@ -223,11 +227,6 @@ def _guard(row: Row, guards: dict[str, SX], region: Region, motion: SX) -> SX:
         value = value * (getattr(region, row.follows) or -1)
     directions = [wanted for part, wanted in row.where if part == "motion"]
     return if_else(motion == directions[0], value, 1) if directions else value
-
-
-def _may(each: OwnEvent, region: Region) -> bool:
-    """Whether a declared event is watched in a region, in some direction of motion."""
-    return all(getattr(region, part) == value for part, value in each.row.where if part != "motion")
 
 
 def _own(each: OwnEvent, guard: SX, model: Model, region: Region, motion: SX) -> Event:

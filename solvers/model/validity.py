@@ -63,14 +63,6 @@ _WALL_CONSTANT = 1.895
 _WALL_RATIO = 1.25
 
 
-def _reynolds(scene: Scene, values: Values) -> Any:
-    return _group(scene, values, "reynolds") if "density" in values else math.nan
-
-
-def _film_gap(_: Scene, values: Values) -> Any:
-    return values["film_thickness"] / values["reduced_radius"]
-
-
 def _rupture_gap(scene: Scene, values: Values) -> Any:
     """x_f/a of a bridge; without one the film's x0/a says it."""
     if scene.bridge is None:
@@ -135,11 +127,6 @@ def _cavitating(scene: Scene, values: Values) -> Any:
     return np.where(oblique, _unlike(scene, values), math.nan) if scene.model.film == "cavitating" else math.nan
 
 
-def _own_rupture(scene: Scene, values: Values) -> Any:
-    at_own_distance = scene.bridge is not None and scene.bridge.rupture == "own"
-    return _unlike(scene, values) if at_own_distance else math.nan
-
-
 def _idle_friction(scene: Scene, values: Values) -> Any:
     """Smallest gap of a bounce over that of solid contact, where only solids have friction; else NaN."""
     if scene.particles.friction is None or scene.model.contact_friction != "solid":
@@ -159,13 +146,13 @@ def _partner(ratio: float) -> str:
 LIMITS: tuple[Limit, ...] = (
     Limit(
         "film_reynolds",
-        _reynolds,
+        lambda scene, values: _group(scene, values, "reynolds") if "density" in values else math.nan,
         lambda n: f"the film's Reynolds number Re = {n:.3g} is above {_REYNOLDS:g}: the liquid's inertia is left out",
         most=_REYNOLDS,
     ),
     Limit(
         "film_gap",
-        _film_gap,
+        lambda _, values: values["film_thickness"] / values["reduced_radius"],
         lambda n: f"x0/a = {n:.3g} is above {_FILM_GAP:g}: lubrication theory takes a film thin beside the radius",
         most=_FILM_GAP,
     ),
@@ -209,7 +196,9 @@ LIMITS: tuple[Limit, ...] = (
     ),
     Limit(
         "own_rupture",
-        _own_rupture,
+        lambda scene, values: (
+            _unlike(scene, values) if scene.bridge is not None and scene.bridge.rupture == "own" else math.nan
+        ),
         lambda n: f"{_partner(n)}: the law's own rupture distance is that of equal spheres",
         most=1.0,
     ),
@@ -320,6 +309,7 @@ def remarks(scene: Scene) -> tuple[str, ...]:
 
 
 def _law_limits(scene: Scene) -> list[Limit]:
+    """The range of the scene's bridge law as limits; none where its source gives no range."""
     if scene.bridge is None:
         return []
     law = law_module(scene, "bridge", scene.bridge.law)

@@ -119,7 +119,10 @@ def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None 
 
 def check_ways(entries: Mapping[str, Any], values: Mapping[str, Any]) -> None:
     """InputError for entries (as stored, and in SI) without others that they require."""
-    _check_friction(entries)
+    for name in ("particles.contact_tangential_restitution", "model.contact_friction"):
+        if name in entries and "particles.friction" not in entries:
+            accepted = f"particles.friction = {FIELDS['particles.friction'].example} beside it, or no such entry"
+            raise InputError(name, entries[name], accepted, "is given without particles.friction")
     coating, its, fraction = "liquid.coating_thickness", "partner.coating_thickness", "bridge.coating_fraction"
     if its in entries and coating not in entries:
         accepted = f"{coating} beside it: liquid.film_thickness is both coatings together"
@@ -141,14 +144,6 @@ def check_ways(entries: Mapping[str, Any], values: Mapping[str, Any]) -> None:
         raise InputError(fraction, entries[fraction], accepted, f"is given with bridge.volume = {shown(volume)}")
     if fraction in entries and "partner.wall" in entries:
         raise InputError(fraction, entries[fraction], "no such entry beside a wall", "is no part of a wall's liquid")
-
-
-def _check_friction(entries: Mapping[str, Any]) -> None:
-    """InputError for an entry of the dry contact's friction without the coefficient."""
-    for name in ("particles.contact_tangential_restitution", "model.contact_friction"):
-        if name in entries and "particles.friction" not in entries:
-            accepted = f"particles.friction = {FIELDS['particles.friction'].example} beside it, or no such entry"
-            raise InputError(name, entries[name], accepted, "is given without particles.friction")
 
 
 def spheres(values: Mapping[str, Any]) -> dict[str, Any]:

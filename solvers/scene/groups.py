@@ -40,12 +40,14 @@ def _formulas(wall: bool, pair: bool, law: str | None, package: Package | None) 
     }
     if wall:
         del result["initial_rate"], result["initial_partner_spin"]
-        result["centrifugal"] = _nothing, ("surface_tension",)
+        # no line of centres rotates
+        result["centrifugal"] = (lambda surface_tension: 0 * surface_tension), ("surface_tension",)
     kind, more = ("wall", ()) if wall else ("pair", ("initial_rate", "centrifugal")) if pair else ("", ())
     for name in (*more, "obliquity", "rate_scale") if kind else ():
         result[name] = getattr(scaling, f"{name}_{kind}"), scaling.ARGUMENTS[f"{name}_{kind}"]
     formula, arguments = result["obliquity"]
-    result["obliquity"] = (lambda *values: _or_one(formula(*values))), arguments
+    # 1 where it vanishes: nothing moves sideways then, and rates that are zero need some scale
+    result["obliquity"] = (lambda *values: (scale := formula(*values)) + (scale == 0)), arguments
     if law is not None:
         rupture_distance = _law(package, "bridge", law).rupture_distance
 
@@ -56,16 +58,6 @@ def _formulas(wall: bool, pair: bool, law: str | None, package: Package | None) 
     if package is not None:
         result |= {name: (function, arguments) for name, (arguments, function) in package.groups.items()}
     return result
-
-
-def _or_one(scale: Any) -> Any:
-    """A scale, or 1 where it vanishes: nothing moves sideways then, and rates that are zero need some scale."""
-    return scale + (scale == 0)
-
-
-def _nothing(surface_tension: Any) -> Any:
-    """Ce with a wall: 0, as there is no line of centres that rotates."""
-    return 0 * surface_tension
 
 
 def law_module(scene: System, slot: str, name: str) -> Any:

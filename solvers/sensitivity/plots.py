@@ -37,7 +37,9 @@ def draw_gradients(data: xarray.Dataset) -> Figure:
             warnings.simplefilter("ignore", RuntimeWarning)  # a parameter without elasticity anywhere
             size = np.nan_to_num(np.nanmedian(np.abs(values), axis=0))
         parameters = [str(one) for one in data["parameter"].values]
-        strongest = [k for k in np.argsort(-size) if size[k] > 0 and not _twice(parameters, k)]
+        if {"impact.stokes", "impact.speed"} <= {*parameters}:  # one variable
+            size[parameters.index("impact.stokes")] = 0.0
+        strongest = [k for k in np.argsort(-size) if size[k] > 0]
         for k, colour in zip(strongest, _COLOURS):
             y = np.insert(values[order, k], jumps, np.nan)
             axis.plot(np.insert(x[order], jumps, np.nan), y, ".-", color=colour, linewidth=1.0, markersize=4,
@@ -50,11 +52,6 @@ def draw_gradients(data: xarray.Dataset) -> Figure:
     axes[-1].set_xlabel(label)
     figure.suptitle("elasticities d ln y/d ln p", fontsize=11)
     return figure
-
-
-def _twice(parameters: list[str], k: int) -> bool:
-    """Whether it is the Stokes number beside the speed, which moves everything alike."""
-    return parameters[k] == "impact.stokes" and "impact.speed" in parameters
 
 
 def _across(data: xarray.Dataset) -> tuple[np.ndarray, str]:

@@ -11,7 +11,7 @@ import numpy as np
 from ..engines.casadi.locate import EventSequence
 from ..engines.choice import casadi_gradient_engine, gradient_engine
 from ..errors import ComputationError, InputError, did_you_mean
-from ..host.arguments import check_mapping
+from ..host.arguments import check_mapping, check_name
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import ANY, Field
@@ -28,9 +28,7 @@ _PART = Field("hessian", "a number (SI)", "1.0", ANY)
 
 def check_method(method: object, label: str = "method") -> str:
     """The method, "forward" or "adjoint"; InputError otherwise."""
-    if not isinstance(method, str) or method not in METHODS:
-        raise InputError(label, method, ", ".join(METHODS), "is not known" + did_you_mean(method, METHODS))
-    return method
+    return check_name(method, METHODS, label)
 
 
 def sensitivities(

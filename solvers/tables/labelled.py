@@ -45,9 +45,8 @@ def text(table: Law) -> str:
     """A table in words: ranges, size, error and where the largest was found."""
     data, attack = table.data, table.found
     lines = [f"table of {table.scene.name or 'a scene'}: {', '.join(table.of)}"]
-    lines.append(
-        f"  St {table.range.stokes[0]:g} to {table.range.stokes[1]:g}, angle {_degrees(table.range.angle)} deg"
-    )
+    (least, most), (low, high) = table.range.stokes, map(math.degrees, table.range.angle)
+    lines.append(f"  St {least:g} to {most:g}, angle {low:g} to {high:g} deg")
     if table.range.third is not None:
         unit = table.scene.fields[table.range.third].unit or ""
         low, high = table.range.ends
@@ -67,7 +66,3 @@ def where(table: Law) -> str:
         return ""
     more = "" if table.range.third is None else f", {table.range.third} {third:.6g} (SI)"
     return f" at St {stokes:.8g}, {math.degrees(angle):.8g} deg{more}"
-
-
-def _degrees(ends: tuple[float, float]) -> str:
-    return " to ".join(f"{math.degrees(end):g}" for end in ends)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..boundaries.plane import ascending
 from ..engines.choice import collision_engine
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function, check_mapping, check_names, check_whole
@@ -211,21 +212,14 @@ def _ranges(scene: Scene, over: object) -> tuple[Scene, Range]:
     others = [name for name in named if name not in (STOKES, ANGLE)]
     if len(others) > 1 or len(named) != len(ranges):
         raise InputError("over", ", ".join(ranges), _ACCEPTED, "has too many variables")
-    stokes, angle = (_ends(name, checked_numbers(name, named[name])) for name in (STOKES, ANGLE))
+    stokes, angle = (ascending(name, checked_numbers(name, named[name])) for name in (STOKES, ANGLE))
     if not others:
         return scene, Range(None, (0.0, 1.0), angle, stokes)
     scene, varied = checked_vary(scene, {others[0]: named[others[0]]}, "over")
-    ends = _ends(others[0], varied[others[0]])
+    ends = ascending(others[0], varied[others[0]])
     for end in ends:
         scene.with_si({others[0]: end})  # the scene validates it
     return scene, Range(others[0], ends, angle, stokes)
-
-
-def _ends(name: str, ends: np.ndarray) -> tuple[float, float]:
-    if ends.shape != (2,) or not ends[0] < ends[1]:
-        raise InputError(name, ":".join(f"{end:g}" for end in ends.reshape(-1)), "LO:HI with LO below HI",
-                         "is not ascending")  # fmt: skip
-    return float(ends[0]), float(ends[1])
 
 
 def _error(error: object) -> float:
