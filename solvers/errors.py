@@ -52,9 +52,9 @@ def nearest(word: object, known: Iterable[str]) -> str | None:
     if not isinstance(word, str):
         return None
     names = {name.lower().lstrip("-"): name for name in known}
-    asked = word[:_LONGEST].lower().lstrip("-")
-    close = get_close_matches(asked, names, cutoff=_NEAR)
-    begun = [name for name in close if name.startswith(asked)]
+    wanted = word[:_LONGEST].lower().lstrip("-")
+    close = get_close_matches(wanted, names, cutoff=_NEAR)
+    begun = [name for name in close if name.startswith(wanted)]
     return names[(begun or close)[0]] if close else None
 
 
@@ -120,12 +120,12 @@ class InputError(WetDoubletError, ValueError):
 
     def __str__(self) -> str:
         """Return the one line."""
-        said = self.problem or "is not accepted"
+        text = self.problem or "is not accepted"
         if self.value is None:
-            said = self.problem or "missing"
+            text = self.problem or "missing"
         else:
-            said = f"{shown(self.value)} {said}"
-        return one_line(f"{cut(str(self.field), _LONGEST_NAME)}: {said}; accepted: {self.accepted}")
+            text = f"{shown(self.value)} {text}"
+        return one_line(f"{cut(str(self.field), _LONGEST_NAME)}: {text}; accepted: {self.accepted}")
 
 
 class ComputationError(WetDoubletError, RuntimeError):

@@ -112,9 +112,9 @@ def certificates(laws: Mapping[str, Law] | None = None) -> tuple[Check, ...]:
     for structure in structures():
         if structure.reduced:
             continue
-        own = [laws["arm"]] if laws and "arm" in laws else []
+        arms = [laws["arm"]] if laws and "arm" in laws else []
         decides = structure.oblique and structure.bridge != structure.strings  # elsewhere no arm admits a certificate
-        levers: Iterable[Law] = own or (LAWS["arm"].values() if decides else [LAWS["arm"]["midgap"]])
+        levers: Iterable[Law] = arms or (LAWS["arm"].values() if decides else [LAWS["arm"]["midgap"]])
         for lever in levers:
             proof = certificate(structure, {**(laws or {}), "arm": lever})
             name = f"certificate: {structure.name}" + (f", {lever.name} arm" if decides else "")

@@ -35,7 +35,7 @@ _REGISTERED: dict[str, list[Several]] = defaultdict(list)
 
 
 def checks(function: Callable[P, C]) -> Callable[P, C]:
-    """Decorator: the function, which needs no argument, is among the checks of its module."""
+    """Decorator that adds a function without arguments to the checks of its module."""
     _REGISTERED[function.__module__].append(function)
     return function
 
@@ -110,7 +110,7 @@ SIZES = ("centres", "radius", "partner_radius", "spin_inertia", "partner_inertia
 def special_case(
     special: Model, names: Iterable[str], general: Model, rule: Callable[[sp.Expr], sp.Expr], keep: Collection[str] = ()
 ) -> Iterator[sp.Expr]:
-    """What functions of a general model are, under a rule, in excess of those of a special one: zero if they agree."""
+    """Differences between the functions of a general model, under a rule, and a special one's: zero if they agree."""
     for name in names:
         whole = general.results(name, keep)
         for key, value in special.results(name, keep).items():

@@ -23,10 +23,10 @@ def least_energy() -> Evidence:
         expected = change = sp.Integer(0)
         if structure.oblique:
             turning, spun = (q.initial_turning, q.initial_spin) if structure.reduced else (q.orbital_momentum, q.spin)
-            own = ((4 + q.aspect) ** 2 if structure.reduced else 1) * turning + sp.Rational(32, 5) * spun
+            kinetic = ((4 + q.aspect) ** 2 if structure.reduced else 1) * turning + sp.Rational(32, 5) * spun
             fixed = momentum**2 * q.obliquity**2 / (32 * inertia)  # Omega = v0 T/(4a)
-            expected += fixed.subs(momentum, own)
-            change += fixed.diff(q.gap).subs(momentum, own)
+            expected += fixed.subs(momentum, kinetic)
+            change += fixed.diff(q.gap).subs(momentum, kinetic)
         if structure.strings:
             stored = model.expanded(model["energies"]["strings"])
             expected += stored

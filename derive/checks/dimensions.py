@@ -105,7 +105,7 @@ def dimension_checks(rooms: Mapping[str, Equations] | None = None) -> tuple[Chec
 
 
 def _dimensional(symbols: set[sp.Basic]) -> list[sp.Symbol]:
-    """Those of the symbols that have a dimension, in the order of the vocabulary."""
+    """The symbols that have a dimension, in the order of the vocabulary."""
     return [s for s, dimension in q.DIMENSIONS.items() if s in symbols and any(dimension.exponents)]
 
 

@@ -87,7 +87,7 @@ def _si_events() -> dict[str, sp.Expr]:
     elastic = (3 * sp.pi * compliance * q.mu * sp.sqrt(q.a) ** 3 * q.v0 / sp.sqrt(2)) ** sp.Rational(2, 5)
     definitions = group_definitions()
     by_group = {word: q.x / q.x0 - definitions[limit] for word, limit in CONTACT_GAPS.items()}
-    return by_group | {  # of those with a published form, that
+    return by_group | {  # in their published form, where there is one
         "glass": (q.p_gt - 3 * q.mu * q.a * (-q.u) / q.x**2) * q.x0**2 / (3 * q.mu * q.a * q.v0),
         "elastic": (q.x - elastic) / q.x0,
         "rough": (q.x - q.x_b) / q.x0,
@@ -100,19 +100,19 @@ def _si_events() -> dict[str, sp.Expr]:
 
 
 @check("events", "glass, elastic, rough, rupture and the rest = their SI definitions")
-def events_are_the_definitions(those: Iterable[Structure] | None = None) -> Evidence:
+def events_are_the_definitions(chosen: Iterable[Structure] | None = None) -> Evidence:
     """Every event function, with the groups' definitions, is the criterion in SI; of all structures, or of these."""
     back = {q.gap: q.x / q.x0, q.normal_velocity: q.u / q.v0, **group_definitions()}
     laws = {"glass": LAWS["glass"]["literal"], "shear": LAWS["shear"]["immersed"]}
     defined = _si_events()
-    for structure in structures() if those is None else those:
+    for structure in structures() if chosen is None else chosen:
         model = derive(structure)
         end = 2 * q.a * q.volume ** sp.Rational(1, 3) * (1 + q.contact_angle / 2) if structure.bridge else q.x0
         expected = {**defined, "rupture": (end - q.x) / q.x0}
         for name, value in model["events"].outputs:
             if name in expected:  # not a release, which `inward_is_minus_the_acceleration` covers
-                own = filled(model.expanded(value), laws).subs(back, simultaneous=True)
-                yield (own - expected[name]).subs(q.R, 2 * q.a)
+                emitted = filled(model.expanded(value), laws).subs(back, simultaneous=True)
+                yield (emitted - expected[name]).subs(q.R, 2 * q.a)
 
 
 @check("tangential force", "F_t = 8 pi mu a^2 (omega - xi) ln(2a/x), (16/5) m a^2 dxi/dt = F_t r/2")

@@ -154,9 +154,9 @@ def generalised_number() -> Evidence:
     """Ce_F is a constant times Ce for the constant bridge: Ce/(4 pi cos(phi))."""
     force = fill(force_laws()[F_c], {"bridge": LAWS["bridge"]["constant"]})
     papers = sp.simplify(group_definitions()[q.centrifugal] / initial_rate() ** 2) * q.omega0**2
-    own = sp.simplify(generalised_centrifugal(force) / papers)
-    yield own - 1 / (4 * sp.pi * sp.cos(q.contact_angle))
-    yield f"Ce_F/Ce = {own}"
+    derived = sp.simplify(generalised_centrifugal(force) / papers)
+    yield derived - 1 / (4 * sp.pi * sp.cos(q.contact_angle))
+    yield f"Ce_F/Ce = {derived}"
 
 
 @check("stick certificate, attractions", "slope = d/dx [L^2/(2 I) + U_s + W_c + W_w] at fixed L")
@@ -174,6 +174,6 @@ def _slope(model: Model, energy: sp.Expr) -> sp.Expr:
     if not model.structure.oblique or model.structure.partner == "wall":
         return slope_along(energy, q.gap)
     by_name = {symbol.name: symbol for symbol, _ in model.definitions}
-    own, inertia = (model.expanded(by_name[name], SIZES) for name in ("momentum", "inertia_ratio"))
-    momentum, scale = sp.Symbol("L", positive=True), sp.simplify(energy * inertia / own**2)
-    return (scale * momentum**2 / inertia).diff(q.gap).subs(momentum, own)
+    momentum, inertia = (model.expanded(by_name[name], SIZES) for name in ("momentum", "inertia_ratio"))
+    fixed, scale = sp.Symbol("L", positive=True), sp.simplify(energy * inertia / momentum**2)
+    return (scale * fixed**2 / inertia).diff(q.gap).subs(fixed, momentum)

@@ -155,5 +155,5 @@ def as_emitted() -> Evidence:
         rigid = sp.cancel(orbital.rigid_momentum(here, orbital_momentum, turning))
         yield _clamped(emitted["midgap"] / unit) - _clamped(orbital.midgap_of(here, orbital_momentum, rigid))
         if "surface" in emitted:
-            own = orbital.surface(here, orbital_momentum, turning, orbital.rigid_share(orbital_momentum, turning))
-            yield emitted["surface"] - unit * own
+            energy = orbital.surface(here, orbital_momentum, turning, orbital.rigid_share(orbital_momentum, turning))
+            yield emitted["surface"] - unit * energy

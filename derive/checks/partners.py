@@ -88,14 +88,14 @@ def published_logarithms() -> Evidence:
     """The leading logarithms of Jeffrey & Onishi (1984) and, beside a wall, of Goldman, Cox & Brenner (1967)."""
     lam = q.radius_ratio
     matrix = rolling.torque_matrix().subs(dict(zip((rolling.R_1, rolling.R_2), bodies.radii(), strict=True)))
-    own, other = bodies.radii()
-    total = (sum(matrix[0, :]) + sum(matrix[1, :])) / (own + other) ** 2  # force per relative velocity, no spins
-    coupling = sum(matrix[0, :]) / (own + other)  # torque on 1 per relative velocity
+    first, other = bodies.radii()
+    total = (sum(matrix[0, :]) + sum(matrix[1, :])) / (first + other) ** 2  # force per relative velocity, no spins
+    coupling = sum(matrix[0, :]) / (first + other)  # torque on 1 per relative velocity
     yield from (
-        total - 6 * sp.pi * q.mu * own * sp.Rational(4, 15) * lam * (2 + lam + 2 * lam**2) / (1 + lam) ** 3,  # Y^A_11
-        coupling - 4 * sp.pi * q.mu * own**2 * lam * (4 + lam) / (5 * (1 + lam) ** 2),  # Y^B_11
-        matrix[0, 0] - 8 * sp.pi * q.mu * own**3 * sp.Rational(2, 5) * lam / (1 + lam),  # Y^C_11
-        matrix[0, 1] - sp.pi * q.mu * (own + other) ** 3 * sp.Rational(4, 5) * lam**2 / (1 + lam) ** 4,  # Y^C_12
+        total - 6 * sp.pi * q.mu * first * sp.Rational(4, 15) * lam * (2 + lam + 2 * lam**2) / (1 + lam) ** 3,  # Y^A_11
+        coupling - 4 * sp.pi * q.mu * first**2 * lam * (4 + lam) / (5 * (1 + lam) ** 2),  # Y^B_11
+        matrix[0, 0] - 8 * sp.pi * q.mu * first**3 * sp.Rational(2, 5) * lam / (1 + lam),  # Y^C_11
+        matrix[0, 1] - sp.pi * q.mu * (first + other) ** 3 * sp.Rational(4, 5) * lam**2 / (1 + lam) ** 4,  # Y^C_12
     )
     torque, force = wall.friction()
     yield from (

@@ -163,8 +163,8 @@ def as_emitted() -> Evidence:
     """The emitted margins are these bounds."""
     for structure in (*_COVERED, replace(_ALONE, reduced=True)):
         model = derive(structure)
-        named, own = dict(model.definitions), dict(spin_down.definitions(structure))
-        yield from [named[symbol] - value for symbol, value in own.items()]
+        named, bounds = dict(model.definitions), dict(spin_down.definitions(structure))
+        yield from [named[symbol] - value for symbol, value in bounds.items()]
         yield from (
             named[spin_down.EDGE] - slot_call("shear", "edge", q.aspect),
             named[spin_down.BEYOND] - (q.gap + sp.Min(1, spin_down.EDGE)) / 2,

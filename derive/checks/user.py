@@ -99,14 +99,14 @@ def _samples(model: UserModel, law: Law, function: LawFunction) -> Iterator[dict
 def _tried(model: UserModel, symbol: sp.Symbol) -> tuple[float, ...]:
     if symbol.name in _TRIED:
         return _TRIED[symbol.name]
-    own = next((group.quantity for group in model.groups if group.symbol == symbol), None)
-    if own is None:
+    quantity = next((group.quantity for group in model.groups if group.symbol == symbol), None)
+    if quantity is None:
         return (0.1, 10.0)
-    low, high = own.bounds.low, own.bounds.high
-    if own.symbol == symbol and math.isfinite(low) and math.isfinite(high):
+    low, high = quantity.bounds.low, quantity.bounds.high
+    if quantity.symbol == symbol and math.isfinite(low) and math.isfinite(high):
         return (low + 1e-3 * (high - low), (low + high) / 2, high - 1e-3 * (high - low))
-    least = (0.0,) if own.bounds.not_negative and not own.bounds.low_open else ()
-    return (*least, 0.01, 1.0, 100.0) if own.bounds.not_negative else (-1.0, -0.01, 0.01, 1.0)
+    least = (0.0,) if quantity.bounds.not_negative and not quantity.bounds.low_open else ()
+    return (*least, 0.01, 1.0, 100.0) if quantity.bounds.not_negative else (-1.0, -0.01, 0.01, 1.0)
 
 
 def _evaluated(function: LawFunction) -> sp.Lambda:

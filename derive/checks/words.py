@@ -28,7 +28,7 @@ def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
 
 
 def _of_event(event: OwnEvent) -> str:
-    """What is shown of a declared event."""
+    """A sentence on what the checks show of a declared event."""
     ends = {"": "", "separated": ", ends the collision as separated", "stick": ", cuts the collision off as a stick"}
     text = f"Event {event.proposed.word}, {event.proposed.where}{ends[event.proposed.ends]}: "
     if event.jump:
@@ -61,8 +61,8 @@ def in_words(model: UserModel) -> tuple[str, ...]:
     takers = "Mechanical energy is not conserved: film and shear take it, the solids' dry contact as well"
     lines.append(f"{takers}; the bridge stores it (its force depends on the gap alone).")
     groups = model.extended(derive(_FULL)).groups
-    own = {group.symbol: group for group in model.groups}
-    known = ", ".join(symbol.name for symbol in groups if symbol not in own)
+    new = {group.symbol: group for group in model.groups}
+    known = ", ".join(symbol.name for symbol in groups if symbol not in new)
     lines.append(f"An oblique collision with a bridge is governed by the library's groups {known}.")
     for group in model.groups:
         name, meaning = group.symbol.name, group.quantity.meaning

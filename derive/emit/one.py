@@ -40,8 +40,8 @@ def structure_text(name: str) -> str:
 
 def user_structure_text(source: str, model: str, name: str) -> str:
     """Text of a structure's module with the calls of a user's model, given as the text of the model file."""
-    own = _model(source, model)
-    return modules.structure_module(own.extended(derive(named(name))), own_names(own))
+    user_model = _model(source, model)
+    return modules.structure_module(user_model.extended(derive(named(name))), own_names(user_model))
 
 
 def structure_header_text(name: str) -> str:
@@ -56,14 +56,14 @@ def structure_tangent_text(name: str) -> str:
 
 def user_structure_header_text(source: str, model: str, name: str, tangent: bool = False) -> str:
     """Text of the C header of a structure, or of its tangent, with the calls and groups of a user's model."""
-    own = _model(source, model)
-    groups = {group.symbol: group.definition for group in own.groups}
-    beside = Beside(groups, own_names(own), own.extra, own.events)
+    user_model = _model(source, model)
+    groups = {group.symbol: group.definition for group in user_model.groups}
+    beside = Beside(groups, own_names(user_model), user_model.extra, user_model.events)
 
     def text() -> str:
-        if tangent and own.events:
+        if tangent and user_model.events:
             raise EmissionError("declared events have no derivatives in C")
-        extended = own.extended(derive(named(name)))
+        extended = user_model.extended(derive(named(name)))
         return tangent_header(extended, beside) if tangent else structure_header(extended, beside)
 
     return _or_error(text)
@@ -74,11 +74,11 @@ def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: 
 
     The law may be one of the model or of the library.
     """
-    own, header = _model(source, model), slopes_header if slopes else law_header
-    groups = {group.symbol for group in own.groups}
-    law = next((each for each in own.laws if (each.slot, each.name) == (slot, name)), None)
+    user_model, header = _model(source, model), slopes_header if slopes else law_header
+    groups = {group.symbol for group in user_model.groups}
+    law = next((each for each in user_model.laws if (each.slot, each.name) == (slot, name)), None)
     if law is None:
-        law, beside = _wide(LAWS[slot][name], own)
+        law, beside = _wide(LAWS[slot][name], user_model)
         groups |= beside
     return _or_error(lambda: header(law, groups), f"law {slot} {name}: ")
 
@@ -86,8 +86,8 @@ def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: 
 def user_automaton_texts(source: str, model: str) -> tuple[str, str]:
     """Texts of the C headers of the automaton with a user's events: enumerations, and the switch over effects."""
     events = [event.proposed for event in _model(source, model).events]
-    own, meanings = [event.row for event in events], [event.meaning for event in events]
-    return automaton_header(provenance(), own, meanings), effects_header(provenance(), own)
+    rows, meanings = [event.row for event in events], [event.meaning for event in events]
+    return automaton_header(provenance(), rows, meanings), effects_header(provenance(), rows)
 
 
 def _wide(law: Law, model: UserModel) -> tuple[Law, set[sp.Symbol]]:
@@ -98,7 +98,9 @@ def _wide(law: Law, model: UserModel) -> tuple[Law, set[sp.Symbol]]:
         passed = model.extra.get(f"{law.slot}.{each.name}", ())
         marks = {event.mark for event in model.events}
         unused = tuple(sp.Symbol(f"{UNUSED}{symbol.name}", real=True) for symbol in passed)
-        still |= {own for own, symbol in zip(unused, passed, strict=True) if symbol not in {normal_velocity, *marks}}
+        still |= {
+            dummy for dummy, symbol in zip(unused, passed, strict=True) if symbol not in {normal_velocity, *marks}
+        }
         functions.append(replace(each, arguments=(*each.arguments, *unused)))
     return replace(law, functions=tuple(functions)), still
 

@@ -47,7 +47,7 @@ Own = Mapping[str, tuple[str, str]]
 """Unit and meaning, by name, of groups that are not the vocabulary's."""
 
 
-def describe(model: Model, own: Own) -> str:
+def describe(model: Model, additions: Own) -> str:
     """The structure, its states, groups and slots, in words."""
     shape = model.structure
     what = {
@@ -63,7 +63,7 @@ def describe(model: Model, own: Own) -> str:
         title += ", a film whose rim follows the bridge's volume"
     if shape.reduced:
         title += ", spin eliminated through the conserved angular momentum"
-    known = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()} | dict(own)
+    known = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()} | dict(additions)
     states, groups = (
         [f"- {symbol.name} [{known[symbol.name][0]}]: {known[symbol.name][1]}" for symbol in symbols]
         for symbols in (model.states, model.groups)

@@ -36,7 +36,7 @@ def package(
         library: digest of the library's own equations, which the model extends.
         origin: path of the model file as seen from the package.
     """
-    own = own_names(model)
+    names = own_names(model)
     files = {SOURCE: source}
     laws = []
     for law in model.laws:
@@ -52,13 +52,13 @@ def package(
         if not changed & set(plain.slots):
             continue  # declared events change every structure, which is then derived where a scene needs it
         extended = model.extended(plain)
-        files[f"{structure.name}.py"] = structure_module(extended, own)
+        files[f"{structure.name}.py"] = structure_module(extended, names)
         digests[structure.name] = model_digest(extended)
     definitions = {group.symbol: group.definition for group in model.groups if group.symbol != group.quantity.symbol}
     scaling = ""
     if definitions:
         scaling = digest(*(part for pair in definitions.items() for part in pair))
-        files["scaling.py"] = groups_module(definitions, own, scaling, _DOC)
+        files["scaling.py"] = groups_module(definitions, names, scaling, _DOC)
     manifest = {
         "kind": "wetdoublet model", "format": FORMAT, "name": model.name, "meaning": model.meaning, "origin": origin,
         "library": library, "laws": laws,

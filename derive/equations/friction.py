@@ -20,7 +20,7 @@ IMPULSE = sp.Symbol("impulse", real=True)
 SLIDING, ROLLING = sp.symbols("sliding rolling", real=True)
 DRY_SLIP, HOLDING_FORCE, DRY_FORCE = sp.symbols("dry_slip holding_force dry_force", real=True)
 DRY_SLIPS = named("dry_slip")
-LEAST_DIRECTION = sp.Float("1e-150")  # no slip has no direction: below it an impulse has none
+LEAST_DIRECTION = sp.Float("1e-150")  # a smaller slip has no direction, so that there is no tangential impulse
 COMPLIANCE, GRIP = sp.symbols("tangential_compliance grip", positive=True)
 
 
@@ -90,7 +90,7 @@ def rubbed(structure: Structure, states: tuple[sp.Symbol, ...]) -> dict[sp.Symbo
 def _along_the_slip(size: sp.Expr, least: sp.Expr | float) -> dict[sp.Symbol, sp.Expr]:
     """Changes of the vectors in space by an impulse, or a force, of this size against the slip.
 
-    Where the slip is less than `least` it is as much smaller than `size`.
+    Where the slip is less than `least`, they are smaller in the ratio of the two.
     """
     answer = rubbing("space").changes
     vectors = ((q.orbital_momentum, q.orbital_momenta), (q.spin, q.spins), (q.partner_spin, q.partner_spins))

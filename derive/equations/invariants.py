@@ -183,9 +183,9 @@ def conserved_components(system: OpenSystem) -> tuple[Invariant, ...]:
     """
     result = invariants(open_rates(system), coordinates=(*_COORDINATES, *normal), degree=0)
     each = [[one for one in result if one.coefficients[0][0] == momentum] for momentum in orbital_momenta]
-    if any(len(own) != 1 for own in each):
+    if any(len(components) != 1 for components in each):
         raise NoInvariantError(f"angular momentum is not conserved in space: {[one.describe() for one in result]}")
-    return tuple(own[0] for own in each)
+    return tuple(components[0] for components in each)
 
 
 def _conditions(rates: Mapping[sp.Symbol, sp.Expr], ansatz: list[tuple[sp.Symbol, sp.Expr]]) -> sp.Matrix:
@@ -203,8 +203,8 @@ def _conditions(rates: Mapping[sp.Symbol, sp.Expr], ansatz: list[tuple[sp.Symbol
 
 def _flags(change: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr], unknown: Sequence[sp.Symbol]) -> list[sp.Symbol]:
     """Symbols outside the vocabulary (open forces, flags of film and shear): dI/dt must vanish for all their values."""
-    own = {quantity.symbol for quantity in VOCABULARY.values()}
-    outside = change.free_symbols - set(rates) - set(unknown) - own
+    known = {quantity.symbol for quantity in VOCABULARY.values()}
+    outside = change.free_symbols - set(rates) - set(unknown) - known
     return sorted((s for s in outside if not isinstance(s, sp.Dummy)), key=str)
 
 

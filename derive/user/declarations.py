@@ -291,13 +291,13 @@ def _of_event(label: str, value: object, there: Declarations, wanted: Dimension 
     """An expression of an event, its symbols and its dimension judged."""
     result = _expression(label, value)
     whole = unfolded(result, there)
-    own = {one.symbol: one.dimension for one in there.quantities.values()}
-    own |= {known.mark: ONE for known in there.events.values()}
+    dimensions = {one.symbol: one.dimension for one in there.quantities.values()}
+    dimensions |= {known.mark: ONE for known in there.events.values()}
     for symbol in sorted(whole.free_symbols, key=str):
-        if symbol not in own and not own_events.may_use(symbol):
+        if symbol not in dimensions and not own_events.may_use(symbol):
             raise ModelFileError(label, str(symbol), own_events.ACCEPTED, "is not known to an event")
     try:
-        dimension = dimension_of(whole, {**DIMENSIONS, **own})
+        dimension = dimension_of(whole, {**DIMENSIONS, **dimensions})
     except DimensionError as error:
         raise ModelFileError(label, str(whole), "terms of one dimension", str(error)) from None
     if wanted is not None and dimension not in (None, wanted):

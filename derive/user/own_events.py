@@ -205,11 +205,11 @@ def _settled(label: str, value: sp.Expr, structure: Structure) -> sp.Expr:
 
 def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     """A structure's model with the states, guards and jumps of declared events, without the proofs they void."""
-    own = [each for each in events if each.there(model.structure)]
-    if not own:
+    present = [each for each in events if each.there(model.structure)]
+    if not present:
         return model
-    marks = tuple(each.mark for each in own)
-    forms = {each.name: each.in_structure(model.structure) for each in own}
+    marks = tuple(each.mark for each in present)
+    forms = {each.name: each.in_structure(model.structure) for each in present}
     still, same = dict.fromkeys(marks, sp.Integer(0)), {mark: mark for mark in marks}
     more: dict[str, Mapping[sp.Symbol, sp.Expr]] = {
         "right_hand_side": still, "resting_rates": still, "rebound": same, "rigid_rotation": same, "rubbed": same,
@@ -224,7 +224,7 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
             outputs += tuple((name, guard) for name, (guard, _, _) in forms.items())
         functions.append(replace(function, outputs=outputs))
     states = (*model.states, *marks)
-    for each in own:
+    for each in present:
         _, jump, released = forms[each.name]
         after = {state: jump.get(state, state) for state in states} | {each.mark: sp.Integer(0)}
         doc = f"State just after the event {each.name}: {each.proposed.meaning}."

@@ -135,12 +135,12 @@ def _event(
     one: own_events.Proposed, declared: Declarations, groups: Mapping[str, Group], called: set[sp.Symbol]
 ) -> OwnEvent:
     """A declared event with its quantities as groups."""
-    own = _as_groups(groups)
+    quantities = _as_groups(groups)
     of: dict[sp.Basic, Dimension] = {**DIMENSIONS, **{q.symbol: q.dimension for q in declared.quantities.values()}}
     of |= {known.mark: ONE for known in declared.events.values()}
 
     def scaled(expression: sp.Expr, over: sp.Expr) -> sp.Expr:
-        return sp.sympify(unfolded(expression, declared).xreplace(own) / over)
+        return sp.sympify(unfolded(expression, declared).xreplace(quantities) / over)
 
     scale = own_events.scale_of(dimension_of(unfolded(one.guard, declared), of) or ONE)
     jump = tuple((target, scaled(value, v0 if target == u else rate_scale)) for target, value in one.jump)
@@ -162,8 +162,8 @@ class _Extra:
     def add(self, law: Law, all_places: Mapping[str, Place]) -> None:
         for function in law.functions:
             key = f"{law.slot}.{function.name}"
-            own = set(all_places[key].arguments)
-            more = {*self.found.get(key, ()), *(s for s in function.arguments if s not in own)}
+            arguments = set(all_places[key].arguments)
+            more = {*self.found.get(key, ()), *(s for s in function.arguments if s not in arguments)}
             if more:
                 self.found[key] = tuple(s for s in self.order if s in more)
 
@@ -242,22 +242,24 @@ def _function(
                 parts.append((part.symbol, _settled(label, place, value, groups)))
             else:
                 inline[part.symbol] = value
-        found = dimension_of(expression, of)
+        total = dimension_of(expression, of)
     except DimensionError as error:
         raise DimensionError(f"{label}: {error}") from None
     value = expression.xreplace(inline)
-    if found not in (None, ONE):
-        if found != place.dimension:
+    if total not in (None, ONE):
+        if total != place.dimension:
             wanted = "" if place.dimension == ONE else f"{place.dimension} or "
-            raise DimensionError(f"{label}: {expression} has dimension {found}, expected {wanted}a pure number")
+            raise DimensionError(f"{label}: {expression} has dimension {total}, expected {wanted}a pure number")
         value = sp.Add(*(term / place.scale for term in sp.Add.make_args(value)))
     result = _settled(label, place, value, groups)
     named = {symbol for symbol, _ in parts}
     used = set().union(*(e.free_symbols for e in (result, *(value for _, value in parts)))) - named
     allowed = {*place.arguments, *MOTION.get(place.slot, ()), *marks, *GROUPS, *(g.symbol for g in groups.values())}
     if wrong := sorted(s.name for s in used - allowed):
-        own = ", ".join(s.name for s in (*place.arguments, *MOTION.get(place.slot, ())))
-        raise ScalingError(f"{label}: depends on {', '.join(wrong)}; a {place.slot} law may depend on {own} and groups")
+        possible = ", ".join(s.name for s in (*place.arguments, *MOTION.get(place.slot, ())))
+        raise ScalingError(
+            f"{label}: depends on {', '.join(wrong)}; a {place.slot} law may depend on {possible} and groups"
+        )
     extra = [s for s in (normal_velocity, *marks, *GROUPS, *(g.symbol for g in groups.values())) if s in used]
     arguments = (*place.arguments, *(s for s in extra if s not in place.arguments))
     return LawFunction(place.function, arguments, result, place.doc, tuple(parts))
@@ -273,14 +275,14 @@ def _reached(expression: sp.Expr, declared: Declarations) -> set[sp.Basic]:
 
 def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str, Group]) -> sp.Expr:
     """A dimensionless SI expression in the slot's arguments, states and groups."""
-    own = _as_groups(groups)
-    if not dimensional(expression) and not expression.free_symbols & set(own):
+    quantities = _as_groups(groups)
+    if not dimensional(expression) and not expression.free_symbols & set(quantities):
         return expression  # kept as written
     for argument, at in zip(place.arguments, place.at, strict=False):
         for moving in (x, u):
             if moving in at.free_symbols and moving in expression.free_symbols:
                 expression = expression.subs(moving, sp.solve(sp.Eq(at, argument), moving)[0])
-    expression = expression.subs(u, v0 * normal_velocity).subs(own, simultaneous=True)
+    expression = expression.subs(u, v0 * normal_velocity).subs(quantities, simultaneous=True)
     kept = {s: s for s in place.arguments}
     rules = {s: value for s, value in to_groups().items() if s not in kept and s.name not in _MOVED}
     for _ in range(3):
@@ -296,12 +298,12 @@ def _in_si(law: Law, groups: Mapping[str, Group], all_places: Mapping[str, Place
     back |= dict(group_definitions())
     functions = []
     for f in law.functions:
-        own = all_places[f"{law.slot}.{f.name}"].arguments
-        rules = {s: value for s, value in {**back, normal_velocity: u / v0}.items() if s not in own}
+        arguments = all_places[f"{law.slot}.{f.name}"].arguments
+        rules = {s: value for s, value in {**back, normal_velocity: u / v0}.items() if s not in arguments}
 
         def put(expression: sp.Expr, rules: Mapping[sp.Basic, sp.Basic] = rules) -> sp.Expr:
             return expression.subs(rules, simultaneous=True)
 
         parts = tuple((symbol, put(value)) for symbol, value in f.definitions)
-        functions.append(InSI(f.name, own, put(f.result), f.doc, parts))
+        functions.append(InSI(f.name, arguments, put(f.result), f.doc, parts))
     return replace(law, functions=tuple(functions))

@@ -166,9 +166,9 @@ def dimension_of_unit(text: str) -> Dimension:
         if not factors or (place and len(factors) > 1):
             raise UnitError('is not a unit (one factor behind each "/")')
         for factor in factors:
-            found = _FACTOR.fullmatch(factor)
-            if found is None or found[1] not in UNITS:
+            match = _FACTOR.fullmatch(factor)
+            if match is None or match[1] not in UNITS:
                 raise UnitError(f"has the unknown unit {factor!r}")
-            power = int(found[2] or 1) * (-1 if place else 1)
-            result = result * UNITS[found[1]] ** power
+            power = int(match[2] or 1) * (-1 if place else 1)
+            result = result * UNITS[match[1]] ** power
     return result

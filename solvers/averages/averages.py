@@ -126,7 +126,7 @@ class _Request:
 
     @property
     def symmetric(self) -> bool:
-        """True if either sphere may be called the first."""
+        """True if an exchange of the two spheres changes no result."""
         spins = self.scene.impact.spin, self.scene.impact.partner_spin
         same = spins[1] is None or spins[0] == spins[1]
         of_one_sphere = any(name in _OF_ONE or name.startswith("partner.") for name in self.wrt)

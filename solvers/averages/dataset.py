@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import math
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..many.csv_map import cells_of, csv_text
 from ..scene.scene import Scene
 from .geometry import BOUNCES, COLUMNS, NORMAL, ROTATES, STICKS, TANGENTIAL
 
@@ -109,14 +107,4 @@ def to_csv(data: xarray.Dataset) -> str:
         for quantity, row in zip(data["quantity"].values, values, strict=True):
             for parameter, cells in zip(data["parameter"].values, row, strict=True):
                 columns[f"d({quantity})/d({parameter}){suffix}"] = cells.ravel()
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(columns)
-    table.writerows(zip(*(_cells(values) for values in columns.values()), strict=True))
-    return text.getvalue()
-
-
-def _cells(values: np.ndarray) -> list[Any]:
-    if values.dtype.kind == "f":
-        return ["" if math.isnan(value) else repr(value) for value in values.tolist()]
-    return [" ".join(str(value).split()) for value in values.tolist()]
+    return csv_text({name: cells_of(values) for name, values in columns.items()})

@@ -107,7 +107,7 @@ def _panels(sequences: _Sequences, pairs: int, speeds: Speeds, cut: float) -> tu
 
 
 class _Sequences:
-    """What happens along lines, as a number that is the same where the same happens in the same order.
+    """Sequences of outcomes along lines as numbers: the same number for the same sequence.
 
     A line is also sampled at angles between the changes of lines of the same pair at similar speeds, where segments are
     narrow if the sequence is about to change.

@@ -42,7 +42,7 @@ def experiment_of(scenes: Sequence[Scene], names: tuple[str, ...], rtol: float) 
 
 @dataclass(frozen=True)
 class Collided:
-    """What happened in collisions.
+    """Labels and results of collisions.
 
     Attributes:
         label: 0 for a stick and -1 for an undecided collision; others have the same one if the outcome is the same,

@@ -48,7 +48,7 @@ class Speeds:
 
     @classmethod
     def of(cls, value: Any, label: str = "speeds") -> Speeds:
-        """The distribution that is meant.
+        """The distribution that a value describes.
 
         Arguments:
             value: a Speeds; a number in m/s, or text with its unit; text `maxwell:` with a speed; a pair of arrays

@@ -51,7 +51,7 @@ def monotone(plane: Plane, arc: Arc) -> tuple[list[Arc], list[np.ndarray]]:
 
 
 def _ascending(arc: Arc) -> Arc:
-    """The points without those outside the ends or not beyond their predecessor in x."""
+    """The points between the ends whose x is above that of the point before."""
     x = arc.points[:, 0]
     highest = np.maximum.accumulate(x)
     kept = np.concatenate([[True], x[1:] > highest[:-1]]) & (x < x[-1])
@@ -61,17 +61,17 @@ def _ascending(arc: Arc) -> Arc:
 
 def _turns(x: np.ndarray) -> list[int]:
     """Indices at which x reverses by more than rounding."""
-    found, way, extreme = [], 0, 0
+    turns, direction, extreme = [], 0, 0
     for k in range(1, x.size):
-        if way == 0:
+        if direction == 0:
             if abs(x[k] - x[0]) > _FLAT:
-                way, extreme = (1 if x[k] > x[0] else -1), k
-        elif way * (x[k] - x[extreme]) > 0:
+                direction, extreme = (1 if x[k] > x[0] else -1), k
+        elif direction * (x[k] - x[extreme]) > 0:
             extreme = k
-        elif way * (x[extreme] - x[k]) > _FLAT:
-            found.append(extreme)
-            way, extreme = -way, k
-    return found
+        elif direction * (x[extreme] - x[k]) > _FLAT:
+            turns.append(extreme)
+            direction, extreme = -direction, k
+    return turns
 
 
 def _fold(plane: Plane, near: np.ndarray, arc: Arc) -> np.ndarray:
@@ -86,12 +86,12 @@ def _fold(plane: Plane, near: np.ndarray, arc: Arc) -> np.ndarray:
         reach = max(1e-7, 2 * float(np.ptp(near[:, 0])))
         centres = np.column_stack([np.full(7, place[0]), heights])
         across = np.tile([1.0, 0.0], (7, 1))
-        found = crossings(plane.labels, centres, across, np.full(7, reach), np.full(7, low), np.full(7, high))
-        found = found[~np.isnan(found[:, 0])]
-        if len(found) < 5:
+        points = crossings(plane.labels, centres, across, np.full(7, reach), np.full(7, low), np.full(7, high))
+        points = points[~np.isnan(points[:, 0])]
+        if len(points) < 5:
             return place
-        at = (found[:, 1] - place[1]) / (zoom * half)
-        fit = np.polynomial.Polynomial.fit(at, found[:, 0], 4 if len(found) > 5 else 2)
+        at = (points[:, 1] - place[1]) / (zoom * half)
+        fit = np.polynomial.Polynomial.fit(at, points[:, 0], 4 if len(points) > 5 else 2)
         roots = fit.deriv().roots()
         real = [float(root.real) for root in roots if abs(root.imag) < 1e-9 and abs(root.real) <= 1.2]
         if not real:
@@ -117,8 +117,8 @@ def refined(plane: Plane, arcs: list[Arc], ascending: bool = False) -> list[Arc]
         length = np.linalg.norm(way, axis=1)
         normal = np.column_stack([-way[:, 1], way[:, 0]]) / length[:, None]
         right, left = (np.array([getattr(arcs[k], side) for k, _ in chords]) for side in ("right", "left"))
-        found = crossings(plane.labels, 0.5 * (one + other), normal, 0.2 * length, right, left)
-        arcs = [_with(arc, k, chords, found, ascending) for k, arc in enumerate(arcs)]
+        places = crossings(plane.labels, 0.5 * (one + other), normal, 0.2 * length, right, left)
+        arcs = [_with(arc, k, chords, places, ascending) for k, arc in enumerate(arcs)]
     return arcs
 
 
@@ -134,11 +134,11 @@ def _coarse(points: np.ndarray) -> list[int]:
     return np.flatnonzero(bend * length**2 / 8 > CHORD).tolist()
 
 
-def _with(arc: Arc, k: int, chords: list[tuple[int, int]], found: np.ndarray, ascending: bool) -> Arc:
-    own = [(j, place) for (which, j), place in zip(chords, found, strict=True) if which == k]
+def _with(arc: Arc, k: int, chords: list[tuple[int, int]], places: np.ndarray, ascending: bool) -> Arc:
+    inserted = [(j, place) for (which, j), place in zip(chords, places, strict=True) if which == k]
     fits = [
         (j, place)
-        for j, place in own
+        for j, place in inserted
         if not math.isnan(place[0]) and (not ascending or arc.points[j, 0] < place[0] < arc.points[j + 1, 0])
     ]
     if not fits:

@@ -85,7 +85,7 @@ def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np
         for k in _some(wrong, points).tolist()
     ]
     unsettled += _against_lines(plane, arcs, x, traced)
-    folds = [place for _, own in pieces for place in own]
+    folds = [place for _, folded in pieces for place in folded]
     parts, inner = stretches(plane, arcs)
     parts, meetings = named(plane, survey.meetings, parts)
     places = [*meetings, *((FOLD, place) for place in folds), *inner]
@@ -94,16 +94,16 @@ def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np
 
 def _known_along(plane: Plane, points: np.ndarray, outcomes: np.ndarray) -> np.ndarray:
     """Outcomes at points, unknown ones (-1) computed once more; ComputationError where that fails."""
-    found = outcomes.copy()
-    for k in np.flatnonzero(found < 0).tolist():
-        found[k] = plane.seen(points[k : k + 1], most=1)[0][0]
-        if found[k] < 0:
+    result = outcomes.copy()
+    for k in np.flatnonzero(result < 0).tolist():
+        result[k] = plane.seen(points[k : k + 1], most=1)[0][0]
+        if result[k] < 0:
             x, stokes = float(plane.x(points[k])), float(plane.stokes_at(points[k]))
             raise ComputationError(
                 f"no collision could be computed at {plane.over} = {x:.6g}, St {stokes:.6g}, needed there",
                 advice="try another span, or other Stokes numbers",
             )
-    return found
+    return result
 
 
 def _wrong(arcs: list[Arc], regions: list[Slab], points: np.ndarray, outcomes: np.ndarray) -> np.ndarray:
@@ -123,28 +123,28 @@ def _some(wrong: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 def _against_lines(plane: Plane, arcs: list[Arc], x: np.ndarray, traced: Traced) -> list[tuple[np.ndarray, str]]:
     """Places where a line and the curves disagree."""
-    found: list[tuple[np.ndarray, str]] = []
+    differences: list[tuple[np.ndarray, str]] = []
     for at, line, failure in zip(x.tolist(), traced.changes, traced.failures, strict=True):
         across = float(plane.points(np.array([at]), np.array([plane.stokes[0]]))[0, 0])
         if failure:
-            found.append((np.array([across, 0.5]), f"this line could not be traced: {failure}"))
+            differences.append((np.array([across, 0.5]), f"this line could not be traced: {failure}"))
             continue
         crossed = [
             (y, OUTCOMES[arc.right], OUTCOMES[arc.left]) for arc in arcs for y, _ in passes(arc.points, 0, across)
         ]
-        own = [(plane.points(np.array([at]), np.array([one.stokes]))[0], one) for one in line]
-        found += [
+        changes = [(plane.points(np.array([at]), np.array([one.stokes]))[0], one) for one in line]
+        differences += [
             (place, f"the line here changes from {one.before} to {one.after}, where no curve passes")
-            for place, one in own
+            for place, one in changes
             if not any(_is(one, place, passing) for passing in crossed)
         ]
-        found += [
+        differences += [
             (np.array([across, passing[0]]), "a curve passes here, which the line does not show")
             for passing in crossed
-            if 0 < passing[0] < 1 and not any(_is(one, place, passing) for place, one in own)
+            if 0 < passing[0] < 1 and not any(_is(one, place, passing) for place, one in changes)
         ]
-        found += _apart(plane, own)
-    return found
+        differences += _apart(plane, changes)
+    return differences
 
 
 def _apart(plane: Plane, changes: list[tuple[np.ndarray, Change]]) -> list[tuple[np.ndarray, str]]:

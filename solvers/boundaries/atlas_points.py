@@ -46,7 +46,7 @@ class Stretch:
 
 def stretches(plane: Plane, arcs: Sequence[Arc]) -> tuple[list[Stretch], list[tuple[str, np.ndarray]]]:
     """The curves split where the kind changes, and these places with their names."""
-    found: list[Stretch] = []
+    result: list[Stretch] = []
     points: list[tuple[str, np.ndarray]] = []
     for arc in arcs:
         codes = _filled(_codes(plane, arc, arc.points[1:-1])) if len(arc.points) > 2 else np.zeros(0, dtype=int)
@@ -56,8 +56,8 @@ def stretches(plane: Plane, arcs: Sequence[Arc]) -> tuple[list[Stretch], list[tu
         for part, code in _cut(plane, arc, codes, points):
             kind = FREE if code <= 0 else REVERSED if code > 3 else GRAZE
             criterion = -1 if code <= 0 else (code - 1) % 3
-            found += _at_barriers(plane, Stretch(part, kind, criterion), points)
-    return found, points
+            result += _at_barriers(plane, Stretch(part, kind, criterion), points)
+    return result, points
 
 
 def _codes(plane: Plane, arc: Arc, at: np.ndarray) -> np.ndarray:
@@ -131,11 +131,11 @@ def _between(plane: Plane, arc: Arc, one: np.ndarray, other: np.ndarray, count: 
         return np.zeros((0, 2))
     centres = one + np.arange(1, count + 1)[:, None] / (count + 1) * way
     normal = np.array([-way[1], way[0]]) / length
-    found = crossings(
+    places = crossings(
         plane.labels, centres, np.tile(normal, (count, 1)), np.full(count, max(0.2 * length, 1e-9)),
         np.full(count, arc.right), np.full(count, arc.left),
     )  # fmt: skip
-    return np.asarray(found[~np.isnan(found[:, 0])])
+    return np.asarray(places[~np.isnan(places[:, 0])])
 
 
 def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndarray]]) -> list[Stretch]:

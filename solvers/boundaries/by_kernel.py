@@ -13,13 +13,13 @@ from ..model.model import select_model
 from ..scene.groups import sideways
 from ..scene.scene import Scene
 
-LOOK_BUDGET = 20_000  # steps of a sampled collision; limits how close to a separatrix collisions are sampled
+SAMPLE_BUDGET = 20_000  # steps of a sampled collision; limits how close to a separatrix collisions are sampled
 _EARLIER = 5  # the last state of chatter is compared with the state after this fraction (1/n) of its steps
 
 
 Events = list[tuple[str, float]]
 """Events of a collision, their words and times (x0/v0)."""
-LOOK = np.dtype(
+SAMPLED = np.dtype(
     [
         ("outcome", "i1"),  # 0 stick, 1 stick-rotate-separate, 2 bounce, -1 not completed by the kernel
         ("creeps", "?"),  # step budget exhausted after few events
@@ -37,21 +37,21 @@ LOOK = np.dtype(
 """Record of a sampled collision."""
 
 
-def looked(
+def sample_by_kernel(
     scene: Scene,
     speed: np.ndarray,
     angle: np.ndarray,
     rtol: float,
     purpose: Purpose = Purpose.WHOLE,
     solids: Mapping[str, np.ndarray] | None = None,
-    budget: int = LOOK_BUDGET,
+    budget: int = SAMPLE_BUDGET,
 ) -> np.ndarray | None:
-    """An array of LOOK for collisions at normal speeds (m/s) and angles (rad), in one call of each kernel.
+    """An array of SAMPLED for collisions at normal speeds (m/s) and angles (rad), in one call of each kernel.
 
     Arguments:
         solids: SI quantities of the rebound criteria that replace the scene's.
     """
-    found = np.zeros(speed.size, LOOK)
+    result = np.zeros(speed.size, SAMPLED)
     for oblique in (True, False):
         which = np.flatnonzero(sideways(scene, angle, {}) == oblique)
         if not which.size:
@@ -65,7 +65,7 @@ def looked(
         if recorded is None or recorded.peaks is None:
             return None
         answers = recorded.answers
-        part = np.zeros(which.size, LOOK)
+        part = np.zeros(which.size, SAMPLED)
         part["outcome"] = np.where(answers["status"] <= LAST_ANSWER, answers["outcome"], -1)
         part["creeps"], part["chatters"] = (
             answers["status"] == status for status in (Status.NO_BUDGET, Status.CHATTER)
@@ -77,12 +77,12 @@ def looked(
             part[name] = answers[name]
         if purpose == Purpose.WHOLE and not others:
             _take_limits(part, impacts, answers, oblique, rtol, budget)
-        found[which] = part
-    return found
+        result[which] = part
+    return result
 
 
 def events(
-    scene: Scene, speed: np.ndarray, angle: float, rtol: float, budget: int = LOOK_BUDGET
+    scene: Scene, speed: np.ndarray, angle: float, rtol: float, budget: int = SAMPLE_BUDGET
 ) -> list[Events] | None:
     """The events of collisions at normal speeds (m/s) and an angle (rad); None if one is not completed."""
     impacts = Impacts(scene, speed, np.full(speed.size, angle), {})
@@ -91,7 +91,7 @@ def events(
         return None
     words = words_of(scene)
     rows = [log[:count] for log, count in zip(recorded.events, recorded.answers["events"], strict=True)]
-    return [[(words[int(row["kind"])], float(row["time"])) for row in own] for own in rows]
+    return [[(words[int(row["kind"])], float(row["time"])) for row in collision_rows] for collision_rows in rows]
 
 
 def _take_limits(
@@ -101,11 +101,11 @@ def _take_limits(
     endless = np.flatnonzero(part["chatters"])
     if not endless.size:
         return
-    those = impacts.part(endless)
-    before = run_recorded(those, oblique, rtol, trajectory=True, budget=budget // _EARLIER, keep=False, events=False)
+    stopped = impacts.part(endless)
+    before = run_recorded(stopped, oblique, rtol, trajectory=True, budget=budget // _EARLIER, keep=False, events=False)
     assert before is not None  # the kernel is available
     choice = select_model(impacts.scene, oblique, fold=False)
-    held = limits(before.answers, answers[endless], impacts.scene, those.speed, those.angle, choice, rtol)
+    held = limits(before.answers, answers[endless], impacts.scene, stopped.speed, stopped.angle, choice, rtol)
     for k, stays in zip(endless.tolist(), held, strict=True):
         if stays is not None:
             reached = BOUNCE if part["reversal"][k] >= 0 else ROTATE

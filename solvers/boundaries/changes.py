@@ -14,8 +14,8 @@ from ..changes.roots import Function, root, sample
 from ..errors import ComputationError
 from ..scene.contact import GAPS
 from .line import Line
-from .look import Look
 from .samples import known
+from .scene_sampler import SceneSampler
 
 # Kinds of change: a criterion is just met; a doublet begins to escape without or with a rebound; other.
 GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"
@@ -53,7 +53,7 @@ class Change:
 
 
 def changes_along(
-    lines: Sequence[Line], look: Look, samples: Sequence[np.ndarray]
+    lines: Sequence[Line], sampler: SceneSampler, samples: Sequence[np.ndarray]
 ) -> list[list[Change] | ComputationError]:
     """All changes between neighbouring samples of each line, each confirmed by collisions on both sides.
 
@@ -68,13 +68,13 @@ def changes_along(
     samples = [known(each) for each in samples]
     joined, line = np.concatenate(samples), np.repeat(np.arange(len(lines)), [each.size for each in samples])
     brackets = Brackets.between(line, joined["stokes"], joined["outcome"])
-    enclosed = _enclosed(lines, look, brackets, True) if look.kernel else [[] for _ in range(brackets.size)]
+    enclosed = _enclosed(lines, sampler, brackets, True) if sampler.kernel else [[] for _ in range(brackets.size)]
     results = []
     for k in range(len(lines)):
         which = np.flatnonzero(brackets.line == k)
-        results.append(_attempt(_completed, lines, look, brackets.part(which), [enclosed[j] for j in which]))
+        results.append(_attempt(_completed, lines, sampler, brackets.part(which), [enclosed[j] for j in which]))
     done = [k for k, each in enumerate(results) if not isinstance(each, ComputationError)]
-    agree = _confirmed(look, [(lines[k], results[k]) for k in done], _ACCEPTED)
+    agree = _confirmed(sampler, [(lines[k], results[k]) for k in done], _ACCEPTED)
     for k, each in zip(done, agree, strict=True):
         results[k] = _attempt(_accepted, results[k], each, samples[k])
     return results
@@ -88,7 +88,9 @@ def _attempt(step: Callable[..., Any], *arguments: Any) -> Any:
         return error
 
 
-def _completed(lines: Sequence[Line], look: Look, brackets: Brackets, enclosed: list[list[Change]]) -> list[Change]:
+def _completed(
+    lines: Sequence[Line], sampler: SceneSampler, brackets: Brackets, enclosed: list[list[Change]]
+) -> list[Change]:
     """The changes in the brackets of a line; those that are missing are located by other means."""
     missing = [k for k, each in enumerate(enclosed) if not each]
     for k in missing:
@@ -99,11 +101,11 @@ def _completed(lines: Sequence[Line], look: Look, brackets: Brackets, enclosed: 
             continue
     if missing:
         located = [(k, one) for k in missing for one in enclosed[k]]
-        [agree] = _confirmed(look, [(lines[brackets.line[0]], [one for _, one in located])], _LOCATED)
+        [agree] = _confirmed(sampler, [(lines[brackets.line[0]], [one for _, one in located])], _LOCATED)
         wrong = {k for (k, _), agrees in zip(located, agree, strict=True) if not agrees}
         for k in missing:
             if k in wrong or not enclosed[k]:
-                [enclosed[k]] = _enclosed(lines, look, brackets.part(np.array([k])), False)
+                [enclosed[k]] = _enclosed(lines, sampler, brackets.part(np.array([k])), False)
     return list(chain.from_iterable(enclosed))
 
 
@@ -188,7 +190,7 @@ def _signed_root(function: Function, low: float, high: float, rises: bool) -> fl
     return root(upwards, at_low, at_high)
 
 
-def _confirmed(look: Look, lines: Sequence[tuple[Line, list[Change]]], distance: float) -> list[np.ndarray]:
+def _confirmed(sampler: SceneSampler, lines: Sequence[tuple[Line, list[Change]]], distance: float) -> list[np.ndarray]:
     """For each change of each line, whether the collisions beside it have its outcomes.
 
     Arguments:
@@ -209,12 +211,16 @@ def _confirmed(look: Look, lines: Sequence[tuple[Line, list[Change]]], distance:
     if angle:
         words = [word for _, changes in lines for side in ("before", "after") for word in
                  (getattr(one, side) for one in changes)]  # fmt: skip
-        fit |= look.outcomes(np.array(angle), np.concatenate(places))["outcome"] == [OUTCOMES.index(w) for w in words]
+        fit |= sampler.outcomes(np.array(angle), np.concatenate(places))["outcome"] == [
+            OUTCOMES.index(w) for w in words
+        ]
     sides = np.split(fit, np.cumsum([each.size for each in places])[:-1])
     return [below & above for below, above in zip(sides[::2], sides[1::2])]
 
 
-def _enclosed(lines: Sequence[Line], look: Look, brackets: Brackets, kernel_only: bool) -> list[list[Change]]:
+def _enclosed(
+    lines: Sequence[Line], sampler: SceneSampler, brackets: Brackets, kernel_only: bool
+) -> list[list[Change]]:
     """The changes within each bracket of any lines, all enclosed together by outcomes to _NARROW in ln St.
 
     Arguments:
@@ -226,7 +232,7 @@ def _enclosed(lines: Sequence[Line], look: Look, brackets: Brackets, kernel_only
     angle = np.array([line.angle for line in lines])[brackets.line]
 
     def labels(which: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        return np.asarray(look.outcomes(angle[which], stokes, kernel_only)["outcome"])
+        return np.asarray(sampler.outcomes(angle[which], stokes, kernel_only)["outcome"])
 
     wide = replace(brackets, line=np.arange(brackets.size))
     narrow = enclose(labels, wide, _NARROW, at_once=_AT_ONCE, unknown=-1, logarithmic=True)
@@ -240,7 +246,7 @@ def _enclosed(lines: Sequence[Line], look: Look, brackets: Brackets, kernel_only
         elif kernel_only:  # a narrower band may be the error of collisions
             undecided.add(k)
         else:
-            reason = look.reason(line.angle, low, high)
+            reason = sampler.reason(line.angle, low, high)
             raise ComputationError(f"a change of outcome between St {low:.10g} and {high:.10g}: {reason}")
     return [[] if k in undecided else each for k, each in enumerate(changes)]
 
@@ -262,8 +268,8 @@ def _kind(line: Line, low: float, high: float, before: str, after: str) -> str:
     begin = sides[0][k - 1][1] if k else 0.0
     parting = [(side[k][0], side[k][1] - begin) for side in sides if len(side) > k]
     apart = max((time for _, time in parting), default=0.0) - min((time for _, time in parting), default=0.0)
-    # contact is just met where the other side turns, at the same time; where a saddle parts both sides, one is drawn
-    # into contact, at another time
+    # At a graze of contact the other side turns at the same time. At a saddle one side is drawn into contact, and
+    # the other turns at another time.
     if any(word in CRITERIA and not (word in GAPS and apart > _TOGETHER * time) for word, time in parting):
         return GRAZE
     return REVERSED if any(word in CRITERIA for word in below[:k]) else FREE

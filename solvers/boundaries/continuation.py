@@ -67,7 +67,7 @@ def crossings(
     least, most = _inside(centre, along, reach)
     first = np.concatenate([-_FIRST[::-1], [0.0], _FIRST])
     at = np.clip(reach[:, None] * first, least[:, None], most[:, None])
-    found = np.full(centre.shape, np.nan)
+    result = np.full(centre.shape, np.nan)
     open_ = np.arange(centre.shape[0])
     for _ in range(20):
         if not open_.size:
@@ -82,13 +82,13 @@ def crossings(
             wide = interval[1] - interval[0]
             stuck = wide < _DOUBT and not (seen[row, 1:-1] >= 0).any()
             if wide < located or stuck:
-                found[k] = centre[k] + 0.5 * (interval[0] + interval[1]) * along[k]
+                result[k] = centre[k] + 0.5 * (interval[0] + interval[1]) * along[k]
             else:
                 kept.append(k)
                 ends.append(interval)
         open_ = np.array(kept, dtype=int)
         at = np.array([np.linspace(*pair, _PARTS + 1) for pair in ends]).reshape(len(ends), _PARTS + 1)
-    return np.asarray(np.clip(found, 0.0, 1.0))
+    return np.asarray(np.clip(result, 0.0, 1.0))
 
 
 def _inside(centre: np.ndarray, along: np.ndarray, reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -105,8 +105,8 @@ def _inside(centre: np.ndarray, along: np.ndarray, reach: np.ndarray) -> tuple[n
 def _nearest(at: np.ndarray, seen: np.ndarray, low: int, high: int) -> tuple[float, float] | None:
     """The interval nearest to 0 between neighbouring known points with these labels."""
     known = np.flatnonzero(seen >= 0)
-    where, found = at[known], seen[known]
-    change = np.flatnonzero((found[:-1] == low) & (found[1:] == high))
+    where, labels = at[known], seen[known]
+    change = np.flatnonzero((labels[:-1] == low) & (labels[1:] == high))
     if not change.size:
         return None
     middle = np.abs(where[change] + where[change + 1])
@@ -154,19 +154,19 @@ def _step(
     last = points[-1]
     places = [_predicted(points, heading, part * step) for part in (0.5, 1.0)]
     if np.any((places[1] < 0) | (places[1] > 1)):
-        found = _to_edge(labels, last, places[1], step, branch)
-        return None if found is None else ([found], True)
+        crossed = _to_edge(labels, last, places[1], step, branch)
+        return None if crossed is None else ([crossed], True)
     normals = np.array([[-heading[1], heading[0]]] * 2)
     reach = _REACH * step * np.array([0.5, 1.0])
     sides = np.array([branch.right] * 2), np.array([branch.left] * 2)
-    found = crossings(labels, np.array(places), normals, reach, *sides)
-    if np.isnan(found).any():
+    crossed = crossings(labels, np.array(places), normals, reach, *sides)
+    if np.isnan(crossed).any():
         return None
-    chords = found[0] - last, found[1] - found[0]
+    chords = crossed[0] - last, crossed[1] - crossed[0]
     turns = abs(_angle(heading, chords[0])), abs(_angle(chords[0], chords[1]))
     if step > 2 * SHORTEST and max(turns) > _TURN:
         return None
-    return [found[0], found[1]], bool(np.any((found[1] <= 0) | (found[1] >= 1)))
+    return [crossed[0], crossed[1]], bool(np.any((crossed[1] <= 0) | (crossed[1] >= 1)))
 
 
 def _predicted(points: list[np.ndarray], heading: np.ndarray, ahead: float) -> np.ndarray:
@@ -211,10 +211,10 @@ def _to_edge(labels: Labels, last: np.ndarray, beyond: np.ndarray, step: float, 
     # towards the side of the left label
     along[1 - axis] = 1.0 if (way[0] if axis == 0 else -way[1]) > 0 else -1.0
     reach = np.array([_REACH * step])
-    found = crossings(
+    point = crossings(
         labels, np.clip(place, 0, 1)[None], along[None], reach, np.array([branch.right]), np.array([branch.left])
     )[0]
-    return None if np.isnan(found).any() else found
+    return None if np.isnan(point).any() else point
 
 
 def _angle(one: np.ndarray, other: np.ndarray) -> float:
@@ -249,13 +249,13 @@ def branches(labels: Labels, centre: np.ndarray, radius: float, ahead: float | N
     known = np.flatnonzero(seen >= 0)
     if known.size < 2:
         return []
-    at, found = angles[known], seen[known]
-    following, then = np.roll(at, -1), np.roll(found, -1)
+    at, known_labels = angles[known], seen[known]
+    following, then = np.roll(at, -1), np.roll(known_labels, -1)
     following[-1] += math.tau
-    change = np.flatnonzero((found != then) & (following - at < 0.5))
+    change = np.flatnonzero((known_labels != then) & (following - at < 0.5))
     located = []
     for k in change.tolist():
-        low, high, right, left = at[k], following[k], int(found[k]), int(then[k])
+        low, high, right, left = at[k], following[k], int(known_labels[k]), int(then[k])
         for _ in range(5):
             trial = np.linspace(low, high, _PARTS + 1)
             ring = centre + radius * np.column_stack([np.cos(trial), np.sin(trial)])
@@ -274,10 +274,10 @@ def meeting(
 
     It is the intersection of the lines through each curve's crossings with two circles, which shrink about it.
     """
-    centre, found = np.asarray(near, dtype=float), branches(labels, near, radius, ahead)
+    centre, leaving = np.asarray(near, dtype=float), branches(labels, near, radius, ahead)
     for size in (radius, radius / 3, radius / 10):
         inner, outer = branches(labels, centre, size, ahead), branches(labels, centre, 2 * size, ahead)
-        if not _alike(inner, found) or not _alike(outer, found) or len(inner) < 2:
+        if not _alike(inner, leaving) or not _alike(outer, leaving) or len(inner) < 2:
             break
         at, ways = np.zeros((len(inner), 2)), np.zeros((len(inner), 2))
         for k, one in enumerate(inner):
@@ -290,8 +290,8 @@ def meeting(
         place, _, rank, _ = np.linalg.lstsq(across, np.sum(across * at, axis=1), rcond=1e-6)
         if rank < 2 or np.linalg.norm(place - centre) > 2 * radius:
             break
-        centre, found = np.clip(place, 0, 1), inner
-    return centre, branches(labels, centre, radius, ahead) or found
+        centre, leaving = np.clip(place, 0, 1), inner
+    return centre, branches(labels, centre, radius, ahead) or leaving
 
 
 def _alike(some: list[Branch], others: list[Branch]) -> bool:

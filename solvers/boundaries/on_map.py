@@ -44,20 +44,20 @@ def map_curves(data: xarray.Dataset, package: Package | None = None) -> dict[int
         return {}
     varied = [str(name) for name in data["outcome"].dims if name not in ("angle", impact)]
     sizes = [data.sizes[name] for name in varied]
-    found: dict[int, list[Curve]] = {}
+    curves: dict[int, list[Curve]] = {}
     for place in panels(data):
         index = np.unravel_index(place, sizes) if varied else ()
         entries = {name: float(data[name].values[k]) for name, k in zip(varied, index, strict=True)}
-        found[place] = []
+        curves[place] = []
         try:
             scene = base.with_si(entries)
         except InputError:  # its cells are marked as failed
             continue
         try:
-            found[place] = _curves(scene, angles, values, impact, data.attrs["rtol"])
+            curves[place] = _curves(scene, angles, values, impact, data.attrs["rtol"])
         except ComputationError as error:
             warnings.warn(f"the picture lacks boundaries: {error}", ModelWarning, stacklevel=2)
-    return found
+    return curves
 
 
 def _curves(scene: Scene, angles: np.ndarray, values: np.ndarray, impact: str, rtol: float) -> list[Curve]:

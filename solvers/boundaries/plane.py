@@ -112,11 +112,11 @@ class Plane:
         if self.kernel:
             impacts, sound = impacts_of(request)
             threads = usable_cores() if request.size > _THREADED else 1
-            told = run_kernel(impacts, self.rtol, threads=threads)
-            if told is not None:
+            answers = run_kernel(impacts, self.rtol, threads=threads)
+            if answers is not None:
                 where = np.flatnonzero(sound)
-                outcome[where] = np.where(told["status"] <= LAST_ANSWER, told["outcome"], -1)
-                reversal[where] = told["reversal"]
+                outcome[where] = np.where(answers["status"] <= LAST_ANSWER, answers["outcome"], -1)
+                reversal[where] = answers["reversal"]
         left = np.flatnonzero(outcome < 0) if not self.kernel else _middles(outcome < 0)[:most]
         if left.size:
             outcome[left] = run(request.part(left), True)["outcome"]
@@ -127,16 +127,16 @@ class Plane:
 
         The whole collision does not show it, because a stick may meet a criterion later.
         """
-        found = np.full(points.shape[0], -2)
+        criteria = np.full(points.shape[0], -2)
         if self.kernel:
             impacts, sound = impacts_of(self._request(points))
             oblique = bool(impacts.angle[0] > 0)
-            told = run_recorded(impacts, oblique, self.rtol, trajectory=True, budget=KERNEL_STEPS,
+            recorded = run_recorded(impacts, oblique, self.rtol, trajectory=True, budget=KERNEL_STEPS,
                             purpose=Purpose.ESCAPE, keep=False, fold=False)  # fmt: skip
-            if told is not None:
-                known = told.answers["status"] <= LAST_ANSWER
-                found[np.flatnonzero(sound)] = np.where(known, told.answers["reversal"], -2)
-        return found
+            if recorded is not None:
+                known = recorded.answers["status"] <= LAST_ANSWER
+                criteria[np.flatnonzero(sound)] = np.where(known, recorded.answers["reversal"], -2)
+        return criteria
 
     def _request(self, points: np.ndarray) -> Batch:
         x, size = self.x(points), points.shape[0]
@@ -171,7 +171,7 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, la
     if not isinstance(over, str):
         raise InputError(label, over, "the dotted name of an entry", "is not a name")
     ends = STOKES if stokes is None else ascending("stokes", checked_numbers("impact.stokes", stokes))
-    if scene.package is not None and scene.package.events:  # the kinds of its curves would be told wrongly
+    if scene.package is not None and scene.package.events:  # kinds of curves are unknown with these
         accepted = "boundaries along lines, or a model without declared events"
         raise InputError(label, over, accepted, "spans no atlas of a model that declares events")
     if over == ANGLE:

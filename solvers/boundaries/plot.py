@@ -30,24 +30,24 @@ _MARKS = {
 _MOST_DOTS = 60  # most lines whose changes are marked
 
 
-def plot(found: Lines) -> Figure:
-    """The picture of boundaries; InputError if they do not say whose they are."""
-    if found.scene is None:
+def plot(lines: Lines) -> Figure:
+    """The picture of boundaries; InputError if they have no scene."""
+    if lines.scene is None:
         raise InputError("scene", None, "boundaries of a scene, as `boundary` and `atlas` return them")
-    return draw(found.scene, found)
+    return draw(lines.scene, lines)
 
 
 @picture
-def draw(scene: Scene, found: Lines) -> Figure:
+def draw(scene: Scene, lines: Lines) -> Figure:
     """A figure of the regions of each outcome, the curves between them, and their meeting points.
 
     Lines of constant angle are drawn on the atlas of their angles; a single line as a strip of its outcomes.
 
     Arguments:
-        found: result of `boundary` or `atlas`.
+        lines: result of `boundary` or `atlas`.
     """
-    dots = not isinstance(found, Curves) and len(set(found.angles)) > 1 and len(found.angles) <= _MOST_DOTS
-    whole = found if isinstance(found, Curves) else _filled(scene, found)
+    dots = not isinstance(lines, Curves) and len(set(lines.angles)) > 1 and len(lines.angles) <= _MOST_DOTS
+    whole = lines if isinstance(lines, Curves) else _filled(scene, lines)
     single = whole.span[0] == whole.span[1]
     figure = Figure(figsize=(6.4, 4.9), layout="constrained")
     axes = figure.add_subplot()
@@ -60,29 +60,29 @@ def draw(scene: Scene, found: Lines) -> Figure:
     _fill(axes, regions, factor)
     for one in regions.curves:
         axes.plot(np.array(one.x) / factor, one.stokes, color=INK, linewidth=1.5, solid_capstyle="round", zorder=3)
-    changes = zip(found.angles, found.changes, strict=True) if dots else ()
+    changes = zip(lines.angles, lines.changes, strict=True) if dots else ()
     if pairs := [(math.degrees(at), one.stokes) for at, line in changes for one in line]:
         axes.plot(*zip(*pairs), "o", color=INK, markersize=2.6, zorder=4, clip_on=False)
     handles: list[Any] = [patch(OUTCOMES[k]) for k in sorted({k for slab in regions.slabs() for k in slab.labels})]
     handles += _mark(axes, whole.points, factor, low, high)
-    handles += _doubts(axes, found, whole, factor)
+    handles += _doubts(axes, lines, whole, factor)
     figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(handles)), handleheight=1.1)
     place_names(figure, axes, lambda x, stokes: regions.region(np.clip(x * factor, *regions.span), stokes))
     return figure
 
 
-def _filled(scene: Scene, found: Lines) -> Curves:
+def _filled(scene: Scene, lines: Lines) -> Curves:
     """The atlas over the angles of lines; for a single line, its changes across the figure."""
-    low, high = min(found.angles), max(found.angles)
+    low, high = min(lines.angles), max(lines.angles)
     if low < high:
-        return _curves(scene, (low, high), found.window, max(2, min(LINES, len(found.angles))))
-    changes = found.changes[0]
+        return _curves(scene, (low, high), lines.window, max(2, min(LINES, len(lines.angles))))
+    changes = lines.changes[0]
     curves = [Curve(one.before, one.after, one.kind, (0.0, 1.0), (one.stokes, one.stokes)) for one in changes]
     background = OUTCOMES[0]
     if not changes:
-        background = _curves(scene, (max(low - 1e-6, 0.0), low + 1e-6), found.window, 2).background
+        background = _curves(scene, (max(low - 1e-6, 0.0), low + 1e-6), lines.window, 2).background
     return Curves(
-        found.angles, found.changes, found.collisions, found.failures, found.resolution, scene, found.window,
+        lines.angles, lines.changes, lines.collisions, lines.failures, lines.resolution, scene, lines.window,
         span=(low, low), curves=tuple(curves), background=background,
     )  # fmt: skip
 
@@ -151,8 +151,8 @@ def _fill(axes: Axes, whole: Curves, factor: float) -> None:
             name = OUTCOMES[label]
             axes.fill(x, stokes, color=FILLS[name], linewidth=0, antialiased=False, zorder=1)
             if HATCHES[name]:
-                look: Any = {"facecolor": "none", "edgecolor": EDGES[name], "hatch": HATCHES[name], "linewidth": 0}
-                axes.fill(x, stokes, zorder=1.5, **look)
+                style: Any = {"facecolor": "none", "edgecolor": EDGES[name], "hatch": HATCHES[name], "linewidth": 0}
+                axes.fill(x, stokes, zorder=1.5, **style)
 
 
 def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: float) -> list[Any]:
@@ -173,13 +173,13 @@ def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: 
     return list(handles.values())
 
 
-def _doubts(axes: Axes, found: Lines, whole: Curves, factor: float) -> list[Any]:
+def _doubts(axes: Axes, lines: Lines, whole: Curves, factor: float) -> list[Any]:
     """Note on lines and places that could not be traced or verified."""
     style: Any = {"linestyle": "", "marker": "x", "color": "#C00000", "markersize": 6}
     places = [(x / factor, stokes) for x, stokes, _ in whole.unsettled]
     if places:
         axes.plot(*zip(*places), zorder=6, clip_on=False, **style)
-    failed = [] if isinstance(found, Curves) else [math.degrees(angle) for angle, _ in found.failed]
+    failed = [] if isinstance(lines, Curves) else [math.degrees(angle) for angle, _ in lines.failed]
     if failed:
         axes.plot(failed, [0.02] * len(failed), transform=axes.get_xaxis_transform(), clip_on=False, **style)
     return [Line2D([], [], label="not settled", **style)] if places or failed else []

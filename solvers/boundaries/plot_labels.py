@@ -67,10 +67,10 @@ def _regions(labels: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
     """The connected parts of each label, as masks, in the order of their first places."""
     parts, kinds = np.zeros(labels.shape, int), np.unique(labels[labels >= 0]).tolist()
     for kind in kinds:
-        own = ndimage.label(labels == kind)[0]
-        parts = np.where(own > 0, own + parts.max(), parts)
-    found, first = np.unique(parts, return_index=True)
-    for place in np.sort(first[found > 0]).tolist():
+        connected = ndimage.label(labels == kind)[0]
+        parts = np.where(connected > 0, connected + parts.max(), parts)
+    numbers, first = np.unique(parts, return_index=True)
+    for place in np.sort(first[numbers > 0]).tolist():
         yield int(labels.flat[place]), parts == parts.flat[place]
 
 

@@ -36,17 +36,17 @@ def slabs(arcs: Sequence[Arc], column: np.ndarray, labels: np.ndarray) -> list[S
     """
     ends = np.unique(np.concatenate([[0.0, 1.0], *([arc.points[[0, -1], 0] for arc in arcs])]))
     ends = ends[np.concatenate([[True], np.diff(ends) > 1e-12])]
-    found = []
+    result = []
     for low, high in pairwise(ends.tolist()):
         middle = 0.5 * (low + high)
-        own = [arc for arc in arcs if arc.points[0, 0] <= middle <= arc.points[-1, 0]]
-        own.sort(key=lambda arc: float(np.interp(middle, arc.points[:, 0], arc.points[:, 1])))
-        if own:
-            between = [own[0].right, *(arc.left for arc in own)]
+        crossing = [arc for arc in arcs if arc.points[0, 0] <= middle <= arc.points[-1, 0]]
+        crossing.sort(key=lambda arc: float(np.interp(middle, arc.points[:, 0], arc.points[:, 1])))
+        if crossing:
+            between = [crossing[0].right, *(arc.left for arc in crossing)]
         else:
             between = [int(labels[int(np.argmin(np.abs(column - middle)))])]
-        found.append(Slab(low, high, tuple(own), tuple(between)))
-    return found
+        result.append(Slab(low, high, tuple(crossing), tuple(between)))
+    return result
 
 
 def labelled(parts: Sequence[Slab], points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -54,25 +54,25 @@ def labelled(parts: Sequence[Slab], points: np.ndarray) -> tuple[np.ndarray, np.
     labels, distance = np.full(points.shape[0], UNKNOWN), np.full(points.shape[0], np.inf)
     which = np.searchsorted([part.high for part in parts], points[:, 0]).clip(0, len(parts) - 1)
     for k, part in enumerate(parts):
-        own = np.flatnonzero(which == k)
-        if not own.size:
+        inside = np.flatnonzero(which == k)
+        if not inside.size:
             continue
-        x, y = points[own, 0], points[own, 1]
+        x, y = points[inside, 0], points[inside, 1]
         heights = np.array([np.interp(x, arc.points[:, 0], arc.points[:, 1]) for arc in part.arcs])
-        below = (heights < y).sum(axis=0) if part.arcs else np.zeros(own.size, dtype=int)
-        labels[own] = np.array(part.labels)[below]
+        below = (heights < y).sum(axis=0) if part.arcs else np.zeros(inside.size, dtype=int)
+        labels[inside] = np.array(part.labels)[below]
         if part.arcs:
-            distance[own] = np.abs(heights - y).min(axis=0)
+            distance[inside] = np.abs(heights - y).min(axis=0)
     return labels, distance
 
 
 def apart(arcs: Sequence[Arc], points: np.ndarray) -> np.ndarray:
     """Distances in the window from points to the nearest curve."""
-    found = np.full(points.shape[0], np.inf)
+    distance = np.full(points.shape[0], np.inf)
     for arc in arcs:
         one, way = arc.points[:-1], np.diff(arc.points, axis=0)
         square = np.maximum((way**2).sum(axis=1), 1e-300)
         for k, point in enumerate(points):
             part = np.clip(((point - one) * way).sum(axis=1) / square, 0, 1)
-            found[k] = min(found[k], float(np.min(np.linalg.norm(one + part[:, None] * way - point, axis=1))))
-    return found
+            distance[k] = min(distance[k], float(np.min(np.linalg.norm(one + part[:, None] * way - point, axis=1))))
+    return distance

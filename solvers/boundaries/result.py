@@ -71,11 +71,11 @@ class Lines:
 
     def change_dict(self, change: Change, angle: float) -> dict[str, Any]:
         """A change on the line of an angle (rad) as in the JSON objects: with its speeds, of boundaries of a scene."""
-        found = change.to_dict() | {"angle": angle}
+        result = change.to_dict() | {"angle": angle}
         if self.scene is None:
-            return found
+            return result
         speed = self.scene.speed_of(change.stokes)
-        return found | {"speed": speed, "relative_speed": speed / math.cos(angle)}
+        return result | {"speed": speed, "relative_speed": speed / math.cos(angle)}
 
     @property
     def range_text(self) -> str:
@@ -88,11 +88,11 @@ class Lines:
 
     @property
     def _scale_varies(self) -> bool:
-        """Whether a Stokes number means another speed from line to line."""
+        """True if the speed of a Stokes number differs from line to line."""
         return False
 
     def origin(self, **units: str) -> dict[str, Any]:
-        """What the JSON objects say of where their numbers come from; `units` by key, beside those of changes."""
+        """Provenance for the JSON objects; `units` by key, in addition to those of changes."""
         known = {} if self.scene is None else origin(self.scene)
         always = {"stokes": "1", "centrifugal": "1", "speed": "m/s", "relative_speed": "m/s", "angle": "rad"}
         return {"rtol": self.rtol, "searched": list(self.window), "units": {**units, **always}} | known
@@ -112,10 +112,10 @@ class Lines:
         points = sum(len(changes) for changes in self.changes)
         merged = sum(one.merged for line in self.changes for one in line)
         lines += [f"{merged} of the changes stand for several closer than {MERGED:g}"] if merged else []
-        found = f"{points} change{'s' * (points != 1)} from " + (
+        text = f"{points} change{'s' * (points != 1)} from " + (
             f"{self.collisions} collisions" if self.collisions else "proofs at initial contact, without a collision"
         )
-        lines.append(f"{found} for {self.range_text}; strips narrower than {self.resolution:.1%} in St may be missed")
+        lines.append(f"{text} for {self.range_text}; strips narrower than {self.resolution:.1%} in St may be missed")
         return "\n".join(lines)
 
     def to_dataset(self) -> xarray.Dataset:
@@ -177,7 +177,7 @@ class Lines:
 
     @property
     def speed_heading(self) -> str:
-        """Which speed `speed_at` gives."""
+        """Name of the speed that `speed_at` returns."""
         return "rel. speed (m/s)" if self._relative else "normal speed (m/s)"
 
     def speed_at(self, stokes: float, angle: float) -> float:
@@ -258,14 +258,14 @@ class Curves(Lines):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --angle LO:HI --json`."""
-        found = {
+        result = {
             "curves": [one.to_dict() | self._speeds(one.x, one.stokes) for one in self.curves],
             "points": [one.to_dict() | self._speeds(one.x, one.stokes) for one in self.points],
             "resolution": self.sought,
         }
         if self.unsettled:
-            found["unsettled"] = [{"x": x, "stokes": stokes, "reason": why} for x, stokes, why in self.unsettled]
-        return found | self.origin(x=(self.scene.fields if self.scene else FIELDS)[self.over].unit or "1")
+            result["unsettled"] = [{"x": x, "stokes": stokes, "reason": why} for x, stokes, why in self.unsettled]
+        return result | self.origin(x=(self.scene.fields if self.scene else FIELDS)[self.over].unit or "1")
 
     def _speeds(self, x: Any, stokes: Any) -> dict[str, Any]:
         """Normal and relative speeds (m/s) of points of the plane, for JSON; empty without a scene."""
@@ -304,9 +304,9 @@ class Curves(Lines):
         """
         x, stokes = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(stokes, dtype=float))
         inside = (x >= self.span[0]) & (x <= self.span[1]) & (stokes >= self.window[0]) & (stokes <= self.window[1])
-        found = np.full(x.shape, -1, dtype=np.int8)
-        found[inside] = labelled(self.slabs(), self.unit(x[inside], stokes[inside]))[0]
-        return found
+        outcomes = np.full(x.shape, -1, dtype=np.int8)
+        outcomes[inside] = labelled(self.slabs(), self.unit(x[inside], stokes[inside]))[0]
+        return outcomes
 
     def unit(self, x: Any, stokes: Any) -> np.ndarray:
         """Points of the unit square, n x 2, for values of x and Stokes numbers."""
@@ -321,7 +321,7 @@ class Curves(Lines):
             for one in self.curves
         ]
         parts = slabs(arcs, np.array([0.5]), np.array([OUTCOMES.index(self.background)]))
-        for order in (1, -1):  # where all curves have ended, the region goes on that none of them has cut off
+        for order in (1, -1):  # beyond the last curve only the region goes on that no curve has closed
             for before, k in pairwise(range(len(parts))[::order]):
                 if parts[before].arcs and not parts[k].arcs:
                     below = sum(arc.points[-1 if order > 0 else 0, 1] < _EDGE for arc in parts[before].arcs)
@@ -342,17 +342,17 @@ class Curves(Lines):
         lines += [f"not settled at {shown(x):.6g}, St {stokes:.6g}: {why}" for x, stokes, why in self.unsettled]
         sought, spacing = self.sought, self.sought["line_spacing"]
         assert isinstance(spacing, float)
-        told = (
+        text = (
             f"{self.range_text}; from {len(self.at)} lines, {shown(spacing):.3g} {'deg' if angle else '(SI)'} apart, "
             f"sampled every {self.resolution:.2%} in St; "
             f"{self.collisions} collisions; straight lines between the points of a curve are within "
             f"{sought['chord_stokes']:.1e} of St, relative"
         )
         if self.lattice != LATTICE:
-            told += (
+            text += (
                 f"; without the compiled kernel, from a lattice of {self.lattice[0]} by {self.lattice[1]} collisions"
             )
-        return "\n".join([*lines, "", told])
+        return "\n".join([*lines, "", text])
 
     def to_dataset(self) -> xarray.Dataset:
         """The Dataset of the lines, with curves over (curve, vertex), points over point, and x of the lines."""

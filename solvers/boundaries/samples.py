@@ -38,8 +38,8 @@ def sampled(angles: np.ndarray, grid: np.ndarray, sampler: Sampler) -> list[np.n
         angles: angles of the lines, rad.
         grid: initial Stokes numbers, ascending.
     """
-    found = sampler(np.repeat(angles, grid.size), np.tile(grid, angles.size)).reshape(angles.size, grid.size)
-    lines = list(found)
+    samples = sampler(np.repeat(angles, grid.size), np.tile(grid, angles.size)).reshape(angles.size, grid.size)
+    lines = list(samples)
     unsettled = list(range(angles.size))
     for _ in range(_ROUNDS):
         more = {k: fresh for k in unsettled if (fresh := _between(lines[k])).size}
@@ -109,7 +109,7 @@ def _towards_zero(line: np.ndarray) -> np.ndarray:
         (line["time"], True),
         (line["reach"], True),
     )
-    found = np.zeros(line.size - 1, dtype=bool)
+    mask = np.zeros(line.size - 1, dtype=bool)
     same = line["outcome"][1:] == line["outcome"][:-1]
     for values, any_turn in margins:
         here, before, after = values[1:-1], values[:-2], values[2:]
@@ -117,6 +117,6 @@ def _towards_zero(line: np.ndarray) -> np.ndarray:
             turns = same[:-1] & same[1:] & (here > before) & (here >= after)
             rise = 2 * np.maximum(here - before, here - after)
             turns &= rise > (_NOISE * np.abs(here) if any_turn else np.abs(here))
-        found[:-1] |= turns
-        found[1:] |= turns
-    return found
+        mask[:-1] |= turns
+        mask[1:] |= turns
+    return mask

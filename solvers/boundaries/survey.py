@@ -54,11 +54,11 @@ class Survey:
             if abs(y - place[1]) < 2 * CHORD:
                 return
             # chords of a curve deviate from it
-            found = crossings(
+            points = crossings(
                 self.plane.labels, np.array([[place[0], y]]), np.array([[0.0, 1.0]]), np.array([_COVERED]),
                 np.array([below]), np.array([above]),
             )[0]  # fmt: skip
-            if abs(found[1] - place[1]) < _SAME_PLACE:
+            if abs(points[1] - place[1]) < _SAME_PLACE:
                 return
         self._start(place, below, above)
 
@@ -74,7 +74,7 @@ class Survey:
             way = at[other] - at[one]
             length = float(np.linalg.norm(way))
             centre, along = 0.5 * (at[one] + at[other]), way / length
-            found = crossings(
+            points = crossings(
                 self.plane.labels,
                 centre[None],
                 along[None],
@@ -82,8 +82,8 @@ class Survey:
                 np.array([right]),
                 np.array([left]),
             )[0]
-            if not np.isnan(found).any():
-                self._start(found, right, left)
+            if not np.isnan(points).any():
+                self._start(points, right, left)
             elif zooms:  # there is a third outcome between them
                 self._seek_between(at[one], at[other], zooms - 1)
             elif not any(np.linalg.norm(point.place - centre) < _SAME for point in self.meetings):
@@ -93,9 +93,9 @@ class Survey:
         """Follow the curve through a place in both directions."""
         for radius in (CIRCLE, CIRCLE / 10, CIRCLE / 100):
             leaving = branches(self.plane.labels, place, radius)
-            own = [branch for branch in leaving if {branch.right, branch.left} == {one, other}]
+            same = [branch for branch in leaving if {branch.right, branch.left} == {one, other}]
             edge = bool(np.any((place < radius) | (place > 1 - radius)))
-            if len(own) == len(leaving) == 2 - edge or (edge and 0 < len(leaving) == len(own) <= 2):
+            if len(same) == len(leaving) == 2 - edge or (edge and 0 < len(leaving) == len(same) <= 2):
                 break
         else:
             centre, leaving = meeting(self.plane.labels, place)
@@ -105,15 +105,15 @@ class Survey:
             else:
                 self.failures.append((place, "the curve through a change of outcome could not be followed"))
             return
-        forth = follow(self.plane.labels, place, own[0], _STEP, LONGEST)
+        forth = follow(self.plane.labels, place, same[0], _STEP, LONGEST)
         points = forth.points
         if forth.end != "closed":
-            points = self._ended(Arc(points, own[0].right, own[0].left), forth.end)
-            if len(own) > 1:
-                back = follow(self.plane.labels, place, own[1], _STEP, LONGEST, closes=False)
-                before = self._ended(Arc(back.points, own[1].right, own[1].left), back.end)
+            points = self._ended(Arc(points, same[0].right, same[0].left), forth.end)
+            if len(same) > 1:
+                back = follow(self.plane.labels, place, same[1], _STEP, LONGEST, closes=False)
+                before = self._ended(Arc(back.points, same[1].right, same[1].left), back.end)
                 points = np.vstack([before[:0:-1], points])
-        self._keep(Arc(points, own[0].right, own[0].left))
+        self._keep(Arc(points, same[0].right, same[0].left))
         self._empty()
 
     def _empty(self) -> None:
@@ -124,12 +124,12 @@ class Survey:
                 continue
             point.used.add(k)
             branch = point.leaving[k]
-            found = follow(self.plane.labels, point.place, branch, CIRCLE, LONGEST, closes=False)
-            if len(found.points) < 2 or len(self.arcs) > _MOST_CURVES:
+            curve = follow(self.plane.labels, point.place, branch, CIRCLE, LONGEST, closes=False)
+            if len(curve.points) < 2 or len(self.arcs) > _MOST_CURVES:
                 self.failures.append((point.place, "a curve that leaves this point could not be followed"))
                 continue
-            arc = Arc(found.points, branch.right, branch.left)
-            self._keep(Arc(self._ended(arc, found.end), branch.right, branch.left))
+            arc = Arc(curve.points, branch.right, branch.left)
+            self._keep(Arc(self._ended(arc, curve.end), branch.right, branch.left))
 
     def _ended(self, arc: Arc, end: str) -> np.ndarray:
         """The points of a curve, completed by the meeting point at its end."""
@@ -162,7 +162,7 @@ class Survey:
         return point
 
     def _keep(self, arc: Arc) -> None:
-        """Add a curve, unless known ones cover it: what stops a curve at a corner need not stop one from beyond it."""
+        """Add a curve unless known ones cover it. A curve that was lost at a corner may be found from its other end."""
         if len(arc.points) > 1:
             [fine] = refined(self.plane, [arc])  # so that points on it are recognised
             alike = [one for one in self.arcs if {one.right, one.left} == {arc.right, arc.left}]
@@ -188,11 +188,11 @@ class Survey:
 
 def passes(points: np.ndarray, axis: int, value: float) -> Iterator[tuple[float, float]]:
     """Crossings of a polyline with a value of one coordinate: the other coordinate, and the change of the first."""
-    own, other = points[:, axis], points[:, 1 - axis]
-    change = np.diff(own)
-    low, high = np.minimum(own[:-1], own[1:]), np.maximum(own[:-1], own[1:])
+    along, other = points[:, axis], points[:, 1 - axis]
+    change = np.diff(along)
+    low, high = np.minimum(along[:-1], along[1:]), np.maximum(along[:-1], along[1:])
     for k in np.flatnonzero((low <= value) & (value <= high) & (change != 0)).tolist():
-        part = (value - own[k]) / change[k]
+        part = (value - along[k]) / change[k]
         yield float(other[k] + part * (other[k + 1] - other[k])), float(change[k])
 
 
@@ -217,10 +217,10 @@ def surveyed(
 ) -> Survey:
     """The survey of a lattice and of changes on lines (place, label below, label above)."""
     survey = Survey(plane)
-    for column, own in zip(at, labels, strict=True):
-        survey.seek(column, own)
-    for row, own in zip(at.transpose(1, 0, 2), labels.T, strict=True):
-        survey.seek(row, own)
+    for column, line_labels in zip(at, labels, strict=True):
+        survey.seek(column, line_labels)
+    for row, line_labels in zip(at.transpose(1, 0, 2), labels.T, strict=True):
+        survey.seek(row, line_labels)
     for place, below, above in changes:
         survey.seed(place, below, above)
     return survey

@@ -17,8 +17,8 @@ from ..host.workers import lasting_workers
 from ..scene.scene import Scene
 from .changes import Change, changes_along
 from .line import Line
-from .look import Look, blank
 from .samples import first_grid, known, merged, sampled
+from .scene_sampler import SceneSampler, blank
 
 SHARPEST = 1e-13
 _TOGETHER = 32  # lines traced together
@@ -98,18 +98,18 @@ def _block(
     traced: Traced,
     kernel: bool | None,
 ) -> tuple[list[tuple[Change, ...]], list[str]]:
-    look = Look(scene, rtol, kernel)
-    grid = first_grid(span, finer * look.per_decade)
+    sampler = SceneSampler(scene, rtol, kernel)
+    grid = first_grid(span, finer * sampler.per_decade)
     changes: list[tuple[Change, ...]] = [()] * angles.size
     failures = [""] * angles.size
     lines, complete, places, widths = [], [], [], []
-    for k, samples in enumerate(sampled(angles, grid, look)):
+    for k, samples in enumerate(sampled(angles, grid, sampler)):
         angle = float(angles[k])
-        if kernel is None and look.creeping[angle] > _CREEPING * grid.size:
+        if kernel is None and sampler.creeping[angle] > _CREEPING * grid.size:
             [changes[k]], [failures[k]] = _block(scene, angles[k : k + 1], span, rtol, finer, traced, False)
             continue
         try:
-            samples, widest = _completed(samples, grid, look, angle)
+            samples, widest = _completed(samples, grid, sampler, angle)
         except ComputationError as error:
             failures[k] = str(error)
             continue
@@ -117,18 +117,20 @@ def _block(
         complete.append(samples)
         places.append(k)
         widths.append(widest)
-    for k, line, width, found in zip(places, lines, widths, changes_along(lines, look, complete), strict=True):
+    for k, line, width, outcome_changes in zip(
+        places, lines, widths, changes_along(lines, sampler, complete), strict=True
+    ):
         traced.collisions += line.collisions
-        if isinstance(found, ComputationError):
-            failures[k] = str(found)
+        if isinstance(outcome_changes, ComputationError):
+            failures[k] = str(outcome_changes)
         else:
-            changes[k] = tuple(found)
+            changes[k] = tuple(outcome_changes)
             traced.resolution = max(traced.resolution, width)
-    traced.collisions += look.collisions
+    traced.collisions += sampler.collisions
     return changes, failures
 
 
-def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) -> tuple[np.ndarray, float]:
+def _completed(samples: np.ndarray, grid: np.ndarray, sampler: SceneSampler, angle: float) -> tuple[np.ndarray, float]:
     """Samples of a line and their widest relative spacing; some missing ones are computed again with a larger budget.
 
     Raises:
@@ -141,14 +143,14 @@ def _completed(samples: np.ndarray, grid: np.ndarray, look: Look, angle: float) 
     missing = missing[at[place] - at[place - 1] > _ROUNDED * spacing]
     if missing.size:
         some = missing[np.unique(np.linspace(0, missing.size - 1, _SLOW).astype(int))]
-        found = blank(some)
-        found["outcome"] = look.outcomes(np.full(some.size, angle), some)["outcome"]
-        samples = merged(samples, found)
+        recomputed = blank(some)
+        recomputed["outcome"] = sampler.outcomes(np.full(some.size, angle), some)["outcome"]
+        samples = merged(samples, recomputed)
         at = _spaced(samples, grid)
     widest = int(np.argmax(np.diff(at)))
     low, high = float(np.exp(at[widest])), float(np.exp(at[widest + 1]))
     if high > low * math.exp(_HOLE * spacing):
-        reason = look.reason(angle, low, high)
+        reason = sampler.reason(angle, low, high)
         raise ComputationError(f"collisions between St {low:.4g} and {high:.4g} could not be computed: {reason}")
     return samples, high / low - 1
 

@@ -49,8 +49,8 @@ class EnergyBesideEvents(EnergyCertificate):
     def energy(self, y: np.ndarray) -> float:
         """Kinetic energy over m v0^2 and the potential of the attractions at this gap, as heights are counted."""
         there = y[: len(self.model.state)]
-        own = sum(self.model.values(self.model.escape, there, self.p).values())
-        return float(own + self.height(there, float(y[0])) - self._least(there, float(y[0])))
+        potential = sum(self.model.values(self.model.escape, there, self.p).values())
+        return float(potential + self.height(there, float(y[0])) - self._least(there, float(y[0])))
 
     def height(self, y: np.ndarray, gap: float) -> float:
         """The effective potential at a gap."""

@@ -36,7 +36,9 @@ def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:
 
 def _first(model: Model, p: np.ndarray, rtol: float) -> Certificate:
     """The certificate that is tried first, or alone."""
-    if model.has("pendulum_margins") and model.choice.law("arm") == "midgap" and _integrable(model):
+    laws = model.laws  # a user's may lack the functions that the bounds of an approach need
+    integrable = hasattr(laws.film, "stopping") and hasattr(laws.glass, "reach")
+    if model.has("pendulum_margins") and model.choice.law("arm") == "midgap" and integrable:
         return PendulumCertificate(model, p, rtol)
     turning = model.oblique and not model.wall
     if spins_down(model):
@@ -73,8 +75,3 @@ def _falling(model: Model) -> bool:
 def _momentum(model: Model) -> bool:
     """True if the film has a momentum integral, that is if its force is proportional to u."""
     return not any(str(symbol) in model.state for symbol in model.extra("film", "resistance"))
-
-
-def _integrable(model: Model) -> bool:
-    """True if the laws define `stopping` of the film and `reach` of the glass criterion (a user's may not)."""
-    return hasattr(model.laws.film, "stopping") and hasattr(model.laws.glass, "reach")

@@ -59,21 +59,21 @@ def collide(
         >>> collide("granulation", stokes=0.02, angle="75 deg").restitution > 1
         True
     """
-    rtol, asked = check_rtol(rtol), check_engine(engine)
+    rtol, requested = check_rtol(rtol), check_engine(engine)
     ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
     last = None if until is None else UNTIL.number(until)
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     v0, theta0 = loaded.need_impact()
     dimensionless = nondimensionalise(loaded, v0, theta0)
     warn(loaded)
-    if asked not in (None, "taylor"):
-        return by_casadi(loaded, dimensionless, rtol, asked, ledger, trajectory, until=last)
-    found = collision(loaded, dimensionless, rtol, ledger, trajectory)
-    if isinstance(found, Collision):
-        if last is None or found.outcome != STICK:
-            return found
-        found, steps = "the Taylor kernel does not follow a stick beyond its proof", None
+    if requested not in (None, "taylor"):
+        return by_casadi(loaded, dimensionless, rtol, requested, ledger, trajectory, until=last)
+    result = collision(loaded, dimensionless, rtol, ledger, trajectory)
+    if isinstance(result, Collision):
+        if last is None or result.outcome != STICK:
+            return result
+        result, steps = "the Taylor kernel does not follow a stick beyond its proof", None
     else:
         steps = casadi_steps(rtol, after_kernel=True)
     other = by_casadi(loaded, dimensionless, rtol, "rosenbrock", ledger, trajectory, until=last, steps=steps)
-    return replace(other, engine_reason=found)
+    return replace(other, engine_reason=result)

@@ -20,7 +20,7 @@ UNITS = {
     "angle": "rad", "until": "s", "decided": "s", "events": "s", "energy": "J", "angular_momentum_drift": "1",
     "steps": "1", "rtol": "1",
 }  # fmt: skip
-"""Units of what a collision's JSON object holds, by key; of `events` that of their times."""
+"""Units of the values in a collision's JSON object, by key; for `events`, the unit of their times."""
 
 _OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # limits of the residual: multiple of rtol, part of the largest term
 

@@ -59,7 +59,7 @@ def name_of(scene: Scene, longest: int = 32) -> str:
 
 
 def against(scene: Scene) -> str:
-    """Return what the sphere meets, for a title; nothing if it is its equal."""
+    """Return the partner in words, for a title; empty for an equal sphere."""
     if scene.partner is None:
         return ""
     return " against a wall" if scene.wall else f" against a sphere of {plain(scene.radius_ratio)} times the radius"
@@ -105,14 +105,14 @@ def is_followed_on(collision: Outcome) -> bool:
 
 
 def _is_cut_off(collision: Outcome) -> bool:
-    """Whether the experiment's own end is what ended a stick, not a proof before it."""
+    """True if a cut-off of the experiment ended a stick, and no proof before it."""
     declared = _declared(collision)
     cut = _last(collision) in CUT_OFFS or (declared is not None and declared.row.actions[-1] == "cut off")
     return cut and not is_followed_on(collision)
 
 
 def _end_of(collision: Outcome) -> str:
-    """What the state at the end of the integration is."""
+    """Words for the state at the end of the integration."""
     if collision.outcome != STICK:
         return "final"
     if is_followed_on(collision):
@@ -127,6 +127,7 @@ def _last(collision: Outcome) -> str:
 
 
 def _stuck(collision: Outcome) -> str:
+    """Why a collision counts as a stick: a cut-off, a proof, or a decision without proof."""
     last, scene = _last(collision), collision.scene
     if _is_cut_off(collision):
         declared = _declared(collision)
@@ -149,7 +150,9 @@ def table(collision: Outcome) -> str:
     """Return the short table that `wetdoublet collide` prints."""
     lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
     lines += [*_energy(collision), "", *_numerics(collision)]
-    remarks = [line for said in collision.validity for line in wrap(f"note: {said}", WIDTH, break_on_hyphens=False)]
+    remarks = [
+        line for sentence in collision.validity for line in wrap(f"note: {sentence}", WIDTH, break_on_hyphens=False)
+    ]
     return "\n".join([*lines, *_model(collision.scene), *assumed(collision.scene), *remarks])
 
 
@@ -171,6 +174,7 @@ def _title(collision: Outcome) -> list[str]:
 
 
 def _outcome(collision: Outcome) -> list[str]:
+    """The lines on outcome, restitution and final state; of a stick those alone that are defined."""
     restitution = collision.restitution
     gained = "> 1: rotation has given it energy" if restitution > 1 else ""
     lines = [_line("outcome", collision.outcome), _line("", reason(collision))]
@@ -212,7 +216,7 @@ def _outcome(collision: Outcome) -> list[str]:
 
 
 def _speed_note(collision: Outcome) -> str:
-    """Which speed the approach speed is."""
+    """The note that says which speed is shown."""
     relative = collision.scene.impact.relative_speed
     whole = "" if relative is None else f" of the relative speed {plain(relative, 'm/s')}"
     return f"normal component{whole}"
@@ -232,11 +236,11 @@ def _partner(scene: Scene) -> str:
     return f"a sphere of {plain(radius)} times the radius and {plain(mass)} times the mass"
 
 
-def _spins(scene: Scene, name: str, own: float | None, partner: float | None) -> list[str]:
+def _spins(scene: Scene, name: str, spin: float | None, partner: float | None) -> list[str]:
     """The spins before or after the collision, rad/s."""
     if not (scene.pair or scene.wall):
-        return [_line(name, plain(own, "rad/s"), "xi, of each sphere")]
-    lines = [_line(name, plain(own, "rad/s"), "xi, of the sphere")]
+        return [_line(name, plain(spin, "rad/s"), "xi, of each sphere")]
+    lines = [_line(name, plain(spin, "rad/s"), "xi, of the sphere")]
     if not scene.wall:
         lines.append(_line("", plain(partner, "rad/s"), "xi, of its partner"))
     return lines
@@ -246,8 +250,8 @@ def _first_spins(scene: Scene) -> list[str]:
     """The spins before the collision, where the scene gives any."""
     if not _arrives_spinning(scene):
         return []
-    found = scene.material
-    return _spins(scene, "initial spin", found["impact_spin"], found.get("impact_partner_spin"))
+    material = scene.material
+    return _spins(scene, "initial spin", material["impact_spin"], material.get("impact_partner_spin"))
 
 
 def _arrives_spinning(scene: Scene) -> bool:

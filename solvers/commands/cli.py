@@ -23,7 +23,7 @@ COMMANDS = (
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
 
 _SAME = {"--out": ("-o",), "--output": ("-o", "--out"), "-o": ("--out",), "-p": ("--plot",), "-v": ("--version",)}
-"""An option that a command may lack -> what it may have instead."""
+"""An option that some commands do not have -> the options that they may have instead."""
 
 _LONGEST = 200  # most characters of the user's input repeated in a message
 BROKEN_PIPE = 141  # as a shell reports SIGINT: 128 + 2

@@ -142,7 +142,7 @@ def _band(
 
 
 def _plain(value: Any) -> Any:
-    """What JSON can hold: null for what is not a number."""
+    """A value as JSON can hold it: null in place of NaN and infinities."""
     if isinstance(value, dict):
         return {str(name): _plain(each) for name, each in value.items()}
     if isinstance(value, (list, tuple)):

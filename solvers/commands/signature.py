@@ -36,8 +36,8 @@ class Option:
         """The parameter of click."""
         if self.flag[0] != "-":  # not required by click, so that a wrong option is reported before a missing argument
             return click.Argument([name], metavar=self.flag, **{"required": False, **self.settings})
-        look: dict[str, Any] = {"metavar": self.metavar} if self.metavar else {"is_flag": True}
-        return click.Option([self.flag, name], help=self.help, **look, **self.settings)
+        form: dict[str, Any] = {"metavar": self.metavar} if self.metavar else {"is_flag": True}
+        return click.Option([self.flag, name], help=self.help, **form, **self.settings)
 
 
 @dataclass(frozen=True)

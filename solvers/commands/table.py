@@ -1,4 +1,4 @@
-"""`wetdoublet table`: a collision law as a table whose error was looked for."""
+"""`wetdoublet table`: a collision law as a table with a tested error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What texts of the command line mean: lists, assignments, numbers, and ranges with units and angles in degrees.
+"""Texts of the command line as values: lists, assignments, numbers, and ranges with units and angles in degrees.
 
 An InputError without a field is about the option that is read.
 """
@@ -107,7 +107,7 @@ def _measured(entry: Field, ends: Sequence[str]) -> bool:
 
 
 def entry_ends(entry: Field, label: str) -> Ends:
-    """What reads both ends of a range of an entry (SI): an end without a unit has that of the other."""
+    """Function that reads both ends of a range of an entry (SI): an end without a unit has that of the other."""
 
     def read(low: str, high: str) -> tuple[float, float]:
         bare = [units.is_number(end) for end in (low, high)]

@@ -44,15 +44,15 @@ def _software() -> Mapping[str, str]:
     }
 
 
-def has_kernel(given: Mapping[str, str]) -> bool:
+def has_kernel(description: Mapping[str, str]) -> bool:
     """True if a process of this arithmetic can compile the Taylor kernel."""
-    return given["compiler"] != _NONE
+    return description["compiler"] != _NONE
 
 
-def difference(own: Mapping[str, str], other: Mapping[str, str]) -> str:
+def difference(first: Mapping[str, str], other: Mapping[str, str]) -> str:
     """How the first of two processes differs from the second, in words; "" if not."""
     for name in other:
-        mine, theirs = own.get(name, _NONE), other[name]
+        mine, theirs = first.get(name, _NONE), other[name]
         if mine != theirs:
             if name == "processor":
                 lacks, has = (

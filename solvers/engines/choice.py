@@ -22,9 +22,9 @@ def collision_engine(scene: Scene, requested: str | None = None) -> str:
     return _kernel_or_rosenbrock(supported(scene))
 
 
-def casadi_gradient_engine(asked: str | None = None) -> str:
+def casadi_gradient_engine(requested: str | None = None) -> str:
     """The engine for derivatives by CasADi; Rosenbrock's are about a hundred times more accurate at one tolerance."""
-    return asked or "rosenbrock"
+    return requested or "rosenbrock"
 
 
 def gradient_engine(scene: Scene, of: Sequence[str], known: Collection[str], oblique: Collection[bool]) -> str:

@@ -1,6 +1,7 @@
 """Numerical settings of a run: relative tolerance, engine and step budget."""
 
-from ..errors import InputError, did_you_mean
+from ..errors import InputError
+from ..host.arguments import check_name
 from ..scene.schema import Field, Range
 
 CASADI_ENGINES = ("cvodes", "rosenbrock")  # plugins of CasADi's `integrator`
@@ -36,16 +37,12 @@ def check_rtol(rtol: object, label: str = "rtol") -> float:
 
 def check_engine(engine: object, label: str = "engine") -> str | None:
     """Return the engine, None for the default; InputError naming `label` if it is unknown."""
-    if engine is None:
-        return None
-    if not isinstance(engine, str) or engine not in ENGINES:
-        raise InputError(label, engine, ", ".join(ENGINES), "is not known" + did_you_mean(engine, ENGINES))
-    return engine
+    return None if engine is None else check_name(engine, ENGINES, label)
 
 
 def check_plugin(engine: object, label: str = "engine") -> str | None:
     """Return the engine as `check_engine` does, only for engines that CasADi can differentiate."""
-    found = check_engine(engine, label)
-    if found is not None and found not in CASADI_ENGINES:
-        raise InputError(label, found, ", ".join(CASADI_ENGINES), "has no derivatives of this kind")
-    return found
+    plugin = check_engine(engine, label)
+    if plugin is not None and plugin not in CASADI_ENGINES:
+        raise InputError(label, plugin, ", ".join(CASADI_ENGINES), "has no derivatives of this kind")
+    return plugin

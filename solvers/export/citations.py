@@ -41,17 +41,19 @@ def citations(scene: Scene) -> tuple[Citation, ...]:
 
     Without an impact angle the collision is taken to be oblique.
     """
-    found: dict[str, list[str]] = {}
+    uses_of: dict[str, list[str]] = {}
     for use, name in _uses(scene):
         for key in CITED.get(name, ()):
-            found.setdefault(key, []).append(use)
-    listed = [Citation(key, tuple(uses), _entry(key, REFERENCES[key]), REFERENCES[key]) for key, uses in found.items()]
+            uses_of.setdefault(key, []).append(use)
+    listed = [
+        Citation(key, tuple(uses), _entry(key, REFERENCES[key]), REFERENCES[key]) for key, uses in uses_of.items()
+    ]
     return (*listed, *_own(scene))
 
 
-def as_bibtex(found: tuple[Citation, ...]) -> str:
+def as_bibtex(entries: tuple[Citation, ...]) -> str:
     """The entries, each below a comment that says what it stands for."""
-    return "\n\n".join(f"% {', '.join(each.uses)}\n{each.bibtex}" for each in found)
+    return "\n\n".join(f"% {', '.join(each.uses)}\n{each.bibtex}" for each in entries)
 
 
 def _oblique(scene: Scene) -> bool:
@@ -59,7 +61,7 @@ def _oblique(scene: Scene) -> bool:
 
 
 def _uses(scene: Scene) -> Iterator[tuple[str, str]]:
-    """What the scene uses in words, and its name in the table of what is published."""
+    """What the scene uses, in words, and its key in the table of publications."""
     choice = select_model(scene, _oblique(scene), full=True, fold=True)
     yield "equations", "paper"
     for slot, law in choice.laws:

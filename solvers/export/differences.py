@@ -73,16 +73,16 @@ def differences(one: str, other: str, probe: str = "granulation", changes: dict[
 
     sides = _sides(one, other, probe, changes or {})
     try:
-        found = compare(*(equations(side.modules) for side in sides))
+        equation_changes = compare(*(equations(side.modules) for side in sides))
     except ReadError as error:
         raise InputError(
             "diff", None, "folders as `wetdoublet generate` emits them", f"cannot be read: {error}"
         ) from None
     scenes = [side.scene for side in sides if side.scene is not None]
     if len(scenes) < 2:
-        return Differences((sides[0].name, sides[1].name), found, (), ())
+        return Differences((sides[0].name, sides[1].name), equation_changes, (), ())
     lines = tuple(tuple(_line(scene)) for scene in scenes)
-    return Differences((sides[0].name, sides[1].name), found, tuple(_probes(scenes)), lines)
+    return Differences((sides[0].name, sides[1].name), equation_changes, tuple(_probes(scenes)), lines)
 
 
 def _sides(one: str, other: str, probe: str, changes: dict[str, str]) -> tuple[Side, Side]:
@@ -113,12 +113,12 @@ def _scene(source: str, probe: str, label: str) -> Scene:
 def _modules(scene: Scene) -> dict[str, str]:
     """Emitted texts of the structure and laws of a scene's oblique collisions."""
     choice = select_model(scene, oblique=True, full=True)
-    found = {"": _structure(choice)}
+    texts = {"": _structure(choice)}
     for slot, name in choice.laws:
-        found[slot] = _law(choice.package, slot, name)
+        texts[slot] = _law(choice.package, slot, name)
     if choice.package is not None and choice.package.manifest["scaling"]:
-        found["scaling"] = choice.package.text_of("scaling.py")
-    return found
+        texts["scaling"] = choice.package.text_of("scaling.py")
+    return texts
 
 
 def _structure(choice: ModelKey) -> str:
@@ -149,13 +149,13 @@ def _folder(path: str) -> dict[str, str]:
 
 
 def _probes(scenes: Sequence[Scene]) -> list[Probe]:
-    own = scenes[0].stokes or 1.0
-    found = []
+    stokes = scenes[0].stokes or 1.0
+    probes = []
     for angle in map(math.radians, _ANGLES):
         for factor in _FACTORS:
-            pair = [_collided(scene, own * factor, angle) for scene in scenes]
-            found.append(Probe(own * factor, angle, (pair[0], pair[1])))
-    return found
+            pair = [_collided(scene, stokes * factor, angle) for scene in scenes]
+            probes.append(Probe(stokes * factor, angle, (pair[0], pair[1])))
+    return probes
 
 
 def _collided(scene: Scene, stokes: float, angle: float) -> tuple[str, float] | None:
@@ -167,5 +167,5 @@ def _collided(scene: Scene, stokes: float, angle: float) -> tuple[str, float] | 
 
 
 def _line(scene: Scene) -> list[tuple[str, float, float | None]]:
-    found = boundary(scene, angle=_LINE)
-    return [(f"{one.before} -> {one.after}", one.stokes, one.centrifugal) for one in found.changes[0]]
+    line = boundary(scene, angle=_LINE)
+    return [(f"{one.before} -> {one.after}", one.stokes, one.centrifugal) for one in line.changes[0]]

@@ -19,18 +19,13 @@ def texts(scene: Scene) -> dict[str, str]:
     """Texts of NAME.tex and NAME.md of a scene's model."""
     from ...derive.emit.document.document import document
 
-    laws = chosen_laws(scene)
+    laws = dict(select_model(scene, oblique=True, full=True).laws)
     parts = (("bridge", scene.bridge), ("strings", scene.pendulum), ("glass", scene.liquid.glass_transition_pressure))
     lacking = [slot for slot, there in parts if there is None]
     title = f"Oblique collisions of wet particles: {name_of(scene)}"
-    made = document(title, laws, user_model(scene.package), lacking, scene.particles.friction is not None)
+    rendered = document(title, laws, user_model(scene.package), lacking, scene.particles.friction is not None)
     name = file_name(scene)
-    return {f"{name}.tex": made.tex(), f"{name}.md": made.markdown()}
-
-
-def chosen_laws(scene: Scene) -> dict[str, str]:
-    """Slot -> law for an oblique collision of the scene."""
-    return dict(select_model(scene, oblique=True, full=True).laws)
+    return {f"{name}.tex": rendered.tex(), f"{name}.md": rendered.markdown()}
 
 
 def user_model(package: Package | None) -> UserModel | None:

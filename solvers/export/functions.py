@@ -19,30 +19,30 @@ def texts(scene: Scene) -> dict[str, str]:
     """Texts of NAME.c and NAME.h: every function of the smallest full structure of the scene, in all regions."""
     oblique = scene.angle is None or scene.turns(scene.angle)
     model, name = load(select_model(scene, oblique, full=True)), file_name(scene)
-    found = functions(model, name)
+    written = functions(model, name)
     generator = CodeGenerator(f"{name}.c", {"with_header": False, "casadi_int": "long long int"})
-    for function in found:
+    for function in written:
         generator.add(function)
     values = None
     if scene.speed is not None and scene.angle is not None:
         values = nondimensionalise(scene, scene.speed, scene.angle)
     return {
         f"{name}.c": _comment(scene, model, values) + generator.dump(),
-        f"{name}.h": _header(scene, name, model, found, values),
+        f"{name}.h": _header(scene, name, model, written, values),
     }
 
 
 def functions(model: Model, prefix: str) -> list[Function]:
     """The model's functions (state, groups, further scalars) -> column; one per region for those that depend on it."""
-    found: dict[str, Function] = {}
+    result: dict[str, Function] = {}
     for suffix, film, shear in _REGIONS if model.oblique else _REGIONS[:2]:
         for name, function in casadi_functions(model.structure, model.laws, film, shear).items():
             regional = name in (*model.structure.REGIONAL, "jacobian", "event_rates")
             if not suffix or regional:
                 full = f"{prefix}_{name}{suffix}"
                 inputs = function.sx_in()
-                found[full] = Function(full, inputs, [function(*inputs)], function.name_in(), [full])
-    return list(found.values())
+                result[full] = Function(full, inputs, [function(*inputs)], function.name_in(), [full])
+    return list(result.values())
 
 
 def _comment(scene: Scene, model: Model, values: DimensionlessGroups | None) -> str:
@@ -65,7 +65,7 @@ def _comment(scene: Scene, model: Model, values: DimensionlessGroups | None) -> 
     return f"/*\n{inside}\n */\n"
 
 
-def _header(scene: Scene, name: str, model: Model, found: list[Function], values: DimensionlessGroups | None) -> str:
+def _header(scene: Scene, name: str, model: Model, written: list[Function], values: DimensionlessGroups | None) -> str:
     guard = f"WETDOUBLET_{name.upper()}_H"
     lines = [_comment(scene, model, values), f"#ifndef {guard}", f"#define {guard}", ""]
     lines += ["#ifdef __cplusplus", 'extern "C" {', "#endif", ""]
@@ -77,10 +77,10 @@ def _header(scene: Scene, name: str, model: Model, found: list[Function], values
     if values is not None:
         numbers_ = ", ".join(f"{values.groups[group]!r}" for group in model.groups)
         lines += [f"static const double {name}_groups[{len(model.groups)}] = {{{numbers_}}};", ""]
-    for function in found:
+    for function in written:
         rows, columns = function.size_out(0)
         shape = f"{rows}" if columns == 1 else f"{rows} x {columns}, column by column"
-        more = [f"arg[{k}] = {given}" for k, given in enumerate(function.name_in()) if k > 1]
+        more = [f"arg[{k}] = {argument}" for k, argument in enumerate(function.name_in()) if k > 1]
         lines.append(f"/* {', '.join([f'{function.name()}: {shape}', *more])} */")
         lines.append(f"int {function.name()}(const double** arg, double** res, long long int* iw, double* w, int mem);")
         lines.append(

@@ -30,59 +30,59 @@ def typeset(expression: Any) -> str:
     return typeset(expression)
 
 
-def as_text(found: Differences) -> str:
+def as_text(differences: Differences) -> str:
     """The differences as plain text."""
-    lines = [f"A: {found.names[0]}", f"B: {found.names[1]}", ""]
-    lines += ["no equation differs"] if not found.changes else [f"{_count(found)}:"]
-    for equation, changes in groupby(found.changes, key=lambda change: change.equation):
+    lines = [f"A: {differences.names[0]}", f"B: {differences.names[1]}", ""]
+    lines += ["no equation differs"] if not differences.changes else [f"{_count(differences)}:"]
+    for equation, of_equation in groupby(differences.changes, key=lambda change: change.equation):
         lines += ["", equation]
-        for change in changes:
+        for change in of_equation:
             if change.kind == "changed":
                 lines += [f"  changed  {plain(change.before)}", f"      to   {plain(change.after)}"]
             else:
                 lines.append(f"  {change.kind:<8} {plain(_one(change))}")
-    if found.probes:
-        rows = [_HEADS, *_rows(found)]
+    if differences.probes:
+        rows = [_HEADS, *_rows(differences)]
         widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADS))]
         lines += ["", *("  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)).rstrip() for row in rows)]
-        lines += ["", *_lines(found)]
+        lines += ["", *_lines(differences)]
     return "\n".join(lines)
 
 
-def as_markdown(found: Differences) -> str:
+def as_markdown(differences: Differences) -> str:
     """The differences as Markdown, formulas between dollar signs."""
-    lines = [f"# {found.names[0]} and {found.names[1]}", "", f"{_count(found)}.", ""]
-    if found.changes:
+    lines = [f"# {differences.names[0]} and {differences.names[1]}", "", f"{_count(differences)}.", ""]
+    if differences.changes:
         lines += ["| equation | term | A | B |", "|---|---|---|---|"]
     lines += [
         f"| {change.equation} | {change.kind} | {_math(change.before)} | {_math(change.after)} |"
-        for change in found.changes
+        for change in differences.changes
     ]
-    if found.probes:
+    if differences.probes:
         lines += ["", f"| {' | '.join(_HEADS)} |", "|" + "---|" * len(_HEADS)]
-        lines += [f"| {' | '.join(row)} |" for row in _rows(found)]
-        lines += ["", *(f"* {line}" for line in _lines(found))]
+        lines += [f"| {' | '.join(row)} |" for row in _rows(differences)]
+        lines += ["", *(f"* {line}" for line in _lines(differences))]
     return "\n".join(lines)
 
 
-def as_latex(found: Differences) -> str:
+def as_latex(differences: Differences) -> str:
     """The differences as a LaTeX document."""
     body = []
-    for equation, changes in groupby(found.changes, key=lambda change: change.equation):
+    for equation, of_equation in groupby(differences.changes, key=lambda change: change.equation):
         body += [rf"\paragraph{{{_tex(equation)}}}", r"\begin{align*}"]
-        body.append(" \\\\\n".join(_aligned(change) for change in changes))
+        body.append(" \\\\\n".join(_aligned(change) for change in of_equation))
         body.append(r"\end{align*}")
-    if found.probes:
+    if differences.probes:
         body += [r"\begin{tabular}{rrlrlrr}", " & ".join(map(_tex, _HEADS)) + r" \\ \hline"]
-        body += [" & ".join(map(_tex, row)) + r" \\" for row in _rows(found)]
-        body += [r"\end{tabular}", "", *(rf"{_tex(line)}\\" for line in _lines(found))]
+        body += [" & ".join(map(_tex, row)) + r" \\" for row in _rows(differences)]
+        body += [r"\end{tabular}", "", *(rf"{_tex(line)}\\" for line in _lines(differences))]
     head = [r"\documentclass[a4paper,10pt]{article}", r"\usepackage{amsmath}", r"\usepackage[margin=2cm]{geometry}"]
-    title = rf"\section*{{{_tex(found.names[0])} and {_tex(found.names[1])}}}"
+    title = rf"\section*{{{_tex(differences.names[0])} and {_tex(differences.names[1])}}}"
     return "\n".join([*head, r"\begin{document}", title, *body, r"\end{document}"])
 
 
-def _count(found: Differences) -> str:
-    number = len({change.equation for change in found.changes})
+def _count(differences: Differences) -> str:
+    number = len({change.equation for change in differences.changes})
     return f"{number} equation{'s' if number != 1 else ''} differ{'s' if number == 1 else ''}"
 
 
@@ -100,9 +100,9 @@ def _aligned(change: Change) -> str:
     return rf"  &\text{{{change.kind}}} & {typeset(_one(change))} &"
 
 
-def _rows(found: Differences) -> list[tuple[str, ...]]:
+def _rows(differences: Differences) -> list[tuple[str, ...]]:
     rows = []
-    for probe in found.probes:
+    for probe in differences.probes:
         cells = [f"{math.degrees(probe.angle):g}", f"{probe.stokes:.4g}"]
         for result in probe.results:
             cells += ["failed", "-"] if result is None else [_SHORT[result[0]], f"{result[1]:.6g}"]
@@ -112,10 +112,10 @@ def _rows(found: Differences) -> list[tuple[str, ...]]:
     return rows
 
 
-def _lines(found: Differences) -> list[str]:
+def _lines(differences: Differences) -> list[str]:
     """Lines for the changes of outcome along 45 deg on either side."""
     rows: list[str] = []
-    sides = [{name: (stokes, ce) for name, stokes, ce in line} for line in found.boundaries]
+    sides = [{name: (stokes, ce) for name, stokes, ce in line} for line in differences.boundaries]
     for name in dict.fromkeys(name for side in sides for name in side):
         parts = []
         for label, side in zip("AB", sides):

@@ -26,7 +26,7 @@ NOT_AT_ALL = "not identifiable from these data"
 
 _TIED = 0.95  # correlation from which two identified entries are reported as a combination too
 _LEAST_POWER = 0.1  # least exponent that is worth naming, relative to the largest
-_BETTER = 10.0  # times better must a combination be known than its entries alone
+_BETTER = 10.0  # a combination is reported if it is known better than its entries by this factor
 _RANGE = 1e3  # factor to either side of the scene's value within which a positive entry is looked for
 _SPAN = {FRACTION: (0.0, 1.0), PART: (1e-6, 1.0), POISSON: (-0.999, 0.5), WETTING_ANGLE: (0.0, math.pi / 2)}
 _BISECTIONS = 40

@@ -19,7 +19,7 @@ from ..errors import InputError
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
 from .measurements import Measurements, rows_of
-from .rare import RARE, beyond_reach
+from .rare_outcomes import RARE, beyond_reach
 from .scatter import Resolution, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out

@@ -170,7 +170,7 @@ class _Table:
             raise InputError(self.header, name, accepted, "is unknown" + did_you_mean(name, (*_PLAIN, *entries)))
         if name in self.by_name:
             raise InputError(self.header, name, "each column once", "is given twice")
-        if name in entries and name.partition(".")[0] not in {own.partition(".")[0] for own, _ in self.scene.si}:
+        if name in entries and name.partition(".")[0] not in {entry.partition(".")[0] for entry, _ in self.scene.si}:
             raise InputError(self.header, name, "entries of the scene's tables", "has no table there")
 
     def _where(self, row: int, name: str) -> str:

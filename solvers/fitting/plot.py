@@ -171,7 +171,7 @@ def _results(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
 
 
 def _caveat(fit: Fit) -> str:
-    """What a picture for one value of every entry says where entries differ from impact to impact."""
+    """The note of a picture for one value of every entry, where entries differ from impact to impact."""
     names = ", ".join(fit.data.columns)
     return f",\nwith the scene's group {names}" if names else ""
 
@@ -230,11 +230,11 @@ def _residuals(axes: Axes, fit: Fit) -> None:
     axes.axhline(0, color=NOTE, linewidth=0.8)
     for name, residual in rows.residual.items():
         for code, mark in _MARKS.items():
-            those = np.isfinite(residual) & (data.outcome == code)
-            if those.any():
+            shown = np.isfinite(residual) & (data.outcome == code)
+            if shown.any():
                 outcome = LETTERS[OUTCOMES[code]] if code >= 0 else "outcome not recorded"
                 fill = EDGES[OUTCOMES[code]] if code >= 0 else INK
-                axes.plot(data.speed[those], residual[those], mark, color=INK, markerfacecolor=fill, markersize=5,
+                axes.plot(data.speed[shown], residual[shown], mark, color=INK, markerfacecolor=fill, markersize=5,
                           label=f"{outcome}, {name.replace('_', ' ')}")  # fmt: skip
     stuck = ~data.separated
     if stuck.any():

@@ -67,5 +67,5 @@ def halo(width: float = 2.4) -> withStroke:
 
 
 def plain_text(text: str) -> str:
-    """Somebody's text without meaning for mathtext."""
+    """A text from outside, escaped for mathtext."""
     return text.replace("$", r"\$")

@@ -7,24 +7,24 @@ from typing import Any
 from ..errors import InputError, did_you_mean
 
 
-def check_names(asked: object, known: Sequence[str], label: str) -> tuple[str, ...]:
+def check_names(requested: object, known: Sequence[str], label: str) -> tuple[str, ...]:
     """Return the requested names without duplicates; InputError for an unknown one, with the nearest."""
     accepted = ", ".join(known)
-    if isinstance(asked, str):
-        asked = (asked,)
-    if not isinstance(asked, Collection) or isinstance(asked, (bytes, bytearray)):
-        raise InputError(label, asked, accepted, "is not a list of names")
-    for name in asked:
+    if isinstance(requested, str):
+        requested = (requested,)
+    if not isinstance(requested, Collection) or isinstance(requested, (bytes, bytearray)):
+        raise InputError(label, requested, accepted, "is not a list of names")
+    for name in requested:
         if not isinstance(name, str) or name not in known:
             raise InputError(label, name, accepted, "is not known" + did_you_mean(name, known))
-    return tuple(dict.fromkeys(str(name) for name in asked))
+    return tuple(dict.fromkeys(str(name) for name in requested))
 
 
-def check_name(asked: object, known: Sequence[str], label: str) -> str:
+def check_name(requested: object, known: Sequence[str], label: str) -> str:
     """Return one of the known names; InputError for anything else, with the nearest."""
-    if not isinstance(asked, str) or asked not in known:
-        raise InputError(label, asked, ", ".join(known), "is not known" + did_you_mean(asked, known))
-    return asked
+    if not isinstance(requested, str) or requested not in known:
+        raise InputError(label, requested, ", ".join(known), "is not known" + did_you_mean(requested, known))
+    return requested
 
 
 def check_flag(value: object, label: str) -> bool:

@@ -12,45 +12,45 @@ from collections.abc import Iterator
 from typing import Any
 
 
-class _Heard(threading.local):
+class _Capture(threading.local):
     text: io.StringIO | None = None
 
 
-_HEARD = _Heard()
-_COUNTING = threading.Lock()
-_listeners = 0
+_CAPTURE = _Capture()
+_LOCK = threading.Lock()
+_capturing = 0
 
 
-class _Sieve:
+class _PerThreadStream:
     """A stream that stores the output of capturing threads and passes on that of the others."""
 
-    def __init__(self, through: Any) -> None:
-        self.through = through
+    def __init__(self, original: Any) -> None:
+        self.original = original
 
     def write(self, text: str) -> int:
-        stream = _HEARD.text
-        found: int = (self.through if stream is None else stream).write(text)
-        return found
+        stream = _CAPTURE.text or self.original
+        written: int = stream.write(text)
+        return written
 
     def __getattr__(self, name: str) -> Any:
-        return getattr(self.through, name)
+        return getattr(self.original, name)
 
 
 @contextlib.contextmanager
-def listening() -> Iterator[io.StringIO]:
+def captured_stderr() -> Iterator[io.StringIO]:
     """Capture the text that this thread prints on `sys.stderr`."""
-    global _listeners  # counted for the process, because sys.stderr is shared
-    before, heard = _HEARD.text, io.StringIO()
-    with _COUNTING:
-        _listeners += 1
-        if not isinstance(sys.stderr, _Sieve):
-            sys.stderr = _Sieve(sys.stderr)
-    _HEARD.text = heard
+    global _capturing  # counted for the process, because sys.stderr is shared
+    before, text = _CAPTURE.text, io.StringIO()
+    with _LOCK:
+        _capturing += 1
+        if not isinstance(sys.stderr, _PerThreadStream):
+            sys.stderr = _PerThreadStream(sys.stderr)
+    _CAPTURE.text = text
     try:
-        yield heard
+        yield text
     finally:
-        _HEARD.text = before
-        with _COUNTING:
-            _listeners -= 1
-            if not _listeners and isinstance(sys.stderr, _Sieve):
-                sys.stderr = sys.stderr.through
+        _CAPTURE.text = before
+        with _LOCK:
+            _capturing -= 1
+            if not _capturing and isinstance(sys.stderr, _PerThreadStream):
+                sys.stderr = sys.stderr.original

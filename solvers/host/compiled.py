@@ -16,16 +16,16 @@ FLAGS = (
 
 def compiled(function: Function) -> Function:
     """`function` as machine code if there is a compiler, else `function` itself. Safe with several processes."""
-    found = compiler()
-    if found is None:
+    working = compiler()
+    if working is None:
         return function
     name, source, flags = function.name(), _source(function), FLAGS + more_flags()
     try:
         content = kept(f"{name}-{key(source, flags)}.so", lambda: library(source, flags))
         return loaded(content, lambda path: external(name, path))
     except (CannotCompile, OSError, RuntimeError) as error:
-        said = " ".join(str(error).split())
-        say_once(f"{found} cannot compile {name} ({said}): it runs interpreted")
+        message = " ".join(str(error).split())
+        say_once(f"{working} cannot compile {name} ({message}): it runs interpreted")
         return function
 
 

@@ -78,10 +78,10 @@ def compiler() -> Compiler | None:
             if command in tried:
                 continue
             tried.add(command)
-            found = _accepted(command, min(limit, _TRIAL_LIMIT))
-            if isinstance(found, Compiler):
-                return found
-            wrong = found
+            accepted = _accepted(command, min(limit, _TRIAL_LIMIT))
+            if isinstance(accepted, Compiler):
+                return accepted
+            wrong = accepted
             failed += [f"{named}: {wrong}"] if named != wanted else []
         if named == wanted:
             say(f"CC={named} does not work here ({wrong}): others are tried")
@@ -98,8 +98,8 @@ def key(source: str, flags: Sequence[str], machine: str = "") -> str:
     Arguments:
         machine: description of this machine, for code compiled for its processor only.
     """
-    found = compiler()
-    content = "\0".join([source, str(found), found.version if found else "", *flags, machine])
+    working = compiler()
+    content = "\0".join([source, str(working), working.version if working else "", *flags, machine])
     return hashlib.sha256(content.encode(errors="surrogateescape")).hexdigest()[:32]
 
 
@@ -110,14 +110,14 @@ def library(source: str, flags: Sequence[str]) -> bytes:
         CannotCompile: the compilation failed; gives the reason.
         KeyboardInterrupt: the compiler was interrupted, as by Ctrl-C.
     """
-    found = compiler()
-    if found is None:
+    working = compiler()
+    if working is None:
         raise CannotCompile("there is no compiler")
     limit = _limit()
     try:
         with cache.room() as place:
             (place / "source.c").write_text(source, encoding="utf-8")
-            return _compiled(found.command, flags, place, limit)
+            return _compiled(working.command, flags, place, limit)
     except subprocess.TimeoutExpired:
         os.environ[_GIVEN_UP] = "1"
         compiler.cache_clear()
@@ -173,8 +173,8 @@ def _accepted(command: tuple[str, ...], limit: float) -> Compiler | str:
     Success is cached with the compiler's version, size and date, so that later processes skip the test.
     """
     try:
-        status, said = _run((*command, "--version"), limit)
-        version = next(iter(said.strip().splitlines()), "")
+        status, output = _run((*command, "--version"), limit)
+        version = next(iter(output.strip().splitlines()), "")
         if status or not version:
             return "it does not say its version"
         content = "\0".join([*command, version, *(_identity(word) for word in command), _TRIAL])
@@ -196,8 +196,8 @@ def _identity(word: str) -> str:
     path = shutil.which(word)
     if path is None:
         return ""
-    found = Path(path).stat()
-    return f"{os.path.realpath(path)} {found.st_size} {found.st_mtime_ns}"
+    status = Path(path).stat()
+    return f"{os.path.realpath(path)} {status.st_size} {status.st_mtime_ns}"
 
 
 def _try(command: tuple[str, ...], limit: float) -> None:
@@ -221,15 +221,15 @@ def _ran(program: bytes, place: Path, limit: float) -> tuple[int, str]:
 
 
 def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit: float) -> bytes:
-    """Path of the compiled `source.c` of a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
-    made = place / "made"
-    status, said = _run((*command, *flags, "-o", str(made), str(place / "source.c"), "-lm"), limit, place)
+    """The binary compiled from `source.c` of a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
+    binary = place / "made"
+    status, output = _run((*command, *flags, "-o", str(binary), str(place / "source.c"), "-lm"), limit, place)
     if status:
-        lines = said.strip().splitlines() or ["no message"]
+        lines = output.strip().splitlines() or ["no message"]
         raise CannotCompile(next((line for line in lines if "error" in line), lines[-1]))
-    if not made.is_file():
+    if not binary.is_file():
         raise CannotCompile("nothing came of it")
-    return made.read_bytes()
+    return binary.read_bytes()
 
 
 def _run(

@@ -29,8 +29,8 @@ DERIVING = threading.RLock()  # sympy is not thread-safe
 @cache
 def manifest() -> dict[str, Any]:
     """The library's manifest (digests of the emitted files)."""
-    found: dict[str, Any] = json.loads((_FOLDER / "manifest.json").read_bytes())
-    return found
+    content: dict[str, Any] = json.loads((_FOLDER / "manifest.json").read_bytes())
+    return content
 
 
 @cache
@@ -134,9 +134,9 @@ def _verified(path: str) -> None:
 
 def executed(name: str, source: bytes) -> ModuleType:
     """A module executed from its verified source text, without reading the file again."""
-    made = ModuleType(name)
-    exec(compile(source, f"<{name}>", "exec", dont_inherit=True), made.__dict__)
-    return made
+    result = ModuleType(name)
+    exec(compile(source, f"<{name}>", "exec", dont_inherit=True), result.__dict__)
+    return result
 
 
 @cache
@@ -144,12 +144,12 @@ def derivation() -> str:
     """Digest of the derivation's sources and of the versions of its dependencies."""
     from importlib.metadata import version
 
-    found = hashlib.sha256()
+    digest = hashlib.sha256()
     for name in ("wetdoublet", "sympy", "casadi"):
-        found.update(f"{name} {version(name)}\n".encode())
+        digest.update(f"{name} {version(name)}\n".encode())
     for path in sorted(_DERIVE.rglob("*.py")):
-        found.update(path.relative_to(_DERIVE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
-    return found.hexdigest()
+        digest.update(path.relative_to(_DERIVE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
 
 
 def derived_once(name: str, derived: Callable[[], str]) -> str:

@@ -32,7 +32,7 @@ def one_core() -> Iterator[None]:
 
 def environment() -> dict[str, Any]:
     """Machine, system and versions, as JSON."""
-    found = compiler()
+    working = compiler()
     return {
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
         "cpu": _cpu(),
@@ -40,7 +40,7 @@ def environment() -> dict[str, Any]:
         "load": list(os.getloadavg()) if hasattr(os, "getloadavg") else None,
         "system": platform.platform(),
         "python": platform.python_version(),
-        "compiler": f"{found.version}, {' '.join(FLAGS)}" if found else None,
+        "compiler": f"{working.version}, {' '.join(FLAGS)}" if working else None,
         **{name: _version(name) for name in _PACKAGES},
     }
 

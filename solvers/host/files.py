@@ -63,10 +63,10 @@ def write_all(descriptor: int, data: bytes | memoryview) -> None:
 def _replaceable(target: Path) -> bool:
     """True if a new file may be moved here: the path is free, or a regular file in a writable folder."""
     try:
-        found = target.lstat()
+        status = target.lstat()
     except FileNotFoundError:
         return True
-    return stat.S_ISREG(found.st_mode) and found.st_nlink == 1 and os.access(target.parent, os.W_OK)
+    return stat.S_ISREG(status.st_mode) and status.st_nlink == 1 and os.access(target.parent, os.W_OK)
 
 
 def _replace(target: Path, data: bytes | memoryview) -> None:

@@ -62,8 +62,8 @@ def sweep(folder: Path, prefix: str) -> None:
     with suppress(OSError):
         for path in folder.glob(f"{prefix}*"):
             with suppress(OSError, AttributeError):  # no users, or no locks, on this system
-                found = path.lstat()
-                if found.st_uid == os.getuid() and stat.S_ISDIR(found.st_mode):
+                status = path.lstat()
+                if status.st_uid == os.getuid() and stat.S_ISDIR(status.st_mode):
                     _remove_stale(path)
 
 

@@ -1,4 +1,4 @@
-"""What draws a Dataset, by what is in it: the accessor `.wetdoublet` of those that this package makes.
+"""The accessor `.wetdoublet` of this package's Datasets: it draws one by the function for its variables.
 
 The functions that draw are found by name on first use: they lie above this in the import order, and import matplotlib.
 """

@@ -22,7 +22,7 @@ def say(line: str, only_here: bool = False) -> None:
     Arguments:
         only_here: the remark concerns this process alone, so a worker writes it too.
     """
-    if (only_here or not is_silent()) and sys.stderr is not None:
+    if (only_here or _HUSHED not in os.environ) and sys.stderr is not None:
         with contextlib.suppress(OSError, ValueError):
             sys.stderr.write(f"{one_line(line)}\n")
 
@@ -48,11 +48,6 @@ def say_after(seconds: float, line: str) -> Iterator[None]:
 def say_once(line: str) -> None:
     """Write a remark unless this process has already written it."""
     say(line)
-
-
-def is_silent() -> bool:
-    """True in a worker process."""
-    return _HUSHED in os.environ
 
 
 def silence_workers() -> None:

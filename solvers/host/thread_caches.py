@@ -49,8 +49,8 @@ class OwnCache(Generic[P, T]):
         update_wrapper(self, build)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
-        found: T = self._here()(*args, **kwargs)
-        return found
+        result: T = self._here()(*args, **kwargs)
+        return result
 
     def cache_clear(self) -> None:
         """Clear this thread's cache."""
@@ -97,13 +97,13 @@ class Once(Generic[P, T]):
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
         key = (args, tuple(sorted(kwargs.items())))
-        found = self._kept.get(key, self)  # `self` marks a missing entry, as a result may be None
-        if found is self:
+        result = self._kept.get(key, self)  # `self` marks a missing entry, as a result may be None
+        if result is self:
             with self._making(key):
-                found = self._kept.get(key, self)
-                if found is self:
-                    found = self._kept[key] = self.__wrapped__(*args, **kwargs)
-        return cast("T", found)
+                result = self._kept.get(key, self)
+                if result is self:
+                    result = self._kept[key] = self.__wrapped__(*args, **kwargs)
+        return cast("T", result)
 
     def cache_clear(self) -> None:
         """Clear all results."""

@@ -59,12 +59,12 @@ def _folder(named: str | None, *_usual: str | None) -> Path:
     return user_cache_path("wetdoublet")
 
 
-def kept(name: str, made: Callable[[], bytes]) -> bytes:
+def kept(name: str, make: Callable[[], bytes]) -> bytes:
     """The content of the entry of that name; made if missing or damaged.
 
     Arguments:
         name: STEM.SUFFIX; must identify everything that the content depends on.
-        made: computes the content; its exceptions propagate.
+        make: computes the content; its exceptions propagate.
 
     Example:
         >>> kept("law-3f2a.py", lambda: b"ONE = 1")  # doctest: +SKIP
@@ -73,7 +73,7 @@ def kept(name: str, made: Callable[[], bytes]) -> bytes:
     with _BY_NAME(name):  # one thread makes the entry; others wait
         content = found(name)
         if content is None:
-            content = made()
+            content = make()
             _put(name, content)
         return content
 

@@ -82,7 +82,7 @@ class Batch:
         )
 
     def by_text(self) -> Iterator[tuple[np.ndarray, Batch | InputError]]:
-        """Which collisions have the same choices, and the batch of them; an InputError where no scene has these."""
+        """Indices of the collisions with the same choices, and their batch, or the InputError of a scene with these."""
         columns = np.array(list(self.texts.values())).T
         for row in dict.fromkeys(map(tuple, columns.tolist())):
             which = np.flatnonzero((columns == np.array(row)).all(axis=1))

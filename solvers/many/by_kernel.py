@@ -173,7 +173,7 @@ def _ledger(request: Batch, books: np.ndarray, impacts: Impacts) -> Block:
     """The ledger in J, and the drift of the angular momentum; NaN where the scene has no such term."""
     scene, others = request.scene, impacts.others
     unit = np.asarray(others.get("reduced_mass", scene.reduced_mass)) * impacts.speed**2
-    terms = {name: books[own] * unit for name, own in KERNEL_TERMS.items()}
+    terms = {name: books[column] * unit for name, column in KERNEL_TERMS.items()}
     terms |= {name: np.full(books.size, 0.0 if name == "strings" else np.nan) for name in absent_terms(scene)}
     initial, final, *spent = terms.values()
     block = {f"energy.{name}": values for name, values in terms.items()}

@@ -45,38 +45,38 @@ _REFUSALS = 3  # of one chunk, by workers of another arithmetic
 
 @dataclass(frozen=True)
 class Refused:
-    """What a worker answers that would compute other digits."""
+    """The answer of a worker that would compute other digits."""
 
     worker: str
     why: str
 
 
-def check_scheduler(given: object, label: str) -> Any:
+def check_scheduler(scheduler: object, label: str) -> Any:
     """Return a client, or the text that names a scheduler; InputError for anything else."""
-    if isinstance(given, str):
-        if given.endswith(".json"):
-            if not bounded.exists(given):  # Dask would wait for it
-                raise InputError(label, given, ACCEPTED, "is a file that does not exist")
-            if not _names_an_address(given):
-                raise InputError(label, given, ACCEPTED, "is not the file of a scheduler")
-        if _LOCAL.fullmatch(given) or _ADDRESS.fullmatch(given) or given.endswith(".json"):
-            return given
-        raise InputError(label, given, ACCEPTED, "is no address of a scheduler")
-    if not all(hasattr(given, name) for name in ("submit", "nthreads", "scheduler_info")):
-        raise InputError(label, given, f"a dask.distributed.Client, or as text {ACCEPTED}", "is no client")
-    if getattr(given, "status", "") == "closed":
-        raise InputError(label, given, "a client that is open", "is closed")
-    if getattr(given, "asynchronous", False):
-        raise InputError(label, given, "a client that is not asynchronous", "is asynchronous")
-    return given
+    if isinstance(scheduler, str):
+        if scheduler.endswith(".json"):
+            if not bounded.exists(scheduler):  # Dask would wait for it
+                raise InputError(label, scheduler, ACCEPTED, "is a file that does not exist")
+            if not _names_an_address(scheduler):
+                raise InputError(label, scheduler, ACCEPTED, "is not the file of a scheduler")
+        if _LOCAL.fullmatch(scheduler) or _ADDRESS.fullmatch(scheduler) or scheduler.endswith(".json"):
+            return scheduler
+        raise InputError(label, scheduler, ACCEPTED, "is no address of a scheduler")
+    if not all(hasattr(scheduler, name) for name in ("submit", "nthreads", "scheduler_info")):
+        raise InputError(label, scheduler, f"a dask.distributed.Client, or as text {ACCEPTED}", "is no client")
+    if getattr(scheduler, "status", "") == "closed":
+        raise InputError(label, scheduler, "a client that is open", "is closed")
+    if getattr(scheduler, "asynchronous", False):
+        raise InputError(label, scheduler, "a client that is not asynchronous", "is asynchronous")
+    return scheduler
 
 
 def _names_an_address(file: str) -> bool:
     try:
-        found = json.loads(bounded.read(Path(file), _LARGEST_FILE))
+        content = json.loads(bounded.read(Path(file), _LARGEST_FILE))
     except (OSError, ValueError, bounded.NotRead):
         return False
-    return isinstance(found, dict) and isinstance(found.get("address"), str)
+    return isinstance(content, dict) and isinstance(content.get("address"), str)
 
 
 @contextmanager
@@ -124,8 +124,8 @@ def connected(scheduler: Any, label: str = "client") -> Iterator[Client]:
             file = isinstance(checked, str) and checked.endswith(".json")
             client = opened.enter_context(Client(scheduler_file=checked) if file else Client(checked))
         except (OSError, ValueError) as error:
-            said = " ".join(str(error).split())
-            raise InputError(label, scheduler, ACCEPTED, f"is not reachable ({said[:120]})") from None
+            message = " ".join(str(error).split())
+            raise InputError(label, scheduler, ACCEPTED, f"is not reachable ({message[:120]})") from None
         yield client
 
 
@@ -168,15 +168,15 @@ def agreed(client: Client, engine: str) -> Mapping[str, str]:
             say("the scheduler has no workers yet: waiting for one")
         waits = True
         client.wait_for_workers(1)
-    workers = {address: given for address, given in answers.items() if isinstance(given, dict)}
+    workers = {address: answer for address, answer in answers.items() if isinstance(answer, dict)}
     if not workers:
         raise _translated(next(iter(answers.values())))
-    own = arithmetic()
-    chosen = own
-    if own not in workers.values():
+    ours = arithmetic()
+    chosen = ours
+    if ours not in workers.values():
         address, chosen = min(workers.items())
-        for given in workers.values():
-            if other := difference(given, chosen):
+        for answer in workers.values():
+            if other := difference(answer, chosen):
                 raise ComputationError(
                     f"workers differ: beside {address} {other}", advice="use workers of one kind, as this process is"
                 )
@@ -246,7 +246,7 @@ def _answered(task: Task, expected: Mapping[str, str]) -> Block | Refused:
 def _matching(client: Client, expected: Mapping[str, str], refused: Refused, count: int) -> list[str]:
     """The workers that may answer; ComputationError if there are none."""
     answers = client.run(arithmetic, on_error="return")
-    same = [address for address, given in answers.items() if given == dict(expected)]
+    same = [address for address, answer in answers.items() if answer == dict(expected)]
     if not same or count > _REFUSALS:
         raise ComputationError(
             f"the worker {refused.worker} would compute other digits: {refused.why}",
@@ -272,6 +272,6 @@ def _translated(error: BaseException) -> BaseException:
             f"a worker has no module {error.name}", advice="install the same version of wetdoublet where workers run"
         )
     if isinstance(error, (CancelledError, Cancelled, OSError)):  # of the connection: nothing here opens files
-        said = f" ({' '.join(str(error).split())[:120]})" if isinstance(error, OSError) else ""
-        return ComputationError(f"the connection to the scheduler is lost{said}", advice=kept)
+        message = f" ({' '.join(str(error).split())[:120]})" if isinstance(error, OSError) else ""
+        return ComputationError(f"the connection to the scheduler is lost{message}", advice=kept)
     return error

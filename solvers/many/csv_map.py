@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -28,18 +29,23 @@ def to_csv(data: xarray.Dataset) -> str:
     """
     dims, shape = data["outcome"].dims, data["outcome"].shape
     results = sorted(map(str, data.data_vars), key=lambda name: (name == "reason", name != "outcome"))
-    columns, header = [], []
+    columns: dict[str, list[Any]] = {}
     for name in (*_coordinates(data), *results):
         values = data[name].broadcast_like(data["outcome"]).transpose(*dims).values
         unit = data[name].attrs.get("units", "1")
-        header.append(name if unit == "1" else f"{name} [{unit}]")
         cells = np.broadcast_to(values, shape).ravel()
-        columns.append(_flags(cells) if name == "validity" else _cells(name, cells))
-    made = io.StringIO()
-    table = csv.writer(made, lineterminator="\n")
-    table.writerow(header)
-    table.writerows(zip(*columns, strict=True))
-    return made.getvalue()
+        label = name if unit == "1" else f"{name} [{unit}]"
+        columns[label] = _flags(cells) if name == "validity" else _words(name, cells)
+    return csv_text(columns)
+
+
+def csv_text(columns: Mapping[str, list[Any]]) -> str:
+    """Columns of cells as CSV, under their names."""
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(columns)
+    table.writerows(zip(*columns.values(), strict=True))
+    return text.getvalue()
 
 
 def write_csv(data: xarray.Dataset, path: str | Path) -> None:
@@ -59,9 +65,12 @@ def _flags(values: np.ndarray) -> list[str]:
     return [words[code] for code in values.tolist()]
 
 
-def _cells(name: str, values: np.ndarray) -> list[Any]:
-    if name in _WORDS:
-        return [_WORDS[name].get(int(code), "") for code in values]
+def _words(name: str, values: np.ndarray) -> list[Any]:
+    return [_WORDS[name].get(int(code), "") for code in values] if name in _WORDS else cells_of(values)
+
+
+def cells_of(values: np.ndarray) -> list[Any]:
+    """Values as cells: numbers that round-trip, empty for NaN; text on one line."""
     if values.dtype.kind == "b":
         return ["true" if value else "false" for value in values.tolist()]
     if values.dtype.kind == "f":

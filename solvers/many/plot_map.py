@@ -206,13 +206,13 @@ def _outcomes(axes: Axes, data: xarray.Dataset) -> None:
     axes.pcolormesh(*edges, shown, cmap=colours, vmin=-0.5, vmax=2.5, rasterized=True)
     for k, name in enumerate(OUTCOMES):
         if HATCHES[name]:
-            look = {"facecolor": "none", "edgecolor": EDGES[name], "hatch": HATCHES[name], "linewidth": 0}
-            _hatch(axes, edges, outcome == k, f"cells of {name}", look)
+            style = {"facecolor": "none", "edgecolor": EDGES[name], "hatch": HATCHES[name], "linewidth": 0}
+            _hatch(axes, edges, outcome == k, f"cells of {name}", style)
     if VALIDITY in data:
         _hatch(axes, edges, _upright(data, VALIDITY) != 0, "cells outside the range", _OUTSIDE)
 
 
-def _hatch(axes: Axes, edges: tuple[np.ndarray, np.ndarray], cells: np.ndarray, name: str, look: Any) -> None:
+def _hatch(axes: Axes, edges: tuple[np.ndarray, np.ndarray], cells: np.ndarray, name: str, style: Any) -> None:
     """Hatch cells, as one patch: a rectangle for each run of a column."""
     across, up = edges
     rectangles = []
@@ -222,7 +222,7 @@ def _hatch(axes: Axes, edges: tuple[np.ndarray, np.ndarray], cells: np.ndarray, 
             x, y = across[column : column + 2], (up[low], up[high])
             rectangles.append(Path([(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1]), (x[0], y[0])], closed=True))
     if rectangles:
-        hatched = PathPatch(Path.make_compound_path(*rectangles), zorder=1.5, **look)
+        hatched = PathPatch(Path.make_compound_path(*rectangles), zorder=1.5, **style)
         hatched.set_gid(name)
         axes.add_patch(hatched)
 
@@ -253,8 +253,8 @@ def _letters(axes: Axes, data: xarray.Dataset) -> None:
         if depth.max() < 3:  # too small for a label
             continue
         row, column = np.unravel_index(np.argmax(depth), outcome.shape)
-        look: Any = {"ha": "center", "va": "center", "color": INK, "fontsize": 12, "zorder": 6}
-        axes.annotate(LETTERS[name], (angles[column], values[row]), path_effects=[halo(4)], **look)
+        style: Any = {"ha": "center", "va": "center", "color": INK, "fontsize": 12, "zorder": 6}
+        axes.annotate(LETTERS[name], (angles[column], values[row]), path_effects=[halo(4)], **style)
 
 
 def draw_contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float]) -> None:
@@ -294,8 +294,8 @@ def _label(axes: Axes, text: str, pieces: Sequence[np.ndarray], taken: list[np.n
         clear = all(np.hypot(*(place - other)) > _NEAREST for other in taken)
         if clear and (place > _MARGIN).all() and (place < 1 - _MARGIN).all():
             taken.append(place)
-            look: Any = {"ha": "center", "va": "center", "fontsize": 8, "color": INK, "path_effects": [halo(3)]}
-            axes.text(float(place[0]), float(place[1]), text, transform=axes.transAxes, zorder=5, **look)
+            style: Any = {"ha": "center", "va": "center", "fontsize": 8, "color": INK, "path_effects": [halo(3)]}
+            axes.text(float(place[0]), float(place[1]), text, transform=axes.transAxes, zorder=5, **style)
             return
 
 

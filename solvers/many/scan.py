@@ -75,20 +75,20 @@ class Scan:
     def part(self, at: Place) -> Scan:
         """A block of the scan."""
         columns = {
-            name: (own, values[tuple(at[self.dims.index(dim)] for dim in own)])
-            for name, (own, values) in self.columns.items()
+            name: (column_dims, values[tuple(at[self.dims.index(dim)] for dim in column_dims)])
+            for name, (column_dims, values) in self.columns.items()
         }
         return replace(self, shape=tuple(one.stop - one.start for one in at), columns=columns, beside=None)
 
     def batch(self) -> Batch:
         """All collisions, in one dimension."""
         columns = {}
-        for name, (own, values) in self.columns.items():
-            if own == self.dims:
+        for name, (column_dims, values) in self.columns.items():
+            if column_dims == self.dims:
                 columns[name] = values.ravel()
                 continue
-            full = values.transpose([own.index(dim) for dim in self.dims if dim in own])
-            full = full.reshape([n if dim in own else 1 for dim, n in zip(self.dims, self.shape, strict=True)])
+            full = values.transpose([column_dims.index(dim) for dim in self.dims if dim in column_dims])
+            full = full.reshape([n if dim in column_dims else 1 for dim, n in zip(self.dims, self.shape, strict=True)])
             columns[name] = np.broadcast_to(full, self.shape).ravel()
         engine = self.engines.get((), "rosenbrock")
         return batch(self.scene, columns, self.rtol, engine, self.of, self.engines)
@@ -102,7 +102,7 @@ class Scan:
             warn(self.scene)
             self.engines[()] = collision_engine(self.scene, self.engine)
             return
-        varied = {dim for name, (own, _) in self.columns.items() if name not in MEETING for dim in own}
+        varied = {dim for name, (column_dims, _) in self.columns.items() if name not in MEETING for dim in column_dims}
         lengths = zip(self.dims, self.shape, strict=True)
         scenes = self.part(tuple(slice(0, size if dim in varied else min(size, 1)) for dim, size in lengths)).batch()
         errors = []
@@ -179,7 +179,9 @@ class Scan:
 
     def identity(self) -> dict[str, Any]:
         """Everything that the results depend on, as JSON values."""
-        columns = {name: [list(map(str, own)), _digest(values)] for name, (own, values) in self.columns.items()}
+        columns = {
+            name: [list(map(str, column_dims)), _digest(values)] for name, (column_dims, values) in self.columns.items()
+        }
         return {
             "scene": self.scene.si,
             "volume": self.scene.ways.volume,
@@ -225,8 +227,8 @@ def laid_out(
         size = next(iter(columns.values())).size
         return ("collision",), (size,), {name: (("collision",), values) for name, values in columns.items()}, None
     sizes: dict[Hashable, int] = {}
-    for name, own in dims_of.items():
-        for dim, size in zip(own, arrays[name].shape, strict=True):
+    for name, column_dims in dims_of.items():
+        for dim, size in zip(column_dims, arrays[name].shape, strict=True):
             if sizes.setdefault(dim, size) != size:
                 raise InputError(name, f"{size} values", f"{sizes[dim]} values along {dim}", "differs in length")
     if not sizes:
@@ -253,9 +255,9 @@ def _check_names(dims: Dims, dims_of: Mapping[str, Dims]) -> None:
     for dim in dims:
         if dim in RESULTS:
             raise InputError("dims", dim, "dimensions that are not named as a result", "is the name of a result")
-    for name, own in dims_of.items():
+    for name, column_dims in dims_of.items():
         label = name.removeprefix("impact.")
-        if label in dims and own != (label,):
+        if label in dims and column_dims != (label,):
             problem = f"is the name of a dimension, along which {name} does not lie alone"
             raise InputError("dims", label, "a dimension of another name", problem)
 

@@ -46,10 +46,10 @@ def check_store(path: object, label: str) -> Path:
 
 def _is_ours(folder: Path) -> bool:
     try:
-        said = json.loads(bounded.read(folder / _META, _LARGEST_META))["attributes"]
+        attributes = json.loads(bounded.read(folder / _META, _LARGEST_META))["attributes"]
     except (OSError, ValueError, KeyError, TypeError, bounded.NotRead):
         return False
-    return {"scene", "rtol", "engine"} <= {*said}
+    return {"scene", "rtol", "engine"} <= {*attributes}
 
 
 def opened(path: Path) -> xarray.Dataset:

@@ -1,4 +1,4 @@
-"""Scans computed: here or on a cluster, into memory or chunk by chunk into a Zarr store, and continued later."""
+"""Computation of scans: here or on a cluster, into memory or chunk by chunk into a Zarr store, resumable."""
 
 from __future__ import annotations
 

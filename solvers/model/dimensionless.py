@@ -57,8 +57,8 @@ class DimensionlessGroups:
 
 def _as_given(scene: Scene, speed: float, stokes: float) -> float:
     """The impact's Stokes number if given, which avoids the rounding of a conversion by the speed."""
-    given = scene.impact.stokes
-    return given if given is not None and scene.speed_of(given) == speed else stokes
+    entry = scene.impact.stokes
+    return entry if entry is not None and scene.speed_of(entry) == speed else stokes
 
 
 _ENTRIES = {"speed": "impact.speed", "impact_spin": "impact.spin", "impact_partner_spin": "impact.partner_spin"}
@@ -78,15 +78,15 @@ _SCALES: dict[str, Formula] = {
 def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
     """A group or scale by its formula; InputError outside its range in `_RANGES`."""
     function, arguments = formula
-    given = [values[argument] for argument in arguments]
+    inputs = [values[argument] for argument in arguments]
     try:
-        value = float(function(*given))
+        value = float(function(*inputs))
     except (OverflowError, ZeroDivisionError):
         value = math.inf
     least, most = _RANGES.get(name, (0.0, math.inf))
     if least <= abs(value) <= most and math.isfinite(value):
         return value
-    numbers = dict(zip(arguments, given, strict=True))
+    numbers = dict(zip(arguments, inputs, strict=True))
     spins = [each for each in ("impact_spin", "impact_partner_spin") if numbers.get(each)]
     quantity = spins[0] if spins else "speed" if "speed" in arguments else arguments[0]
     entry, shown = _ENTRIES.get(quantity, quantity), numbers[quantity]

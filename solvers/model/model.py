@@ -1,7 +1,7 @@
 """The model of a scene: its structure module with the chosen laws in their slots, as CasADi expressions."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, reduce
 from types import ModuleType
@@ -79,12 +79,9 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
         laws.append(("attraction", "van-der-waals"))
     if scene.package is None:
         return ModelKey("_".join(parts), tuple(laws))
-    return ModelKey("_".join(parts), own_laws(scene.package, laws), scene.package)
-
-
-def own_laws(package: Package, laws: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
-    """The laws by slot, with the user model's laws in slots that no entry of a scene selects."""
-    return tuple((slot, package.laws(slot)[0] if slot in package.unnamed else name) for slot, name in laws)
+    unnamed = scene.package.unnamed  # slots that no entry of a scene fills
+    laws = [(slot, scene.package.laws(slot)[0] if slot in unnamed else name) for slot, name in laws]
+    return ModelKey("_".join(parts), tuple(laws), scene.package)
 
 
 def _structure(choice: ModelKey) -> ModuleType:
@@ -109,8 +106,8 @@ class _Narrow:
         self._law, self._package, self._slot = law, package, slot
 
     def __getattr__(self, function: str) -> Any:
-        found, more = getattr(self._law, function), len(self._package.extra(self._slot, function))
-        return (lambda *arguments: found(*arguments[: len(arguments) - more])) if more else found
+        law_function, more = getattr(self._law, function), len(self._package.extra(self._slot, function))
+        return (lambda *arguments: law_function(*arguments[: len(arguments) - more])) if more else law_function
 
 
 class Model:
@@ -220,10 +217,10 @@ class Model:
         self, name: str, state: Mapping[str, SX] | None = None, region: Mapping[str, int | SX] | None = None
     ) -> dict[str, SX]:
         """A function of the structure module as named expressions."""
-        found: dict[str, SX] = getattr(self.structure, name)(
+        outputs: dict[str, SX] = getattr(self.structure, name)(
             self.state if state is None else state, self.groups, self.laws, **(region or {})
         )
-        return found
+        return outputs
 
     def extra(self, slot: str, function: str) -> list[SX]:
         """Additional arguments that a user's model passes to a slot's function: symbols of groups or states."""

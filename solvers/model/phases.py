@@ -154,12 +154,12 @@ def _precessing(model: Model, state: dict[str, SX], rates: dict[str, SX]) -> tup
     parts = model("precession", state)
     axis = vertcat(*(parts[f"momentum_{name}"] for name in "xyz"))
     turning = parts["per_momentum"]
-    found = {name: SX(rate) for name, rate in rates.items()}
-    for each in dict.fromkeys(name[:-2] for name in found if name.endswith(("_x", "_y", "_z"))):
+    result = {name: SX(rate) for name, rate in rates.items()}
+    for each in dict.fromkeys(name[:-2] for name in result if name.endswith(("_x", "_y", "_z"))):
         names = [f"{each}_{component}" for component in "xyz"]
         turned = turning * cross(axis, vertcat(*(state[name] for name in names)))
-        found |= {name: found[name] - turned[k] for k, name in enumerate(names)}
-    return found, turning
+        result |= {name: result[name] - turned[k] for k, name in enumerate(names)}
+    return result, turning
 
 
 @dataclass(frozen=True)
@@ -191,20 +191,24 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tupl
     the relative margin by which the pendulum certificate must hold.
     """
     model, region = flow.model, flow.region
-    found = model("events", region=region.flags if model.friction else None)
+    guards = model("events", region=region.flags if model.friction else None)
     table = [
-        Event(row.name, _guard(row, found, region, motion), row.dips)
+        Event(row.name, _guard(row, guards, region, motion), row.dips)
         for row in EVENTS
-        if all(name in found for name in row.functions)
+        if all(name in guards for name in row.functions)
         and (watch.tangential_edge or not row.within_reach)
         and (region.shear or model.strings or not row.driven)
         and all(
             getattr(region, part) == value
             for part, value in row.where
-            if part != "motion" and VOID_WITHOUT.get(part, "turning") in found
+            if part != "motion" and VOID_WITHOUT.get(part, "turning") in guards
         )
     ]
-    table += [_own(each, found[each.name], model, region, motion) for each in model.own_events if _may(each, region)]
+    table += [
+        _own(each, guards[each.name], model, region, motion)
+        for each in model.own_events
+        if all(getattr(region, part) == value for part, value in each.row.where if part != "motion")
+    ]
     if watch.certificate == "energy":
         table.append(Event("certified", mechanical_energy(flow) - level))
     elif watch.certificate == "pendulum":
@@ -212,22 +216,17 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tupl
     return tuple(table)
 
 
-def _guard(row: Row, found: dict[str, SX], region: Region, motion: SX) -> SX:
+def _guard(row: Row, guards: dict[str, SX], region: Region, motion: SX) -> SX:
     """The guard function of an event; constant 1 in a direction of motion in which it cannot occur."""
-    value = found[row.functions[0]]
+    value = guards[row.functions[0]]
     for name in row.functions[1:]:
-        value = fmin(value, found[name])
+        value = fmin(value, guards[name])
     if row.follows == "motion":
         value = motion * value
     elif row.follows:
         value = value * (getattr(region, row.follows) or -1)
     directions = [wanted for part, wanted in row.where if part == "motion"]
     return if_else(motion == directions[0], value, 1) if directions else value
-
-
-def _may(each: OwnEvent, region: Region) -> bool:
-    """Whether a declared event is watched in a region, in some direction of motion."""
-    return all(getattr(region, part) == value for part, value in each.row.where if part != "motion")
 
 
 def _own(each: OwnEvent, guard: SX, model: Model, region: Region, motion: SX) -> Event:

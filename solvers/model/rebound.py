@@ -40,10 +40,10 @@ def rebounded(model: Model, kind: str, y: np.ndarray, p: np.ndarray, rests: bool
         after = np.array(list(model.values("rebound", y, p).values()))
         return Rebound(after, model.values("rebound_loss", y, p)["dry_contact"])
     rubbing, impulses = rubs(model, kind), model.values("dry_slip", y, p)
-    found = [part.full().ravel() for part in jump(model.choice, rests)(y[: len(model.state)], p, float(rubbing))]
+    parts = [part.full().ravel() for part in jump(model.choice, rests)(y[: len(model.state)], p, float(rubbing))]
     sticking, most = abs(impulses["sticking"]), impulses[_MOST[rests]]
     grip = math.log(sticking / most) if rubbing and sticking > 0 and most > 0 else math.inf
-    return Rebound(found[0], float(found[1][0]), float(found[2][0]), grip)
+    return Rebound(parts[0], float(parts[1][0]), float(parts[2][0]), grip)
 
 
 @own_cache(128)
@@ -55,8 +55,8 @@ def jump(choice: ModelKey, rests: bool = False) -> Function:
     model, rubbing = load(choice), SX.sym("rubbing")
     after, friction = model("rebound"), SX(0)
     if model.friction:
-        found = model("dry_slip")
-        sticking, most = found["sticking"], rubbing * found[_MOST[rests]]
+        slips = model("dry_slip")
+        sticking, most = slips["sticking"], rubbing * slips[_MOST[rests]]
         impulse = if_else(sticking > most, most, if_else(sticking < -most, -most, sticking))
         after = model("rubbed", region={"impulse": impulse}) | {"normal_velocity": after["normal_velocity"]}
         friction = model("friction_loss", region={"impulse": impulse})["dry_friction"]

@@ -61,14 +61,6 @@ _WALL_CONSTANT = 1.895
 _WALL_RATIO = 1.25
 
 
-def _reynolds(scene: Scene, values: Values) -> Any:
-    return _group(scene, values, "reynolds") if "density" in values else math.nan
-
-
-def _film_gap(_: Scene, values: Values) -> Any:
-    return values["film_thickness"] / values["reduced_radius"]
-
-
 def _rupture_gap(scene: Scene, values: Values) -> Any:
     """x_f/a of a bridge; without one the film's x0/a says it."""
     if scene.bridge is None:
@@ -133,11 +125,6 @@ def _cavitating(scene: Scene, values: Values) -> Any:
     return np.where(oblique, _unlike(scene, values), math.nan) if scene.model.film == "cavitating" else math.nan
 
 
-def _own_rupture(scene: Scene, values: Values) -> Any:
-    own = scene.bridge is not None and scene.bridge.rupture == "own"
-    return _unlike(scene, values) if own else math.nan
-
-
 def _idle_friction(scene: Scene, values: Values) -> Any:
     """Smallest gap of a bounce over that of solid contact, where only solids have friction; else NaN."""
     if scene.particles.friction is None or scene.model.contact_friction != "solid":
@@ -157,13 +144,13 @@ def _partner(ratio: float) -> str:
 LIMITS: tuple[Limit, ...] = (
     Limit(
         "film_reynolds",
-        _reynolds,
+        lambda scene, values: _group(scene, values, "reynolds") if "density" in values else math.nan,
         lambda n: f"the film's Reynolds number Re = {n:.3g} is above {_REYNOLDS:g}: the liquid's inertia is left out",
         most=_REYNOLDS,
     ),
     Limit(
         "film_gap",
-        _film_gap,
+        lambda _, values: values["film_thickness"] / values["reduced_radius"],
         lambda n: f"x0/a = {n:.3g} is above {_FILM_GAP:g}: lubrication theory takes a film thin beside the radius",
         most=_FILM_GAP,
     ),
@@ -207,7 +194,9 @@ LIMITS: tuple[Limit, ...] = (
     ),
     Limit(
         "own_rupture",
-        _own_rupture,
+        lambda scene, values: (
+            _unlike(scene, values) if scene.bridge is not None and scene.bridge.rupture == "own" else math.nan
+        ),
         lambda n: f"{_partner(n)}: the law's own rupture distance is that of equal spheres",
         most=1.0,
     ),
@@ -237,12 +226,12 @@ def sentences(scene: Scene, speed: float, angle: float, outcome: str, results: M
     """
     known = {name: math.nan if results[name] is None or outcome == STICK else results[name] for name in NEEDS}
     values = si_values(scene, speed, angle) | known | {"outcome": OUTCOMES.index(outcome)}
-    said = []
+    result = []
     for limit in LIMITS:
         number = float(limit.number(scene, values))
         if limit.passed(number):
-            said.append(limit.says(number))
-    return [*said, *remarks(scene)]
+            result.append(limit.says(number))
+    return [*result, *remarks(scene)]
 
 
 def sentences_of_many(scene: Scene, values: Values) -> list[str]:
@@ -251,14 +240,14 @@ def sentences_of_many(scene: Scene, values: Values) -> list[str]:
     Arguments:
         values: as for `flags`.
     """
-    said = []
+    result = []
     with np.errstate(all="ignore"):
         for limit in LIMITS:
             numbers = np.atleast_1d(np.asarray(limit.number(scene, values), float))
             outside = numbers[limit.passed(numbers)]
             if outside.size:
-                said.append(limit.says(float(outside.max() if math.isfinite(limit.most) else outside.min())))
-    return [*said, *remarks(scene)]
+                result.append(limit.says(float(outside.max() if math.isfinite(limit.most) else outside.min())))
+    return [*result, *remarks(scene)]
 
 
 def flags(scene: Scene, values: Values, size: int) -> np.ndarray:
@@ -267,14 +256,14 @@ def flags(scene: Scene, values: Values, size: int) -> np.ndarray:
     Arguments:
         scene: has the partner, the bridge and the laws; its numbers are those of `values`.
     """
-    found = np.zeros(size, dtype=np.int16)
+    bits = np.zeros(size, dtype=np.int16)
     with np.errstate(all="ignore"):
         for bit, limit in enumerate(LIMITS):
-            found |= np.where(limit.passed(limit.number(scene, values)), 1 << bit, 0).astype(np.int16)
+            bits |= np.where(limit.passed(limit.number(scene, values)), 1 << bit, 0).astype(np.int16)
         for limit in _law_limits(scene):
             outside = limit.passed(limit.number(scene, values))
-            found |= np.where(outside, 1 << FLAGS.index(LAW_RANGE), 0).astype(np.int16)
-    return found
+            bits |= np.where(outside, 1 << FLAGS.index(LAW_RANGE), 0).astype(np.int16)
+    return bits
 
 
 def flag_attributes() -> dict[str, Any]:
@@ -318,26 +307,27 @@ def remarks(scene: Scene) -> tuple[str, ...]:
 
 
 def _law_limits(scene: Scene) -> list[Limit]:
+    """The range of the scene's bridge law as limits; none where its source gives no range."""
     if scene.bridge is None:
         return []
     law = law_module(scene, "bridge", scene.bridge.law)
     ranges: dict[str, tuple[float | None, float | None]] = getattr(law, "VALIDITY", {})
-    made = []
+    limits = []
     for name, (least, most) in ranges.items():
         low, high = -math.inf if least is None else least, math.inf if most is None else most
 
         def says(number: float, name: str = name, low: float = low, high: float = high) -> str:
             side, bound = ("below", low) if number < low else ("above", high)
-            given, limit = (
+            value, limit = (
                 f"{math.degrees(each):.4g} deg" if name == "contact_angle" else f"{each:.4g}"
                 for each in (number, bound)
             )
             bridge = scene.bridge.law if scene.bridge else ""
             where = f"outside the range of the law {bridge} ({law.VALIDITY_SOURCE})"
-            return f"{_ENTRIES[name]} = {given} is {side} {limit}, {where}"
+            return f"{_ENTRIES[name]} = {value} is {side} {limit}, {where}"
 
-        made.append(Limit(LAW_RANGE, _LAW_NUMBERS[name], says, low, high))
-    return made
+        limits.append(Limit(LAW_RANGE, _LAW_NUMBERS[name], says, low, high))
+    return limits
 
 
 _ENTRIES = {"volume": "bridge.volume", "contact_angle": "bridge.contact_angle", "separation": "x_f/R"}
@@ -350,7 +340,7 @@ _LAW_NUMBERS: dict[str, Callable[[Scene, Values], Any]] = {
 
 def warn(scene: Scene, stacklevel: int = 3) -> tuple[str, ...]:
     """Warn of every law used outside its range (ModelWarning), and return the sentences."""
-    said = remarks(scene)
-    for sentence in said:
+    result = remarks(scene)
+    for sentence in result:
         warnings.warn(sentence, ModelWarning, stacklevel=stacklevel)
-    return said
+    return result

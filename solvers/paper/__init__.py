@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .desk import Detail
+    from .boundary_cache import Detail
     from .parts import Part
 
 PARTS = ("table1", "fig1", "fig3", "fig4a", "fig4b", "factors")
@@ -34,15 +34,15 @@ def reproduce(
 
     from ..formatting.document import report
     from ..host.files import write_all_in
-    from .desk import Desk
+    from .boundary_cache import BoundaryCache
     from .report import TITLE, blocks
 
     folder.mkdir(parents=True, exist_ok=True)
-    desk = Desk(detail, say)
-    parts: list[Part] = [import_module(f".{name}", __name__).make(desk, folder) for name in which]
+    cache = BoundaryCache(detail, say)
+    parts: list[Part] = [import_module(f".{name}", __name__).make(cache, folder) for name in which]
     pictures = [folder / picture.file for part in parts for picture in part.pictures]
-    counted = f", from {desk.collisions} collisions" if desk.collisions else ""
-    failed = f" Not traced: {'; '.join(desk.failures)}." if desk.failures else ""
+    counted = f", from {cache.collisions} collisions" if cache.collisions else ""
+    failed = f" Not traced: {'; '.join(cache.failures)}." if cache.failures else ""
     date, ours = time.strftime("%Y-%m-%d", time.gmtime()), f"wetdoublet {version('wetdoublet')}"
     how = f"Computed by {ours} in one run on {date}{counted}; none of our numbers is typed in.{failed}"
     return [*pictures, *write_all_in(folder, report(TITLE, blocks(parts, how)))]

@@ -9,7 +9,7 @@ from ..formatting.document import Table
 from ..formatting.style import LETTERS
 from ..scene.scene import Scene
 from ..sensitivity.boundaries import moving
-from .desk import PRESSURE, Desk, Line, change_at, outcomes, printed_pressure
+from .boundary_cache import PRESSURE, BoundaryCache, Line, change_at, outcomes, printed_pressure
 from .fig4a import centrifugal, near_printed
 from .parts import Comparison, Part, degrees, number
 from .printed import PRINTED
@@ -28,18 +28,18 @@ _AT = math.radians(45)
 _OUT_OF_REACH = 1e9  # factor on the preset's glass-transition pressure
 
 
-def make(desk: Desk, folder: Path) -> Part:  # noqa: ARG001 # every part is made alike; this one has no picture
+def make(cache: BoundaryCache, folder: Path) -> Part:  # noqa: ARG001 # every part is made alike; this one has no picture
     """Compute the part: the S/SRS boundary of every scene with a doubled quantity."""
-    desk.say("factors: Ce* with one quantity doubled")
-    angles, place = desk.detail.critical, desk.detail.critical.index(_AT)
+    cache.say("factors: Ce* with one quantity doubled")
+    angles, place = cache.detail.critical, cache.detail.critical.index(_AT)
     bases = [variant(BRIDGED, {"model.arm": arm}) for arm in ARMS]
     bases = [base.with_entries({PRESSURE: _OUT_OF_REACH * printed_pressure(base)}) for base in bases]
     scenes = [[base, *(_doubled(base, entry) for entry in DOUBLED.values())] for base in bases]
-    lines = iter(desk.many([near_printed(scene, angle) for of_arm in scenes for scene in of_arm for angle in angles]))
+    lines = iter(cache.many([near_printed(scene, angle) for of_arm in scenes for scene in of_arm for angle in angles]))
     traced = [[[next(lines)[0] for _ in angles] for _ in of_arm] for of_arm in scenes]
     critical = np.array([[[centrifugal(line) for line in row] for row in of_arm] for of_arm in traced])
     factors = critical[:, 1:] / critical[:, :1]  # by lever arm, quantity and angle
-    [in_reach] = desk.lines(_doubled(variant(BRIDGED, {}), DOUBLED["factor_radius"]), (_AT,))
+    [in_reach] = cache.lines(_doubled(variant(BRIDGED, {}), DOUBLED["factor_radius"]), (_AT,))
     through = ", ".join(LETTERS[outcome] for outcome in outcomes(in_reach))
     printed = np.array([PRINTED[key].value for key in DOUBLED])
     apart = ((factors - printed[:, None]) ** 2).sum(axis=1)

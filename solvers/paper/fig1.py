@@ -9,7 +9,7 @@ from ..collision.plot.strip import draw_strip, strip_size
 from ..collision.result import Collision
 from ..formatting.document import Picture, Table
 from ..formatting.style import LETTERS
-from .desk import Desk, Job, Line
+from .boundary_cache import BoundaryCache, Job, Line
 from .parts import Comparison, Part, degrees, number
 from .printed import PRINTED, SHOT_ANGLE, SHOTS, Shot
 from .style import COLUMN, sheet
@@ -19,9 +19,9 @@ _BEFORE, _AFTER = 1, 4  # frames before and after initial contact
 _MS = 1e3
 
 
-def make(desk: Desk, folder: Path) -> Part:
+def make(cache: BoundaryCache, folder: Path) -> Part:
     """Compute the part: the three collisions and their figure."""
-    desk.say("fig. 1: frames of the three collisions")
+    cache.say("fig. 1: frames of the three collisions")
     scene = variant(PENDULUM, {})
     shown = {"angle": SHOT_ANGLE, "ledger": False, "trajectory": True, "engine": "taylor"}
     collisions = [collide(scene, stokes=shot.stokes, **shown) for shot in SHOTS]  # type: ignore[arg-type]  # by keyword
@@ -44,7 +44,7 @@ def make(desk: Desk, folder: Path) -> Part:
         "Fig. 1: three collisions",
         comparisons=comparisons,
         pictures=(Picture("fig1.png", caption, COLUMN),),
-        tables=(_moved(desk),),
+        tables=(_moved(cache),),
         scenes=(PENDULUM,),
     )
 
@@ -56,11 +56,11 @@ def _said(one: Collision) -> str:
     return f"ends at the experiment's cut-off ({last.kind}) after {_MS * last.time:.4g} ms"
 
 
-def _moved(desk: Desk) -> Table:
+def _moved(cache: BoundaryCache) -> Table:
     """Table of outcomes and boundaries along the line of Fig. 1 for the variants."""
     scenes = {name: variant(PENDULUM, changes) for name, changes in STRING_VARIANTS.items()}
-    desk.say("fig. 1: variants")
-    traced = desk.many([Job(scene, (SHOT_ANGLE,)) for scene in scenes.values()])
+    cache.say("fig. 1: variants")
+    traced = cache.many([Job(scene, (SHOT_ANGLE,)) for scene in scenes.values()])
     rows = []
     for name, [line] in zip(scenes, traced):
         changes = ", ".join(f"{LETTERS[c.before]}/{LETTERS[c.after]} {number(c.stokes)}" for c in line)

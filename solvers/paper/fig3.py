@@ -11,7 +11,7 @@ from ..formatting.document import Picture, Table
 from ..formatting.style import halo
 from ..scene.scene import Scene
 from . import regimes
-from .desk import Desk, Job, Line, criterion_met, printed_pressure, shown, sticks_to
+from .boundary_cache import BoundaryCache, Job, Line, criterion_met, printed_pressure, shown, sticks_to
 from .parts import Comparison, Part, number
 from .printed import PRINTED
 from .style import ANGLE, COLUMN, GREY, STOKES, sheet
@@ -22,21 +22,21 @@ _BESIDE = 1 + 1e-6
 _BELOW = 0.8  # start of the search for the criterion, relative to the boundary
 
 
-def make(desk: Desk, folder: Path) -> Part:
+def make(cache: BoundaryCache, folder: Path) -> Part:
     """Compute the part: the map, and St* at theta0 = 0 for the variants."""
-    desk.say("fig. 3: tracing the pendulum's boundaries")
+    cache.say("fig. 3: tracing the pendulum's boundaries")
     scene = variant(PENDULUM, {})
-    whole = desk.map(scene, _REACH)
+    whole = cache.map(scene, _REACH)
     _draw(whole, folder / "fig3.png")
     used = described(scene)
     at_printed = math.radians(PRINTED["angle_3"].value)
-    [head_on], [[rotates, *_]] = desk.many([Job(scene, (0.0,)), Job(scene, (at_printed,))])
+    [head_on], [[rotates, *_]] = cache.many([Job(scene, (0.0,)), Job(scene, (at_printed,))])
     escapes, met = sticks_to(head_on), _met(scene, head_on)
     first = math.degrees(min(min(curve.x) for curve in whole.curves if curve.after == ROTATE))
     leaves = math.degrees(max(max(curve.x) for curve in whole.curves if curve.before == ROTATE))
     printed = PRINTED["stokes_3"]
-    desk.say("fig. 3: glass-transition pressure of the printed St*")
-    fitted = desk.pressure_for(scene, printed.value)
+    cache.say("fig. 3: glass-transition pressure of the printed St*")
+    fitted = cache.pressure_for(scene, printed.value)
     rows = (
         Comparison(
             "stokes_3",
@@ -64,7 +64,7 @@ def make(desk: Desk, folder: Path) -> Part:
         "Fig. 3: regime map of the pendulum",
         comparisons=rows,
         pictures=(Picture("fig3.png", caption, COLUMN),),
-        tables=(_moved(desk),),
+        tables=(_moved(cache),),
         scenes=(PENDULUM,),
     )
 
@@ -74,11 +74,11 @@ def _met(scene: Scene, head_on: Line) -> float:
     return criterion_met(scene, _BELOW * sticks_to(head_on), sticks_to(head_on) * _BESIDE)
 
 
-def _moved(desk: Desk) -> Table:
+def _moved(cache: BoundaryCache) -> Table:
     """Both readings of St* for the variants; lever arm and logarithm have no effect head-on."""
-    desk.say("fig. 3: variants")
+    cache.say("fig. 3: variants")
     scenes = {name: variant(PENDULUM, changes) for name, changes in STRING_VARIANTS.items()}
-    traced = desk.many([Job(scene, (0.0,)) for scene in scenes.values()])
+    traced = cache.many([Job(scene, (0.0,)) for scene in scenes.values()])
     rows = [
         [name, shown(partial(_met, scene, head_on)), shown(partial(sticks_to, head_on))]
         for (name, scene), [head_on] in zip(scenes.items(), traced)

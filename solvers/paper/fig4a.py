@@ -16,7 +16,7 @@ from ..formatting.style import INK, halo
 from ..model.dimensionless import nondimensionalise
 from ..scene.scene import Scene
 from . import regimes
-from .desk import Desk, Job, Line, change_at, outcomes, printed_pressure, shown, sticks_to
+from .boundary_cache import BoundaryCache, Job, Line, change_at, outcomes, printed_pressure, shown, sticks_to
 from .parts import Comparison, Part, degrees, number
 from .printed import PRINTED
 from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, sheet
@@ -30,17 +30,17 @@ _AT = math.radians(45)  # angle at which our Ce* is read
 _FIRST = math.radians(0.5)  # the lowest oblique line without a bridge
 
 
-def make(desk: Desk, folder: Path) -> Part:
+def make(cache: BoundaryCache, folder: Path) -> Part:
     """Compute the part: both maps, and Ce* and St* for the variants."""
-    desk.say("fig. 4a: tracing the granules' boundaries")
+    cache.say("fig. 4a: tracing the granules' boundaries")
     scene, dry = variant(BRIDGED, {}), variant(DRY, {})
-    whole, dry_oblique = desk.map(scene, _REACH), desk.map(dry, _REACH, _FIRST)
-    [dry_head_on], [head_on] = desk.many([Job(dry, (0.0,)), Job(scene, (0.0,))])
-    desk.say("fig. 4a: variants")
-    critical = desk.detail.critical
-    moved = _moved(desk)  # traces all variants together
-    criticals = [centrifugal(line) for line in desk.lines(scene, critical)]
-    ours = centrifugal(desk.lines(scene, (_AT,))[0])
+    whole, dry_oblique = cache.map(scene, _REACH), cache.map(dry, _REACH, _FIRST)
+    [dry_head_on], [head_on] = cache.many([Job(dry, (0.0,)), Job(scene, (0.0,))])
+    cache.say("fig. 4a: variants")
+    critical = cache.detail.critical
+    moved = _moved(cache)  # traces all variants together
+    criticals = [centrifugal(line) for line in cache.lines(scene, critical)]
+    ours = centrifugal(cache.lines(scene, (_AT,))[0])
     stokes = sticks_to(head_on)
     with sheet(folder / "fig4a.png", 7.6) as figure:
         axes = figure.add_subplot()
@@ -56,7 +56,7 @@ def make(desk: Desk, folder: Path) -> Part:
     )
     return Part(
         "Fig. 4a: regime map of granules",
-        comparisons=_compared(desk, scene, dry, stokes, ours, criticals, only_head_on),
+        comparisons=_compared(cache, scene, dry, stokes, ours, criticals, only_head_on),
         pictures=(Picture("fig4a.png", caption, COLUMN),),
         tables=(moved,),
         scenes=(BRIDGED, DRY),
@@ -86,14 +86,20 @@ def near_printed(scene: Scene, angle: float) -> Job:
 
 
 def _compared(
-    desk: Desk, scene: Scene, dry: Scene, stokes: float, ours: float, criticals: Sequence[float], only_head_on: bool
+    cache: BoundaryCache,
+    scene: Scene,
+    dry: Scene,
+    stokes: float,
+    ours: float,
+    criticals: Sequence[float],
+    only_head_on: bool,
 ) -> tuple[Comparison, ...]:
-    desk.say("fig. 4a: glass-transition pressure of the printed St*")
-    pressure, fitted = printed_pressure(scene), desk.pressure_for(scene, PRINTED["stokes_4"].value)
+    cache.say("fig. 4a: glass-transition pressure of the printed St*")
+    pressure, fitted = printed_pressure(scene), cache.pressure_for(scene, PRINTED["stokes_4"].value)
     surface = variant(BRIDGED, BRIDGE_VARIANTS["arm surface"])
-    ours_over_angles = _spread(desk.detail.critical, criticals)
-    lines = desk.many([near_printed(surface, angle) for angle in desk.detail.critical])
-    leading = _spread(desk.detail.critical, [centrifugal(line) for [line] in lines])
+    ours_over_angles = _spread(cache.detail.critical, criticals)
+    lines = cache.many([near_printed(surface, angle) for angle in cache.detail.critical])
+    leading = _spread(cache.detail.critical, [centrifugal(line) for [line] in lines])
     return (
         Comparison(
             "stokes_4",
@@ -124,12 +130,12 @@ def _spread(angles: Sequence[float], values: Sequence[float]) -> str:
     return ", ".join(f"{number(value)} at {degrees(angle)}" for angle, value in zip(angles, values))
 
 
-def _moved(desk: Desk) -> Table:
-    critical = desk.detail.critical
+def _moved(cache: BoundaryCache) -> Table:
+    critical = cache.detail.critical
     scenes = {name: variant(BRIDGED, changes) for name, changes in BRIDGE_VARIANTS.items()}
-    head_on = desk.many([Job(scene, (0.0,)) for scene in scenes.values()])
+    head_on = cache.many([Job(scene, (0.0,)) for scene in scenes.values()])
     jobs = [near_printed(scene, angle) for scene in scenes.values() for angle in critical]
-    oblique = iter(desk.many(jobs))
+    oblique = iter(cache.many(jobs))
     rows = []
     for name, [line] in zip(scenes, head_on):
         cells = [shown(partial(centrifugal, *next(oblique))) for _ in critical]

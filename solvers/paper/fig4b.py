@@ -13,7 +13,7 @@ from ..formatting.document import Picture, Table
 from ..formatting.style import INK
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
-from .desk import Desk, Line, outcomes
+from .boundary_cache import BoundaryCache, Line, outcomes
 from .parts import Comparison, Part, degrees, number
 from .printed import CURVES, PRINTED
 from .style import BLUE, COLUMN, GREEN, ORANGE, PURPLE, SKY, STOKES, sheet
@@ -42,14 +42,14 @@ class Curve:
         return float(self.restitution.max())
 
 
-def make(desk: Desk, folder: Path) -> Part:
+def make(cache: BoundaryCache, folder: Path) -> Part:
     """Compute the part: the curves between the boundaries, and their figure."""
-    desk.say("fig. 4b: tracing boundaries")
+    cache.say("fig. 4b: tracing boundaries")
     scene = variant(BRIDGED, {})
-    lines = desk.lines(scene, CURVES)
-    desk.say("fig. 4b: restitution along the curves")
-    curves, counted = _curves(scene, lines, desk.detail.curve)
-    desk.collisions += counted
+    lines = cache.lines(scene, CURVES)
+    cache.say("fig. 4b: restitution along the curves")
+    curves, counted = _curves(scene, lines, cache.detail.curve)
+    cache.collisions += counted
     with sheet(folder / "fig4b.png", 8.2) as figure:
         axes = figure.add_subplot()
         _against_stokes(axes, curves)

@@ -11,7 +11,7 @@ from ..formatting.document import Picture
 from ..formatting.style import INK
 from ..host import files
 from ..scene.scene import Scene
-from .desk import Desk
+from .boundary_cache import BoundaryCache
 from .parts import Part
 from .style import GREY, sheet
 from .variants import BRIDGED, PENDULUM, described
@@ -24,9 +24,9 @@ _TALL, _LOW, _HEAD, _MARGIN = 0.98, 0.58, 0.7, 0.25  # cm; lines with and withou
 _WRAP = 37  # characters of a note on a line without a formula
 
 
-def make(desk: Desk, folder: Path) -> Part:
+def make(cache: BoundaryCache, folder: Path) -> Part:
     """Compute the part: the equations of the presets' laws, typeset into `folder`."""
-    desk.say("table 1: deriving")
+    cache.say("table 1: deriving")
     bridged, hung = Scene.load(BRIDGED), Scene.load(PENDULUM)
     assert bridged.bridge is not None
     assert hung.pendulum is not None

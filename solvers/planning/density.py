@@ -123,9 +123,9 @@ def _sheets(curves: Sequence[Curve], lines: int) -> list[_Sheet]:
     weight = hermite(lines)[1]
     sheets = []
     for _, group in groupby(on, lambda line: tuple(each.kind for each in line)):
-        those = list(zip(*group, strict=True))
-        if those and weight[[each.line for each in those[0]]].sum() > _RARE:
-            sheets += [_sheet(sheet, lines) for sheet in those]
+        neighbours = list(zip(*group, strict=True))
+        if neighbours and weight[[each.line for each in neighbours[0]]].sum() > _RARE:
+            sheets += [_sheet(sheet, lines) for sheet in neighbours]
     return sheets
 
 

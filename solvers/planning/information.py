@@ -81,8 +81,8 @@ def information(
     dense = (mass > NEGLIGIBLE) & (segments.outcome != _STICK) & np.isfinite(noise[segments.row])
     counts = np.bincount(lines.row, minlength=size)
     curves = _curves(experiment, lines, segments.part(dense), ends[:, dense], resolution)
-    for (row, _), those in curves.items():
-        by_restitution[row] += information_of(those, int(counts[row]), float(noise[row]), resolution.points)
+    for (row, _), row_curves in curves.items():
+        by_restitution[row] += information_of(row_curves, int(counts[row]), float(noise[row]), resolution.points)
     outer = slopes[..., :, None] * slopes[..., None, :]
     single = np.where(probability[..., None, None] > NEGLIGIBLE, outer, 0.0)
     outcome = (single / np.maximum(probability, NEGLIGIBLE)[..., None, None]).sum(axis=1)

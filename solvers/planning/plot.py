@@ -81,8 +81,8 @@ def _panel(axes: Axes, design: Design, data: xarray.Dataset, of: str, name: str,
     for each in design.impacts:
         at = np.degrees(each.angle), getattr(each, design.window.key)
         axes.plot(*at, "o", color="white", markeredgecolor=INK, markersize=11, zorder=4, clip_on=False)
-        look: Any = {"ha": "center", "va": "center_baseline", "fontsize": 8, "color": INK}
-        axes.text(*at, f"{each.count}", zorder=5, clip_on=False, **look)
+        style: Any = {"ha": "center", "va": "center_baseline", "fontsize": 8, "color": INK}
+        axes.text(*at, f"{each.count}", zorder=5, clip_on=False, **style)
     return mesh
 
 

@@ -109,7 +109,7 @@ class Design:
     @classmethod
     def of(
         cls, window: Window, free: FreeEntries, values: np.ndarray, before: np.ndarray, choice: Choice,
-        target: str | None, size: int, rtol: float, draws: int, given: Scene,
+        target: str | None, size: int, rtol: float, draws: int, scene: Scene,
     ) -> Design:  # fmt: skip
         """The result for chosen impacts, by their information at these values."""
         order = np.lexsort((choice.points[:, 0], choice.points[:, 1]))
@@ -135,7 +135,7 @@ class Design:
             window, free, values, impacts, expected, _expected(free, values, before),
             dict(zip(free.names, spread.tolist(), strict=True)), grid,
             combinations(free, total, verdicts, "These impacts"), efficiency, target, draws, choice.candidates,
-            points, rtol, given,
+            points, rtol, scene,
         )  # fmt: skip
 
     @property

@@ -84,12 +84,12 @@ def check_entries(
     return read
 
 
-def check_replaced(given: Mapping[str, Any], changes: Mapping[str, Any]) -> None:
+def check_replaced(entries: Mapping[str, Any], changes: Mapping[str, Any]) -> None:
     """Raise InputError, with the remedy, for a change to an alternative of an entry that the scene has."""
     for ways in ALTERNATIVES:
         for name in (way for way in ways if way in changes):
-            for other in (way for way in ways if way in given and way not in changes):
-                problem = f"is given together with {other} = {shown(given[other])}, which the scene has"
+            for other in (way for way in ways if way in entries and way not in changes):
+                problem = f"is given together with {other} = {shown(entries[other])}, which the scene has"
                 instead = "--speed or --stokes, or --relative-speed" if name.startswith("impact.") else f"{other} here"
                 accepted = f"only one of {', '.join(ways)}: set {instead}, or edit the scene file"
                 raise InputError(name, changes[name], accepted, problem)
@@ -117,34 +117,33 @@ def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None 
             raise InputError(absent, None, f"{FIELDS[absent].accepts}, or neither of the two", problem)
 
 
-def check_ways(given: Mapping[str, Any], values: Mapping[str, Any]) -> None:
-    """InputError for entries (as they are kept, and SI) that lack those which they are meant with."""
-    _check_friction(given)
-    own, its, fraction = "liquid.coating_thickness", "partner.coating_thickness", "bridge.coating_fraction"
-    if its in given and own not in given:
-        accepted = f"{own} beside it: liquid.film_thickness is both coatings together"
-        raise InputError(its, given[its], accepted, f"is given without {own}")
-    if own in given and "partner.wall" in given and its not in given:
-        raise InputError(its, None, f"{FIELDS[its].accepts}, or 0 um for a dry wall", f"missing while {own} is given")
-    if own in given and not 0 < film(values) < math.inf:
-        raise InputError(own, given[own], "a coating on one of the two, and a film of some length", "makes no film")
-    volume = given.get("bridge.volume")
-    if volume == FROM_COATING and own not in given:
-        accepted = f"{own} beside it, a number V/R^3, or a volume with its unit"
-        raise InputError("bridge.volume", volume, accepted, f"is given without {own}")
-    if fraction in given and volume != FROM_COATING:
-        accepted = f'bridge.volume = "{FROM_COATING}" beside it, or no such entry'
-        raise InputError(fraction, given[fraction], accepted, f"is given with bridge.volume = {shown(volume)}")
-    if fraction in given and "partner.wall" in given:
-        raise InputError(fraction, given[fraction], "no such entry beside a wall", "is no part of a wall's liquid")
-
-
-def _check_friction(given: Mapping[str, Any]) -> None:
-    """InputError for an entry of the dry contact's friction without the coefficient."""
+def check_ways(entries: Mapping[str, Any], values: Mapping[str, Any]) -> None:
+    """InputError for entries (as stored, and in SI) without others that they require."""
     for name in ("particles.contact_tangential_restitution", "model.contact_friction"):
-        if name in given and "particles.friction" not in given:
+        if name in entries and "particles.friction" not in entries:
             accepted = f"particles.friction = {FIELDS['particles.friction'].example} beside it, or no such entry"
-            raise InputError(name, given[name], accepted, "is given without particles.friction")
+            raise InputError(name, entries[name], accepted, "is given without particles.friction")
+    coating, its, fraction = "liquid.coating_thickness", "partner.coating_thickness", "bridge.coating_fraction"
+    if its in entries and coating not in entries:
+        accepted = f"{coating} beside it: liquid.film_thickness is both coatings together"
+        raise InputError(its, entries[its], accepted, f"is given without {coating}")
+    if coating in entries and "partner.wall" in entries and its not in entries:
+        raise InputError(
+            its, None, f"{FIELDS[its].accepts}, or 0 um for a dry wall", f"missing while {coating} is given"
+        )
+    if coating in entries and not 0 < film(values) < math.inf:
+        raise InputError(
+            coating, entries[coating], "a coating on one of the two, and a film of some length", "makes no film"
+        )
+    volume = entries.get("bridge.volume")
+    if volume == FROM_COATING and coating not in entries:
+        accepted = f"{coating} beside it, a number V/R^3, or a volume with its unit"
+        raise InputError("bridge.volume", volume, accepted, f"is given without {coating}")
+    if fraction in entries and volume != FROM_COATING:
+        accepted = f'bridge.volume = "{FROM_COATING}" beside it, or no such entry'
+        raise InputError(fraction, entries[fraction], accepted, f"is given with bridge.volume = {shown(volume)}")
+    if fraction in entries and "partner.wall" in entries:
+        raise InputError(fraction, entries[fraction], "no such entry beside a wall", "is no part of a wall's liquid")
 
 
 def spheres(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -166,16 +165,16 @@ def table_of(kind: type[Table], values: Mapping[str, Any]) -> dict[str, Any]:
 
 def table(kind: type[Table], values: Mapping[str, Any], ways: Ways) -> Table | None:
     """Return the table with its entries; None for an absent table that is optional."""
-    own = table_of(kind, values)
+    entries = table_of(kind, values)
     if kind is Liquid:
-        own["film_thickness"] = film(values)
-    if kind is Bridge and own and ways.volume != "relative":
-        own["volume"] = _relative_volume(values, ways)
-    return None if not own and kind in (Attraction, Bridge, Pendulum) else kind.of(own)
+        entries["film_thickness"] = film(values)
+    if kind is Bridge and entries and ways.volume != "relative":
+        entries["volume"] = _relative_volume(values, ways)
+    return None if not entries and kind in (Attraction, Bridge, Pendulum) else kind.of(entries)
 
 
 def _relative_volume(values: Mapping[str, Any], ways: Ways) -> float:
-    """V/R^3 of a volume that is said in another way."""
+    """V/R^3 of a volume that is given in m^3 or by coatings."""
     try:
         volume = float(quantities({k: v for k, v in values.items() if k not in MEETING}, ways)["volume"])
     except (OverflowError, ZeroDivisionError):
@@ -187,52 +186,52 @@ def _relative_volume(values: Mapping[str, Any], ways: Ways) -> float:
 
 def check_together(scene: System) -> None:
     """Raise InputError where entries are valid one by one but not together."""
-    given = dict(scene.given)
+    entries = dict(scene.given)
     _check_partner(scene)
     _check_laws(scene)
     x0 = scene.liquid.film_thickness
-    said = _film_said(given, x0)
+    film_text = _film_in_words(entries, x0)
     ruptured = scene.rupture_gap
     for word in AT_ANY_SPEED:
         name = ENTRIES[word]
-        if name in given and gap_at_any_speed(word, scene.material) >= 1:
-            accepted = f"{FIELDS[name].what} below {said}"
-            raise InputError(name, given[name], accepted, "is not below the film thickness")
+        if name in entries and gap_at_any_speed(word, scene.material) >= 1:
+            accepted = f"{FIELDS[name].what} below {film_text}"
+            raise InputError(name, entries[name], accepted, "is not below the film thickness")
     if scene.bridge is not None and not x0 < ruptured < math.inf:
         radius = 2 * scene.reduced_radius
         ratio = x0 / (radius * (1 + scene.bridge.contact_angle / 2))
         least = ratio * ratio * ratio  # ** would raise OverflowError; this becomes inf
         if math.isinf(least):
-            name = _given_way("particles.reduced_radius", given)
-            accepted = f"a radius that is not so small beside {said}"
-            raise InputError(name, given[name], accepted, "is too small for a bridge across the film")
+            name = _given_alternative("particles.reduced_radius", entries)
+            accepted = f"a radius that is not so small beside {film_text}"
+            raise InputError(name, entries[name], accepted, "is too small for a bridge across the film")
         problem = f"ruptures at x_f = {ruptured:.4g} m, not beyond the film thickness {x0:.4g} m"
-        raise InputError("bridge.volume", given["bridge.volume"], _larger(scene, least, radius), problem)
+        raise InputError("bridge.volume", entries["bridge.volume"], _larger(scene, least, radius), problem)
     if scene.pendulum is not None:
         # the strings are most inclined at beta = pi, where each pivot is d = (r + 4a)/2 from its sphere
         least = 4 * scene.reduced_radius + ruptured / 2
         if scene.pendulum.length <= least:
             problem = "is too short for two spheres to swing around each other"
             accepted = f"a string length above 4a + x_f/2 = {least:.6g} m"
-            raise InputError("pendulum.length", given["pendulum.length"], accepted, problem)
+            raise InputError("pendulum.length", entries["pendulum.length"], accepted, problem)
     check_speed(scene)
 
 
-def _film_said(given: Mapping[str, Any], x0: float) -> str:
-    """The film thickness as the scene says it."""
-    if "liquid.film_thickness" in given:
-        return f"liquid.film_thickness = {shown(given['liquid.film_thickness'])}"
+def _film_in_words(entries: Mapping[str, Any], x0: float) -> str:
+    """The film thickness in words, as the scene gives it."""
+    if "liquid.film_thickness" in entries:
+        return f"liquid.film_thickness = {shown(entries['liquid.film_thickness'])}"
     return f"the film of both coatings, {x0:.4g} m"
 
 
-def _given_way(first: str, given: Mapping[str, Any]) -> str:
-    """Which of the entries that say the same thing is given."""
+def _given_alternative(first: str, entries: Mapping[str, Any]) -> str:
+    """The one of several equivalent entries that is given."""
     ways = next(ways for ways in ALTERNATIVES if ways[0] == first)
-    return next(name for name in ways if name in given)
+    return next(name for name in ways if name in entries)
 
 
 def _larger(scene: System, least: float, radius: float) -> str:
-    """What volume is accepted where it is too small."""
+    """The accepted volumes in words, for one that is too small."""
     volume, common = dict(scene.given)["bridge.volume"], scene.bridge is not None and scene.bridge.rupture == "common"
     if volume == FROM_COATING:
         return "a larger bridge.coating_fraction, a thinner coating, or a volume of its own"
@@ -243,24 +242,24 @@ def _larger(scene: System, least: float, radius: float) -> str:
 
 def _check_partner(scene: System) -> None:
     """Raise InputError for an invalid partner: strings need equal spheres, and ratios must be finite."""
-    given = dict(scene.given)
-    for spin in (name for name in SPINS if name in given):
+    entries = dict(scene.given)
+    for spin in (name for name in SPINS if name in entries):
         if scene.pendulum is not None:
             accepted = "no such entry beside [pendulum]: there the collision ends where the rotation reverses"
-            raise InputError(spin, given[spin], accepted, "is given together with strings")
-    if scene.wall and "impact.partner_spin" in given:
+            raise InputError(spin, entries[spin], accepted, "is given together with strings")
+    if scene.wall and "impact.partner_spin" in entries:
         name = "impact.partner_spin"
-        raise InputError(name, given[name], "impact.spin alone beside a wall", "is of a wall, which does not spin")
+        raise InputError(name, entries[name], "impact.spin alone beside a wall", "is of a wall, which does not spin")
     if scene.partner is None:
         return
-    entry = _given_way("partner.radius", given)
+    entry = _given_alternative("partner.radius", entries)
     if scene.pendulum is not None:
-        raise InputError(entry, given[entry], "no [partner] beside [pendulum]", "is given together with strings")
+        raise InputError(entry, entries[entry], "no [partner] beside [pendulum]", "is given together with strings")
     for name, ratio in (("partner.radius", scene.radius_ratio), ("partner.mass", scene.mass_ratio)):
         if ratio is not None and not FARTHEST**-1 <= ratio <= FARTHEST:
-            known = _given_way(name, given)
+            known = _given_alternative(name, entries)
             accepted = f"a partner of {FARTHEST**-1:g} to {FARTHEST:g} times the sphere's, or wall = true"
-            raise InputError(known, given[known], accepted, "is too far from the sphere's")
+            raise InputError(known, entries[known], accepted, "is too far from the sphere's")
 
 
 FARTHEST = 1e4  # largest ratio of radii or masses; beyond it the equations lose digits (use the limit, a wall)
@@ -268,7 +267,7 @@ FARTHEST = 1e4  # largest ratio of radii or masses; beyond it the equations lose
 
 def _check_laws(scene: System) -> None:
     """Raise InputError for laws that contradict each other or the scene's tables."""
-    model, bridge, given = scene.model, scene.bridge, dict(scene.given)
+    model, bridge, entries = scene.model, scene.bridge, dict(scene.given)
     if model.film == "constant-volume":
         if bridge is None:
             accepted = "a [bridge], whose volume it is, or one of finite, infinite, cavitating"
@@ -288,11 +287,11 @@ def _check_laws(scene: System) -> None:
     if scene.attraction is not None and scene.attraction.hamaker > 0 and no_contact:
         accepted = f"a positive {' or '.join(reversed(ENTRIES.values()))}"
         problem = "lets the gap close, where the van der Waals attraction is without bounds"
-        raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
+        raise InputError("particles.roughness", entries["particles.roughness"], accepted, problem)
     if scene.liquid.glass_transition_pressure is None and no_contact:
         accepted = f"a positive {' or '.join(reversed(ENTRIES.values()))}, or liquid.glass_transition_pressure"
         problem = "lets the gap close without end: no criterion reverses the spheres"
-        raise InputError("particles.roughness", given["particles.roughness"], accepted, problem)
+        raise InputError("particles.roughness", entries["particles.roughness"], accepted, problem)
 
 
 OWN_RUPTURE = tuple(law for law in BRIDGE_LAWS if law not in ("rabinovich", "lambert", "constant"))
@@ -301,7 +300,7 @@ OWN_RUPTURE = tuple(law for law in BRIDGE_LAWS if law not in ("rabinovich", "lam
 
 def check_speed(scene: System) -> None:
     """Raise InputError if the Stokes number or the speed leaves the range of a double."""
-    given, a = dict(scene.given), scene.reduced_radius
+    entries, a = dict(scene.given), scene.reduced_radius
     drag = 6 * math.pi * scene.liquid.viscosity * a * a
     if not 0 < drag < math.inf or not 0 < scene.stokes_per_speed < math.inf:
         accepted = "a mass that makes m/(6 pi mu a^2) a finite number"
@@ -313,5 +312,5 @@ def check_speed(scene: System) -> None:
         ("impact.relative_speed", scene.stokes),
         ("impact.stokes", scene.speed),
     ):
-        if name in given and not (counterpart and counterpart < math.inf):
-            raise InputError(name, given[name], FIELDS[name].accepts, "is too far off for this scene")
+        if name in entries and not (counterpart and counterpart < math.inf):
+            raise InputError(name, entries[name], FIELDS[name].accepts, "is too far off for this scene")

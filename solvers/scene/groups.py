@@ -156,46 +156,38 @@ def formulas(scene: System) -> Mapping[str, Formula]:
 
     A formula takes floats or CasADi expressions. Its arguments are quantities, or groups and scales before it.
     """
-    own = scene.bridge.law if scene.bridge is not None and scene.bridge.rupture == "own" else None
-    return _formulas(scene.wall, scene.pair, own, scene.package)
+    own_law = scene.bridge.law if scene.bridge is not None and scene.bridge.rupture == "own" else None
+    return _formulas(scene.wall, scene.pair, own_law, scene.package)
 
 
 @lru_cache(maxsize=64)
 def _formulas(wall: bool, pair: bool, law: str | None, package: Package | None) -> Mapping[str, Formula]:
     """The formulas; `law` is that of a bridge which ruptures at its law's own distance."""
-    found: dict[str, Formula] = {
+    result: dict[str, Formula] = {
         name: (getattr(scaling, name), arguments)
         for name, arguments in scaling.ARGUMENTS.items()
         if name not in _VARIANTS
     }
     if wall:
-        del found["initial_rate"], found["initial_partner_spin"]
-        found["centrifugal"] = _nothing, ("surface_tension",)
+        del result["initial_rate"], result["initial_partner_spin"]
+        # no line of centres rotates
+        result["centrifugal"] = (lambda surface_tension: 0 * surface_tension), ("surface_tension",)
     kind, more = ("wall", ()) if wall else ("pair", ("initial_rate", "centrifugal")) if pair else ("", ())
     for name in (*more, "obliquity", "rate_scale") if kind else ():
-        found[name] = getattr(scaling, f"{name}_{kind}"), scaling.ARGUMENTS[f"{name}_{kind}"]
-    formula, arguments = found["obliquity"]
-    found["obliquity"] = (lambda *values: _or_one(formula(*values))), arguments
+        result[name] = getattr(scaling, f"{name}_{kind}"), scaling.ARGUMENTS[f"{name}_{kind}"]
+    formula, arguments = result["obliquity"]
+    # 1 where it vanishes: nothing moves sideways then, and rates that are zero need some scale
+    result["obliquity"] = (lambda *values: (scale := formula(*values)) + (scale == 0)), arguments
     if law is not None:
         rupture_distance = _law(package, "bridge", law).rupture_distance
 
-        def own(reduced_radius: Any, film_thickness: Any, volume: Any, contact_angle: Any) -> Any:
+        def law_rupture_gap(reduced_radius: Any, film_thickness: Any, volume: Any, contact_angle: Any) -> Any:
             return 2 * reduced_radius * rupture_distance(volume, contact_angle) / film_thickness
 
-        found["rupture_gap"] = own, scaling.ARGUMENTS["rupture_gap"]
+        result["rupture_gap"] = law_rupture_gap, scaling.ARGUMENTS["rupture_gap"]
     if package is not None:
-        found |= {name: (function, arguments) for name, (arguments, function) in package.groups.items()}
-    return found
-
-
-def _or_one(scale: Any) -> Any:
-    """A scale, or 1 where it vanishes: nothing moves sideways then, and rates that are zero need some scale."""
-    return scale + (scale == 0)
-
-
-def _nothing(surface_tension: Any) -> Any:
-    """Ce with a wall: 0, as there is no line of centres that rotates."""
-    return 0 * surface_tension
+        result |= {name: (function, arguments) for name, (arguments, function) in package.groups.items()}
+    return result
 
 
 def law_module(scene: System, slot: str, name: str) -> Any:
@@ -229,14 +221,14 @@ def sideways(scene: System, angle: np.ndarray, varied: Mapping[str, Any]) -> np.
     return moves
 
 
-def rate_scales(scene: System, given: Mapping[str, Any]) -> np.ndarray:
+def rate_scales(scene: System, quantities: Mapping[str, Any]) -> np.ndarray:
     """The scale of angular velocities of each collision, rad/s, from quantities by vocabulary name, SI."""
-    values = dict(given)
+    values = dict(quantities)
     for name in ("obliquity", "rate_scale"):
         formula, arguments = formulas(scene)[name]
         values[name] = np.asarray(formula(*(values[each] for each in arguments))).reshape(-1)  # of arrays a DM
-    found: np.ndarray = values["rate_scale"]
-    return found
+    scales: np.ndarray = values["rate_scale"]
+    return scales
 
 
 def scaled(group: str, scene: System, speed: float | None = None) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from ..errors import InputError, did_you_mean
+from ..host.arguments import check_name
 from .schema import SPEEDS
 
 if TYPE_CHECKING:
@@ -23,9 +23,7 @@ AXIS_LABELS = {
 
 def check_hold(hold: object, label: str = "hold") -> str:
     """The held quantity, one of `HOLDS`; InputError otherwise."""
-    if not isinstance(hold, str) or hold not in HOLDS:
-        raise InputError(label, hold, ", ".join(HOLDS), "is not known" + did_you_mean(hold, HOLDS))
-    return hold
+    return check_name(hold, HOLDS, label)
 
 
 def held_quantity(scene: System, hold: object) -> str:

@@ -18,13 +18,13 @@ from .schema import DEFAULTS, FIELDS, FROM_COATING
 
 _OWN = "custom."
 SHADOW = "Shi & McCarthy 2008"
-"""Who has it that what covers the caps facing each other flows into the bridge: Powder Technology 184, 64."""
+"""Source of the assumption that the coatings of the facing caps flow into the bridge: Powder Technology 184, 64."""
 NO_GLASS = 1e60  # Pa: of a liquid that never turns solid; no film has such a pressure
 
 
 @dataclass(frozen=True)
 class Ways:
-    """How the numbers of entries are meant where their names do not say it.
+    """Meaning of the entries whose names leave it open.
 
     Arguments:
         wall: the partner is a wall.
@@ -35,9 +35,9 @@ class Ways:
     volume: Literal["relative", "absolute", "coating"] = "relative"
 
     @classmethod
-    def of(cls, given: Mapping[str, object]) -> Ways:
-        """How the entries of a scene, as it keeps them, are meant."""
-        volume, wall = given.get("bridge.volume"), "partner.wall" in given
+    def of(cls, entries: Mapping[str, object]) -> Ways:
+        """The meaning of a scene's entries, as stored."""
+        volume, wall = entries.get("bridge.volume"), "partner.wall" in entries
         if not isinstance(volume, str):
             return cls(wall)
         return cls(wall, "coating" if volume == FROM_COATING else "absolute")
@@ -51,57 +51,57 @@ def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
     """
     present = {name.partition(".")[0] for name in entries}
     entries = {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in present} | dict(entries)
-    found = {
+    result = {
         FIELDS[name].quantity: FIELDS[name].factor * value if FIELDS[name].factor != 1 else value
         for name, value in entries.items()
         if name in FIELDS and FIELDS[name].quantity and not isinstance(value, str)
     }
-    found |= {name.removeprefix(_OWN): value for name, value in entries.items() if name.startswith(_OWN)}
-    found.setdefault("glass_transition_pressure", NO_GLASS)
-    found.setdefault("impact_spin", 0.0)
+    result |= {name.removeprefix(_OWN): value for name, value in entries.items() if name.startswith(_OWN)}
+    result.setdefault("glass_transition_pressure", NO_GLASS)
+    result.setdefault("impact_spin", 0.0)
     if not ways.wall:
-        found.setdefault("impact_partner_spin", found["impact_spin"])
-    if "friction" in found:
-        found.setdefault("contact_tangential_restitution", 0.0)
-    found |= sphere(entries)
+        result.setdefault("impact_partner_spin", result["impact_spin"])
+    if "friction" in result:
+        result.setdefault("contact_tangential_restitution", 0.0)
+    result |= sphere(entries)
     if "liquid.coating_thickness" in entries:
-        found["film_thickness"] = film(entries)
-    radius_ratio, mass_ratio = _ratios(found, entries, ways.wall)
+        result["film_thickness"] = film(entries)
+    radius_ratio, mass_ratio = _ratios(result, entries, ways.wall)
     if not ways.wall:
-        found |= {"radius_ratio": radius_ratio, "mass_ratio": mass_ratio}
-    radius = 2 * found["reduced_radius"]
-    found["reduced_radius"] = found["reduced_radius"] * shared(radius_ratio)
-    found["reduced_mass"] = found["reduced_mass"] * shared(mass_ratio)
+        result |= {"radius_ratio": radius_ratio, "mass_ratio": mass_ratio}
+    radius = 2 * result["reduced_radius"]
+    result["reduced_radius"] = result["reduced_radius"] * shared(radius_ratio)
+    result["reduced_mass"] = result["reduced_mass"] * shared(mass_ratio)
     if ways.volume == "coating":
-        found["volume"] = _from_coating(entries, radius, radius_ratio) / _cube(2 * found["reduced_radius"])
+        result["volume"] = _from_coating(entries, radius, radius_ratio) / _cube(2 * result["reduced_radius"])
     elif ways.volume == "absolute":
-        found["volume"] = found["volume"] / _cube(2 * found["reduced_radius"])
+        result["volume"] = result["volume"] / _cube(2 * result["reduced_radius"])
     if "impact.stokes" in entries:
-        unit = scaling.stokes(found["reduced_radius"], found["reduced_mass"], found["viscosity"], 1.0)
-        found["speed"] = entries["impact.stokes"] / unit
+        unit = scaling.stokes(result["reduced_radius"], result["reduced_mass"], result["viscosity"], 1.0)
+        result["speed"] = entries["impact.stokes"] / unit
     elif "impact.relative_speed" in entries and "impact.angle" in entries:
-        found["speed"] = normal_speed(entries["impact.relative_speed"], entries["impact.angle"])
-    return found
+        result["speed"] = normal_speed(entries["impact.relative_speed"], entries["impact.angle"])
+    return result
 
 
 def sphere(entries: Mapping[str, Any]) -> dict[str, Any]:
     """Half the radius (m) and half the mass (kg) of the first sphere, from radius, mass or density."""
-    found = {
+    result = {
         FIELDS[name].quantity: FIELDS[name].factor * value
         for name, value in entries.items()
         if name in FIELDS and FIELDS[name].quantity in ("reduced_radius", "reduced_mass")
     }
     if "particles.density" in entries:
-        found["reduced_mass"] = _mass(2 * found["reduced_radius"], entries["particles.density"]) / 2
-    return found
+        result["reduced_mass"] = _mass(2 * result["reduced_radius"], entries["particles.density"]) / 2
+    return result
 
 
 def film(entries: Mapping[str, Any]) -> Any:
-    """The gap at initial contact, m: as it is given, or both coatings; a partner is coated alike if nothing is said."""
+    """The gap at initial contact, m: as it is given, or both coatings; by default a partner is coated alike."""
     if "liquid.film_thickness" in entries:
         return entries["liquid.film_thickness"]
-    own = entries["liquid.coating_thickness"]
-    return own + entries.get("partner.coating_thickness", own)
+    coating = entries["liquid.coating_thickness"]
+    return coating + entries.get("partner.coating_thickness", coating)
 
 
 def partner_radius(entries: Mapping[str, Any]) -> Any:
@@ -147,13 +147,13 @@ def _shadow(ratio: Any) -> Any:
 
 def _from_coating(entries: Mapping[str, Any], radius: Any, ratio: Any) -> Any:
     """Volume of the bridge, m^3, that the coatings of both give."""
-    own = entries["liquid.coating_thickness"]
-    other = entries.get("partner.coating_thickness", own)
+    coating = entries["liquid.coating_thickness"]
+    other = entries.get("partner.coating_thickness", coating)
     fraction = entries.get("bridge.coating_fraction")
     if ratio is None:  # of a wall, the layer in the sphere's shadow
-        return _shell(radius, own) / 2 + math.pi * radius * radius * other
+        return _shell(radius, coating) / 2 + math.pi * radius * radius * other
     parts = (_shadow(ratio), _shadow(1 / ratio)) if fraction is None else (fraction, fraction)
-    return parts[0] * _shell(radius, own) + parts[1] * _shell(ratio * radius, other)
+    return parts[0] * _shell(radius, coating) + parts[1] * _shell(ratio * radius, other)
 
 
 def _shell(radius: Any, thickness: Any) -> Any:
@@ -161,14 +161,14 @@ def _shell(radius: Any, thickness: Any) -> Any:
     return 4 * math.pi * thickness * (radius * radius + radius * thickness + thickness * thickness / 3)
 
 
-def _ratios(found: Mapping[str, Any], entries: Mapping[str, Any], wall: bool) -> tuple[Any, Any]:
+def _ratios(sizes: Mapping[str, Any], entries: Mapping[str, Any], wall: bool) -> tuple[Any, Any]:
     """R_2/R_1 and M_2/M_1; None for a wall."""
     if wall:
         return None, None
     radius = partner_radius(entries)
     if radius is None:
         return 1.0, 1.0
-    return radius / (2 * found["reduced_radius"]), partner_mass(entries) / (2 * found["reduced_mass"])
+    return radius / (2 * sizes["reduced_radius"]), partner_mass(entries) / (2 * sizes["reduced_mass"])
 
 
 def _mass(radius: Any, density: Any) -> Any:

@@ -50,20 +50,20 @@ class Scene(System):
         rules.check_pairs(self.given, "given")
         rules.check_pairs(self.comments, "comments")
         rules.check_package(self.package)
-        given = rules.grouped(dict(self.given))
+        entries = rules.grouped(dict(self.given))
         if self.package is not None:
-            given = self.package.completed(given)
-        rules.check_entries(given, self.package)
+            entries = self.package.completed(entries)
+        rules.check_entries(entries, self.package)
         known = fields(self.package)
-        values = {name: known[name].read(raw) for name, raw in given.items()}
-        rules.check_complete(given)
-        given = {name: self._kept(known[name], raw) for name, raw in given.items()}
-        rules.check_ways(given, values)
-        ways = Ways.of(given)
+        values = {name: known[name].read(raw) for name, raw in entries.items()}
+        rules.check_complete(entries)
+        entries = {name: self._kept(known[name], raw) for name, raw in entries.items()}
+        rules.check_ways(entries, values)
+        ways = Ways.of(entries)
         kept = {
-            "given": tuple(given.items()),
+            "given": tuple(entries.items()),
             "ways": ways,
-            "comments": tuple((name, text) for name, text in self.comments if name in given),
+            "comments": tuple((name, text) for name, text in self.comments if name in entries),
             "si": tuple(values.items()),
             "particles": Particles(**rules.spheres(values)),
             "partner": rules.partner(values),
@@ -163,8 +163,8 @@ class Scene(System):
     def _kept(self, entry: Field, raw: object) -> Raw:
         """A value as a scene stores it; a quantity of a user's model with its unit."""
         kept = entry.kept(raw)
-        own = entry.name not in FIELDS and entry.unit and not isinstance(kept, str)
-        return f"{kept!r} {entry.unit}" if own else kept
+        with_unit = entry.name not in FIELDS and entry.unit and not isinstance(kept, str)
+        return f"{kept!r} {entry.unit}" if with_unit else kept
 
     @property
     def guesses(self) -> tuple[tuple[str, str], ...]:
@@ -174,25 +174,25 @@ class Scene(System):
     @property
     def assumed(self) -> tuple[str, ...]:
         """One line for each assumed value of this scene."""
-        given = dict(self.given)
-        said = [f"{name} = {scenefile.written(name, given[name])} ({text})" for name, text in self.guesses]
-        return (*said, *self._flowing())
+        entries = dict(self.given)
+        sentences = [f"{name} = {scenefile.written(name, entries[name])} ({text})" for name, text in self.guesses]
+        return (*sentences, *self._flowing())
 
     def _flowing(self) -> tuple[str, ...]:
         """The line on the part of the coatings that is assumed to flow into the bridge; none if its volume is given."""
         if self.bridge is None or self.ways.volume != "coating":
             return ()
-        given, ratio = self.entries.get("bridge.coating_fraction"), self.radius_ratio
-        if given is not None:
-            told = f"{given:.3g} of each coating"
+        fraction, ratio = self.entries.get("bridge.coating_fraction"), self.radius_ratio
+        if fraction is not None:
+            text = f"{fraction:.3g} of each coating"
         elif ratio is None:
-            told = f"0.5 of the sphere's coating and the wall's layer beneath the sphere, {SHADOW}"
+            text = f"0.5 of the sphere's coating and the wall's layer beneath the sphere, {SHADOW}"
         elif ratio == 1:
-            told = f"{coating_fraction(ratio):.3g} of each coating, {SHADOW}"
+            text = f"{coating_fraction(ratio):.3g} of each coating, {SHADOW}"
         else:
             parts = f"{coating_fraction(ratio):.3g} and {coating_fraction(1 / ratio):.3g}"
-            told = f"{parts} of the coatings, {SHADOW}"
-        return (f"bridge.volume = {self.bridge.volume:.4g} (assumed: {told})",)
+            text = f"{parts} of the coatings, {SHADOW}"
+        return (f"bridge.volume = {self.bridge.volume:.4g} (assumed: {text})",)
 
     # ---- changed copies
 
@@ -205,10 +205,10 @@ class Scene(System):
             InputError: no such model, a stale one, or a scene without the table that a law needs.
         """
         package = open_package(model, "model")
-        given = {
+        kept = {
             name: value for name, value in self.given if name.partition(".")[0] != "custom" or package == self.package
         }
-        entries = {**given, **package.chosen(given)}
+        entries = {**kept, **package.chosen(kept)}
         return type(self)(self.name, tuple(entries.items()), self.comments, package, self.held)
 
     def with_entries(self, changes: Mapping[str, Any], hold: str | None = None) -> Self:
@@ -225,8 +225,8 @@ class Scene(System):
         hold, quantity = held_quantity(self, hold), impact_quantity(self)
         comments = tuple((entry, text) for entry, text in self.comments if entry not in changes)
         replaced = not {*SPEEDS}.isdisjoint(changes)
-        given = tuple({**dict(self.given), **changes}.items())
-        changed = type(self)(name, given, comments, self.package, "" if replaced else self.held)
+        entries = tuple({**dict(self.given), **changes}.items())
+        changed = type(self)(name, entries, comments, self.package, "" if replaced else self.held)
         if replaced or quantity is None:
             return changed
         number, remark = adjusted_impact(self, changed, quantity, hold)
@@ -234,8 +234,8 @@ class Scene(System):
             return changed
         entry = f"impact.{quantity}"
         read = {entry: number} if number != self.entries[entry] else {}
-        given = tuple((name, read.get(name, raw)) for name, raw in changed.given)
-        return changed._at_impact(given, read, remark)  # noqa: SLF001 # another of its kind
+        entries = tuple((name, read.get(name, raw)) for name, raw in changed.given)
+        return changed._at_impact(entries, read, remark)  # noqa: SLF001 # another of its kind
 
     def with_si(self, changes: Mapping[str, float], hold: str | None = None) -> Self:
         """Return the scene with numbers replaced or added as `si` has them: a volume in m^3 where it is given so."""
@@ -296,7 +296,7 @@ class Scene(System):
             "" if replaced else self.held,
         )
 
-    def _at_impact(self, given: tuple[tuple[str, Raw], ...], read: Mapping[str, float | str], held: str) -> Self:
+    def _at_impact(self, entries: tuple[tuple[str, Raw], ...], read: Mapping[str, float | str], held: str) -> Self:
         """Return the scene of these entries, of which only those of the impact differ; what has not changed is kept.
 
         Equal to the scene that `__post_init__` makes of the same entries, with the rules that concern an impact.
@@ -306,19 +306,19 @@ class Scene(System):
             held: as of the new scene.
         """
         values = {**dict(self.si), **read}
-        unchanged = {name for name, _ in given} - read.keys()
-        si = tuple((name, values[name]) for name, _ in given)
-        made = object.__new__(type(self))
-        made.__dict__.update({name: value for name, value in self.__dict__.items() if name != "_written"})
-        made.__dict__.update(
-            given=given,
+        unchanged = {name for name, _ in entries} - read.keys()
+        si = tuple((name, values[name]) for name, _ in entries)
+        result = object.__new__(type(self))
+        result.__dict__.update({name: value for name, value in self.__dict__.items() if name != "_written"})
+        result.__dict__.update(
+            given=entries,
             comments=tuple((name, text) for name, text in self.comments if name in unchanged),
             si=si,
             held=held,
             impact=Impact.of({name.partition(".")[2]: value for name, value in si if name.startswith("impact.")}),
         )
-        rules.check_speed(made)
-        return made
+        rules.check_speed(result)
+        return result
 
     def need_impact(self) -> tuple[float, float]:
         """Return (normal speed in m/s, angle in rad); InputError if the scene does not give both."""

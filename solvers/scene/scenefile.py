@@ -84,11 +84,11 @@ def parse(text: str, origin: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # TOMLDecodeError, integers of 5000 digits
-        said = str(error)
-        at = re.search(r"\s*\(at (?:line (\d+), column \d+|end of document)\)", said)
+        message = str(error)
+        at = re.search(r"\s*\(at (?:line (\d+), column \d+|end of document)\)", message)
         lines = text.splitlines() or [""]
         line = int(at[1]) if at and at[1] else len(lines)
-        problem = said[: at.start()] if at else said
+        problem = message[: at.start()] if at else message
         where = f"{origin}, line {line}" if at else origin
         value = lines[min(line, len(lines)) - 1].strip() if at else None
         accepted = _as_toml(value or "")
@@ -108,13 +108,13 @@ def _as_toml(line: str) -> str:
 
 def remarks(text: str) -> dict[str, str]:
     """Return the comments behind the entries of valid TOML, each on its entry's line: dotted name -> comment."""
-    found, table = {}, ""
+    result, table = {}, ""
     for line in text.splitlines():
         if header := _HEADER.match(line):
             table = header[1]
         elif comment := _REMARK.match(line):
-            found[f"{table}.{comment[1]}"] = comment[2].strip()
-    return found
+            result[f"{table}.{comment[1]}"] = comment[2].strip()
+    return result
 
 
 def flatten(tables: Mapping[str, Any], package: Package | None = None) -> dict[str, Any]:

@@ -14,7 +14,7 @@ Raw = float | int | str
 """An entry as a scene keeps it: text with its unit, a choice, or a plain number."""
 BRIDGE_LAWS = ("mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
 FROM_COATING = "from coating"
-"""What `bridge.volume` says where the liquid of the bridge is what flows out of the coatings."""
+"""Value of `bridge.volume` for a bridge whose liquid flows out of the coatings."""
 FILM_LAWS = ("finite", "infinite", "cavitating", "constant-volume")
 
 
@@ -95,10 +95,10 @@ class Field:
         if self.choices:
             return "one of " + ", ".join(self.choices)
         with_unit = " with its unit" if self.unit else ""
-        said = f"{self.what} {self.range.text}{with_unit}, such as {self.example}"
+        text = f"{self.what} {self.range.text}{with_unit}, such as {self.example}"
         if self.or_unit:
-            said += f", or {units.DIMENSIONS[self.or_unit]} with its unit"
-        return said + "".join(f', or "{word}"' for word in self.words)
+            text += f", or {units.DIMENSIONS[self.or_unit]} with its unit"
+        return text + "".join(f', or "{word}"' for word in self.words)
 
     def read(self, raw: object, *, label: str | None = None, from_file: bool = False) -> float | str:
         """Return the SI number or the choice given by `raw`.
@@ -248,10 +248,10 @@ ONE_OF_EACH = (*REQUIRED_TABLES, "partner")
 """Tables, where they are there, that need one of each of their alternatives."""
 
 SPEEDS = ("impact.stokes", "impact.speed", "impact.relative_speed")
-"""What says how fast the spheres meet: one variable, at an angle."""
+"""Entries that give the speed of an impact: one variable, at an angle."""
 
 MEETING = (*SPEEDS, "impact.angle")
-"""What is asked for one collision after the other; the rest of a scene is the same for all, its spins included."""
+"""Entries that may differ from collision to collision; all others are common to a batch, spins included."""
 
 SPINS = ("impact.spin", "impact.partner_spin")
 

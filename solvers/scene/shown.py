@@ -17,8 +17,8 @@ Row = tuple[str, str, str]
 def entries(scene: System) -> list[Row]:
     """Name, value and remark of every entry: those given, then the defaults that act."""
     assumed = dict(scene.comments)
-    given = [(name, _value(scene, name), assumed.get(name, "")) for name, _ in scene.given]
-    return given + [(name, value, "default") for name, value in _defaults(scene)]
+    rows = [(name, _value(scene, name), assumed.get(name, "")) for name, _ in scene.given]
+    return rows + [(name, value, "default") for name, value in _defaults(scene)]
 
 
 def derived(scene: System) -> list[Row]:
@@ -60,13 +60,13 @@ def _value(scene: System, name: str) -> str:
 
 
 def _defaults(scene: System) -> Iterator[tuple[str, str]]:
-    given = dict(scene.given)
+    present = dict(scene.given)
     for table in (scene.particles, scene.liquid, scene.bridge, scene.attraction, scene.pendulum, scene.model):
         if table is None:
             continue
         for one in dataclasses.fields(table):
             name, value = f"{table.name}.{one.name}", getattr(table, one.name)
-            if name in given or name not in scene.fields or value is None or value != one.default:
+            if name in present or name not in scene.fields or value is None or value != one.default:
                 continue
             unit = scene.fields[name].unit
             yield name, f"{value:.6g} {unit or ''}".rstrip() if isinstance(value, float) else str(value)

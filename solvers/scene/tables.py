@@ -24,10 +24,10 @@ class Table:
     @classmethod
     def of(cls, values: Mapping[str, Any]) -> Self:
         """Return the table of entries already read, without reading them again (a user's model may add laws)."""
-        made = object.__new__(cls)
+        table = object.__new__(cls)
         for field in dataclasses.fields(cls):
-            object.__setattr__(made, field.name, values.get(field.name, field.default))
-        return made
+            object.__setattr__(table, field.name, values.get(field.name, field.default))
+        return table
 
 
 @dataclass(frozen=True)

@@ -199,8 +199,8 @@ def factor(unit: str, si: str | None, field: str, accepted: str, value: object) 
 
 def spelling(unit: str) -> str:
     """Return the canonical spelling of a unit (`Pa·s`, `Pa*s` -> `Pa s`; `µm` -> `um`)."""
-    for given, ours in _LETTERS:
-        unit = unit.replace(given, ours)
+    for letter, ours in _LETTERS:
+        unit = unit.replace(letter, ours)
     unit = re.sub(r"\s*([/^])\s*", r"\1", unit)
     unit = re.sub(r"(?<=[A-Za-z])\.(?=[A-Za-z])", " ", unit)  # Pa.s
     unit = re.sub(r"(?<![\w^])([A-Za-z]+)(-?[1-9])(?!\w)", r"\1^\2", unit)  # cm3, m-3
@@ -255,7 +255,7 @@ def _judged(unit: str) -> tuple[float, Powers, float]:
 
     content = json.dumps(["pint", version("pint"), unit, "zero"])
 
-    def asked() -> bytes:
+    def ask_pint() -> bytes:
         registry = _registry()
         size: Any
         parsed = registry.parse_units(unit)
@@ -263,7 +263,7 @@ def _judged(unit: str) -> tuple[float, Powers, float]:
         zero = float(registry.Quantity(0.0, parsed).to_root_units().magnitude)
         return json.dumps([float(size), dict(registry.Quantity(1, root).unit_items()), zero]).encode()
 
-    size, powers, zero = json.loads(kept(f"unit-{hashlib.sha256(content.encode()).hexdigest()[:32]}.json", asked))
+    size, powers, zero = json.loads(kept(f"unit-{hashlib.sha256(content.encode()).hexdigest()[:32]}.json", ask_pint))
     return size, powers, zero
 
 

@@ -66,11 +66,11 @@ class OwnEvent:
         """An entry of the manifest."""
         from ...generated.automaton import Event  # not where nothing emitted is read, as by `generate`
 
-        given = {name: one[name] for name in Event._fields}
-        given |= {"where": tuple((part, value) for part, value in one["where"])}
-        given |= {name: tuple(one[name]) for name in ("functions", "words", "actions")}
+        fields = {name: one[name] for name in Event._fields}
+        fields |= {"where": tuple((part, value) for part, value in one["where"])}
+        fields |= {name: tuple(one[name]) for name in ("functions", "words", "actions")}
         others = ("mark", "meaning", "reach", "takes", "harmless", "rotates", "turns", "spins")
-        return cls(Event(**given), **{name: one[name] for name in others})
+        return cls(Event(**fields), **{name: one[name] for name in others})
 
     @property
     def name(self) -> str:
@@ -103,8 +103,8 @@ class Package:
 
     @cached_property
     def manifest(self) -> dict[str, Any]:
-        found: dict[str, Any] = json.loads(self.text)
-        return found
+        content: dict[str, Any] = json.loads(self.text)
+        return content
 
     @property
     def name(self) -> str:
@@ -119,15 +119,15 @@ class Package:
     @cached_property
     def fields(self) -> dict[str, Field]:
         """Entries of a scene with this model: the library's, with the model's laws added, and `[custom]`."""
-        found = dict(FIELDS)
+        result = dict(FIELDS)
         for slot, entry in ENTRIES.items():
-            own = tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
-            if own and entry in found:
-                known = found[entry]
-                found[entry] = Field(entry, known.what, known.example, known.range, None, (*known.choices, *own))
+            names = tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
+            if names and entry in result:
+                known = result[entry]
+                result[entry] = Field(entry, known.what, known.example, known.range, None, (*known.choices, *names))
         for one in self.manifest["quantities"]:
-            found[f"{TABLE}.{one['name']}"] = _field(one)
-        return found
+            result[f"{TABLE}.{one['name']}"] = _field(one)
+        return result
 
     @property
     def quantities(self) -> tuple[str, ...]:
@@ -136,12 +136,12 @@ class Package:
     @property
     def defaults(self) -> dict[str, Raw]:
         """Entries of `[custom]` that have defaults."""
-        given = {f"{TABLE}.{one['name']}": one["default"] for one in self.manifest["quantities"]}
-        return {name: value for name, value in given.items() if value is not None}
+        values = {f"{TABLE}.{one['name']}": one["default"] for one in self.manifest["quantities"]}
+        return {name: value for name, value in values.items() if value is not None}
 
-    def completed(self, given: Mapping[str, Any]) -> dict[str, Any]:
+    def completed(self, entries: Mapping[str, Any]) -> dict[str, Any]:
         """The given entries, completed with defaults."""
-        return {**given, **{name: value for name, value in self.defaults.items() if name not in given}}
+        return {**entries, **{name: value for name, value in self.defaults.items() if name not in entries}}
 
     def demand(self, entries: Mapping[str, Any]) -> None:
         """Raise InputError for a quantity that is missing without a default, or an event that the scene cannot have."""
@@ -153,18 +153,18 @@ class Package:
             if f"{TABLE}.{name}" not in entries:
                 raise InputError(f"{TABLE}.{name}", None, self.fields[f"{TABLE}.{name}"].accepts)
 
-    def chosen(self, given: Mapping[str, Any]) -> dict[str, str]:
+    def chosen(self, entries: Mapping[str, Any]) -> dict[str, str]:
         """Entries that select the model's laws; InputError if the scene lacks the table that a law needs."""
-        present = {name.partition(".")[0] for name in given} | {"model"}
-        found = {}
+        present = {name.partition(".")[0] for name in entries} | {"model"}
+        result = {}
         for slot in dict.fromkeys(law["slot"] for law in self.manifest["laws"]):
             entry = ENTRIES.get(slot, "")
             if entry.partition(".")[0] not in present:
                 table = entry.partition(".")[0] or slot
                 raise InputError("--model", str(self.folder), f"a scene with a [{table}] table", f"has a {slot} law")
-            if entry in FIELDS and given.get(entry) not in self.laws(slot):
-                found[entry] = self.laws(slot)[0]
-        return found
+            if entry in FIELDS and entries.get(entry) not in self.laws(slot):
+                result[entry] = self.laws(slot)[0]
+        return result
 
     @property
     def unnamed(self) -> tuple[str, ...]:
@@ -331,11 +331,11 @@ class Package:
 def _module(package: Package, path: str) -> ModuleType:
     content = package._verified(path)  # noqa: SLF001 # the same room
     dotted = path.removesuffix(".py").replace("/", ".")
-    made = executed(f"wetdoublet_model_{package.digest[:12]}.{dotted}", content)
+    module = executed(f"wetdoublet_model_{package.digest[:12]}.{dotted}", content)
     known = package.manifest["structures"].get(dotted)
-    if known is not None and known != made.DIGEST:
-        raise InputError(path, made.DIGEST, package.remedy, "comes from other equations than the manifest says")
-    return made
+    if known is not None and known != module.DIGEST:
+        raise InputError(path, module.DIGEST, package.remedy, "comes from other equations than the manifest says")
+    return module
 
 
 def _field(one: Mapping[str, Any]) -> Field:

@@ -41,15 +41,16 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
         return Derived("\n".join(lines), {}, f"fails {', '.join(failing)}; nothing is emitted")
     source, words = path.read_text(encoding="utf-8"), in_words(model)
     files = package(model, source, library_digest(), conserved(model), words, _origin(path, folder))
-    made = Package(files["manifest.json"])
-    for name, value in made.defaults.items():
+    emitted = Package(files["manifest.json"])
+    for name, value in emitted.defaults.items():
         try:
-            made.fields[name].read(value)
+            emitted.fields[name].read(value)
         except InputError as error:
             raise InputError(f"{path}: {name}, default", value, error.accepted, error.problem) from None
-    said = [f"{model.name}: {model.meaning}.", *(f"  {law.slot} law {law.name}: {law.meaning}" for law in model.laws)]
-    said += [f"  event {event.proposed.word}: {event.proposed.meaning}" for event in model.events]
-    return Derived("\n".join([*said, "", *lines, "", *words]), files, "")
+    meanings = [f"{model.name}: {model.meaning}."]
+    meanings += [f"  {law.slot} law {law.name}: {law.meaning}" for law in model.laws]
+    meanings += [f"  event {event.proposed.word}: {event.proposed.meaning}" for event in model.events]
+    return Derived("\n".join([*meanings, "", *lines, "", *words]), files, "")
 
 
 def _origin(path: Path, folder: Path | None) -> str:

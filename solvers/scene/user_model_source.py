@@ -92,10 +92,10 @@ def _of_file(path: Path, label: str) -> Package:
         from .user_model_derived import derived_package  # a late import, as it imports sympy
 
         with DERIVING:
-            made = derived_package(path, None)
-        if not made.files:
-            raise CheckFailed(f"{path}: {made.failed}")
-        return json.dumps(dict(made.files)).encode()
+            package = derived_package(path, None)
+        if not package.files:
+            raise CheckFailed(f"{path}: {package.failed}")
+        return json.dumps(dict(package.files)).encode()
 
     files = json.loads(kept(f"model-{key[:32]}.json", derived))
     return Package(files["manifest.json"], path, files)

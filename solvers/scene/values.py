@@ -33,10 +33,10 @@ def scalar(value: Any, entry: Entry, label: str) -> object:
     """Return a 0-D array or a quantity with its unit as a plain SI number; other values unchanged."""
     if isinstance(value, (str, Real)) or not _is_array(value):
         return value
-    found = array(value, entry, label)
-    if found.ndim:
+    number = array(value, entry, label)
+    if number.ndim:
         raise InputError(label, value, entry.accepts, "is not a single number")
-    return float(found)
+    return float(number)
 
 
 def array(values: Any, entry: Entry, label: str) -> np.ndarray:
@@ -60,17 +60,17 @@ def array(values: Any, entry: Entry, label: str) -> np.ndarray:
         masked = f"{int(np.ma.getmaskarray(bare).sum())} of {bare.size} values are masked"
         raise InputError(label, None, "values without a mask: drop them, or fill them", masked)
     try:
-        found = np.asarray(bare)
+        numbers = np.asarray(bare)
     except Exception:  # noqa: BLE001 # whatever another library's conversion raises
-        found = np.asarray(None)
-    if found.dtype.kind in "OU" and unit is None:
-        flat = [entry.number(value, label=label) for value in found.ravel().tolist()]
-        return np.array(flat, dtype=float).reshape(found.shape)
-    if found.dtype.kind not in "fiu":
-        said = f"is of type {found.dtype}, not of real numbers" if _is_array(bare) else "is not a list of numbers"
-        raise InputError(label, values, "numbers (SI), or quantities with their units", said)
+        numbers = np.asarray(None)
+    if numbers.dtype.kind in "OU" and unit is None:
+        flat = [entry.number(value, label=label) for value in numbers.ravel().tolist()]
+        return np.array(flat, dtype=float).reshape(numbers.shape)
+    if numbers.dtype.kind not in "fiu":
+        problem = f"is of type {numbers.dtype}, not of real numbers" if _is_array(bare) else "is not a list of numbers"
+        raise InputError(label, values, "numbers (SI), or quantities with their units", problem)
     with np.errstate(over="ignore"):  # values beyond a double's range become inf, which the caller refuses
-        doubles = found.astype(float)
+        doubles = numbers.astype(float)
     return doubles if unit is None else doubles * factor(unit, entry.unit, label, entry.accepts, values)
 
 
@@ -120,8 +120,8 @@ def _unit(value: Any) -> tuple[str | None, Any]:
         return None, value
     if hasattr(value, "data") and hasattr(value, "attrs"):  # xarray
         unit, bare = _unit(value.data)
-        given = value.attrs.get("units") if unit is None else unit
-        return (_EXPONENT.sub(r"^\1", given), bare) if isinstance(given, str) else (None, bare)
+        unit_of_array = value.attrs.get("units") if unit is None else unit
+        return (_EXPONENT.sub(r"^\1", unit_of_array), bare) if isinstance(unit_of_array, str) else (None, bare)
     if hasattr(value, "units") and hasattr(value, "magnitude"):  # pint
         return f"{value.units:D}", value.magnitude
     for name in ("units", "unit"):  # unyt, astropy

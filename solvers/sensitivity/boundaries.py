@@ -13,7 +13,7 @@ import numpy as np
 from ..boundaries.boundary import Boundaries, boundary
 from ..boundaries.changes import Change, changes_along
 from ..boundaries.line import Line
-from ..boundaries.look import Look
+from ..boundaries.scene_sampler import SceneSampler
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function
@@ -52,7 +52,7 @@ class Moving:
 
     @property
     def shown(self) -> tuple[str, ...]:
-        """What texts and pictures show of it, the last first; Ce* vanishes head-on."""
+        """Quantities that texts and pictures show, the preferred one last; Ce* vanishes head-on."""
         return ("stokes", "speed", "centrifugal") if self.change.centrifugal else ("stokes", "speed")
 
     def to_dict(self) -> dict[str, Any]:
@@ -106,11 +106,11 @@ class BoundarySensitivities:
                 rows = [getattr(one, kind).get(of, {}) for _, one in pairs]
                 values = [[np.nan if row.get(name) is None else row[name] for name in self.parameters] for row in rows]
                 data[f"{of}_{kind}"] = over, np.array(values, dtype=float).reshape(len(pairs), len(self.parameters))
-        own = {name: ("change", np.array([getattr(one.change, name) for _, one in pairs]))
+        columns = {name: ("change", np.array([getattr(one.change, name) for _, one in pairs]))
                for name in ("stokes", "before", "after")}  # fmt: skip
         angles = np.array([angle for angle, _ in pairs], dtype=float)
         coordinates: dict[str, Any] = {
-            "angle": ("change", angles, {"units": "rad"}), **own, "parameter": list(self.parameters)
+            "angle": ("change", angles, {"units": "rad"}), **columns, "parameter": list(self.parameters)
         }  # fmt: skip
         return xr.Dataset(data, coordinates)
 
@@ -228,13 +228,13 @@ def boundary_sensitivities(
     check_function(progress, "progress")
     if traced is not None and not isinstance(traced, Boundaries):
         raise InputError("traced", traced, "what boundary() has returned, or None", "is neither")
-    found = boundary(loaded, angle=angle, stokes=stokes, rtol=rtol) if traced is None else traced
+    traced_lines = boundary(loaded, angle=angle, stokes=stokes, rtol=rtol) if traced is None else traced
     lines: list[tuple[Moving, ...]] = []
-    for at, line in zip(found.angles, found.changes, strict=True):
+    for at, line in zip(traced_lines.angles, traced_lines.changes, strict=True):
         lines.append(tuple(moving(loaded, at, change, names, rtol) for change in line))
         if progress:
             progress(len(lines))
-    return BoundarySensitivities(found, tuple(lines), names)
+    return BoundarySensitivities(traced_lines, tuple(lines), names)
 
 
 def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt") -> tuple[str, ...]:
@@ -250,15 +250,15 @@ def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str
 def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], rtol: float = RTOL) -> Moving:
     """Derivatives of one change at an angle (rad) in the named parameters."""
     try:
-        found = slope(scene, angle, change, min(rtol, _SHARPEST))
+        gradient = slope(scene, angle, change, min(rtol, _SHARPEST))
     except ComputationError as error:
         return Moving(change, reason=str(error))
     kind = kind_of(scene, "stokes")
     everything = (*names, "impact.stokes")
-    via = parameter_map(kind, everything, found.groups)
+    via = parameter_map(kind, everything, gradient.groups)
     reference = references(scene, kind, scene.speed_of(change.stokes), angle)
     slopes, units = (np.asarray(each.full()) for each in via.slopes(reference))
-    in_theta = found.gradient @ slopes[: len(found.groups)]
+    in_theta = gradient.gradient @ slopes[: len(gradient.groups)]
     if in_theta[-1] == 0:
         return Moving(change, reason="it does not depend on the Stokes number")
     along = -in_theta[:-1] / in_theta[-1]  # d ln St*/dtheta
@@ -270,8 +270,8 @@ def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], r
     groups: tuple[str, ...] = ("speed",)
     if change.centrifugal is not None:
         values["centrifugal"], groups = change.centrifugal, ("speed", "centrifugal")
-    own = np.asarray(parameter_map(kind, everything, groups).slopes(reference)[0].full())
-    rows = dict(zip(groups, own[:, :-1] + own[:, -1:] * along)) | {"stokes": along * change.stokes}
+    map_slopes = np.asarray(parameter_map(kind, everything, groups).slopes(reference)[0].full())
+    rows = dict(zip(groups, map_slopes[:, :-1] + map_slopes[:, -1:] * along)) | {"stokes": along * change.stokes}
     turned = np.array([units[k].item() if name == "impact.angle" else 0.0 for k, name in enumerate(names)])
     rows["relative_speed"] = (rows["speed"] + speed * math.tan(angle) * turned) / math.cos(angle)
     at = dict(zip(kind.entries, reference.tolist(), strict=True))
@@ -352,11 +352,11 @@ def _moved(scene: Scene, angle: float, change: Change, moves: dict[str, float], 
     """
     aside, angle = _beside(scene, angle, moves)
     stokes = change.stokes * np.exp(expected + _REACH * np.linspace(-1, 1, 6))
-    look, line = Look(aside, rtol), Line(aside, angle, rtol)
-    [found] = changes_along([line], look, [look(np.full(stokes.size, angle), stokes)])
-    if isinstance(found, ComputationError):
-        raise found
-    same = [math.log(one.stokes / change.stokes) for one in found
+    sampler, line = SceneSampler(aside, rtol), Line(aside, angle, rtol)
+    [changes] = changes_along([line], sampler, [sampler(np.full(stokes.size, angle), stokes)])
+    if isinstance(changes, ComputationError):
+        raise changes
+    same = [math.log(one.stokes / change.stokes) for one in changes
             if (one.before, one.after) == (change.before, change.after)]  # fmt: skip
     if not same:
         raise ComputationError("it is not where the derivatives predict it")

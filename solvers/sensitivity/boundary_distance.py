@@ -27,9 +27,9 @@ from ..scene.user_model import OwnEvent
 from .result import Near
 
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
-LOOK = 30.0  # multiple of the limit; at smaller estimates the distance is computed
+COMPUTED = 30.0  # multiple of the limit; at smaller estimates the distance is computed
 _SLOW = 3e-2  # of v0 squared: so slow, a trajectory may lie where it amplifies errors (`problem.NEAR`)
-_WORTH_SAYING = 0.5  # largest logarithmic distance that is reported
+_FARTHEST = 0.5  # largest logarithmic distance that is reported
 _HINT = "v0 squared"  # marks an estimate that is no distance; it is computed or dropped
 _ESTIMATE = "the energy of approach, by an estimate"
 _COARSE, _FINE = 1e-6, 1e-11
@@ -72,7 +72,7 @@ def checked(
 
 def checked_by_estimates(finder: EventLocator, path: EventSequence, rtol: float) -> Near | None:
     """The boundary nearest to a separated trajectory in space, by estimates only; ComputationError if it is near."""
-    least = LOOK * limit(rtol)
+    least = COMPUTED * limit(rtol)
     if KINDS[EventKind.RESTS] in path.kinds:
         raise refused(CHATTER, least)
     near = min(_suspects(finder, path), key=lambda one: one.distance, default=None)
@@ -83,24 +83,24 @@ def checked_by_estimates(finder: EventLocator, path: EventSequence, rtol: float)
 
 def explained(scene: Scene, n: DimensionlessGroups, error: ComputationError, rtol: float) -> ComputationError:
     """The error for a trajectory that could not be differentiated: names the boundary if it is close to one."""
-    looked = [_measured(scene, n, Near(name, math.inf, _HINT)) for name in (GLASS, SADDLE)]
-    near = min(looked, key=lambda one: one.distance)
+    measured = [_measured(scene, n, Near(name, math.inf, _HINT)) for name in (GLASS, SADDLE)]
+    near = min(measured, key=lambda one: one.distance)
     return refused(near, limit(rtol)) if near.distance < limit(rtol) else error
 
 
 def _nearest(scene: Scene, n: DimensionlessGroups, suspects: list[Near], least: float) -> Near | None:
     """The nearest of the estimated boundaries; distances of near ones are computed, other hints dropped."""
-    found = []
+    candidates = []
     hints = sorted((one for one in suspects if one.of == _HINT), key=lambda one: one.distance)
     suspects = [one for one in suspects if one.of != _HINT] + hints[:1]  # one function has the roots of all
     for boundary in dict.fromkeys(one.boundary for one in suspects):
         near = min((one for one in suspects if one.boundary == boundary), key=lambda one: one.distance)
-        if near.distance < max(LOOK * least, _SLOW * (near.of == _HINT)):
+        if near.distance < max(COMPUTED * least, _SLOW * (near.of == _HINT)):
             measured = _measured(scene, n, near)
-            found += [measured] if measured.of != _HINT else []
-        elif near.of != _HINT and near.distance < _WORTH_SAYING:
-            found.append(near)
-    return min(found, key=lambda one: one.distance, default=None)
+            candidates += [measured] if measured.of != _HINT else []
+        elif near.of != _HINT and near.distance < _FARTHEST:
+            candidates.append(near)
+    return min(candidates, key=lambda one: one.distance, default=None)
 
 
 def refused(near: Near, least: float) -> ComputationError:

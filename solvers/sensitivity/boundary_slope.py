@@ -82,20 +82,20 @@ def slope(scene: Scene, angle: float, change: Change, rtol: float) -> Slope:
             seen = " and ".join(outcomes)
             raise ComputationError(f"collisions beside St {change.stokes:.10g} end in {seen}: not differentiated")
         k = _parting(low.path, high.path)
-        found = _just_met(low, high, k) or _at_rim(low, high, k) or _at_saddle(low, high, k)
-        if found is None:
+        result = _just_met(low, high, k) or _at_rim(low, high, k) or _at_saddle(low, high, k)
+        if result is None:
             separated = high if high.path.separated else low
             aside = _ASIDE if separated.model.bridge else _FREE_RIM
             beside = change.stokes * (1 + (aside if separated is high else -aside))
-            found = _leaving(_side(scene, angle, beside, rtol))
+            result = _leaving(_side(scene, angle, beside, rtol))
     except IntegrationFailed as failure:
         raise ComputationError(f"the change at St {change.stokes:.10g} cannot be differentiated ({failure})") from None
-    if found is None:
+    if result is None:
         raise ComputationError(
             f"the trajectories beside St {change.stokes:.10g} part in phase {k + 1}, neither at a criterion that is "
             "just met, nor at the rupture gap, nor at a saddle: not differentiated"
         )
-    return found
+    return result
 
 
 def _side(scene: Scene, angle: float, stokes: float, rtol: float) -> _Side:
@@ -119,8 +119,8 @@ def _gradient(side: _Side, k: int, last: PhaseRun, weights: np.ndarray) -> tuple
     end = ending(course, "rosenbrock", side.tolerance)
     durations = np.array([step.duration for step in part.steps])
     durations = settled(end, path.p, durations, landed(course), 1e-8)
-    y, _, found = evaluate(first_derivatives(end, 1, True), path.p, durations, weights)
-    return y.ravel(), found.ravel() * np.array(influential(course, side.finder.groups), dtype=float)
+    y, _, slopes = evaluate(first_derivatives(end, 1, True), path.p, durations, weights)
+    return y.ravel(), slopes.ravel() * np.array(influential(course, side.finder.groups), dtype=float)
 
 
 # ---- a criterion that is just met: the trajectory up to the maximum, where the time derivative is zero
@@ -191,10 +191,10 @@ def _at_rim(low: _Side, high: _Side, k: int) -> Slope | None:
         step, gap = side.path.steps[k], float(side.path.ends[k][0])
         if KINDS[EventKind.FELL_BACK] in step.kinds and abs(gap / side.finder.rupture_gap - 1) < _AT_RIM:
             weights = np.eye(len(side.model.state), 1)
-            found, names = _gradient(side, k, step, weights)[1], tuple(side.model.groups)
+            slopes, names = _gradient(side, k, step, weights)[1], tuple(side.model.groups)
             if side.model.bridge:
-                found[names.index("rupture_gap")] -= 1.0
-            return Slope(names, found)
+                slopes[names.index("rupture_gap")] -= 1.0
+            return Slope(names, slopes)
     return None
 
 

@@ -80,14 +80,14 @@ def gradients_by_kernel(
     scene, size = impacts.scene, impacts.angle.size
     angle, oblique = ANGLE if impacts.angle[0] > 0 else 0.0, bool(impacts.oblique[0])
     at = _at_reference(scene, kind, wrt, angle)
-    found = run_tangent(impacts, oblique, rtol, "rotation" in of, tuple(at.moved), order, budget, backward)
-    if found is None:
+    derivatives = run_tangent(impacts, oblique, rtol, "rotation" in of, tuple(at.moved), order, budget, backward)
+    if derivatives is None:
         return None
     # the quantities' derivatives are those at the reference, except for speed and angle
     paces = {"speed": impacts.speed / SPEED, "angle": impacts.angle / angle if angle else np.ones(impacts.angle.size)}
     steep = _steep(impacts.angle) if kind.held == RELATIVE and angle > 0 and "impact.angle" in wrt else None
     value, first = np.full((len(of), size), np.nan), np.zeros((len(of), size, len(wrt)))
-    separated, at_once = found.answers["outcome"] > 0, found.answers["time"] == 0
+    separated, at_once = derivatives.answers["outcome"] > 0, derivatives.answers["time"] == 0
     unspun = scene.particles.friction is None and not scene.turns(0.0)
     bent = np.ones((1 if steep is None else size, len(wrt)))  # of rows of the speed, over those of the reference
     if steep is not None:
@@ -101,12 +101,12 @@ def gradients_by_kernel(
             if DIFFERENTIATED[name].odd:
                 value[place, separated] = 0.0
             continue
-        plain = found.answers[where] if isinstance(where, str) else found.answers["shown"][:, where]
+        plain = derivatives.answers[where] if isinstance(where, str) else derivatives.answers["shown"][:, where]
         sums = np.zeros((len(wrt), size))
         for quantity, row in at.moved.items():  # a quantity moves with few parameters
-            if quantity not in found.quantities:
+            if quantity not in derivatives.quantities:
                 continue
-            paced = found.slopes[:, found.quantities.index(quantity), column] * paces.get(quantity, 1.0)
+            paced = derivatives.slopes[:, derivatives.quantities.index(quantity), column] * paces.get(quantity, 1.0)
             for k in np.flatnonzero(row).tolist():
                 sums[k] += row[k] * paced
             if steep is not None and quantity == "speed":
@@ -120,7 +120,7 @@ def gradients_by_kernel(
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
             plain = plain * scale
         value[place, separated] = plain[separated]
-    return Along(found, value, first, at.units)
+    return Along(derivatives, value, first, at.units)
 
 
 @dataclass(frozen=True)
@@ -147,14 +147,14 @@ def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float,
     if not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
     impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
-    found = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharpened(rtol, near, path), order_for(rtol))
-    if found is None:
+    along = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharpened(rtol, near, path), order_for(rtol))
+    if along is None:
         return None
-    answer = found.run.answers[0]
+    answer = along.run.answers[0]
     outcome = OUTCOMES[answer["outcome"]]
-    if answer["status"] > LAST_ANSWER or outcome != path.outcome or found.run.near[0, 1] == CHATTERS:
+    if answer["status"] > LAST_ANSWER or outcome != path.outcome or along.run.near[0, 1] == CHATTERS:
         return None
-    return Slopes(found.value[:, 0], found.first[:, 0], None)
+    return Slopes(along.value[:, 0], along.first[:, 0], None)
 
 
 def _steep(angle: np.ndarray) -> np.ndarray:
@@ -178,8 +178,8 @@ class _Scales:
         falls: np.ndarray | None,
     ) -> None:
         speed, angle = impacts.speed, impacts.angle
-        own = ANGLE if angle[0] > 0 else 0.0
-        n = nondimensionalise(scene, SPEED, own)
+        angle_bit = ANGLE if angle[0] > 0 else 0.0
+        n = nondimensionalise(scene, SPEED, angle_bit)
         pace = speed / SPEED
         rates = rate_scales(scene, {**scene.material, "speed": speed, "angle": angle})
         self._values = {"length": n.length * pace**0, "time": n.time / pace, "rate": rates}

@@ -4,7 +4,7 @@ import numpy as np
 from casadi import DM, MX, Function, densify, jtimes
 
 from ..engines.casadi.integrators import IntegrationFailed, quiet
-from ..host.captured_stderr import listening
+from ..host.captured_stderr import captured_stderr
 from ..host.interrupts import check
 from ..host.thread_caches import own_cache
 from .trajectory_expression import TrajectoryExpression
@@ -20,16 +20,16 @@ _TRIES = 8
 def evaluate(function: Function, *arguments: np.ndarray | DM) -> list[np.ndarray]:
     """A function's results as arrays; IntegrationFailed without CasADi's long messages."""
     check()
-    with listening() as heard:
+    with captured_stderr() as printed:
         try:
-            found = function.call([DM(each) for each in arguments])
+            results = function.call([DM(each) for each in arguments])
         except (RuntimeError, SystemError) as error:
-            if "KeyboardInterrupt" in str(error) + heard.getvalue():
+            if "KeyboardInterrupt" in str(error) + printed.getvalue():
                 raise KeyboardInterrupt from None
             raise IntegrationFailed("the integrator gave up") from None
-    if "KeyboardInterrupt" in heard.getvalue():  # an interrupt that CVODES has treated as a failed step
+    if "KeyboardInterrupt" in printed.getvalue():  # an interrupt that CVODES has treated as a failed step
         raise KeyboardInterrupt
-    arrays = [np.asarray(each.full()) for each in found]
+    arrays = [np.asarray(each.full()) for each in results]
     if not all(np.isfinite(each).all() for each in arrays):
         raise IntegrationFailed("a result is not finite")
     return arrays

@@ -66,9 +66,9 @@ def spanning(p: np.ndarray, dp: np.ndarray, active: Active) -> np.ndarray:
     used = np.unique(dp[:, np.any(dp != 0, axis=0)], axis=1)  # speed and Stokes number give the same direction
     if used.shape[1] < len(moving) and np.linalg.matrix_rank(used) == used.shape[1]:
         return used
-    own = np.zeros((p.size, len(moving)))
-    own[moving, range(len(moving))] = [p[k] or 1.0 for k in moving]
-    return own
+    unit = np.zeros((p.size, len(moving)))
+    unit[moving, range(len(moving))] = [p[k] or 1.0 for k in moving]
+    return unit
 
 
 def inverse(seeds: np.ndarray) -> np.ndarray:
@@ -88,10 +88,10 @@ def second_derivatives(
     along = along * np.array(active)[:, None]
     seeds = spanning(p, along, active)
     back = inverse(seeds) @ along
-    found = []
+    columns = []
     for weights in np.eye(len(whole.of)):
         product = np.zeros((p.size, seeds.shape[1]))
         if seeds.shape[1]:
             [product] = evaluate(curvature(whole, seeds.shape[1]), p, durations, weights, seeds)
-        found.append(dp.T @ product @ back)
-    return np.array(found)
+        columns.append(dp.T @ product @ back)
+    return np.array(columns)

@@ -29,7 +29,7 @@ from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from . import by_kernel as kernel
-from .boundary_distance import LOOK, limit, refused
+from .boundary_distance import COMPUTED, limit, refused
 from .parameters import RELATIVE, SIDEWAYS, Kind, check_wrt, kind_of, references
 from .problem import NEAR, SHARPEST
 from .result import Near
@@ -46,7 +46,7 @@ STICK = "a stick: its restitution is 0, and nothing else of it is defined"
 
 
 @dataclass
-class _Asked:
+class _Request:
     """The request, and the results so far; NaN where not computed."""
 
     scene: Scene
@@ -84,15 +84,15 @@ class _Asked:
         Arguments:
             units: dp/dtheta at the reference of `by_kernel`.
         """
-        found: np.ndarray = slopes / units
+        result: np.ndarray = slopes / units
         for k, name in enumerate(self.wrt):
             if name == RELATIVE:
-                found[:, :, k] = slopes[:, :, k] / self.relative_speed[which]
+                result[:, :, k] = slopes[:, :, k] / self.relative_speed[which]
             elif name in SPEEDS:
-                found[:, :, k] *= kernel.SPEED / self.speed[which]
+                result[:, :, k] *= kernel.SPEED / self.speed[which]
             elif name == "impact.angle" and self.angle[which[0]] > 0:
-                found[:, :, k] = slopes[:, :, k] / self.angle[which]
-        return found
+                result[:, :, k] = slopes[:, :, k] / self.angle[which]
+        return result
 
     def reference(self) -> np.ndarray:
         """Values of the parameters, (collisions, parameters)."""
@@ -143,94 +143,94 @@ def gradients_many(
         (2,)
     """
     names, by = check_quantities(of), check_engine(engine)
-    request = validated_batch(
+    batch = validated_batch(
         scene, {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}, {}, rtol,
         "rosenbrock", (),
     )  # fmt: skip
-    loaded = request.scene
+    loaded = batch.scene
     held = held_quantity(loaded, hold) if relative_speed is None or hold is not None else "relative_speed"
     warn(loaded)
-    velocity = request.speed if request.speed is not None else np.asarray(request.stokes) / loaded.stokes_per_speed
-    asked = _Asked(
-        loaded, np.asarray(velocity), request.angle, kind_of(loaded, held), check_wrt(loaded, wrt), names, request.rtol
+    velocity = batch.speed if batch.speed is not None else np.asarray(batch.stokes) / loaded.stokes_per_speed
+    request = _Request(
+        loaded, np.asarray(velocity), batch.angle, kind_of(loaded, held), check_wrt(loaded, wrt), names, batch.rtol
     )
-    left = np.arange(request.size)
-    oblique = set(sideways(loaded, request.angle, {}).tolist())
+    left = np.arange(batch.size)
+    oblique = set(sideways(loaded, batch.angle, {}).tolist())
     if by is None:
         by = gradient_engine(loaded, names, kernel.KNOWN, oblique)
     if by == "taylor" and kernel.offers(loaded, names, oblique):
-        left = _by_kernel(asked)
+        left = _by_kernel(request)
     for k in left:
-        _alone(asked, int(k), held, by)
-    return _dataset(asked, held)
+        _alone(request, int(k), held, by)
+    return _dataset(request, held)
 
 
-def _by_kernel(asked: _Asked) -> np.ndarray:
+def _by_kernel(request: _Request) -> np.ndarray:
     """Compute collisions by the kernel; returns the indices of those left to CasADi."""
-    moves = sideways(asked.scene, asked.angle, {})
-    turns = any(DIFFERENTIATED[name].odd for name in asked.of) and bool({*asked.wrt} & {*SIDEWAYS})
+    moves = sideways(request.scene, request.angle, {})
+    turns = any(DIFFERENTIATED[name].odd for name in request.of) and bool({*request.wrt} & {*SIDEWAYS})
     parts, left = [], [np.flatnonzero(~moves) if turns else np.zeros(0, int)]
-    for which in (np.flatnonzero(asked.angle > 0), np.flatnonzero((asked.angle == 0) & (moves | (not turns)))):
+    for which in (np.flatnonzero(request.angle > 0), np.flatnonzero((request.angle == 0) & (moves | (not turns)))):
         parts += [which[k : k + _STRETCH] for k in range(0, which.size, _STRETCH)]
     if len(parts) > 1:
         with ThreadPoolExecutor(usable_cores()) as pool:  # the kernel releases the interpreter's lock
-            left += pool.map(lambda part: _stretch(asked, part), parts)
+            left += pool.map(lambda part: _stretch(request, part), parts)
     else:
-        left += [_stretch(asked, part) for part in parts]
+        left += [_stretch(request, part) for part in parts]
     return np.sort(np.concatenate(left))
 
 
-def _stretch(asked: _Asked, which: np.ndarray) -> np.ndarray:
+def _stretch(request: _Request, which: np.ndarray) -> np.ndarray:
     # for few parameters forward tangents cost no more
-    back = asked.of == kernel.BACKWARD and len(asked.wrt) > kernel.DIRECTIONS
+    back = request.of == kernel.BACKWARD and len(request.wrt) > kernel.DIRECTIONS
 
     def run_part(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
-        order = (order_backward if backward else order_for)(asked.rtol)
+        order = (order_backward if backward else order_for)(request.rtol)
         return kernel.gradients_by_kernel(
-            asked.impacts(part), asked.kind, asked.wrt, asked.of, rtol, order, budget, backward
+            request.impacts(part), request.kind, request.wrt, request.of, rtol, order, budget, backward
         )
 
-    found = run_part(which, asked.rtol, _SOON, back)
-    if found is None:
+    answered = run_part(which, request.rtol, _SOON, back)
+    if answered is None:
         return which
-    answers, measures = found.run.answers, found.run.near
+    answers, measures = answered.run.answers, answered.run.near
     late = np.flatnonzero(answers["status"] > LAST_ANSWER)
     if back and late.size:  # forward tangents of long trajectories, as these also limit the step
-        held = run_part(which[late], asked.rtol, _SOON, False)
+        held = run_part(which[late], request.rtol, _SOON, False)
         if held is None:
             return which
         answers[late], measures[late] = held.run.answers, held.run.near
-        found.value[:, late], found.first[:, late] = held.value, held.first
-    near, least = measures[:, 0], limit(asked.rtol)
+        answered.value[:, late], answered.first[:, late] = held.value, held.first
+    near, least = measures[:, 0], limit(request.rtol)
     far = (answers["outcome"] > 0) & (near >= NEAR)
-    _keep(asked, which, found, far)
+    _keep(request, which, answered, far)
     # long creeping collisions mostly stick, so they are first computed without derivatives
     slow = np.flatnonzero(answers["status"] > LAST_ANSWER)
     if slow.size:
-        plain = _without(asked, which[slow], asked.rtol)
+        plain = _without(request, which[slow], request.rtol)
         answers[slow], measures[slow] = plain.answers, plain.near
     # nearer than NEAR to a boundary errors are amplified, so these are repeated with tolerances smaller by decades
-    told = np.isin(measures[:, 1], tuple(DISTANCES)) & (measures[:, 2] > LOOK * least)  # no distance to compute
-    close = (answers["outcome"] > 0) & ~far & ((near > LOOK * least) | (told & (near >= least)))
+    is_clear = np.isin(measures[:, 1], tuple(DISTANCES)) & (measures[:, 2] > COMPUTED * least)  # no distance to compute
+    close = (answers["outcome"] > 0) & ~far & ((near > COMPUTED * least) | (is_clear & (near >= least)))
     decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, near, NEAR))), 0.0)
     for decade in np.unique(decades[close]):
         part = which[close & (decades == decade)]
-        sharper = min(asked.rtol, max(asked.rtol * 10.0**-decade, SHARPEST))
+        sharper = min(request.rtol, max(request.rtol * 10.0**-decade, SHARPEST))
         for backward in (True, False) if back else (False,):
             again = run_part(part, sharper, _LONG, backward)
             if again is not None:
-                _keep(asked, part, again, again.run.answers["outcome"] > 0)
+                _keep(request, part, again, again.run.answers["outcome"] > 0)
                 part = part[again.run.answers["status"] > LAST_ANSWER]
             if not part.size:
                 break
-    stuck = which[_sticks(asked, which, answers, found.run.by_energy)]
-    asked.outcome[stuck], asked.reason[stuck], asked.engine[stuck] = 0, STICK, "taylor"
-    if "restitution" in asked.of:
-        place = asked.of.index("restitution")
-        asked.value[place, stuck], asked.gradient[place, stuck] = 0.0, 0.0
-    for k in np.flatnonzero((answers["outcome"] > 0) & told & (near < least)):
-        asked.reason[which[k]] = str(refused(Near(*_boundary(measures[k])), least))
-    return np.asarray(which[(asked.outcome[which] == FAILED) & (asked.reason[which] == "")])
+    stuck = which[_sticks(request, which, answers, answered.run.by_energy)]
+    request.outcome[stuck], request.reason[stuck], request.engine[stuck] = 0, STICK, "taylor"
+    if "restitution" in request.of:
+        place = request.of.index("restitution")
+        request.value[place, stuck], request.gradient[place, stuck] = 0.0, 0.0
+    for k in np.flatnonzero((answers["outcome"] > 0) & is_clear & (near < least)):
+        request.reason[which[k]] = str(refused(Near(*_boundary(measures[k])), least))
+    return np.asarray(which[(request.outcome[which] == FAILED) & (request.reason[which] == "")])
 
 
 def _boundary(measures: np.ndarray) -> tuple[str, float, str]:
@@ -238,82 +238,84 @@ def _boundary(measures: np.ndarray) -> tuple[str, float, str]:
     return name, float(measures[0]), of
 
 
-def _without(asked: _Asked, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
+def _without(request: _Request, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
     """The collisions without derivatives, by the same kernel."""
-    oblique = bool(asked.angle[which[0]] > 0)
-    found = run_tangent(asked.impacts(which, factor), oblique, rtol, "rotation" in asked.of, (), order_for(asked.rtol))
-    assert found is not None  # the kernel is available
-    return found
+    oblique = bool(request.angle[which[0]] > 0)
+    answered = run_tangent(
+        request.impacts(which, factor), oblique, rtol, "rotation" in request.of, (), order_for(request.rtol)
+    )
+    assert answered is not None  # the kernel is available
+    return answered
 
 
-def _keep(asked: _Asked, which: np.ndarray, found: kernel.Along, part: np.ndarray) -> None:
+def _keep(request: _Request, which: np.ndarray, answered: kernel.Along, part: np.ndarray) -> None:
     into = which[part]
     if into.size:
-        asked.outcome[into] = found.run.answers["outcome"][part]
-        asked.value[:, into] = found.value[:, part]
-        slopes = asked.per_unit(found.first[:, part], into, found.units)
-        slopes[np.isnan(found.value[:, part])] = np.nan
-        asked.gradient[:, into] = slopes
-        asked.engine[into] = "taylor"
+        request.outcome[into] = answered.run.answers["outcome"][part]
+        request.value[:, into] = answered.value[:, part]
+        slopes = request.per_unit(answered.first[:, part], into, answered.units)
+        slopes[np.isnan(answered.value[:, part])] = np.nan
+        request.gradient[:, into] = slopes
+        request.engine[into] = "taylor"
 
 
-def _sticks(asked: _Asked, which: np.ndarray, answers: np.ndarray, by_energy: bool) -> np.ndarray:
+def _sticks(request: _Request, which: np.ndarray, answers: np.ndarray, by_energy: bool) -> np.ndarray:
     """Mask of sticks without a boundary nearby, tested as in `boundary_distance`."""
     stuck = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
-    sure = stuck & (answers["status"] == Status.PROVED_AT_TOUCH) & by_energy
-    look = np.flatnonzero(stuck & ~sure)
-    least = limit(asked.rtol)
+    far = stuck & (answers["status"] == Status.PROVED_AT_TOUCH) & by_energy
+    checked = np.flatnonzero(stuck & ~far)
+    least = limit(request.rtol)
     for factor in (1 - least, 1 + least):
-        if look.size:
-            aside = _without(asked, which[look], min(asked.rtol, 1e-10), factor).answers
+        if checked.size:
+            aside = _without(request, which[checked], min(request.rtol, 1e-10), factor).answers
             stays = (aside["outcome"] == OUTCOMES.index(STICKS)) & (aside["status"] <= LAST_ANSWER)
-            stuck[look[~stays]] = False
-            look = look[stays]
+            stuck[checked[~stays]] = False
+            checked = checked[stays]
     return np.asarray(stuck)
 
 
-def _alone(asked: _Asked, k: int, hold: str, engine: str) -> None:
-    speed, angle = float(asked.speed[k]), float(asked.angle[k])
-    method = "adjoint" if engine != "taylor" and len(asked.of) < len(asked.wrt) else "forward"
+def _alone(request: _Request, k: int, hold: str, engine: str) -> None:
+    speed, angle = float(request.speed[k]), float(request.angle[k])
+    method = "adjoint" if engine != "taylor" and len(request.of) < len(request.wrt) else "forward"
     try:
-        found = sensitivities(
-            asked.scene, asked.of, asked.wrt, speed=speed, angle=angle, method=method, rtol=asked.rtol, engine=engine,
-            hold=hold,
+        one = sensitivities(
+            request.scene, request.of, request.wrt, speed=speed, angle=angle, method=method, rtol=request.rtol,
+            engine=engine, hold=hold,
         )  # fmt: skip
     except WetDoubletError as error:
-        asked.reason[k] = str(error)
+        request.reason[k] = str(error)
         return
-    asked.outcome[k] = OUTCOMES.index(found.outcome)
-    asked.reason[k] = STICK if found.outcome == "stick" else ""
-    asked.engine[k] = found.engine
-    for place, name in enumerate(asked.of):
-        value, row = found.value[name], found.gradient[name]
-        asked.value[place, k] = np.nan if value is None else value
-        asked.gradient[place, k] = [np.nan if slope is None else slope for slope in row.values()]
+    request.outcome[k] = OUTCOMES.index(one.outcome)
+    request.reason[k] = STICK if one.outcome == "stick" else ""
+    request.engine[k] = one.engine
+    for place, name in enumerate(request.of):
+        value, row = one.value[name], one.gradient[name]
+        request.value[place, k] = np.nan if value is None else value
+        request.gradient[place, k] = [np.nan if slope is None else slope for slope in row.values()]
 
 
-def _dataset(asked: _Asked, hold: str) -> xarray.Dataset:
+def _dataset(request: _Request, hold: str) -> xarray.Dataset:
     register()
-    reference = asked.reference()
+    reference = request.reference()
     with np.errstate(divide="ignore", invalid="ignore"):
-        elasticity = asked.gradient * reference / asked.value[:, :, None]
+        elasticity = request.gradient * reference / request.value[:, :, None]
     elasticity[~np.isfinite(elasticity) | (reference == 0)] = np.nan
     along, over = ("collision",), ("quantity", "collision", "parameter")
-    stokes = asked.speed * asked.scene.stokes_per_speed
+    stokes = request.speed * request.scene.stokes_per_speed
     variables: dict[str, Column] = {
-        "value": (("quantity", "collision"), asked.value, {"long_name": "results, SI"}),
-        "gradient": (over, asked.gradient, {"long_name": "derivatives by the parameters, SI"}),
+        "value": (("quantity", "collision"), request.value, {"long_name": "results, SI"}),
+        "gradient": (over, request.gradient, {"long_name": "derivatives by the parameters, SI"}),
         "elasticity": (over, elasticity, {"units": "1", "long_name": "d ln y/d ln p"}),
-        "outcome": (along, asked.outcome, outcome_attributes()),
-        "reason": (along, asked.reason.astype(str), {"long_name": "why there is no derivative"}),
-        "engine": (along, asked.engine.astype(str), {"long_name": "what computed it"}),
+        "outcome": (along, request.outcome, outcome_attributes()),
+        "reason": (along, request.reason.astype(str), {"long_name": "why there is no derivative"}),
+        "engine": (along, request.engine.astype(str), {"long_name": "what computed it"}),
     }
     coordinates: dict[str, Column] = {
-        "units": (("quantity",), np.array([DIFFERENTIATED[name].unit for name in asked.of]), {}),
+        "units": (("quantity",), np.array([DIFFERENTIATED[name].unit for name in request.of]), {}),
         "reference": (("collision", "parameter"), reference, {}),
-        "speed": (along, asked.speed, {"units": "m/s", "long_name": "normal approach speed"}),
+        "speed": (along, request.speed, {"units": "m/s", "long_name": "normal approach speed"}),
         "stokes": (along, stokes, {"units": "1", "long_name": "Stokes number"}),
-        "angle": (along, asked.angle, {"units": "rad", "long_name": "impact angle"}),
+        "angle": (along, request.angle, {"units": "rad", "long_name": "impact angle"}),
     }
-    attributes = {"scene": asked.scene.to_toml(), "rtol": asked.rtol, "hold": hold}
-    return labelled(variables, coordinates, attributes, {"quantity": asked.of, "parameter": asked.wrt})
+    attributes = {"scene": request.scene.to_toml(), "rtol": request.rtol, "hold": hold}
+    return labelled(variables, coordinates, attributes, {"quantity": request.of, "parameter": request.wrt})

@@ -85,10 +85,10 @@ def pair_gradients(
     everything = (*free_names(loaded), *INPUTS)
     names = everything if wrt is None else check_names(wrt, everything, "wrt")
     pairs = checked(loaded, normal, velocities, spins)
-    asked = _Asked.of(loaded, names)
+    request = _Request.of(loaded, names)
     size = pairs.size
     outcome, reason = np.full(size, FAILED, np.int8), np.full(size, "", object)
-    value, slope = np.full((size, _ROWS), np.nan), np.full((size, _ROWS, len(asked.parameters)), np.nan)
+    value, slope = np.full((size, _ROWS), np.nan), np.full((size, _ROWS, len(request.parameters)), np.nan)
     refused = refusals(pairs)
     if len(refused) < size:
         warn(loaded)
@@ -97,14 +97,14 @@ def pair_gradients(
             reason[k] = refused[k]
             continue
         try:
-            outcome[k], found = _one(asked, pairs.part(np.array([k])), rtol)
+            outcome[k], results = _one(request, pairs.part(np.array([k])), rtol)
         except WetDoubletError as error:
             reason[k] = str(error)
             continue
-        if found is None:
+        if results is None:
             reason[k] = _STICK
         else:
-            value[k], slope[k] = found
+            value[k], slope[k] = results
     if loaded.wall:
         value[:, -3:] = slope[:, -3:] = np.nan
     dims = tuple(f"dim_{k}" for k in range(len(pairs.shape)))
@@ -122,14 +122,14 @@ def pair_gradients(
             value[:, part].reshape((*pairs.shape, *shape)),
             {"units": unit, "long_name": what},
         )
-        slopes = slope[:, part].reshape((*pairs.shape, *shape, len(asked.parameters)))
+        slopes = slope[:, part].reshape((*pairs.shape, *shape, len(request.parameters)))
         data[f"d_{name}"] = ((*dims, *more, "parameter"), slopes, {"long_name": f"derivative of the {what}"})
-    coordinates = {"axis": list(AXES), "parameter": list(asked.parameters)}
+    coordinates = {"axis": list(AXES), "parameter": list(request.parameters)}
     return xr.Dataset(data, coordinates, {"scene": loaded.to_toml(), "rtol": rtol, "engine": "rosenbrock"})
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _Request:
     """The request: entries of the scene, and the places of components among all inputs."""
 
     scene: Scene
@@ -138,44 +138,44 @@ class _Asked:
     parameters: tuple[str, ...]
 
     @classmethod
-    def of(cls, scene: Scene, names: Sequence[str]) -> _Asked:
+    def of(cls, scene: Scene, names: Sequence[str]) -> _Request:
         entries = tuple(name for name in names if name not in INPUTS)
         labels = {}
         place = 0
         for name, shape in _SHAPES.items():
             for index in np.ndindex(shape):
-                own = name in names and not (scene.wall and name == "spins" and index[0] == 1)
-                if own:
+                is_wanted = name in names and not (scene.wall and name == "spins" and index[0] == 1)
+                if is_wanted:
                     labels[place] = ".".join((name, *map(str, index[:-1]), AXES[index[-1]]))
                 place += 1
         return cls(scene, entries, tuple(labels), (*entries, *labels.values()))
 
 
-def _one(asked: _Asked, pair: Pairs, rtol: float) -> tuple[int, tuple[np.ndarray, np.ndarray] | None]:
+def _one(request: _Request, pair: Pairs, rtol: float) -> tuple[int, tuple[np.ndarray, np.ndarray] | None]:
     """Outcome of one pair; its results and their derivatives (results, parameters), None if it sticks.
 
     Raises:
         ComputationError: near a boundary, or the trajectory could not be differentiated.
     """
-    scene = asked.scene
+    scene = request.scene
     model = load(select_model(scene, True, space=not scene.wall))
     maps, names = pair_maps(model.choice), quantities_of(model)
     x = np.concatenate([pair.normal[0], pair.velocities[0].ravel(), pair.spins[0].ravel()])
     speed, d_speed = (each.full() for each in maps.speed(x))
     v0 = float(speed.item())
     kind = kind_of(scene, "speed")
-    mapping = parameter_map(kind, (*asked.entries, "impact.speed"), names)
+    mapping = parameter_map(kind, (*request.entries, "impact.speed"), names)
     reference = references(scene, kind, v0, 0.0)
     by_theta, units = (each.full() for each in mapping.slopes(reference))
     g = np.append(mapping.values(reference).full().ravel()[: len(names) + 1], v0)  # and the film's thickness, v0
     n, axes = _scaled(pair)
     scale = n.groups["obliquity"]
     # columns of order one: entries in theta, inputs over what is typical of each
-    count = len(asked.entries)
+    count = len(request.entries)
     typical = np.concatenate([np.ones(3), np.full(6, v0), np.full(6, v0 / float(scene.material["reduced_radius"]))])
-    sizes = np.append(units.ravel()[:count], typical[list(asked.components)])
+    sizes = np.append(units.ravel()[:count], typical[list(request.components)])
     dx = np.zeros((x.size, sizes.size))
-    dx[list(asked.components), range(count, sizes.size)] = typical[list(asked.components)]
+    dx[list(request.components), range(count, sizes.size)] = typical[list(request.components)]
     by_speed = d_speed @ dx
     dg = np.zeros((g.size, sizes.size))
     dg[:-1, :count] = by_theta[: len(names) + 1, :count]

@@ -27,8 +27,8 @@ RESULTS: Mapping[str, tuple[int, ...]] = {
 def quantities_of(model: Model) -> tuple[str, ...]:
     """Names of the quantities `g` of a pair's maps: groups that no vector changes, and sizes."""
     moved = {"obliquity", "initial_normal", "initial_turning", "initial_spin", "initial_partner_spin"}
-    own = (name for name in model.groups if name.rstrip(AXES).rstrip("_") not in moved and name not in moved)
-    return tuple(dict.fromkeys((*own, *(SIZES if model.space else SIZES[:1]))))
+    groups = (name for name in model.groups if name.rstrip(AXES).rstrip("_") not in moved and name not in moved)
+    return tuple(dict.fromkeys((*groups, *(SIZES if model.space else SIZES[:1]))))
 
 
 @dataclass(frozen=True)
@@ -69,42 +69,44 @@ def pair_maps(choice: ModelKey) -> PairMaps:
     names = (*quantities_of(model), "film_thickness", "speed")
     x, g = SX.sym("x", INPUTS), SX.sym("g", len(names))
     axes, scale = SX.sym("axes", 3, 3), SX.sym("scale")
-    given, inputs = dict(zip(names, (g[k] for k in range(len(names))), strict=True)), _Inputs.of(x)
+    quantities, inputs = dict(zip(names, (g[k] for k in range(len(names))), strict=True)), _Inputs.of(x)
     approach = -dot(inputs.normal, inputs.relative)
-    first = _first(given, inputs, axes, scale) if model.space else {"initial_turning": SX(1), "initial_spin": SX(0)}
+    first = (
+        _first(quantities, inputs, axes, scale) if model.space else {"initial_turning": SX(1), "initial_spin": SX(0)}
+    )
     first |= {"obliquity": scale} if model.space else {"obliquity": SX(1)}
-    p = densify(vertcat(*(first[name] if name in first else given[name] for name in model.groups)))
+    p = densify(vertcat(*(first[name] if name in first else quantities[name] for name in model.groups)))
     groups, end = SX.sym("groups", p.numel()), SX.sym("end", len(model.state) + 1)
     if model.space:
-        found = densify(_of_spheres(model, end, groups, given, inputs, axes, scale))
+        results = densify(_of_spheres(model, end, groups, quantities, inputs, axes, scale))
     else:
-        found = densify(_beside_wall(model, end, groups, given, inputs))
+        results = densify(_beside_wall(model, end, groups, quantities, inputs))
     return PairMaps(
         Function("speed", [x], [approach, densify(jacobian(approach, x))]),
         Function("groups", [g, x, axes, scale], [p, densify(jacobian(p, g)), densify(jacobian(p, x))]),
         Function(
             "results",
             [end, groups, g, x, axes, scale],
-            [found, *(densify(jacobian(found, each)) for each in (end, groups, g, x))],
+            [results, *(densify(jacobian(results, each)) for each in (end, groups, g, x))],
         ),
     )
 
 
-def _sizes(given: Mapping[str, SX]) -> tuple[SX, SX]:
+def _sizes(quantities: Mapping[str, SX]) -> tuple[SX, SX]:
     """Sum of the radii, and the part of the mass that is the first sphere's."""
-    a, ratio = given["reduced_radius"], given["radius_ratio"]
-    return a * (1 + ratio) ** 2 / ratio, 1 / (1 + given["mass_ratio"])
+    a, ratio = quantities["reduced_radius"], quantities["radius_ratio"]
+    return a * (1 + ratio) ** 2 / ratio, 1 / (1 + quantities["mass_ratio"])
 
 
-def _rate(given: Mapping[str, SX], scale: SX) -> SX:
+def _rate(quantities: Mapping[str, SX], scale: SX) -> SX:
     """The scale of rates, rad/s."""
-    values = {**given, "obliquity": scale}
+    values = {**quantities, "obliquity": scale}
     return SX(scaling.rate_scale_pair(*(values[name] for name in scaling.ARGUMENTS["rate_scale_pair"])))
 
 
-def _first(given: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX) -> dict[str, SX]:
+def _first(quantities: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX) -> dict[str, SX]:
     """The groups that are components of vectors."""
-    distance, rate = _sizes(given)[0] + given["film_thickness"], _rate(given, scale)
+    distance, rate = _sizes(quantities)[0] + quantities["film_thickness"], _rate(quantities, scale)
     vectors = {
         "initial_normal": inputs.normal,
         "initial_turning": cross(inputs.normal, inputs.relative) / distance / rate,
@@ -114,22 +116,24 @@ def _first(given: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX) -> dic
     return {f"{name}_{axis}": (axes @ v)[k] for name, v in vectors.items() for k, axis in enumerate(AXES)}
 
 
-def _of_spheres(model: Model, end: SX, groups: SX, given: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX) -> SX:
+def _of_spheres(
+    model: Model, end: SX, groups: SX, quantities: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX
+) -> SX:
     """Results of two spheres, as `space.ends.after` has them."""
-    y, rate, speed = end[:-1], _rate(given, scale), given["speed"]
+    y, rate, speed = end[:-1], _rate(quantities, scale), quantities["speed"]
     shown = dict(zip(model.names("outputs"), _parts(model.function("outputs")(y, groups)), strict=True))
 
     def vector(name: str) -> SX:
         return axes.T @ vertcat(*(shown[f"{name}_{axis}"] for axis in AXES))
 
-    contact, share = _sizes(given)
-    gap, normal = y[0] * given["film_thickness"], vector("final_normal")
+    contact, share = _sizes(quantities)
+    gap, normal = y[0] * quantities["film_thickness"], vector("final_normal")
     turning = vector("final_rotation_rate") * rate
     relative = (contact + gap) * cross(turning, normal) + shown["restitution"] * speed * normal
     centre = share * inputs.velocities[0] + (1 - share) * inputs.velocities[1]
     return vertcat(
         shown["restitution"],
-        end[-1] * given["film_thickness"] / speed,
+        end[-1] * quantities["film_thickness"] / speed,
         gap,
         normal,
         (contact + gap) * normal,
@@ -140,9 +144,9 @@ def _of_spheres(model: Model, end: SX, groups: SX, given: Mapping[str, SX], inpu
     )
 
 
-def _beside_wall(model: Model, end: SX, groups: SX, given: Mapping[str, SX], inputs: _Inputs) -> SX:
+def _beside_wall(model: Model, end: SX, groups: SX, quantities: Mapping[str, SX], inputs: _Inputs) -> SX:
     """Results beside a wall, as `space.beside_wall` has them: one linear map of sliding and rolling."""
-    y, speed, radius, normal = end[:-1], given["speed"], given["reduced_radius"], inputs.normal
+    y, speed, radius, normal = end[:-1], quantities["speed"], quantities["reduced_radius"], inputs.normal
     spinning = SX(groups)
     spinning[list(model.groups).index("initial_spin")] = 1
     places = [model.names("outputs").index(name) for name in ("tangential_restitution", "final_spin")]
@@ -151,11 +155,11 @@ def _beside_wall(model: Model, end: SX, groups: SX, given: Mapping[str, SX], inp
     sliding = dot(normal, inputs.relative) * normal - inputs.relative
     rolling = radius * cross(normal, inputs.spins[0])
     later_slide, later_roll = (slides[k] * sliding + (both[k] - slides[k]) * rolling for k in places)
-    gap = y[0] * given["film_thickness"]
+    gap = y[0] * quantities["film_thickness"]
     wall, nothing = inputs.velocities[1], SX.zeros(3)
     return vertcat(
         restitution,
-        end[-1] * given["film_thickness"] / speed,
+        end[-1] * quantities["film_thickness"] / speed,
         gap,
         normal,
         (radius + gap) * normal,

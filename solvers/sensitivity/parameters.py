@@ -28,8 +28,8 @@ RELATIVE = "impact.relative_speed"
 
 def known(scene: Scene) -> tuple[str, ...]:
     """The parameters of a scene: its numeric entries in the file's order, then speed, Stokes number and angle."""
-    own = [name for name, value in scene.si if not (isinstance(value, str) or name in MEETING)]
-    return (*own, *((RELATIVE,) if RELATIVE in scene.entries else ()), *IMPACT)
+    numeric = [name for name, value in scene.si if not (isinstance(value, str) or name in MEETING)]
+    return (*numeric, *((RELATIVE,) if RELATIVE in scene.entries else ()), *IMPACT)
 
 
 def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt") -> tuple[str, ...]:
@@ -39,10 +39,10 @@ def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt")
         return everything
     # parameters even if the scene takes their defaults or gives another speed
     more = (*_defaults(scene), RELATIVE)
-    asked = check_names(wrt, (*everything, *(name for name in more if name not in everything)), label)
-    if not asked:
+    requested = check_names(wrt, (*everything, *(name for name in more if name not in everything)), label)
+    if not requested:
         raise InputError(label, "", ", ".join(everything), "names no parameter")
-    return asked
+    return requested
 
 
 def _defaults(scene: Scene) -> dict[str, float]:
@@ -74,10 +74,10 @@ class Kind:
 
 def kind_of(scene: Scene, hold: str) -> Kind:
     """The kind (key of the parameter map) of a scene's collision."""
-    own = dict.fromkeys(name for name in (*known(scene), *_defaults(scene)) if name not in MEETING)
+    entries = dict.fromkeys(name for name in (*known(scene), *_defaults(scene)) if name not in MEETING)
     own_rupture = scene.bridge.law if scene.bridge is not None and scene.bridge.rupture == "own" else None
     return Kind(
-        (*own, f"impact.{hold}", "impact.angle"),
+        (*entries, f"impact.{hold}", "impact.angle"),
         hold,
         (scene.ways, scene.pair, own_rupture, scene.package),
         formulas(scene),

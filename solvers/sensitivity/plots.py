@@ -23,21 +23,23 @@ _EVENT: Any = {"color": "#999999", "linewidth": 0.7, "linestyle": ":"}
 
 
 @picture
-def draw_gradients(found: xarray.Dataset) -> Figure:
+def draw_gradients(data: xarray.Dataset) -> Figure:
     """Elasticities of each result over what of the impact varies; the strongest six parameters are drawn."""
-    quantities = found["quantity"].values[:_PANELS]
+    quantities = data["quantity"].values[:_PANELS]
     figure = Figure(figsize=(7.0, 1.2 + 2.3 * len(quantities)), layout="constrained")
     axes = figure.subplots(len(quantities), 1, sharex=True, squeeze=False)[:, 0]
-    x, label = _across(found)
+    x, label = _across(data)
     order = np.argsort(x, kind="stable")
-    jumps = np.flatnonzero(np.diff(found["outcome"].values[order])) + 1  # lines are not joined across them
+    jumps = np.flatnonzero(np.diff(data["outcome"].values[order])) + 1  # lines are not joined across them
     for axis, name in zip(axes, quantities, strict=True):
-        values = found["elasticity"].sel(quantity=name).values
+        values = data["elasticity"].sel(quantity=name).values
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)  # a parameter without elasticity anywhere
             size = np.nan_to_num(np.nanmedian(np.abs(values), axis=0))
-        parameters = [str(one) for one in found["parameter"].values]
-        strongest = [k for k in np.argsort(-size) if size[k] > 0 and not _twice(parameters, k)]
+        parameters = [str(one) for one in data["parameter"].values]
+        if {"impact.stokes", "impact.speed"} <= {*parameters}:  # one variable
+            size[parameters.index("impact.stokes")] = 0.0
+        strongest = [k for k in np.argsort(-size) if size[k] > 0]
         for k, colour in zip(strongest, _COLOURS):
             y = np.insert(values[order, k], jumps, np.nan)
             axis.plot(np.insert(x[order], jumps, np.nan), y, ".-", color=colour, linewidth=1.0, markersize=4,
@@ -52,35 +54,30 @@ def draw_gradients(found: xarray.Dataset) -> Figure:
     return figure
 
 
-def _twice(parameters: list[str], k: int) -> bool:
-    """Whether it is the Stokes number beside the speed, which moves everything alike."""
-    return parameters[k] == "impact.stokes" and "impact.speed" in parameters
-
-
-def _across(found: xarray.Dataset) -> tuple[np.ndarray, str]:
-    if np.ptp(found["stokes"].values) > 0 or np.ptp(found["angle"].values) == 0:
-        return found["stokes"].values, "Stokes number St"
-    return np.degrees(found["angle"].values), "impact angle (deg)"
+def _across(data: xarray.Dataset) -> tuple[np.ndarray, str]:
+    if np.ptp(data["stokes"].values) > 0 or np.ptp(data["angle"].values) == 0:
+        return data["stokes"].values, "Stokes number St"
+    return np.degrees(data["angle"].values), "impact angle (deg)"
 
 
 @picture
-def draw_trajectory(found: xarray.Dataset) -> Figure:
+def draw_trajectory(data: xarray.Dataset) -> Figure:
     """A row for each variable that is not zero: on the left its course, on the right p dy/dp of the parameters p.
 
     The strongest five parameters of a row are drawn; dotted lines are events.
     """
-    names = [name for name in _SHOWN if np.any(found[name].values)]
+    names = [name for name in _SHOWN if np.any(data[name].values)]
     figure = Figure(figsize=(9.6, 1.0 + 1.9 * len(names)), layout="constrained")
     axes = figure.subplots(len(names), 2, sharex=True, squeeze=False)
-    parameters = [str(name) for name in found["parameter"].values]
-    factor, letter = prefix(float(found["time"].values[-1]))
-    time = found["time"].values / factor
+    parameters = [str(name) for name in data["parameter"].values]
+    factor, letter = prefix(float(data["time"].values[-1]))
+    time = data["time"].values / factor
     strongest: dict[str, str] = {}
     for (left, right), name in zip(axes, names, strict=True):
-        scale, own = prefix(float(np.abs(found[name].values).max())) if name == "gap" else (1.0, "")
-        left.plot(time, found[name].values / scale, color="#202020", linewidth=1.4)
-        left.set_ylabel(f"{name.replace('_', ' ')} ({own.replace('u', 'µ')}{_SHOWN[name]})")
-        change = found[f"d_{name}"].values * found["reference"].values / scale
+        scale, shown_unit = prefix(float(np.abs(data[name].values).max())) if name == "gap" else (1.0, "")
+        left.plot(time, data[name].values / scale, color="#202020", linewidth=1.4)
+        left.set_ylabel(f"{name.replace('_', ' ')} ({shown_unit.replace('u', 'µ')}{_SHOWN[name]})")
+        change = data[f"d_{name}"].values * data["reference"].values / scale
         largest = np.abs(change).max(axis=0)
         if "impact.speed" in parameters and "impact.stokes" in parameters:
             largest[parameters.index("impact.stokes")] = 0.0  # it moves everything as the speed does
@@ -93,30 +90,30 @@ def draw_trajectory(found: xarray.Dataset) -> Figure:
         right.legend(fontsize=6.5, frameon=False)
         for axis in (left, right):
             axis.spines[["top", "right"]].set_visible(False)
-            for event in np.unique(found["event_time"].values):
+            for event in np.unique(data["event_time"].values):
                 axis.axvline(event / factor, **_EVENT)
     axes[0][0].set_title("trajectory", fontsize=10)
     axes[0][1].set_title("p dy/dp at fixed time", fontsize=10)
     for axis in axes[-1]:
         axis.set_xlabel(f"time ({letter.replace('u', 'µ')}s)")
-    figure.suptitle(f"Sensitivities of the trajectory, {found.attrs['outcome']}", fontsize=11)
+    figure.suptitle(f"Sensitivities of the trajectory, {data.attrs['outcome']}", fontsize=11)
     return figure
 
 
 @picture
-def draw_indices(found: xarray.Dataset) -> Figure:
+def draw_indices(data: xarray.Dataset) -> Figure:
     """First-order and total indices with their 95 % intervals, the largest on top."""
-    order = np.argsort(found["total"].values)
+    order = np.argsort(data["total"].values)
     figure = Figure(figsize=(6.4, 1.4 + 0.5 * order.size), layout="constrained")
     axes = figure.add_subplot()
     for name, label, colour, shift in _BARS:
-        values, within = found[name].values[order], found[f"{name}_within"].values[order]
+        values, within = data[name].values[order], data[f"{name}_within"].values[order]
         axes.barh(np.arange(order.size) - shift, values, 0.36, xerr=within, color=colour, label=label,
                   error_kw={"linewidth": 0.9})  # fmt: skip
-    axes.set_yticks(range(order.size), found["parameter"].values[order])
+    axes.set_yticks(range(order.size), data["parameter"].values[order])
     axes.set_xlabel("part of the variance")
-    of = str(found.attrs["of"]).replace("_", " ")
-    axes.set_title(f"Sobol indices of the {of}, {found.attrs['collisions']} collisions", fontsize=10)
+    of = str(data.attrs["of"]).replace("_", " ")
+    axes.set_title(f"Sobol indices of the {of}, {data.attrs['collisions']} collisions", fontsize=10)
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(frameon=False, fontsize=8, loc="lower right")
     return figure

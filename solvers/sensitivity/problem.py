@@ -191,12 +191,12 @@ class _Units:
         seed_directions: np.ndarray,
     ) -> np.ndarray:
         """Second derivatives in theta, from those of the trajectory in its groups and those of groups and scales."""
-        found = []
+        rows = []
         for k in range(z.size):
             weights = np.concatenate([dz[k] * self.scale[k], np.zeros(len(SCALES))])
             if (at := self.where[k]) is not None:
                 weights[dz.shape[1] + at] = z[k]
             crossed = np.outer(first[k], self.slope[k])
             map_curvature = np.asarray(mapping.bends(reference, weights).full())
-            found.append(second[k] * self.scale[k] + (crossed + crossed.T + map_curvature) @ seed_directions)
-        return np.array(found)
+            rows.append(second[k] * self.scale[k] + (crossed + crossed.T + map_curvature) @ seed_directions)
+        return np.array(rows)

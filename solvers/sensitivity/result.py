@@ -82,19 +82,19 @@ class Sensitivities:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet sensitivity --json`."""
-        found: dict[str, Any] = {
+        result: dict[str, Any] = {
             "value": dict(self.value),
             "gradient": {name: dict(row) for name, row in self.gradient.items()},
             "elasticity": {name: dict(row) for name, row in self.elasticity.items()},
         }
         if self.hessian is not None:
-            found["hessian"] = {
+            result["hessian"] = {
                 name: {one: dict(row) for one, row in rows.items()} for name, rows in self.hessian.items()
             }
         if self.hessian_times is not None:
-            found["hessian_times"] = {name: dict(row) for name, row in self.hessian_times.items()}
+            result["hessian_times"] = {name: dict(row) for name, row in self.hessian_times.items()}
         near = self.near and {"boundary": self.near.boundary, "distance": self.near.distance, "of": self.near.of}
-        return found | {
+        return result | {
             "outcome": self.outcome,
             "method": self.method,
             "engine": self.engine,

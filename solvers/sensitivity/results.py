@@ -55,10 +55,10 @@ SPENT = (*LEDGER[2:-1],)
 
 def check_quantities(of: Sequence[str] | str, label: str = "of") -> tuple[str, ...]:
     """The requested quantities; InputError with the nearest name for an unknown one."""
-    asked = check_names(of, tuple(DIFFERENTIATED), label)
-    if not asked:
+    requested = check_names(of, tuple(DIFFERENTIATED), label)
+    if not requested:
         raise InputError(label, "", ", ".join(DIFFERENTIATED), "names no quantity")
-    return asked
+    return requested
 
 
 def computed(of: Sequence[str]) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from ..engines.casadi.locate import EventSequence
 from ..engines.choice import casadi_gradient_engine, gradient_engine
 from ..engines.settings import check_engine, check_rtol
 from ..errors import ComputationError, InputError, did_you_mean
-from ..host.arguments import check_mapping
+from ..host.arguments import check_mapping, check_name
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import ANY, Field
@@ -26,9 +26,7 @@ _PART = Field("hessian", "a number (SI)", "1.0", ANY)
 
 def check_method(method: object, label: str = "method") -> str:
     """The method, "forward" or "adjoint"; InputError otherwise."""
-    if not isinstance(method, str) or method not in METHODS:
-        raise InputError(label, method, ", ".join(METHODS), "is not known" + did_you_mean(method, METHODS))
-    return method
+    return check_name(method, METHODS, label)
 
 
 def sensitivities(
@@ -77,11 +75,11 @@ def sensitivities(
         True
     """
     of, method = check_quantities(of), check_method(method)
-    rtol, asked = check_rtol(rtol), check_engine(engine)
-    if asked == "taylor" and method != "forward":
+    rtol, requested = check_rtol(rtol), check_engine(engine)
+    if requested == "taylor" and method != "forward":
         raise InputError("method", method, "forward with engine taylor", "is not the kernel's")
-    if hessian is not False and asked not in (None, "rosenbrock"):
-        raise InputError("engine", asked, "rosenbrock", "has no second derivatives")
+    if hessian is not False and requested not in (None, "rosenbrock"):
+        raise InputError("engine", requested, "rosenbrock", "has no second derivatives")
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     held = held_quantity(loaded, hold)
     names = check_wrt(loaded, wrt)
@@ -93,7 +91,7 @@ def sensitivities(
     odd = np.array([DIFFERENTIATED[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
     tilts = bool(todo and sideways.any() and (odd.any() or along is not None)) and not problem.n.oblique
-    plugin, free = casadi_gradient_engine(asked), asked is None and method == "forward" and along is None
+    plugin, free = casadi_gradient_engine(requested), requested is None and method == "forward" and along is None
     if free:
         plugin = gradient_engine(loaded, of, kernel.KNOWN, {problem.n.oblique, problem.n.oblique or tilts})
     run = _Run(todo, method, rtol, near, free)

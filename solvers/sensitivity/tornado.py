@@ -24,43 +24,44 @@ _NAMES = {
 
 
 @picture
-def draw(found: Any) -> Figure:
+def draw(result: Any) -> Figure:
     """A panel per quantity and a bar per parameter of `Sensitivities`; below it those without a visible elasticity."""
-    shown = [name for name in found.value if any(found.elasticity[name].values())]
-    panels = shown[:_LONG] or list(found.value)[:1]
-    order = _ranked(found, panels)
+    shown = [name for name in result.value if any(result.elasticity[name].values())]
+    panels = shown[:_LONG] or list(result.value)[:1]
+    order = _ranked(result, panels)
     rows = max(len(order), 1)
     figure = Figure(figsize=(2.3 + 3.1 * len(panels), 1.5 + 0.3 * rows), layout="constrained")
     axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
     for axis, name in zip(axes, panels):
-        _panel(axis, found, name, order)
-    weak = [p for p in found.parameters if p not in order and any(found.elasticity[y][p] for y in panels)]
-    left_out = [p for p in found.parameters if p not in order and p not in weak]
+        _panel(axis, result, name, order)
+    weak = [p for p in result.parameters if p not in order and any(result.elasticity[y][p] for y in panels)]
+    left_out = [p for p in result.parameters if p not in order and p not in weak]
     if not order:
         axes[0].text(
-            0.5, 0.5, "nothing moves it: a stick has e_n = 0" if found.outcome == "stick" else "no elasticity here",
+            0.5, 0.5, "nothing moves it: a stick has e_n = 0" if result.outcome == "stick" else "no elasticity here",
             ha="center", va="center", transform=axes[0].transAxes, fontsize=9, color=_INK,
         )  # fmt: skip
-    restitution = found.value.get("restitution")
-    notes = [found.outcome if restitution is None else f"{found.outcome}, $e_n$ = {restitution:.4g}"]
+    restitution = result.value.get("restitution")
+    notes = [result.outcome if restitution is None else f"{result.outcome}, $e_n$ = {restitution:.4g}"]
     notes += [f"too little to be seen: {', '.join(_short(weak))}"] if _short(weak) else []
     notes += [f"no influence or no elasticity: {', '.join(_short(left_out))}"] if left_out else []
-    figure.suptitle(f"{found.scene.name or 'scene'}: elasticities d ln y / d ln p", color=_INK)
+    figure.suptitle(f"{result.scene.name or 'scene'}: elasticities d ln y / d ln p", color=_INK)
     figure.supxlabel(textwrap.fill("; ".join(notes), 34 * len(panels) + 30), color="#555555")
     return figure
 
 
-def _ranked(found: Any, names: Sequence[str]) -> list[str]:
+def _ranked(result: Any, names: Sequence[str]) -> list[str]:
     """Parameters with influence, the largest last (bars are drawn from below); speed and Stokes number appear once."""
-    single = [p for p in found.parameters if not (p == "impact.stokes" and "impact.speed" in found.parameters)]
-    rows = {p: [abs(found.elasticity[y][p] or 0.0) for y in names] for p in single}
+    single = [p for p in result.parameters if not (p == "impact.stokes" and "impact.speed" in result.parameters)]
+    rows = {p: [abs(result.elasticity[y][p] or 0.0) for y in names] for p in single}
     longest = [max((row[k] for row in rows.values()), default=0.0) for k in range(len(names))]
     seen = [p for p, row in rows.items() if any(v > _SEEN * most for v, most in zip(row, longest))]
     return sorted(seen, key=lambda p: max(rows[p]))[-_MOST:]
 
 
-def _panel(axis: Any, found: Any, name: str, order: Sequence[str]) -> None:
-    values = [found.elasticity[name][p] or 0.0 for p in order]
+def _panel(axis: Any, result: Any, name: str, order: Sequence[str]) -> None:
+    """Draw the bars of one quantity, each labelled with its elasticity."""
+    values = [result.elasticity[name][p] or 0.0 for p in order]
     bars = axis.barh(range(len(order)), values, color=[_UP if v >= 0 else _DOWN for v in values], height=0.7)
     axis.set_yticks(range(len(order)), [_label(p) for p in order])
     axis.axvline(0, color=_INK, linewidth=0.8)
@@ -74,8 +75,7 @@ def _panel(axis: Any, found: Any, name: str, order: Sequence[str]) -> None:
             ha="left" if side > 0 else "right", va="center", fontsize=7.5, color=_INK,
         )  # fmt: skip
     unit = DIFFERENTIATED[name].unit
-    value_ = found.value[name]
-    axis.set_title(f"{name.replace('_', ' ')}\n{value_:.4g}{'' if unit == '1' else ' ' + unit}", color=_INK)
+    axis.set_title(f"{name.replace('_', ' ')}\n{result.value[name]:.4g}{'' if unit == '1' else ' ' + unit}", color=_INK)
     axis.spines[["top", "right", "left"]].set_visible(False)
     axis.tick_params(axis="y", length=0)
 

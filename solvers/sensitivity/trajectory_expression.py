@@ -141,13 +141,13 @@ def trajectory_expression(
     extras, size = _extras(model, of), len(model.state)
     p, durations = symbols(course)
     at = follow_course(course, p, durations, extras, plugin, tolerance)
-    found: dict[str, Any] = {"contact_time": at.time, "smallest_gap": at.nearest, "energy.dry_contact": at.dry}
-    found |= _at_the_end(model, at.start, at.y[:size], p)
+    quantities: dict[str, Any] = {"contact_time": at.time, "smallest_gap": at.nearest, "energy.dry_contact": at.dry}
+    quantities |= _at_the_end(model, at.start, at.y[:size], p)
     for k, (name, unit) in enumerate(zip(extras, extra_units(model, extras, p), strict=True)):
         key = name if name == "rotation" else f"energy.{name}"
-        found[key] = unit * (at.y[size + k] - tolerance.offset)
-    found["energy.dry_friction"] = found.get("energy.dry_friction", MX(0)) + at.friction
-    column = vertcat(*(found.get(name, MX(0)) for name in of))
+        quantities[key] = unit * (at.y[size + k] - tolerance.offset)
+    quantities["energy.dry_friction"] = quantities.get("energy.dry_friction", MX(0)) + at.friction
+    column = vertcat(*(quantities.get(name, MX(0)) for name in of))
     missed = vertcat(*at.shifts) if at.shifts else MX(0, 1)
     return TrajectoryExpression(Function("trajectory", [p, durations], [column, missed]), of, tuple(model.groups))
 
@@ -173,19 +173,19 @@ def _extras(model: Model, of: tuple[str, ...]) -> tuple[str, ...]:
 
 def _at_the_end(model: Model, start: MX, y: MX, p: MX) -> dict[str, MX]:
     outputs = model.function("outputs")(y, p)
-    found = {name: outputs[k] for k, name in enumerate(model.names("outputs"))}
+    outputs_by_name = {name: outputs[k] for k, name in enumerate(model.names("outputs"))}
     before, after = (model.function("energies")(state, p) for state in (start, y))
     names = model.names("energies")
     kinetic = names.index("kinetic")
-    found |= {"energy.initial": before[kinetic], "energy.final": after[kinetic]}
+    outputs_by_name |= {"energy.initial": before[kinetic], "energy.final": after[kinetic]}
     if "strings" in names:
-        found["energy.strings"] = after[names.index("strings")] - before[names.index("strings")]
+        outputs_by_name["energy.strings"] = after[names.index("strings")] - before[names.index("strings")]
     if model.oblique:
         first, last = (model.function("surface_slip")(state, p) for state in (start, y))
-        found["slip_restitution"] = last / first
+        outputs_by_name["slip_restitution"] = last / first
     if "rotation" in model.state:
-        found["rotation"] = y[list(model.state).index("rotation")]
-    return found
+        outputs_by_name["rotation"] = y[list(model.state).index("rotation")]
+    return outputs_by_name
 
 
 def influential(course: Course, groups: dict[str, float]) -> list[bool]:

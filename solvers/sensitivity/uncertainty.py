@@ -40,23 +40,23 @@ def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncer
     """
     check_mapping(uncertainty, label, "standard deviations by dotted name")
     check_wrt(scene, tuple(uncertainty), label)
-    found = {}
-    for name, given in uncertainty.items():
+    result = {}
+    for name, text in uncertainty.items():
         accepted = f'{name} = "5 %", or a standard deviation with its unit, such as {scene.fields[name].example}'
-        if isinstance(given, str) and given.strip().endswith("%"):
+        if isinstance(text, str) and text.strip().endswith("%"):
             try:
-                value = float(given.strip()[:-1]) / 100 * _value(scene, name)
+                value = float(text.strip()[:-1]) / 100 * _value(scene, name)
             except ValueError:
-                raise InputError(label, given, accepted, "is no percentage") from None
+                raise InputError(label, text, accepted, "is no percentage") from None
         else:
             try:
-                value = scene.si_number(name, given, f"{label} of {name}")
+                value = scene.si_number(name, text, f"{label} of {name}")
             except InputError as error:
-                raise InputError(error.field, given, accepted, error.problem) from None
+                raise InputError(error.field, text, accepted, error.problem) from None
         if not 0 < value < np.inf:
-            raise InputError(label, given, accepted, f"is no standard deviation of {name}")
-        found[name] = value
-    return found
+            raise InputError(label, text, accepted, f"is no standard deviation of {name}")
+        result[name] = value
+    return result
 
 
 def _value(scene: Scene, name: str) -> float:
@@ -68,19 +68,19 @@ def _value(scene: Scene, name: str) -> float:
     return float(scene.entries[name] if name in scene.entries else DEFAULTS[name])
 
 
-def first_order(found: Sensitivities, deviation: Mapping[str, float]) -> dict[str, float | None]:
+def first_order(gradients: Sensitivities, deviation: Mapping[str, float]) -> dict[str, float | None]:
     """Standard deviation of each result for independent parameters: sqrt(sum (dy/dp sigma_p)^2)."""
     return {
-        name: None
-        if found.value[name] is None
-        else float(np.sqrt(sum((float(row[p] or 0.0) * sigma) ** 2 for p, sigma in deviation.items())))
-        for name, row in found.gradient.items()
-    }
+        name: None if gradients.value[name] is None else float(np.sqrt(sum(
+            (float(row[p] or 0.0) * sigma) ** 2 for p, sigma in deviation.items()
+        )))
+        for name, row in gradients.gradient.items()
+    }  # fmt: skip
 
 
-def spoken(found: Sensitivities, spread: Mapping[str, float | None]) -> str:
+def spoken(gradients: Sensitivities, spread: Mapping[str, float | None]) -> str:
     """The standard deviations as text, one line each."""
-    known = {name: value for name, value in found.value.items() if value is not None and spread[name] is not None}
+    known = {name: value for name, value in gradients.value.items() if value is not None and spread[name] is not None}
     return "\n".join(f"{name} = {value:.6g} ± {spread[name]:.2g} (first order)" for name, value in known.items())
 
 
@@ -134,31 +134,31 @@ def band(
     at = [loaded.with_impact(**{over.partition(".")[2]: value}) for value in where.tolist()]
     impacts = [one.need_impact() for one in at]
     sigma = deviations(at[0], uncertainty)
-    relative = {name: str(given).strip().endswith("%") for name, given in uncertainty.items()}
+    relative = {name: str(text).strip().endswith("%") for name, text in uncertainty.items()}
     speeds, angles = np.array(impacts).T
     hold = held_quantity(at[0], hold)
-    found = gradients_many(at[0], speed=speeds, angle=angles, wrt=tuple(sigma), of=[of], rtol=rtol, hold=hold)
+    gradients = gradients_many(at[0], speed=speeds, angle=angles, wrt=tuple(sigma), of=[of], rtol=rtol, hold=hold)
     spreads = np.tile(list(sigma.values()), (len(at), 1))
     if any(relative.values()):
         for k, one in enumerate(at):
             spreads[k] = list(deviations(_held(one, hold), uncertainty).values())
-    known = found.outcome.values >= 0
+    known = gradients.outcome.values >= 0
     drawn = _sampled(at, impacts, uncertainty, of, samples, rtol, hold)
     low, high = np.nanquantile(drawn, _LEVELS, axis=1)
     unit = FIELDS[over].unit or "1"
     return xr.Dataset(
         {
-            of: (over, found.value.values[0], {"units": MANY[of][0], "long_name": MANY[of][1]}),
-            "first_order": (over, np.sqrt(((found.gradient.values[0] * spreads) ** 2).sum(axis=1))),
+            of: (over, gradients.value.values[0], {"units": MANY[of][0], "long_name": MANY[of][1]}),
+            "first_order": (over, np.sqrt(((gradients.gradient.values[0] * spreads) ** 2).sum(axis=1))),
             "low": (over, low),
             "high": (over, high),
             "sampled": (over, np.nanstd(drawn, axis=1)),
-            "reason": (over, np.where(known, "", found.reason.values)),
-            "outcome": (over, np.array([OUTCOMES[code] if code >= 0 else "" for code in found.outcome.values])),
+            "reason": (over, np.where(known, "", gradients.reason.values)),
+            "outcome": (over, np.array([OUTCOMES[code] if code >= 0 else "" for code in gradients.outcome.values])),
         },
         {over: (over, where, {"units": unit})},
         {
-            "uncertainty": ", ".join(f"{name}: {given}" for name, given in uncertainty.items()),
+            "uncertainty": ", ".join(f"{name}: {text}" for name, text in uncertainty.items()),
             "samples": samples,
             "hold": hold,
         },
@@ -199,8 +199,8 @@ def _sampled(
     meeting: dict[str, Any] = {"speed": np.concatenate(speeds), "angle": np.concatenate(angles)}
     if hold == "stokes":
         meeting["stokes"] = meeting.pop("speed") * at[0].stokes_per_speed
-    found = collide_many(at[0], **meeting, vary=vary, rtol=rtol, of=names)
-    return np.asarray(found[of].values, dtype=float).reshape(len(at), samples)
+    collisions = collide_many(at[0], **meeting, vary=vary, rtol=rtol, of=names)
+    return np.asarray(collisions[of].values, dtype=float).reshape(len(at), samples)
 
 
 def _held(scene: Scene, hold: str) -> Scene:
@@ -237,7 +237,7 @@ def _possible(entry: Field, value: float, deviation: np.ndarray) -> np.ndarray:
     return value + np.where(bad, 0.0, moved)
 
 
-def draw(found: xarray.Dataset) -> Any:
+def draw(data: xarray.Dataset) -> Any:
     """Draw the result with bands of two first-order standard deviations and of the samples' 2.5 to 97.5 %.
 
     Returns:
@@ -245,19 +245,19 @@ def draw(found: xarray.Dataset) -> Any:
     """
     from ..formatting.style import picture
 
-    return picture(_drawn)(found)
+    return picture(_drawn)(data)
 
 
-def _drawn(found: xarray.Dataset) -> Any:
+def _drawn(data: xarray.Dataset) -> Any:
     from matplotlib.figure import Figure
 
-    over = str(next(iter(found.dims)))
-    of = next(name for name in MANY if name in found)
-    x = np.degrees(found[over].values) if over == "impact.angle" else found[over].values
-    y, spread = found[of].values, 2 * found.first_order.values
+    over = str(next(iter(data.dims)))
+    of = next(name for name in MANY if name in data)
+    x = np.degrees(data[over].values) if over == "impact.angle" else data[over].values
+    y, spread = data[of].values, 2 * data.first_order.values
     figure = Figure(figsize=(6.6, 4.2), layout="constrained")
     axis = figure.subplots()
-    outcomes = found.outcome.values
+    outcomes = data.outcome.values
     starts = [0, *(k for k in range(1, x.size) if outcomes[k] != outcomes[k - 1]), x.size]
     for k, (start, stop) in enumerate(pairwise(starts)):  # no line across a jump
         part = slice(start, stop)
@@ -266,14 +266,14 @@ def _drawn(found: xarray.Dataset) -> Any:
             x[part], (y - spread)[part], (y + spread)[part], color="#2a6f97", alpha=0.25, linewidth=0, label=shade
         )
         axis.plot(x[part], y[part], color="#2a6f97", linewidth=1.6, label=label)
-    axis.plot(x, found.low.values, color="#c1554a", linewidth=0.9, linestyle="--",
-              label=f"2.5 and 97.5 % of {found.attrs['samples']} samples")  # fmt: skip
-    axis.plot(x, found.high.values, color="#c1554a", linewidth=0.9, linestyle="--")
-    unit = found[of].attrs["units"]
+    axis.plot(x, data.low.values, color="#c1554a", linewidth=0.9, linestyle="--",
+              label=f"2.5 and 97.5 % of {data.attrs['samples']} samples")  # fmt: skip
+    axis.plot(x, data.high.values, color="#c1554a", linewidth=0.9, linestyle="--")
+    unit = data[of].attrs["units"]
     axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
     name = over.partition(".")[2]
     axis.set_xlabel(AXIS_LABELS.get(name, "impact angle (deg)"))
-    axis.set_title(f"{of.replace('_', ' ')} with {found.attrs['uncertainty']} uncertain")
+    axis.set_title(f"{of.replace('_', ' ')} with {data.attrs['uncertainty']} uncertain")
     axis.spines[["top", "right"]].set_visible(False)
     axis.legend()
     return figure

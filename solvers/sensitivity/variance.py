@@ -91,9 +91,9 @@ def sobol_indices(
         impact[moved[0].partition(".")[2]] = columns.pop(moved[0])
     columns = {name: loaded.as_given(name, column) for name, column in columns.items()}
     keep = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
-    found = collide_many(loaded, **impact, vary=columns, hold=hold, rtol=rtol, of=keep, client=client, store=store)
-    failed = int((found.outcome.values == FAILED).sum())
-    result = np.asarray(found[of].values, dtype=float)
+    collisions = collide_many(loaded, **impact, vary=columns, hold=hold, rtol=rtol, of=keep, client=client, store=store)
+    failed = int((collisions.outcome.values == FAILED).sum())
+    result = np.asarray(collisions[of].values, dtype=float)
     if failed or not np.isfinite(result).all():
         lost = f"{failed} failed" if failed else f"{of} of {int(np.isnan(result).sum())} sticks is not defined"
         raise ComputationError(
@@ -114,13 +114,13 @@ def sobol_indices(
     )
 
 
-def _bounds(scene: Scene, name: str, given: Sequence[float | str]) -> list[float]:
+def _bounds(scene: Scene, name: str, limits: Sequence[float | str]) -> list[float]:
     accepted = f"(low, high) of {name} with low below high"
-    if not isinstance(given, (list, tuple, np.ndarray)) or len(given) != 2:
-        raise InputError("ranges", given, accepted, "is not a pair")
-    low, high = (scene.si_number(name, value, f"ranges of {name}") for value in given)
+    if not isinstance(limits, (list, tuple, np.ndarray)) or len(limits) != 2:
+        raise InputError("ranges", limits, accepted, "is not a pair")
+    low, high = (scene.si_number(name, value, f"ranges of {name}") for value in limits)
     if not low < high:
-        raise InputError("ranges", f"({given[0]}, {given[1]})", accepted, "is not ascending")
+        raise InputError("ranges", f"({limits[0]}, {limits[1]})", accepted, "is not ascending")
     return [low, high]
 
 

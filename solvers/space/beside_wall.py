@@ -51,17 +51,19 @@ def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) 
         both = run_with_books(impacts, rtol, threads)
         if both is None:
             return None
-        found, terms = both[0], of_kernel(both[1])
+        answers, terms = both[0], of_kernel(both[1])
     else:
         plain = run_kernel(impacts, rtol, False, threads)
         if plain is None:
             return None
-        found = plain
-    reason = np.full(found.size, "", object)
-    opening, slide, _, roll = found["shown"].T[:4]
-    left = found["status"] > LAST_ANSWER
-    sure = found["certified"] != 0
-    return Planar(found["outcome"], sure, reason, left, found["time"], found["final_gap"], opening, slide, roll, terms)
+        answers = plain
+    reason = np.full(answers.size, "", object)
+    opening, slide, _, roll = answers["shown"].T[:4]
+    left = answers["status"] > LAST_ANSWER
+    certified = answers["certified"] != 0
+    return Planar(
+        answers["outcome"], certified, reason, left, answers["time"], answers["final_gap"], opening, slide, roll, terms
+    )
 
 
 def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool, steps: int) -> Planar:
@@ -70,7 +72,7 @@ def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool, steps: int) ->
     time, gap, opening, slide, roll = (np.full(size, np.nan) for _ in range(5))
     outcome, reason = np.full(size, FAILED), np.full(size, "", object)
     terms = np.full((size, len(TERMS)), np.nan)
-    found = Planar(outcome, np.zeros(size, bool), reason, np.zeros(size, bool), time, gap, opening, slide, roll, terms)
+    result = Planar(outcome, np.zeros(size, bool), reason, np.zeros(size, bool), time, gap, opening, slide, roll, terms)
     for k in range(size):
         scene = impacts.scene.with_entries({"impact.spin": float(impacts.others["impact_spin"][k])})
         try:
@@ -81,17 +83,17 @@ def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool, steps: int) ->
             except ComputationError as error:
                 raise n.in_si(error) from None
         except WetDoubletError as error:
-            found.reason[k] = str(error)
+            result.reason[k] = str(error)
             continue
         shown = path.model.values("outputs", path.y, path.p)
-        outcome[k], found.certified[k] = OUTCOMES.index(path.outcome), path.certified
+        outcome[k], result.certified[k] = OUTCOMES.index(path.outcome), path.certified
         time[k], gap[k], opening[k] = path.time, float(path.y[0]), shown["restitution"]
         slide[k], roll[k] = shown["tangential_restitution"], shown["final_spin"]
         if ledger:
             units = extra_units(model, path.extras, path.p)
             taken = dict(zip(path.extras, path.y[len(model.state) :] * units, strict=True))
             terms[k] = of_casadi(model, path.p, path.y, taken, path.dry_loss)
-    return found
+    return result
 
 
 def beside_wall(
@@ -155,10 +157,10 @@ def _energies(pairs: Pairs, sliding: np.ndarray, rolling: np.ndarray, planar: li
     forms = slides - along, spins - along, (both - against) / 2
     mass, speed = float(pairs.scene.material["reduced_mass"]), -pairs.opening[:, None]
     squares = dot(sliding, sliding), dot(rolling, rolling), dot(sliding, rolling)
-    found: np.ndarray = planar[0] * mass * speed**2
+    energies: np.ndarray = planar[0] * mass * speed**2
     across = sum(form * square for form, square in zip(forms, squares, strict=True))
-    found[:, TRANSVERSE] = mass * (along * speed**2 + across)
+    energies[:, TRANSVERSE] = mass * (along * speed**2 + across)
     twist = dot(pairs.spins[:, 0], pairs.normal)
     radius = float(pairs.scene.material["reduced_radius"])
-    found[:, TRANSVERSE[:2]] += 0.2 * mass * radius**2 * twist**2
-    return found
+    energies[:, TRANSVERSE[:2]] += 0.2 * mass * radius**2 * twist**2
+    return energies

@@ -42,22 +42,22 @@ def of_casadi(
 
 def residual(terms: np.ndarray) -> np.ndarray:
     """What the terms (collisions, terms) leave of the initial energy: the error of the integration."""
-    found: np.ndarray = terms[:, _INITIAL] - np.sum(np.delete(terms, _INITIAL, axis=1), axis=1)
-    return found
+    rest: np.ndarray = terms[:, _INITIAL] - np.sum(np.delete(terms, _INITIAL, axis=1), axis=1)
+    return rest
 
 
 def is_open(terms: np.ndarray, separated: np.ndarray, rtol: float) -> np.ndarray:
     """Mask of separated collisions whose residual says that the trajectory is wrong."""
     rest = np.abs(residual(terms))
-    found: np.ndarray = separated & (rest > open_beyond(rtol) * np.maximum(np.abs(terms).max(axis=1), rest))
-    return found
+    mask: np.ndarray = separated & (rest > open_beyond(rtol) * np.maximum(np.abs(terms).max(axis=1), rest))
+    return mask
 
 
 def named(scene: Scene, terms: np.ndarray) -> dict[str, np.ndarray]:
     """The terms by name, and the residual; NaN where the scene has no such force."""
-    found = {name: terms[:, k] for k, name in enumerate(TERMS)} | {"residual": residual(terms)}
+    result = {name: terms[:, k] for k, name in enumerate(TERMS)} | {"residual": residual(terms)}
     if scene.attraction is None:
-        found["attraction"] = np.full(len(terms), np.nan)
+        result["attraction"] = np.full(len(terms), np.nan)
     if scene.particles.friction is None:
-        del found["dry_friction"]
-    return found
+        del result["dry_friction"]
+    return result

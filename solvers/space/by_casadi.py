@@ -1,8 +1,8 @@
 """One pair in space by Rosenbrock or CVODES, in axes that go with the pair.
 
 CasADi's integrators measure errors by component, so the axes must not be the laboratory's: the first is the line of
-centres, the second lies along what rotates most across it. Turning the picture then changes rounding only. During
-the integration they turn about the angular momentum as a rigid doublet would (`model.phases`).
+centres, the second lies along what rotates most across it. A rotation of the whole pair then changes rounding only.
+During the integration they turn about the angular momentum as a rigid doublet would (`model.phases`).
 """
 
 from dataclasses import replace
@@ -68,15 +68,19 @@ def groups_of(pairs: Pairs, axes: np.ndarray) -> DimensionlessGroups:
         "spin": axes @ pairs.spins[0, 0],
         "partner_spin": axes @ pairs.spins[0, 1],
     }
-    given = dict(si_values(pairs.scene, None, None)) | {"speed": speed}
-    given |= {f"impact_{name}_{axis}": float(v[k]) for name, v in vectors.items() for k, axis in enumerate(AXES)}
+    quantities = dict(si_values(pairs.scene, None, None)) | {"speed": speed}
+    quantities |= {f"impact_{name}_{axis}": float(v[k]) for name, v in vectors.items() for k, axis in enumerate(AXES)}
 
     def formula(name: str) -> float:
-        return float(getattr(scaling, name)(*(given[each] for each in scaling.ARGUMENTS[name])))
+        return float(getattr(scaling, name)(*(quantities[each] for each in scaling.ARGUMENTS[name])))
 
-    given["obliquity"] = formula("obliquity_space")
+    quantities["obliquity"] = formula("obliquity_space")
     rate = formula("rate_scale_pair")
-    groups = {"obliquity": given["obliquity"], "radius_ratio": given["radius_ratio"], "mass_ratio": given["mass_ratio"]}
+    groups = {
+        "obliquity": quantities["obliquity"],
+        "radius_ratio": quantities["radius_ratio"],
+        "mass_ratio": quantities["mass_ratio"],
+    }
     normal = dict(zip((f"initial_normal_{axis}" for axis in AXES), axes @ pairs.normal[0], strict=True))
     first = {
         f"initial_{name}_{axis}": float(v[k]) / max(rate, _LEAST)
@@ -92,12 +96,12 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, steps: int | None)
     model = load(select_model(pair.scene, True, full=ledger, space=True))
     extras = EXTRAS + (extras_of(model) if ledger else ())
     try:
-        path, found = _integrated(model, extras, select_model(pair.scene, True, space=True), n, plugin, rtol, steps)
+        path, replayed = _integrated(model, extras, select_model(pair.scene, True, space=True), n, plugin, rtol, steps)
     except ComputationError as error:
         raise n.in_si(error) from None
-    p, y = model.group_values(n.groups), found.y
+    p, y = model.group_values(n.groups), replayed.y
     shown = model.values("outputs", y, p)
-    axes = _turned_back(model, found, p) @ axes
+    axes = _turned_back(model, replayed, p) @ axes
 
     def vector(name: str) -> np.ndarray:
         turned: np.ndarray = np.array([[shown[f"{name}_{axis}"] for axis in AXES]]) @ axes
@@ -105,7 +109,7 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, steps: int | None)
 
     ends = Ends.blank(1)
     ends.outcome[0], ends.certified[0] = OUTCOMES.index(path.outcome), path.certified
-    ends.time[0], ends.gap[0] = found.time * n.time, float(y[0]) * n.length
+    ends.time[0], ends.gap[0] = replayed.time * n.time, float(y[0]) * n.length
     ends.opening[0] = shown["restitution"] * n.speed
     ends.normal[:], ends.turning[:] = vector("final_normal"), vector("final_rotation_rate") * n.rate
     ends.spins[:, 0], ends.spins[:, 1] = vector("final_spin") * n.rate, vector("final_spin_partner") * n.rate
@@ -114,18 +118,18 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, steps: int | None)
         ends.slip[0] = last / first if first > LEAST_SLIP else np.nan
     if ledger:
         ends.energy[0] = n.energy * of_casadi(
-            model, p, y, {name: found.extra(name) for name in extras}, found.dry_loss, found.friction_loss
+            model, p, y, {name: replayed.extra(name) for name in extras}, replayed.dry_loss, replayed.friction_loss
         )
         if is_open(ends.energy, ends.outcome > 0, rtol)[0]:
             raise ComputationError(OPEN)
     return ends
 
 
-def _turned_back(model: Model, found: Replay, p: np.ndarray) -> np.ndarray:
+def _turned_back(model: Model, replayed: Replay, p: np.ndarray) -> np.ndarray:
     """The axes in which the integration ended, as rows, in those in which it began (`model.phases`)."""
-    parts = model.values("precession", found.y, p)
+    parts = model.values("precession", replayed.y, p)
     momentum = np.array([parts[f"momentum_{axis}"] for axis in AXES])
-    angle = float(np.sqrt(momentum @ momentum)) * found.extra(EXTRAS[0])
+    angle = float(np.sqrt(momentum @ momentum)) * replayed.extra(EXTRAS[0])
     if angle == 0.0:
         return np.eye(3)
     line = momentum / np.sqrt(momentum @ momentum)
@@ -148,16 +152,16 @@ def _integrated(
     Arguments:
         small: the reduced form of `model`, by which CVODES' events are located.
     """
-    asked = rtol
+    tolerance = rtol
     while plugin != "rosenbrock":
-        path = EventLocator(load(small), n.groups, asked, EXTRAS).run()
+        path = EventLocator(load(small), n.groups, tolerance, EXTRAS).run()
         flow = Flow(model.choice, Region(1, 1, False), extras)
         start = model.start(model.group_values(n.groups))
         try:
-            return path, replay(path, plugin, tolerance_for(asked, plugin, n.groups), flow, start)
+            return path, replay(path, plugin, tolerance_for(tolerance, plugin, n.groups), flow, start)
         except Stopped as failure:
-            if not (failure.missed and asked > _TIGHTEST):
+            if not (failure.missed and tolerance > _TIGHTEST):
                 break
-            asked = max(asked * 1e-2, _TIGHTEST)
-    path = EventLocator(model, n.groups, asked, extras, steps=steps).run()
+            tolerance = max(tolerance * 1e-2, _TIGHTEST)
+    path = EventLocator(model, n.groups, tolerance, extras, steps=steps).run()
     return path, as_located(path, model.choice)

@@ -47,23 +47,23 @@ def planes(pairs: Pairs) -> Planes:
     rest = turned - along[:, :, None] * axis[:, None]
     rest[:, 1:] *= radii[:, None]
     rest[:, 0] *= pairs.distance
-    given = np.maximum(largest, np.max(np.abs(pairs.velocities), axis=(1, 2)))
-    planar = np.all(length(rest) <= TURNLESS * given[:, None], axis=1)
+    size = np.maximum(largest, np.max(np.abs(pairs.velocities), axis=(1, 2)))
+    planar = np.all(length(rest) <= TURNLESS * size[:, None], axis=1)
     return Planes(planar, axis, along[:, 0], along[:, 1:])
 
 
 def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> tuple[Ends, np.ndarray] | None:
     """Ends of the pairs, and a mask of those that need another engine; None if no kernel is available."""
     ends, left = Ends.blank(pairs.size), np.zeros(pairs.size, bool)
-    found = planes(pairs)
-    which = np.flatnonzero(found.planar)
+    motion = planes(pairs)
+    which = np.flatnonzero(motion.planar)
     if which.size:
-        flat = _in_planes(pairs.part(which), _part(found, which), rtol, threads, ledger)
+        flat = _in_planes(pairs.part(which), _part(motion, which), rtol, threads, ledger)
         if flat is None:
             return None
         ends.put(which, flat[0])
         left[which] = flat[1]
-    which = np.flatnonzero(~found.planar)
+    which = np.flatnonzero(~motion.planar)
     if which.size:
         solid = _in_space(pairs.part(which), rtol, threads, ledger)
         if solid is None:
@@ -75,8 +75,8 @@ def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> 
     return ends, left
 
 
-def _part(found: Planes, which: np.ndarray) -> Planes:
-    return Planes(found.planar[which], found.axis[which], found.turning[which], found.spins[which])
+def _part(motion: Planes, which: np.ndarray) -> Planes:
+    return Planes(motion.planar[which], motion.axis[which], motion.turning[which], motion.spins[which])
 
 
 def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> tuple[Ends, np.ndarray] | None:
@@ -94,8 +94,8 @@ def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> tuple[En
 
     def vector(name: str) -> np.ndarray:
         first = place[f"{name}_x"]
-        found: np.ndarray = answers["shown"][:, first : first + 3]
-        return found
+        spins: np.ndarray = answers["shown"][:, first : first + 3]
+        return spins
 
     ends.normal[known] = vector("final_normal")[known]
     ends.turning[known] = (vector("final_rotation_rate") * rate[:, None])[known]
@@ -109,27 +109,27 @@ def scales(pairs: Pairs) -> np.ndarray:
     """The scale of angular velocities of each collision in space, rad/s."""
     from ...generated import scaling
 
-    given = dict(si_values(pairs.scene, None, None)) | {"speed": -pairs.opening}
+    quantities = dict(si_values(pairs.scene, None, None)) | {"speed": -pairs.opening}
     for name, rows in (
         ("impact_turning", pairs.turning),
         (_SPINS[0], pairs.spins[:, 0]),
         (_SPINS[1], pairs.spins[:, 1]),
     ):
-        given |= {f"{name}_{axis}": rows[:, k] for k, axis in enumerate("xyz")}
-    tangent = scaling.obliquity_space(*(given[name] for name in scaling.ARGUMENTS["obliquity_space"]))
-    given["obliquity"] = np.asarray(tangent).reshape(-1)
-    found = scaling.rate_scale_pair(*(given[name] for name in scaling.ARGUMENTS["rate_scale_pair"]))
-    return np.asarray(found).reshape(-1)
+        quantities |= {f"{name}_{axis}": rows[:, k] for k, axis in enumerate("xyz")}
+    tangent = scaling.obliquity_space(*(quantities[name] for name in scaling.ARGUMENTS["obliquity_space"]))
+    quantities["obliquity"] = np.asarray(tangent).reshape(-1)
+    scale = scaling.rate_scale_pair(*(quantities[name] for name in scaling.ARGUMENTS["rate_scale_pair"]))
+    return np.asarray(scale).reshape(-1)
 
 
-def _in_planes(pairs: Pairs, found: Planes, rtol: float, threads: int, ledger: bool) -> tuple[Ends, np.ndarray] | None:
+def _in_planes(pairs: Pairs, motion: Planes, rtol: float, threads: int, ledger: bool) -> tuple[Ends, np.ndarray] | None:
     """By the planar kernel; what rounding leaves of the spins out of the plane stays as it is."""
-    same = pairs.scene.partner is None and bool(np.all(found.spins[:, 0] == found.spins[:, 1]))
+    same = pairs.scene.partner is None and bool(np.all(motion.spins[:, 0] == motion.spins[:, 1]))
     scene = resting(pairs.scene, own_spins=not same)
     contact = pairs.distance - float(scene.material["film_thickness"])
-    angle = np.arctan2(contact * np.abs(found.turning), -pairs.opening)
-    sense = np.where(found.turning < 0, -1.0, 1.0)  # the angle is not negative
-    spins = sense[:, None] * found.spins
+    angle = np.arctan2(contact * np.abs(motion.turning), -pairs.opening)
+    sense = np.where(motion.turning < 0, -1.0, 1.0)  # the angle is not negative
+    spins = sense[:, None] * motion.spins
     others = {name: np.ascontiguousarray(spins[:, k]) for k, name in enumerate(_SPINS)}
     impacts = Impacts(scene, -pairs.opening, angle, others)
     books = None
@@ -142,9 +142,9 @@ def _in_planes(pairs: Pairs, found: Planes, rtol: float, threads: int, ledger: b
         return None
     ends, left = _of_answers(pairs, answers, books)
     known = answers["status"] == Status.DECIDED
-    axis = sense[:, None] * found.axis
-    given = dict(si_values(scene, None, None)) | others | {"speed": impacts.speed, "angle": angle}
-    rate = rate_scales(scene, given)
+    axis = sense[:, None] * motion.axis
+    quantities = dict(si_values(scene, None, None)) | others | {"speed": impacts.speed, "angle": angle}
+    rate = rate_scales(scene, quantities)
     oblique = impacts.oblique
     ends.slip[~oblique] = np.nan
     shown = {name: answers["shown"][:, k] for k, name in enumerate(load(select_model(scene, True)).names("outputs"))}
@@ -155,7 +155,7 @@ def _in_planes(pairs: Pairs, found: Planes, rtol: float, threads: int, ledger: b
     ends.normal = np.cos(turned) * pairs.normal + np.sin(turned) * across
     ends.opening[known] = (-pairs.opening * answers["shown"][:, 0])[known]
     ends.turning = moved["final_rotation_rate"][:, None] * axis
-    rest = pairs.spins - found.spins[:, :, None] * found.axis[:, None]
+    rest = pairs.spins - motion.spins[:, :, None] * motion.axis[:, None]
     for k, name in enumerate(("final_spin", "final_spin_partner")):
         ends.spins[:, k] = moved[name][:, None] * axis + rest[:, k]
     return ends, left
@@ -181,7 +181,7 @@ def _rebounding(answer: np.void, thickness: float, speed: float) -> str:
 
 
 def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None) -> tuple[Ends, np.ndarray]:
-    """What answers of any structure say."""
+    """Ends from the answers of any structure, and a mask of the collisions left to another engine."""
     ends = Ends.blank(pairs.size)
     left = answers["status"] > LAST_ANSWER
     touch = answers["status"] == Status.PROVED_AT_TOUCH

@@ -83,8 +83,8 @@ class Ends:
 
 def across(vectors: np.ndarray, normal: np.ndarray) -> np.ndarray:
     """The parts of vectors across a direction."""
-    found: np.ndarray = vectors - dot(vectors, normal) * normal
-    return found
+    result: np.ndarray = vectors - dot(vectors, normal) * normal
+    return result
 
 
 @dataclass(frozen=True)
@@ -152,8 +152,8 @@ def gains_energy(pairs: Pairs, ends: Ends, rtol: float) -> np.ndarray:
 
     def energy(velocities: np.ndarray, spins: np.ndarray) -> np.ndarray:
         relative = velocities[:, 1] - velocities[:, 0]
-        found: np.ndarray = mass * dot(relative, relative)[:, 0] + (inertia * length(spins) ** 2).sum(axis=1)
-        return found
+        twice: np.ndarray = mass * dot(relative, relative)[:, 0] + (inertia * length(spins) ** 2).sum(axis=1)
+        return twice
 
     with np.errstate(all="ignore"):
         motions = after_wall(pairs, ends) if pairs.scene.wall else after(pairs, ends)
@@ -181,5 +181,5 @@ def angular_momentum(pairs: Pairs) -> np.ndarray:
     bodies = Bodies.of(pairs.scene)
     turning = np.cross(pairs.normal, pairs.velocities[:, 1] - pairs.velocities[:, 0])
     spinning = bodies.inertia[0] * pairs.spins[:, 0] + bodies.inertia[1] * pairs.spins[:, 1]
-    found: np.ndarray = bodies.reduced_mass * pairs.distance * turning + spinning
-    return found
+    momentum: np.ndarray = bodies.reduced_mass * pairs.distance * turning + spinning
+    return momentum

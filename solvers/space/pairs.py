@@ -18,14 +18,14 @@ from ..scene.values import array, scalar
 
 def dot(left: np.ndarray, right: np.ndarray) -> np.ndarray:
     """Scalar products of vectors along the last axis, kept as an axis of length 1."""
-    found: np.ndarray = np.sum(left * right, axis=-1, keepdims=True)
-    return found
+    products: np.ndarray = np.sum(left * right, axis=-1, keepdims=True)
+    return products
 
 
 def length(vectors: np.ndarray) -> np.ndarray:
     """Lengths of vectors along the last axis."""
-    found: np.ndarray = np.sqrt(np.sum(vectors * vectors, axis=-1))
-    return found
+    lengths: np.ndarray = np.sqrt(np.sum(vectors * vectors, axis=-1))
+    return lengths
 
 
 @dataclass(frozen=True)
@@ -83,14 +83,14 @@ class Pairs:
     @cached_property
     def turning(self) -> np.ndarray:
         """Angular velocity of the line of centres at initial contact, rad/s."""
-        found: np.ndarray = np.cross(self.normal, self.sliding) / self.distance
-        return found
+        rates: np.ndarray = np.cross(self.normal, self.sliding) / self.distance
+        return rates
 
     @cached_property
     def opening(self) -> np.ndarray:
         """Normal component of the relative velocity, negative on approach, m/s."""
-        found: np.ndarray = dot(self.normal, self.velocities[:, 1] - self.velocities[:, 0])[:, 0]
-        return found
+        velocity: np.ndarray = dot(self.normal, self.velocities[:, 1] - self.velocities[:, 0])[:, 0]
+        return velocity
 
     @cached_property
     def sliding(self) -> np.ndarray:
@@ -101,8 +101,8 @@ class Pairs:
         relative = self.velocities[:, 1] - self.velocities[:, 0]
         across = relative - dot(self.normal, relative) * self.normal
         largest = np.max(np.abs(self.velocities), axis=(1, 2))
-        found: np.ndarray = np.where((length(across) > TURNLESS * largest)[:, None], across, 0.0)
-        return found
+        velocity: np.ndarray = np.where((length(across) > TURNLESS * largest)[:, None], across, 0.0)
+        return velocity
 
     def part(self, which: np.ndarray) -> Pairs:
         """A subset, as a request of its own."""
@@ -129,9 +129,9 @@ def checked(scene: Scene, normal: Any, velocities: Any, spins: Any) -> Pairs:
     try:
         shape = np.broadcast_shapes(directions.shape[:-1], moving.shape[:-2], turning.shape[:-2])
     except ValueError:
-        given = f"{directions.shape}, {moving.shape} and {turning.shape}"
+        shapes = f"{directions.shape}, {moving.shape} and {turning.shape}"
         accepted = "normal (..., 3), velocities and spins (..., 2, 3) whose leading shapes broadcast"
-        raise InputError("normal, velocities, spins", given, accepted, "have shapes that do not fit") from None
+        raise InputError("normal, velocities, spins", shapes, accepted, "have shapes that do not fit") from None
     count = int(np.prod(shape))
     rows = np.broadcast_to(directions, (*shape, 3)).reshape(count, 3)
     largest = np.max(np.abs(rows), axis=1, initial=0.0, keepdims=True)
@@ -163,18 +163,18 @@ class _Component:
             return float(raw)
         if isinstance(raw, str):
             return quantity(raw, self.unit, label or "", self.accepts)
-        found = scalar(raw, self, label or "")
-        if not isinstance(found, float):
+        number = scalar(raw, self, label or "")
+        if not isinstance(number, float):
             raise InputError(label or "", raw, self.accepts, "is not a number")
-        return found
+        return number
 
 
 def _numbers(
     name: str, values: Any, last: tuple[int, ...], accepted: str, more: tuple[int, ...] | None = None
 ) -> np.ndarray:
     shaped = f"numbers of shape {accepted}, SI or with their unit"
-    found = array(values, _Component(_UNITS[name], shaped), name)
+    numbers = array(values, _Component(_UNITS[name], shaped), name)
     shapes = {last, more} - {None}
-    if not any(found.shape[-len(own) :] == own for own in shapes if own):
-        raise InputError(name, f"an array of shape {found.shape}", accepted, "has another shape")
-    return found
+    if not any(numbers.shape[-len(shape) :] == shape for shape in shapes if shape):
+        raise InputError(name, f"an array of shape {numbers.shape}", accepted, "has another shape")
+    return numbers

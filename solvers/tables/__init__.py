@@ -1,1 +1,1 @@
-"""Tables of a collision law: Chebyshev series between traced boundaries, with an error that was looked for."""
+"""Tables of a collision law: Chebyshev series between traced boundaries, with an error that is tested."""

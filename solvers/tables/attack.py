@@ -15,7 +15,7 @@ from ...generated.automaton import OUTCOMES
 from ..scene.scene import Scene
 from .collisions import Signatures, collisions
 from .data import Data
-from .hugging import queries
+from .queries import queries
 from .read import read
 
 WITHIN = 1e-6  # relative distance of the impact at which the kernel has to agree
@@ -66,30 +66,30 @@ def attack(
         seed: of the random numbers.
         tell: called with the number of queries done.
     """
-    found, known = Attack(), Signatures()
+    result, known = Attack(), Signatures()
     random = np.random.default_rng(seed)
     run = _Kernel(scene, third, data.logarithmic, of, rtol, known)
-    while found.queries < count:
-        at = queries(data, min(_BLOCK, count - found.queries), random)
-        said = read(data, *at)
+    while result.queries < count:
+        at = queries(data, min(_BLOCK, count - result.queries), random)
+        answers = read(data, *at)
         labels, values = run(at)
-        wrong = _distance(said.outcome, said.values, known.of(labels), values)
+        wrong = _distance(answers.outcome, answers.values, known.of(labels), values)
         doubtful = np.flatnonzero(~(wrong <= _SURE * error))
-        found.direct += at.shape[1] - doubtful.size
+        result.direct += at.shape[1] - doubtful.size
         for first in range(0, doubtful.size, _BLOCK // 32):
             part = doubtful[first : first + _BLOCK // 32]
-            beside = _beside(run, known, at[:, part], said.outcome[part], said.values[part], _SURE * error)
+            beside = _beside(run, known, at[:, part], answers.outcome[part], answers.values[part], _SURE * error)
             wrong[part] = np.fmin(wrong[part], beside)
-        _enter(found, data, at, wrong, error, said.outcome, known.of(labels))
-        found.queries += at.shape[1]
-        tell(found.queries)
-        if found.failed > _LOST:
+        _enter(result, data, at, wrong, error, answers.outcome, known.of(labels))
+        result.queries += at.shape[1]
+        tell(result.queries)
+        if result.failed > _LOST:
             break
-    return found
+    return result
 
 
 def _enter(
-    found: Attack, data: Data, at: np.ndarray, wrong: np.ndarray, error: float, said: np.ndarray, right: np.ndarray
+    attack: Attack, data: Data, at: np.ndarray, wrong: np.ndarray, error: float, answers: np.ndarray, right: np.ndarray
 ) -> None:
     """Enter the errors of a block."""
 
@@ -97,15 +97,15 @@ def _enter(
         third = np.exp(at[0, k]) if data.logarithmic else at[0, k]
         return np.array([third, at[1, k], np.exp(at[2, k])])
 
-    worst = int(np.argmax(np.where(np.isnan(wrong), np.inf, wrong)))
-    if not wrong[worst] <= found.largest:
-        found.largest, found.at = float(wrong[worst]), tuple(impact(worst).tolist())
+    row = int(np.argmax(np.where(np.isnan(wrong), np.inf, wrong)))
+    if not wrong[row] <= attack.largest:
+        attack.largest, attack.at = float(wrong[row]), tuple(impact(row).tolist())
     failed = np.flatnonzero(~(wrong <= error))
-    found.failed += failed.size
-    for k in failed[: max(0, _KEPT - len(found.failures))].tolist():
-        names = [OUTCOMES[one] if one >= 0 else "no answer" for one in (int(said[k]), int(right[k]))]
+    attack.failed += failed.size
+    for k in failed[: max(0, _KEPT - len(attack.failures))].tolist():
+        names = [OUTCOMES[one] if one >= 0 else "no answer" for one in (int(answers[k]), int(right[k]))]
         text = f"off by {wrong[k]:.2g}" if names[0] == names[1] else f"{names[0]}, where collisions give {names[1]}"
-        found.failures.append((impact(k), text))
+        attack.failures.append((impact(k), text))
 
 
 def _distance(outcome: np.ndarray, values: np.ndarray, right: np.ndarray, exact: np.ndarray) -> np.ndarray:
@@ -117,13 +117,13 @@ def _distance(outcome: np.ndarray, values: np.ndarray, right: np.ndarray, exact:
 
 
 def _beside(
-    run: _Kernel, known: Signatures, at: np.ndarray, outcome: np.ndarray, values: np.ndarray, sure: float
+    run: _Kernel, known: Signatures, at: np.ndarray, outcome: np.ndarray, values: np.ndarray, sufficient: float
 ) -> np.ndarray:
     """Smallest error of answers against collisions at most WITHIN away; between two of them results are continuous."""
     best = np.full(outcome.size, np.inf)
     steps = np.concatenate([-_STEPS[::-1], [0.0], _STEPS])
     for ways in ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (0.0, 1.0, 1.0), (0.0, 1.0, -1.0)):
-        some = np.flatnonzero(~(best <= sure))
+        some = np.flatnonzero(~(best <= sufficient))
         if not some.size:
             break
         moved = np.repeat(at[:, some, None], steps.size, axis=2)
@@ -131,12 +131,12 @@ def _beside(
         moved[2] += ways[2] * steps
         labels, exact = run(moved.reshape(3, -1))
         labels, exact = labels.reshape(some.size, -1), exact.reshape(some.size, steps.size, -1)
-        own, said = outcome[some, None], values[some, None, :]
-        best[some] = np.fmin(best[some], _distance(own, said, known.of(labels), exact).min(axis=1))
+        outcomes, answers = outcome[some, None], values[some, None, :]
+        best[some] = np.fmin(best[some], _distance(outcomes, answers, known.of(labels), exact).min(axis=1))
         joined = labels[:, 1:] == labels[:, :-1]
         for share in _SHARES[1:-1]:
             between = (1 - share) * exact[:, :-1] + share * exact[:, 1:]
-            error = np.where(joined, _distance(own, said, known.of(labels[:, 1:]), between), np.inf)
+            error = np.where(joined, _distance(outcomes, answers, known.of(labels[:, 1:]), between), np.inf)
             best[some] = np.fmin(best[some], error.min(axis=1))
     return best
 

@@ -67,15 +67,15 @@ class Builder:
 
     def mark(self) -> tuple[int, ...]:
         """The lengths of everything, for `reset`."""
-        own = (self.first_panel, self.cuts, self.maps, self.first_edge, self.edges, self.cells, self.slices)
-        return (*(len(one) for one in own), *self.shapes.mark(), *self.values.mark())
+        lists = (self.first_panel, self.cuts, self.maps, self.first_edge, self.edges, self.cells, self.slices)
+        return (*(len(one) for one in lists), *self.shapes.mark(), *self.values.mark())
 
     def reset(self, mark: tuple[int, ...]) -> None:
         """Take away what was added since a mark."""
-        own: tuple[list[Any], ...] = (
+        lists: tuple[list[Any], ...] = (
             self.first_panel, self.cuts, self.maps, self.first_edge, self.edges, self.cells, self.slices,
         )  # fmt: skip
-        for one, size in zip(own, mark):
+        for one, size in zip(lists, mark):
             del one[size:]
         self.shapes.reset(mark[7:9])
         self.values.reset(mark[9:11])
@@ -139,15 +139,15 @@ class Builder:
 
     def _edges(self, part: Slice, which: int, code: int, forest: Forest) -> list[int]:
         strip = Strip(part.layouts, which, code, Forest(1).trees(), [])
-        found = []
+        edges = []
         for k in range(len(part.layouts[0].panels[which].arcs)):
 
             def sample(points: np.ndarray, k: int = k) -> np.ndarray:
                 heights = [one.boundary(which, k, strip.angles(points[:, 0], m)) for m, one in enumerate(part.layouts)]
                 return np.stack(heights, axis=1)[:, :, None]
 
-            found.append(fit(forest, sample, EDGE_ORDER))
-        return found
+            edges.append(fit(forest, sample, EDGE_ORDER))
+        return edges
 
     def _cell(self, strip: Strip, k: int, label: int) -> tuple[int, int, int, int]:
         """Outcome, first criterion, map and root of a cell."""

@@ -64,13 +64,13 @@ def _comment(table: Law, name: str) -> str:
     results = [
         f"value[{k}]  {one}: {attributes(one)['long_name']} ({attributes(one)['units']})" for k, one in enumerate(of)
     ]
-    given = "".join(f"double {one}, " for one in arguments)
+    parameters = "".join(f"double {one}, " for one in arguments)
     example = ", ".join(("0.5 * (lo + hi)",) * len(arguments))
     lines = [
         f"Collision law of {table.scene.name or 'a scene'} as a table, made by wetdoublet.",
         "",
-        f"    int {name}_table({given}{name}_answer *answer);",
-        f"    int {name}_table_slopes({given}{name}_answer *answer, {name}_slopes *slopes);",
+        f"    int {name}_table({parameters}{name}_answer *answer);",
+        f"    int {name}_table_slopes({parameters}{name}_answer *answer, {name}_slopes *slopes);",
         "",
         f"Both return {big}_OK, or {big}_OUTSIDE where an argument is outside its range or NaN: nothing is",
         "extrapolated, the outcome is then -1 and all results are NaN. So they are where a number of this file is not",
@@ -117,26 +117,26 @@ def _numbers(table: Law) -> dict[str, tuple[str, np.ndarray]]:
     """The arrays of the header by name: their type in C ("real" is that of the coefficients), and their values."""
     data = table.data
     third = np.log(table.range.ends) if table.range.logarithmic else np.array(table.range.ends)
-    found: dict[str, tuple[str, Any]] = {
+    arrays: dict[str, tuple[str, Any]] = {
         "range": ("double", [*table.range.stokes, *table.range.angle, *third.tolist()])
     }
-    found["height"] = "double", [data.low[2], data.high[2]]
+    arrays["height"] = "double", [data.low[2], data.high[2]]
     for key, kind in (
         ("slices", "double"), ("first_panel", "int"), ("cuts", "int"), ("maps", "signed char"), ("first_edge", "int"),
         ("edges", "int"), ("outcome", "signed char"), ("criterion", "signed char"), ("cell_map", "signed char"),
         ("root", "int"),
     ):  # fmt: skip
-        found[key] = kind, getattr(data, key)
-    found["of_stick"] = "signed char", np.isnan(data.of_stick)
+        arrays[key] = kind, getattr(data, key)
+    arrays["of_stick"] = "signed char", np.isnan(data.of_stick)
     for prefix, trees in (("shape_", data.shapes), ("", data.results)):
         for key, kind in (
             ("axis", "signed char"), ("cut", "double"), ("child", "int"), ("box", "double"), ("size", "short"),
             ("start", "int"),
         ):  # fmt: skip
-            found[f"{prefix}{key}"] = kind, getattr(trees, key)
-        found[f"{prefix}series"] = "double" if prefix else "real", trees.coefficients
+            arrays[f"{prefix}{key}"] = kind, getattr(trees, key)
+        arrays[f"{prefix}series"] = "double" if prefix else "real", trees.coefficients
     # an empty array has one element, as C knows none
-    return {key: (kind, np.ravel(values) if np.size(values) else np.zeros(1)) for key, (kind, values) in found.items()}
+    return {key: (kind, np.ravel(values) if np.size(values) else np.zeros(1)) for key, (kind, values) in arrays.items()}
 
 
 def _checksum(arrays: Mapping[str, tuple[str, np.ndarray]]) -> int:
@@ -163,20 +163,20 @@ def _array(kind: str, name: str, values: np.ndarray) -> str:
 
 def _functions(table: Law, name: str) -> str:
     arguments = _arguments(table)
-    given = ", ".join(f"double {one}" for one in arguments)
+    parameters = ", ".join(f"double {one}" for one in arguments)
     third = "0.5" if len(arguments) < 3 else arguments[2]
     taken = f"{third} > 0.0 ? log({third}) : -1e300" if table.range.logarithmic else third
     scaled = ""
     if table.range.logarithmic:
         scaled = f"    for (m = 0; m < {_constants(name)}_RESULTS; ++m)\n        slopes->by[m][2] /= {third};\n"
     return f"""/* Outcome and results at an impact. */
-static inline int {name}_table({given}, {name}_answer *answer)
+static inline int {name}_table({parameters}, {name}_answer *answer)
 {{
     return {name}_read({taken}, angle, stokes, answer, 0);
 }}
 
 /* The same with derivatives. */
-static inline int {name}_table_slopes({given}, {name}_answer *answer, {name}_slopes *slopes)
+static inline int {name}_table_slopes({parameters}, {name}_answer *answer, {name}_slopes *slopes)
 {{
 {"    int m;" + chr(10) if scaled else ""}    int status = {name}_read({taken}, angle, stokes, answer, slopes);
 {scaled}    return status;

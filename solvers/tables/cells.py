@@ -85,9 +85,9 @@ class Strip:
             if not wrong.size:
                 return values
             moved = np.clip(height[wrong] + aside, *np.log(plane.stokes))
-            again, found = plane.at(angle[wrong], np.exp(moved))
+            again, recomputed = plane.at(angle[wrong], np.exp(moved))
             fits = again == label
-            labels[wrong[fits]], values[wrong[fits]] = label, found[fits]
+            labels[wrong[fits]], values[wrong[fits]] = label, recomputed[fits]
         wrong = labels != label
         values[wrong] = np.nan
         slivers = wrong & (ceiling - floor < _SLIVER)

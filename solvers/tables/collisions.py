@@ -45,15 +45,15 @@ class Signatures:
     def codes(self, keys: np.ndarray) -> np.ndarray:
         """Codes of packed keys; new ones are entered."""
         unique, inverse = np.unique(keys, return_inverse=True)
-        found = np.full(unique.size, UNKNOWN)
+        codes = np.full(unique.size, UNKNOWN)
         for k, key in enumerate(unique.tolist()):
             if key >= 0:
                 if key not in self.keys:
                     self.keys[key] = len(self.outcomes)
                     self.outcomes.append(key % 3)
                     self.events.append(_unpacked(key // 3))
-                found[k] = self.keys[key]
-        return found[inverse.reshape(-1)]
+                codes[k] = self.keys[key]
+        return codes[inverse.reshape(-1)]
 
     def of(self, codes: np.ndarray) -> np.ndarray:
         """Outcomes of codes, by number; -1 where the code is UNKNOWN."""
@@ -68,13 +68,13 @@ class Signatures:
 
 
 def _unpacked(key: int) -> tuple[str, ...]:
-    found = ["at initial contact"] if key % 2 else []
-    found += ["sliding"] if key // 2 % 2 else []
+    words = ["at initial contact"] if key % 2 else []
+    words += ["sliding"] if key // 2 % 2 else []
     key //= 4
     while key:
         key, digit = divmod(key, _DIGIT)
-        found.append(KINDS[digit - 1])
-    return tuple(found)
+        words.append(KINDS[digit - 1])
+    return tuple(words)
 
 
 @dataclass
@@ -128,16 +128,18 @@ def collisions(
     labels, values = np.full(angle.size, UNKNOWN), np.full((angle.size, len(of)), np.nan)
     for first in range(0, angle.size, _CHUNK):
         part = slice(first, first + _CHUNK)
-        own = {name: column[part] for name, column in (vary or {}).items()}
-        request = Batch(scene, stokes[part], None, np.asarray(angle[part], dtype=float), own, rtol, "taylor", tuple(of))
+        varied = {name: column[part] for name, column in (vary or {}).items()}
+        request = Batch(
+            scene, stokes[part], None, np.asarray(angle[part], dtype=float), varied, rtol, "taylor", tuple(of)
+        )
         impacts, sound = impacts_of(request)
         there = np.arange(angle.size)[part][sound]
         turns = impacts.oblique
         for oblique in (True, False):
             which = np.flatnonzero(turns == oblique)
             if which.size:
-                those = impacts if which.size == turns.size else impacts.part(which)
-                labels[there[which]], values[there[which]] = _run(request, those, oblique, known)
+                selected = impacts if which.size == turns.size else impacts.part(which)
+                labels[there[which]], values[there[which]] = _run(request, selected, oblique, known)
     return labels, values
 
 
@@ -146,15 +148,15 @@ def _run(request: Batch, impacts: Impacts, oblique: bool, known: Signatures) -> 
     fold = not impacts.others
     recorded = run_recorded(impacts, oblique, request.rtol, budget=_BUDGET, room=(_EVENTS, 1), fold=fold)
     assert recorded is not None  # `table` has asked whether there is a kernel
-    found = recorded.answers
-    known.steps += int(found["steps"].sum())
-    keys = _packed(recorded.events["kind"].astype(np.int64), found["events"])
-    flags = 2 * _slides(impacts, oblique, request.rtol, found) + _at_once(recorded)
-    keys = np.where(found["outcome"] == 0, 0, 12 * keys + 3 * flags + found["outcome"])
-    labels = known.codes(np.where(found["status"] <= LAST_ANSWER, keys, -1))
+    answers = recorded.answers
+    known.steps += int(answers["steps"].sum())
+    keys = _packed(recorded.events["kind"].astype(np.int64), answers["events"])
+    flags = 2 * _slides(impacts, oblique, request.rtol, answers) + _at_once(recorded)
+    keys = np.where(answers["outcome"] == 0, 0, 12 * keys + 3 * flags + answers["outcome"])
+    labels = known.codes(np.where(answers["status"] <= LAST_ANSWER, keys, -1))
     if not request.of:
         return labels, np.zeros((labels.size, 0))
-    columns = block_of(request, found, impacts, None)
+    columns = block_of(request, answers, impacts, None)
     values = np.column_stack([columns[name] for name in request.of])
     values[labels < 0] = np.nan
     return labels, values
@@ -181,14 +183,14 @@ def _at_once(recorded: Recorded) -> np.ndarray:
     return np.asarray((recorded.answers["reversal"] >= 0) & (first["time"] == 0) & (recorded.answers["events"] > 0))
 
 
-def _slides(impacts: Impacts, oblique: bool, rtol: float, found: np.ndarray) -> np.ndarray:
+def _slides(impacts: Impacts, oblique: bool, rtol: float, answers: np.ndarray) -> np.ndarray:
     """Mask of collisions with a sliding rebound: with a little more friction they change, others do not."""
-    own = impacts.scene.particles.friction
-    if own is None or not oblique:
-        return np.zeros(found.size, bool)
-    friction = np.broadcast_to(impacts.others.get("friction", own), found.size)
+    coefficient = impacts.scene.particles.friction
+    if coefficient is None or not oblique:
+        return np.zeros(answers.size, bool)
+    friction = np.broadcast_to(impacts.others.get("friction", coefficient), answers.size)
     firmer = Impacts(impacts.scene, impacts.speed, impacts.angle, {**impacts.others, "friction": friction * _FIRMER})
     again = run_recorded(firmer, oblique, rtol, budget=_BUDGET, events=False, fold=not impacts.others)
     assert again is not None
-    changed: np.ndarray = np.abs(again.answers["shown"][:, :3] - found["shown"][:, :3]).max(axis=1) > _SAME
-    return changed & (found["outcome"] > 0) & (found["reversal"] >= 0)
+    changed: np.ndarray = np.abs(again.answers["shown"][:, :3] - answers["shown"][:, :3]).max(axis=1) > _SAME
+    return changed & (answers["outcome"] > 0) & (answers["reversal"] >= 0)

@@ -47,10 +47,12 @@ class Data:
     @property
     def bytes(self) -> int:
         """Size of the arrays in C."""
-        own = sum(getattr(self, name).nbytes for name in ("slices", "first_panel", "cuts", "maps", "first_edge",
+        own_arrays = sum(getattr(self, name).nbytes for name in ("slices", "first_panel", "cuts", "maps", "first_edge",
                   "edges", "outcome", "criterion", "cell_map", "root", "of_stick"))  # fmt: skip
         parts = ("axis", "cut", "child", "box", "size", "start", "coefficients")
-        return int(own + sum(getattr(trees, name).nbytes for trees in (self.shapes, self.results) for name in parts))
+        return int(
+            own_arrays + sum(getattr(trees, name).nbytes for trees in (self.shapes, self.results) for name in parts)
+        )
 
 
 @dataclass

@@ -55,23 +55,23 @@ def fit(forest: Forest, sample: Sample, order: Order, seed: int = 0) -> int:
     waiting = [(root, np.zeros(2), np.ones(2), 0)]
     random = np.random.default_rng(20121 + seed)
     at = np.stack(np.meshgrid(*(nodes(n) for n in order.count), indexing="ij"), axis=-1).reshape(-1, 2)
-    made = 0
+    patches = 0
     while waiting:
-        made += len(waiting)
-        if made > order.most:
+        patches += len(waiting)
+        if patches > order.most:
             node, low, wide, _ = max(waiting, key=lambda one: one[3])
             raise Unresolved(low + 0.5 * wide, f"more than {order.most} patches would be needed")
         inside = _checks(random, len(waiting), order.checks)
         points = np.concatenate([np.broadcast_to(at, (len(waiting), *at.shape)), inside], axis=1)
         corner = np.array([low for _, low, _, _ in waiting])[:, None]
         size = np.array([wide for _, _, wide, _ in waiting])[:, None]
-        found = sample((corner + points * size).reshape(-1, 2))
-        found = found.reshape(len(waiting), points.shape[1], *found.shape[1:])
+        samples = sample((corner + points * size).reshape(-1, 2))
+        samples = samples.reshape(len(waiting), points.shape[1], *samples.shape[1:])
         following = []
-        for (node, low, wide, depth), values, own in zip(waiting, found, inside, strict=True):
+        for (node, low, wide, depth), values, check_points in zip(waiting, samples, inside, strict=True):
             grid = values[: len(at)].reshape(*order.count, *values.shape[1:])
             series, errors = _series(grid)
-            wrong = _disagreement(series, own, values[len(at) :])
+            wrong = _disagreement(series, check_points, values[len(at) :])
             scale = order.tolerance * np.maximum(1.0, np.abs(series[:, 0, 0, 0]))
             tails = np.array([float(np.max(error / scale)) for error in errors])
             settled = bool(np.isfinite(grid).all()) and tails.max() <= 1 and wrong <= 1.5 * float(scale.max())
@@ -133,8 +133,8 @@ def _disagreement(series: np.ndarray, at: np.ndarray, values: np.ndarray) -> flo
     n_t = series.shape[1]
     basis_t = chebyshev(2 * nodes(n_t) - 1, n_t)[0]
     basis_x, basis_z = (chebyshev(2 * at[:, k] - 1, series.shape[2 + k])[0] for k in (0, 1))
-    found = np.einsum("mijk,ti,nj,nk->ntm", series, basis_t, basis_x, basis_z, optimize=True)
-    return float(np.nan_to_num(np.abs(found - values), nan=0.0).max())
+    series_values = np.einsum("mijk,ti,nj,nk->ntm", series, basis_t, basis_x, basis_z, optimize=True)
+    return float(np.nan_to_num(np.abs(series_values - values), nan=0.0).max())
 
 
 def truncated(series: np.ndarray, allowed: np.ndarray) -> np.ndarray:

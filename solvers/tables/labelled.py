@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .law import Law
 
 
-def answers(table: Law, columns: list[np.ndarray], said: Read, slopes: bool) -> xarray.Dataset:
+def answers(table: Law, columns: list[np.ndarray], results: Read, slopes: bool) -> xarray.Dataset:
     """The Dataset of answers at impacts."""
     along = ("collision",)
     units = ["1", "rad", *(table.scene.fields[name].unit or "1" for name in table.variables[2:])]
@@ -27,13 +27,13 @@ def answers(table: Law, columns: list[np.ndarray], said: Read, slopes: bool) -> 
         name: (along, column, {"units": unit}) for name, column, unit in zip(names, columns, units, strict=True)
     }
     outcome = outcome_attributes() | {"long_name": "outcome; failed: outside the table"}
-    variables: dict[str, Any] = {"outcome": (along, said.outcome, outcome)}
+    variables: dict[str, Any] = {"outcome": (along, results.outcome, outcome)}
     for k, name in enumerate(table.of):
-        variables[name] = along, said.values[:, k], attributes(name)
+        variables[name] = along, results.values[:, k], attributes(name)
     if slopes:
         axes = {"wrt": tuple(names)}
-        third = said.slopes[0] / columns[2][:, None] if table.range.logarithmic else said.slopes[0]
-        parts = [said.slopes[2] / columns[0][:, None], said.slopes[1], third][: len(names)]
+        third = results.slopes[0] / columns[2][:, None] if table.range.logarithmic else results.slopes[0]
+        parts = [results.slopes[2] / columns[0][:, None], results.slopes[1], third][: len(names)]
         for k, name in enumerate(table.of):
             unit = attributes(name)["units"]
             text = {"long_name": f"derivative of {name}", "units": f"{unit} per unit of wrt"}
@@ -43,11 +43,10 @@ def answers(table: Law, columns: list[np.ndarray], said: Read, slopes: bool) -> 
 
 def text(table: Law) -> str:
     """A table in words: ranges, size, error and where the largest was found."""
-    data, found = table.data, table.found
+    data, attack = table.data, table.found
     lines = [f"table of {table.scene.name or 'a scene'}: {', '.join(table.of)}"]
-    lines.append(
-        f"  St {table.range.stokes[0]:g} to {table.range.stokes[1]:g}, angle {_degrees(table.range.angle)} deg"
-    )
+    (least, most), (low, high) = table.range.stokes, map(math.degrees, table.range.angle)
+    lines.append(f"  St {least:g} to {most:g}, angle {low:g} to {high:g} deg")
     if table.range.third is not None:
         unit = table.scene.fields[table.range.third].unit or ""
         low, high = table.range.ends
@@ -55,7 +54,7 @@ def text(table: Law) -> str:
     cells = int((data.root >= 0).sum())
     lines.append(f"  {data.maps.size} panels, {cells} cells, {data.results.size.shape[0]} patches, {data.bytes} bytes")
     lines.append(
-        f"  error asked for {table.error:g}; largest of {found.queries} queries {found.largest:.3g}{where(table)}"
+        f"  error asked for {table.error:g}; largest of {attack.queries} queries {attack.largest:.3g}{where(table)}"
     )
     return "\n".join(lines)
 
@@ -67,7 +66,3 @@ def where(table: Law) -> str:
         return ""
     more = "" if table.range.third is None else f", {table.range.third} {third:.6g} (SI)"
     return f" at St {stokes:.8g}, {math.degrees(angle):.8g} deg{more}"
-
-
-def _degrees(ends: tuple[float, float]) -> str:
-    return " to ".join(f"{math.degrees(end):g}" for end in ends)

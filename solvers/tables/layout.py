@@ -63,15 +63,15 @@ class Layout:
         low, high = panel.labels[k], panel.labels[k + 1]
         across = (angle - plane.span[0]) / (plane.span[1] - plane.span[0])
         centre = np.column_stack([across, np.interp(across, arc.points[:, 0], arc.points[:, 1])])
-        found = np.full(angle.size, np.nan)
+        heights = np.full(angle.size, np.nan)
         for reach in _REACHES:
-            left = np.flatnonzero(np.isnan(found))
+            left = np.flatnonzero(np.isnan(heights))
             if not left.size:
                 break
             up = np.tile([0.0, 1.0], (left.size, 1))
             ends = np.full(left.size, low), np.full(left.size, high)
-            found[left] = crossings(plane.labels, centre[left], up, np.full(left.size, reach), *ends, _LOCATED)[:, 1]
-        return np.asarray(np.log(plane.stokes[0]) + found * plane.decades)
+            heights[left] = crossings(plane.labels, centre[left], up, np.full(left.size, reach), *ends, _LOCATED)[:, 1]
+        return np.asarray(np.log(plane.stokes[0]) + heights * plane.decades)
 
 
 def layout_of(plane: Collisions, doubts: np.ndarray | None = None) -> Layout:
@@ -90,8 +90,8 @@ def layout_of(plane: Collisions, doubts: np.ndarray | None = None) -> Layout:
     for attempt in range(_ROUNDS):
         arcs = _arcs(plane, survey)
         regions = slabs(arcs, at[:, 0, 0], middle)
-        said = labelled(regions, points)[0]
-        wrong = np.flatnonzero((said != seen) & (seen >= 0))
+        by_regions = labelled(regions, points)[0]
+        wrong = np.flatnonzero((by_regions != seen) & (seen >= 0))
         wrong = wrong[apart(arcs, points[wrong]) > 2 * CHORD]
         if not wrong.size or attempt == _ROUNDS - 1:
             break
@@ -112,27 +112,27 @@ def _arcs(plane: Collisions, survey: Survey) -> list[Arc]:
 
 def _panels(plane: Collisions, regions: list[Slab]) -> list[Panel]:
     low, high = plane.span
-    found: list[Panel] = []
+    panels: list[Panel] = []
     for slab in regions:
         ends = [low + end * (high - low) for end in (slab.low, slab.high)]
         if slab.high >= 1:
             ends[1] = high
-        if ends[1] - ends[0] < _THIN and found:
-            found[-1].high = ends[1]
+        if ends[1] - ends[0] < _THIN and panels:
+            panels[-1].high = ends[1]
             continue
-        if found and found[-1].high - found[-1].low < _THIN:
-            ends[0] = found.pop().low
-        found.append(Panel(ends[0], ends[1], slab.arcs, slab.labels))
-    return found
+        if panels and panels[-1].high - panels[-1].low < _THIN:
+            ends[0] = panels.pop().low
+        panels.append(Panel(ends[0], ends[1], slab.arcs, slab.labels))
+    return panels
 
 
 def _traced(plane: Collisions) -> list[tuple[np.ndarray, int, int]]:
     """Changes of outcome on seed lines, with signatures on both sides: narrow strips that a lattice does not show."""
     angles = np.linspace(*plane.span, _LINES)
-    found = trace(plane.scene, angles, plane.stokes, plane.rtol)
+    lines = trace(plane.scene, angles, plane.stokes, plane.rtol)
     places = [
         plane.points(np.array([at]), np.array([one.stokes]))[0]
-        for at, line in zip(angles.tolist(), found.changes, strict=True)
+        for at, line in zip(angles.tolist(), lines.changes, strict=True)
         for one in line
     ]
     if not places:

@@ -11,8 +11,8 @@ from ...generated.automaton import OUTCOMES
 from ..collision.text import against, name_of
 from ..formatting import ticks
 from ..formatting.style import FILLS, INK, NOTE, patch, picture, plain_text
-from .hugging import heights
 from .law import Law
+from .queries import heights
 from .read import Read, read
 
 _ACROSS, _UP = 480, 400
@@ -26,19 +26,19 @@ def draw(table: Law) -> Figure:
     height = np.linspace(data.low[2], data.high[2], _UP)
     third = 0.5 * (data.low[0] + data.high[0])
     grid = [one.ravel() for one in np.meshgrid(angle, height)]
-    said = read(data, np.full(grid[0].size, third), grid[0], grid[1])
-    outcome = said.outcome.reshape(_UP, _ACROSS)
+    answers = read(data, np.full(grid[0].size, third), grid[0], grid[1])
+    outcome = answers.outcome.reshape(_UP, _ACROSS)
     figure = Figure(figsize=(9.2, 4.6), layout="constrained")
     left, right = figure.subplots(1, 2, sharex=True, sharey=True)
     x, y = np.degrees(angle), np.exp(height)
     name = table.of[0]
-    shown = np.ma.masked_where(outcome == 0, said.values[:, 0].reshape(_UP, _ACROSS))
+    shown = np.ma.masked_where(outcome == 0, answers.values[:, 0].reshape(_UP, _ACROSS))
     left.set_facecolor(FILLS[OUTCOMES[0]])
     colours = left.pcolormesh(x, y, shown, cmap="viridis", shading="nearest", rasterized=True)
     figure.colorbar(colours, ax=left, label=name.replace("_", " "))
     fills = ListedColormap([FILLS[one] for one in OUTCOMES])
     right.pcolormesh(x, y, outcome, cmap=fills, vmin=-0.5, vmax=2.5, shading="nearest", rasterized=True)
-    _patches(right, said, x, y)
+    _patches(right, answers, x, y)
     for axes in (left, right):
         _boundaries(axes, table, third, angle)
         axes.set_xlabel(r"impact angle $\theta_0$ (deg)")
@@ -67,17 +67,17 @@ def _boundaries(axes: Axes, table: Law, third: float, angle: np.ndarray) -> None
     places, count = heights(data, np.full(angle.size, third), angle)
     panel = read(data, np.full(angle.size, third), angle, np.full(angle.size, data.low[2])).panel
     for one in np.unique(panel):
-        own = np.flatnonzero(panel == one)
-        for k in range(2, int(count[own[0]])):
-            axes.plot(np.degrees(angle[own]), np.exp(places[k, own]), color=INK, linewidth=1.2)
+        inside = np.flatnonzero(panel == one)
+        for k in range(2, int(count[inside[0]])):
+            axes.plot(np.degrees(angle[inside]), np.exp(places[k, inside]), color=INK, linewidth=1.2)
 
 
-def _patches(axes: Axes, said: Read, x: np.ndarray, y: np.ndarray) -> None:
+def _patches(axes: Axes, answers: Read, x: np.ndarray, y: np.ndarray) -> None:
     """Draw where one patch of results ends and another begins."""
-    found = said.patch.reshape(y.size, x.size)
-    edge = np.zeros(found.shape, dtype=bool)
-    edge[:, 1:] |= found[:, 1:] != found[:, :-1]
-    edge[1:] |= found[1:] != found[:-1]
+    number = answers.patch.reshape(y.size, x.size)
+    edge = np.zeros(number.shape, dtype=bool)
+    edge[:, 1:] |= number[:, 1:] != number[:, :-1]
+    edge[1:] |= number[1:] != number[:-1]
     axes.pcolormesh(
         x, y, np.ma.masked_where(~edge, edge.astype(float)), cmap=ListedColormap([NOTE]), shading="nearest",
         rasterized=True,

@@ -49,12 +49,12 @@ def read(data: Data, third: np.ndarray, angle: np.ndarray, height: np.ndarray, s
         root = data.root[place.cell]
         free = np.flatnonzero(root >= 0)
         values[inside] = data.of_stick
-        found, own = data.results.values(root[free], place.t[free], place.x[free], place.z[free], slopes)
-        values[inside[free]] = found
+        by_series, slope = data.results.values(root[free], place.t[free], place.x[free], place.z[free], slopes)
+        values[inside[free]] = by_series
         patches[inside[free]] = data.results.patch_of(root[free], place.x[free], place.z[free])
         if slopes:
             along[:, inside] = 0.0 * data.of_stick
-            along[:, inside[free]] = np.einsum("ijn,inm->jnm", place.chain[:, :, free], own)
+            along[:, inside[free]] = np.einsum("ijn,inm->jnm", place.chain[:, :, free], slope)
     return Read(outcome, criterion, values, along, panels, cells, patches)
 
 
@@ -79,8 +79,8 @@ class Place:
         none = np.zeros(size)
 
         def shape(root: np.ndarray, which: np.ndarray | slice = slice(None)) -> tuple[np.ndarray, np.ndarray]:
-            found, own = data.shapes.values(root, self.t[which], self.x[which], none[which], True)
-            return found[:, 0], own[:2, :, 0]
+            value, slope = data.shapes.values(root, self.t[which], self.x[which], none[which], True)
+            return value[:, 0], slope[:2, :, 0]
 
         self.x = none
         panel, last = data.first_panel[part].copy(), data.first_panel[part + 1] - 1
@@ -92,8 +92,8 @@ class Place:
                 break
             panel[on] += 1
             low[on], low_by[:, on] = high[on], high_by[:, on]
-            found, own = shape(data.cuts[panel[on], 1], on)
-            high[on], high_by[:, on] = found, own
+            value, slope = shape(data.cuts[panel[on], 1], on)
+            high[on], high_by[:, on] = value, slope
         across = np.clip((angle - low) / (high - low), 0.0, 1.0)
         x, by_across, _ = forward(data.maps[panel], across, 0.0)
         self.x = np.clip(x, 0.0, 1.0)
@@ -105,11 +105,11 @@ class Place:
         ceiling, ceiling_by = np.full(size, data.high[2]), np.zeros((2, size))
         open_ = np.flatnonzero(edge < end)
         while open_.size:
-            found, own = shape(data.edges[edge[open_]], open_)
-            above = height[open_] >= found
+            value, slope = shape(data.edges[edge[open_]], open_)
+            above = height[open_] >= value
             up, down = open_[above], open_[~above]
-            floor[up], floor_by[:, up] = found[above], own[:, above]
-            ceiling[down], ceiling_by[:, down] = found[~above], own[:, ~above]
+            floor[up], floor_by[:, up] = value[above], slope[:, above]
+            ceiling[down], ceiling_by[:, down] = value[~above], slope[:, ~above]
             edge[up] += 1
             open_ = up[edge[up] < end[up]]
         self.panel, self.cell = panel, edge + panel

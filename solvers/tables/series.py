@@ -50,29 +50,33 @@ class Trees:
         self, root: np.ndarray, t: np.ndarray, x: np.ndarray, z: np.ndarray, slopes: bool = False
     ) -> tuple[np.ndarray, np.ndarray]:
         """Values (n x results), and with `slopes` derivatives by t, x and z (3 x n x results)."""
-        found = np.zeros((root.size, self.results))
+        result = np.zeros((root.size, self.results))
         along = np.zeros((3 if slopes else 0, root.size, self.results))
         if not root.size:
-            return found, along
+            return result, along
         patch = self.patch_of(root, x, z)
         order = np.argsort(patch, kind="stable")
         edges = np.flatnonzero(np.diff(patch[order])) + 1
-        for own in np.split(order, edges):
-            k = int(patch[own[0]])
+        for group in np.split(order, edges):
+            k = int(patch[group[0]])
             n_t, n_x, n_z = (int(n) for n in self.size[k])
             count = n_t * n_x * n_z * self.results
             c = self.coefficients[self.start[k] : self.start[k] + count].astype(float)
             c = c.reshape(self.results, n_t, n_x, n_z)
             low_x, low_z, per_x, per_z = self.box[k]
-            basis_t, slope_t = chebyshev(2 * t[own] - 1, n_t)
-            basis_x, slope_x = chebyshev(2 * (x[own] - low_x) * per_x - 1, n_x)
-            basis_z, slope_z = chebyshev(2 * (z[own] - low_z) * per_z - 1, n_z)
-            found[own] = np.einsum("mijk,ni,nj,nk->nm", c, basis_t, basis_x, basis_z, optimize=True)
+            basis_t, slope_t = chebyshev(2 * t[group] - 1, n_t)
+            basis_x, slope_x = chebyshev(2 * (x[group] - low_x) * per_x - 1, n_x)
+            basis_z, slope_z = chebyshev(2 * (z[group] - low_z) * per_z - 1, n_z)
+            result[group] = np.einsum("mijk,ni,nj,nk->nm", c, basis_t, basis_x, basis_z, optimize=True)
             if slopes:
-                along[0, own] = 2 * np.einsum("mijk,ni,nj,nk->nm", c, slope_t, basis_x, basis_z, optimize=True)
-                along[1, own] = 2 * per_x * np.einsum("mijk,ni,nj,nk->nm", c, basis_t, slope_x, basis_z, optimize=True)
-                along[2, own] = 2 * per_z * np.einsum("mijk,ni,nj,nk->nm", c, basis_t, basis_x, slope_z, optimize=True)
-        return found, along
+                along[0, group] = 2 * np.einsum("mijk,ni,nj,nk->nm", c, slope_t, basis_x, basis_z, optimize=True)
+                along[1, group] = (
+                    2 * per_x * np.einsum("mijk,ni,nj,nk->nm", c, basis_t, slope_x, basis_z, optimize=True)
+                )
+                along[2, group] = (
+                    2 * per_z * np.einsum("mijk,ni,nj,nk->nm", c, basis_t, basis_x, slope_z, optimize=True)
+                )
+        return result, along
 
 
 def chebyshev(x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:

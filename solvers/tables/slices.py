@@ -51,9 +51,9 @@ class Slicer:
             plane = Collisions(
                 scene, ANGLE, self.range.angle, self.range.stokes, self.rtol, of=self.of, signatures=self.signatures
             )
-            found = with_kinks(layout_of(plane, self.doubts[:, 1:]))
-            self.failures += found.failures
-            self._layouts[at] = found
+            layout = with_kinks(layout_of(plane, self.doubts[:, 1:]))
+            self.failures += layout.failures
+            self._layouts[at] = layout
             self.tell(f"{len(self._layouts)} planes")
         return self._layouts[at]
 

@@ -64,8 +64,8 @@ def dataset(table: Law) -> xarray.Dataset:
     }
     for prefix, trees in (("shape", table.data.shapes), ("result", table.data.results)):
         for name, dims in _TREES.items():
-            own = tuple(one if one in ("of_box", "variable") else f"{prefix}_{one}" for one in dims)
-            variables[f"{prefix}_{name}"] = own, getattr(trees, name), {"long_name": _MEANING[name]}
+            dims_in_file = tuple(one if one in ("of_box", "variable") else f"{prefix}_{one}" for one in dims)
+            variables[f"{prefix}_{name}"] = dims_in_file, getattr(trees, name), {"long_name": _MEANING[name]}
     return xr.Dataset(variables, attrs=_attributes(table))
 
 
@@ -73,7 +73,7 @@ def _attributes(table: Law) -> dict[str, Any]:
     from importlib.metadata import version
 
     third, angle, stokes = table.found.at
-    said = {
+    attributes = {
         "Conventions": "CF-1.11",
         "title": f"Table of a collision law: {table.scene.name or 'unnamed scene'}",
         "source": f"wetdoublet {version('wetdoublet')}",
@@ -93,7 +93,7 @@ def _attributes(table: Law) -> dict[str, Any]:
         "largest_error_found": table.found.largest,
         "largest_error_at": np.array([third, angle, stokes]),
     }
-    return said | ({} if table.scene.package is None else {"model": table.scene.package.text})
+    return attributes | ({} if table.scene.package is None else {"model": table.scene.package.text})
 
 
 def save(table: Law, path: str | Path) -> None:
@@ -135,21 +135,21 @@ def load(path: str | Path) -> Law:
     import xarray as xr
 
     with xr.open_dataset(io.BytesIO(_content(path)), engine="h5netcdf") as opened:
-        found = opened.load()
-    said = found.attrs
-    of = tuple(str(said["results"]).split())
+        content = opened.load()
+    attributes = content.attrs
+    of = tuple(str(attributes["results"]).split())
 
     def ends(name: str) -> tuple[float, float]:
-        low, high = (float(one) for one in said[name])
+        low, high = (float(one) for one in attributes[name])
         return low, high
 
-    ranges = Range(str(said["third"]) or None, ends("third_range"), ends("angle"), ends("stokes"))
-    third, angle, stokes = (float(one) for one in said["largest_error_at"])
-    attack = Attack(int(said["attack_queries"]), float(said["largest_error_found"]), (third, angle, stokes),
-                    int(said["attack_direct"]))  # fmt: skip
+    ranges = Range(str(attributes["third"]) or None, ends("third_range"), ends("angle"), ends("stokes"))
+    third, angle, stokes = (float(one) for one in attributes["largest_error_at"])
+    attack = Attack(int(attributes["attack_queries"]), float(attributes["largest_error_found"]), (third, angle, stokes),
+                    int(attributes["attack_direct"]))  # fmt: skip
     trees = [
-        Trees(**{name: found[f"{prefix}_{name}"].values for name in _TREES}, results=count)
+        Trees(**{name: content[f"{prefix}_{name}"].values for name in _TREES}, results=count)
         for prefix, count in (("shape", 1), ("result", len(of)))
     ]
-    data = Data(*ranges.corners, ranges.logarithmic, *(found[name].values for name in _OWN), *trees)
-    return Law(scene_of(found), of, ranges, float(said["error"]), attack, float(said["rtol"]), data)
+    data = Data(*ranges.corners, ranges.logarithmic, *(content[name].values for name in _OWN), *trees)
+    return Law(scene_of(content), of, ranges, float(attributes["error"]), attack, float(attributes["rtol"]), data)

@@ -85,8 +85,8 @@ class Table(Law):
         at = columns[2] if len(columns) > 2 else np.full(columns[0].size, 0.5)
         with np.errstate(divide="ignore", invalid="ignore"):
             height, place = np.log(columns[0]), np.log(at) if self.range.logarithmic else at
-        said = read(self.data, place, columns[1], height, slopes)
-        return answers(self, columns, said, slopes)
+        read_values = read(self.data, place, columns[1], height, slopes)
+        return answers(self, columns, read_values, slopes)
 
     def to_dataset(self) -> xarray.Dataset:
         """The table's arrays with its scene, ranges and errors as attributes; what `save` writes."""
@@ -165,13 +165,13 @@ def table(
     """
     loaded = Scene.load(scene)
     loaded, ranges = _ranges(loaded, over)
-    asked = _ERROR.number(error)
+    tolerance = _ERROR.number(error)
     kept, rtol = check_names(of, RESULTS, "of"), check_rtol(rtol)
     count = check_whole(attack, "attack", 1, 10**9)
     tell = check_function(progress, "progress") or (lambda _said: None)
     _check_supported(loaded, ranges)
     warn(loaded)
-    return _made(loaded, ranges, asked, kept, rtol, count, tell)
+    return _made(loaded, ranges, tolerance, kept, rtol, count, tell)
 
 
 def _made(
@@ -183,35 +183,36 @@ def _made(
         builder = Builder(slicer.signatures, of, tolerance, lambda k: tell(f"{k} panels"))
         slicer.fill(builder)
         data = builder.data(*ranges.corners, ranges.logarithmic, np.float64 if error < _DOUBLE_BELOW else np.float32)
-        found = attacked(data, scene, ranges.third, of, error, rtol, count, attempt + 1, lambda k: tell(f"{k} queries"))
-        if not found.failed:
-            return Table(scene, of, ranges, error, found, rtol, data)
-        doubts = np.vstack([doubts, [place for place, _ in found.failures]])
+        attacked_data = attacked(data, scene, ranges.third, of, error, rtol, count, attempt + 1,
+                       lambda k: tell(f"{k} queries"))  # fmt: skip
+        if not attacked_data.failed:
+            return Table(scene, of, ranges, error, attacked_data, rtol, data)
+        doubts = np.vstack([doubts, [place for place, _ in attacked_data.failures]])
         tolerance *= _SHARPER
-    raise _lost(ranges, error, found, slicer.failures)
+    raise _lost(ranges, error, attacked_data, slicer.failures)
 
 
-def _lost(ranges: Range, error: float, found: Attack, remarks: list[str]) -> ComputationError:
-    place, text = found.failures[0]
+def _lost(ranges: Range, error: float, attack: Attack, remarks: list[str]) -> ComputationError:
+    place, text = attack.failures[0]
     more = f"; {remarks[0]}" if remarks else ""
     third = "" if ranges.third is None else f", {ranges.third} {place[0]:.6g} (SI)"
     return ComputationError(
-        f"the table does not hold to {error:g}: {found.failed} of {found.queries} answers are wrong, the first at"
+        f"the table does not hold to {error:g}: {attack.failed} of {attack.queries} answers are wrong, the first at"
         f" {math.degrees(place[1]):.8g} deg, St {place[2]:.8g}{third}: {text}{more}",
         advice="leave that place out of the ranges, or ask for a larger error",
     )
 
 
 def _ranges(scene: Scene, over: object) -> tuple[Scene, Range]:
-    given = check_mapping(over, "over", _ACCEPTED)
-    named = {_SHORT.get(name, name): ends for name, ends in given.items()}
+    ranges = check_mapping(over, "over", _ACCEPTED)
+    named = {_SHORT.get(name, name): ends for name, ends in ranges.items()}
     for name in (STOKES, ANGLE):
         if name not in named:
             problem = f"comes without a range of {name.partition('.')[2]}"
-            raise InputError("over", ", ".join(given) or None, _ACCEPTED, problem)
+            raise InputError("over", ", ".join(ranges) or None, _ACCEPTED, problem)
     others = [name for name in named if name not in (STOKES, ANGLE)]
-    if len(others) > 1 or len(named) != len(given):
-        raise InputError("over", ", ".join(given), _ACCEPTED, "has too many variables")
+    if len(others) > 1 or len(named) != len(ranges):
+        raise InputError("over", ", ".join(ranges), _ACCEPTED, "has too many variables")
     stokes, angle = (checked_span(name, named[name]) for name in (STOKES, ANGLE))
     if not others:
         return scene, Range(None, (0.0, 1.0), angle, stokes)

@@ -52,11 +52,11 @@ def _casadi(printer: Printer) -> list[str]:
     return [f"from casadi import {', '.join(sorted(printer.imports))}"] if printer.imports else []
 
 
-def structure_module(model: Model, own: Own | None = None, shared: Mapping[str, str] | None = None) -> str:
+def structure_module(model: Model, additions: Own | None = None, shared: Mapping[str, str] | None = None) -> str:
     """Text of a structure's module: states, groups, slots, and its functions.
 
     Arguments:
-        own: a user's groups.
+        additions: a user's groups.
         shared: the structure that defines a function, by its text (`shared.homes`); the others import it.
     """
     printer = Printer()
@@ -83,7 +83,7 @@ def structure_module(model: Model, own: Own | None = None, shared: Mapping[str, 
     for home, names in sorted(elsewhere.items()):
         start = f"from .{home} import"
         imports += _listed(f"{start} {', '.join(sorted(names))}", start, sorted(names))
-    return module(header(model_digest(model)), describe(model, own or {}), imports, body)
+    return module(header(model_digest(model)), describe(model, additions or {}), imports, body)
 
 
 def _listed(line: str, start: str, words: Sequence[str]) -> list[str]:

@@ -79,8 +79,8 @@ class Printer:
         return ", ".join(self._print(argument)[0] for argument in arguments)
 
     def _above(self, node: sp.Basic, strength: int) -> str:
-        text, own = self._print(node)
-        return text if own > strength else f"({text})"
+        text, binding = self._print(node)
+        return text if binding > strength else f"({text})"
 
     @staticmethod
     def _float(node: sp.Float) -> tuple[str, int]:
@@ -155,8 +155,8 @@ class Printer:
         facts: list[tuple[sp.Basic, bool]] = []  # truth values of the conditions where a branch is taken
         for value, condition in node.args:
             last = condition == sp.true
-            own = facts if last else [*facts, (condition, True)]
-            branch = self._guarded(node, value, own)
+            branch_facts = facts if last else [*facts, (condition, True)]
+            branch = self._guarded(node, value, branch_facts)
             text += branch if last else f"{choose}({self._print(condition)[0]}, {branch}, "
             facts = [*facts, (condition, False)]
         return text + ")" * (len(node.args) - 1)

@@ -35,8 +35,8 @@ def references_module() -> str:
     lines += ["from typing import NamedTuple", "", "", "class Reference(NamedTuple):"]
     lines += ['    """An article in a journal."""', "", *(f"    {name}: {kind}" for name, kind in _FIELDS.items())]
     lines += ["", "", "REFERENCES = {"]
-    for one in dict.fromkeys(each for those in uses.values() for each in those):
+    for one in dict.fromkeys(each for references in uses.values() for each in references):
         lines += [f'    "{one.key}": Reference(', *(f"        {getattr(one, name)!r}," for name in _FIELDS), "    ),"]
     lines += ["}", "CITED: dict[str, tuple[str, ...]] = {"]
-    lines += [f'    "{use}": {tuple(one.key for one in those)!r},' for use, those in uses.items()]
+    lines += [f'    "{use}": {tuple(one.key for one in references)!r},' for use, references in uses.items()]
     return "\n".join([*lines, "}", ""])

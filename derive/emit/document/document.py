@@ -76,62 +76,62 @@ class Document:
 
 
 def document(
-    title: str, laws: Mapping[str, str], own: UserModel | None, absent: Iterable[str] = (), friction: bool = False
+    title: str, laws: Mapping[str, str], user: UserModel | None, absent: Iterable[str] = (), friction: bool = False
 ) -> Document:
     """The document for a choice of laws.
 
     Arguments:
-        laws: slot -> name of its law, of the library or of `own`.
-        own: the user's model, if there is one.
+        laws: slot -> name of its law, of the library or of `user`.
+        user: the user's model, if there is one.
         absent: slots that the scene lacks (`bridge`, `strings`, `glass`): their terms are left out.
         friction: of the dry contact.
     """
-    result: dict[str, Law] = {slot: law_of(slot, name, own) for slot, name in laws.items()}
-    with naming(_names(own)):
+    result: dict[str, Law] = {slot: law_of(slot, name, user) for slot, name in laws.items()}
+    with naming(_names(user)):
         lines = [line for line in _without(theory(result, friction), tuple(absent)) if line.expression != 0]
         lines += [
             Equation("Groups", latex(group.symbol), group.definition, group.quantity.meaning)
-            for group in (own.groups if own else ())
+            for group in (user.groups if user else ())
             if group.symbol != group.quantity.symbol
         ]
-        lines += [line for event in (own.events if own else ()) for line in _of_event(event, own)]
+        lines += [line for event in (user.events if user else ()) for line in _of_event(event, user)]
         rendered = tuple((e.group, e.left, e.relation, latex(e.expression), e.note) for e in lines)
     rows = tuple((slot, f"{law.name}: {law.meaning}", law.source) for slot, law in result.items() if slot not in absent)
-    return Document(title, rendered, rows, _quantities(own), _events(own))
+    return Document(title, rendered, rows, _quantities(user), _events(user))
 
 
-def _of_event(event: OwnEvent, own: UserModel | None) -> Iterator[Equation]:
+def _of_event(event: OwnEvent, user: UserModel | None) -> Iterator[Equation]:
     """Guard, jump and release of a declared event, in SI."""
-    assert own is not None
+    assert user is not None
     one, group = event.proposed, "Declared events"
-    yield Equation(group, "0", unfolded(one.guard, own.declarations), f"before the event {one.word}", "<")
+    yield Equation(group, "0", unfolded(one.guard, user.declarations), f"before the event {one.word}", "<")
     for target, value in one.jump:
-        yield Equation(group, f"{latex(target)}^+", unfolded(value, own.declarations), f"just after {one.word}")
+        yield Equation(group, f"{latex(target)}^+", unfolded(value, user.declarations), f"just after {one.word}")
     if one.releases != 0:
-        yield Equation(group, "W", unfolded(one.releases, own.declarations), f"that {one.word} may give to the motion")
+        yield Equation(group, "W", unfolded(one.releases, user.declarations), f"that {one.word} may give to the motion")
 
 
-def _events(own: UserModel | None) -> tuple[tuple[str, ...], ...]:
+def _events(user: UserModel | None) -> tuple[tuple[str, ...], ...]:
     """Rows on the declared events, which come after the library's where they coincide."""
-    events = [event.proposed for event in (own.events if own else ())]
+    events = [event.proposed for event in (user.events if user else ())]
     effects = [_EFFECTS[one.ends] + ("; the motion jumps" if one.jump else "") for one in events]
     each = zip(events, effects, strict=True)
     return tuple((one.word, watched(one.row), effect, one.meaning, one.source) for one, effect in each)
 
 
-def law_of(slot: str, name: str, own: UserModel | None) -> Law:
+def law_of(slot: str, name: str, user: UserModel | None) -> Law:
     """A law by slot and name, of a user's model (in SI) or of the library."""
-    for law in own.si if own else ():
+    for law in user.si if user else ():
         if (law.slot, law.name) == (slot, name):
             return law
     return LAWS[slot][name]
 
 
-def _names(own: UserModel | None) -> dict[str, str]:
-    if own is None:
+def _names(user: UserModel | None) -> dict[str, str]:
+    if user is None:
         return {}
-    groups = {g.symbol.name: rf"\Pi_{{{g.quantity.latex}}}" for g in own.groups if g.symbol != g.quantity.symbol}
-    return latex_names(own.declarations, groups)
+    groups = {g.symbol.name: rf"\Pi_{{{g.quantity.latex}}}" for g in user.groups if g.symbol != g.quantity.symbol}
+    return latex_names(user.declarations, groups)
 
 
 def _without(lines: Sequence[Equation], absent: Sequence[str]) -> list[Equation]:
@@ -142,12 +142,12 @@ def _without(lines: Sequence[Equation], absent: Sequence[str]) -> list[Equation]
     return [replace(line, expression=line.expression.subs(nothing)) if nothing else line for line in kept]
 
 
-def _quantities(own: UserModel | None) -> tuple[tuple[str, ...], ...]:
-    if own is None:
+def _quantities(user: UserModel | None) -> tuple[tuple[str, ...], ...]:
+    if user is None:
         return ()
     return tuple(
         (one.name, f"${one.latex}$", one.unit, str(one.default or "-"), one.bounds.text, one.meaning)
-        for one in own.declarations.quantities.values()
+        for one in user.declarations.quantities.values()
     )
 
 
@@ -175,5 +175,5 @@ def _tex(text: str) -> str:
             parts[place] = parts[place].replace(sign, instead)
         for sign in "^~":
             parts[place] = parts[place].replace(sign, rf"\{sign}{{}}")
-        parts[place] = re.sub(r"[<>]=?", lambda found: rf"\ensuremath{{{_RELATIONS[found[0]]}}}", parts[place])
+        parts[place] = re.sub(r"[<>]=?", lambda match: rf"\ensuremath{{{_RELATIONS[match[0]]}}}", parts[place])
     return _DOLLAR.join(parts)

@@ -48,8 +48,8 @@ class Adjoint:
         fields = ["vec constant[CONSTANTS];", *(f"vec {name}[TERMS];" for name in self._arrays)]
         doc = "Derivatives of a result by the coefficients of the series of a step, and by the constants so far."
         count = f"enum {{ CONSTANTS = {max(len(self._constants), 1)} }};"
-        own = [count, *comment(doc), *struct("adjoint", fields)]
-        return [*self._law_slopes(), *own, *self._function(), *self._along_constants()]
+        struct_lines = [count, *comment(doc), *struct("adjoint", fields)]
+        return [*self._law_slopes(), *struct_lines, *self._function(), *self._along_constants()]
 
     def _contributing(self) -> list[Operation]:
         """Operations that the rates of the states depend on, in order."""
@@ -137,14 +137,14 @@ class Adjoint:
         if kind == "linear":
             return self._linear(operation, total)
         self._arrays.append(name)
-        own = f"bar->{name}"
+        adjoint = f"bar->{name}"
         if kind == "quotient":
             over, under = operation.series
-            self._pull(over, f"{own}[k]")
+            self._pull(over, f"{adjoint}[k]")
             self._pull(under, f"(-by_{name})")
-            lines = [f"{own}[k] = ({total} - beyond({self._array(under)}, {own}, k))*of->over_{name};"]
-            return [*lines, f"vec by_{name} = correlated({self._array(name)}, {own}, k);"]
-        lines = [f"{own}[k] = {total};"]
+            lines = [f"{adjoint}[k] = ({total} - beyond({self._array(under)}, {adjoint}, k))*of->over_{name};"]
+            return [*lines, f"vec by_{name} = correlated({self._array(name)}, {adjoint}, k);"]
+        lines = [f"{adjoint}[k] = {total};"]
         if kind == "product":
             return lines + self._product(operation)
         if kind == "call":
@@ -159,38 +159,38 @@ class Adjoint:
             raise EmissionError(f"no transposed recurrence of {name}, a {kind}")
         beside, term = factors[kind]
         self._pull(part, term)
-        return [*lines, f"vec by_{name} = correlated({self._array(beside)}, {own}, k);"]
+        return [*lines, f"vec by_{name} = correlated({self._array(beside)}, {adjoint}, k);"]
 
     def _linear(self, operation: Operation, total: str) -> list[str]:
-        own = f"by_{operation.name}"
-        lines = [f"vec {own} = {total};"]
+        weight = f"by_{operation.name}"
+        lines = [f"vec {weight} = {total};"]
         texts = self._flow.factors[operation.name]
         for part, factor, text in zip(operation.series, operation.factors, texts, strict=False):
-            self._pull(part, _scaled(text, own))
-            lines += self._accumulate(factor, f"{self._array(part)}[k]*{own}")
-        return lines + self._accumulate(operation.factors[-1], own, first=True)
+            self._pull(part, _scaled(text, weight))
+            lines += self._accumulate(factor, f"{self._array(part)}[k]*{weight}")
+        return lines + self._accumulate(operation.factors[-1], weight, first=True)
 
     def _product(self, operation: Operation) -> list[str]:
-        name, own = operation.name, f"bar->{operation.name}"
+        name, adjoint = operation.name, f"bar->{operation.name}"
         text = self._flow.factors[name][0]
         first, second = operation.series
         lines = []
         for part, other in ((first, second), (second, first)):
-            lines.append(f"vec {part}_by_{name} = correlated({self._array(other)}, {own}, k);")
+            lines.append(f"vec {part}_by_{name} = correlated({self._array(other)}, {adjoint}, k);")
             self._pull(part, _scaled(text, f"{part}_by_{name}"))
         return lines + self._accumulate(operation.factors[0], f"{self._array(first)}[k]*{first}_by_{name}")
 
     def _call(self, operation: Operation) -> list[str]:
         slot, call, arguments = operation.call
-        own, lines = f"bar->{operation.name}", []
+        adjoint, lines = f"bar->{operation.name}", []
         names = self._tangent.law_arguments(slot, call, len(arguments))
         for argument, value in zip(names, arguments, strict=True):
             slope = f"d->{operation.name}.by_{argument.removeprefix(UNUSED)}"
             if isinstance(value, str):
-                lines.append(f"vec {operation.name}_{argument} = correlated({slope}, {own}, k);")
+                lines.append(f"vec {operation.name}_{argument} = correlated({slope}, {adjoint}, k);")
                 self._pull(value, f"{operation.name}_{argument}")
             else:
-                lines += self._accumulate(value, f"{slope}[k]*{own}[k]")
+                lines += self._accumulate(value, f"{slope}[k]*{adjoint}[k]")
         return lines
 
     # ---- text
@@ -234,10 +234,10 @@ def contraction(tangent: LinearFlow) -> list[str]:
     rates = dict(tangent.rates())
     slopes = [tangent.chain.by(rates[state.name], state) for state in tangent.model.states]
     named = dict(tangent.model.definitions) | dict(tangent.chain.named)
-    own = {symbol: value for symbol, value in named.items() if symbol.name not in tangent.flow}
+    constants = {symbol: value for symbol, value in named.items() if symbol.name not in tangent.flow}
     for place, slope in enumerate(slopes):  # in series of the flow and constants
-        while own.keys() & slopes[place].free_symbols:
-            slopes[place] = slope = slope.xreplace(own)
+        while constants.keys() & slopes[place].free_symbols:
+            slopes[place] = slope = slope.xreplace(constants)
     # the slope of a law that depends on a rate is only available in the tangent
     known = [slope for slope in slopes if not any(symbol.name in tangent.slopes for symbol in slope.free_symbols)]
     trace = sp.Add(*known)

@@ -22,26 +22,26 @@ _STATEMENTS = {
     ),
     "cross tangential edge": ("LANE(l->shear, lane) = 1.0 - LANE(l->shear, lane);",),
     "open": ("LANE(l->y[NORMAL_VELOCITY], lane) = RELEASE_SPEED;", "opens(l, f, lane);"),
-    "roll or slide": (),  # by its word
+    "roll or slide": (),  # the function that decides between the two words
     "slide": ("slides(l, f, lane);",),
     "separate": ("parts(q, l, f, lane);",),
     "cut off": ("finish(q, l, f, lane, DECIDED, STICK, 0);",),
 }
 
 
-def automaton_header(provenance: str, own: Sequence[Event] = (), meanings: Sequence[str] = ()) -> str:
+def automaton_header(provenance: str, user_events: Sequence[Event] = (), meanings: Sequence[str] = ()) -> str:
     """Text of `generated/taylor/automaton.h`: enumerations and constants of the rules.
 
     Arguments:
-        own: events that a user's model declares, behind the library's; `meanings` are those of their words.
+        user_events: events that a user's model declares, behind the library's; `meanings` are those of their words.
     """
     lines = comment(provenance)
     lines += ["", "#ifndef AUTOMATON_H", "#define AUTOMATON_H", "#include <math.h>", ""]
     lines += comment("What is watched for, in order of precedence among coincident events.")
-    lines += _enumeration(event_name(event) for event in (*automaton.EVENTS, *own))
+    lines += _enumeration(event_name(event) for event in (*automaton.EVENTS, *user_events))
     lines += ["", *comment("What is reported.")]
     words = [(_KIND[word.word], word.meaning) for word in automaton.WORDS]
-    words += [(own_kind(event), meaning) for event, meaning in zip(own, meanings, strict=True)]
+    words += [(own_kind(event), meaning) for event, meaning in zip(user_events, meanings, strict=True)]
     lines += _described(words)
     lines += ["", *comment("How a collision ends.")]
     lines += _described((each.name, each.condition) for each in automaton.OUTCOMES)
@@ -145,8 +145,8 @@ def _nested(operation: str, values: Sequence[str]) -> str:
     return f"{operation}({_nested(operation, first)}, {last})" if first else last
 
 
-def effects_header(provenance: str, own: Sequence[Event] = ()) -> str:
-    """Text of `generated/taylor/effects.h`: the switch over an event's effect; `own` are a user's events."""
+def effects_header(provenance: str, user_events: Sequence[Event] = ()) -> str:
+    """Text of `generated/taylor/effects.h`: the switch over an event's effect, those of `user_events` last."""
     lines = comment(
         f"{provenance}\n\nWhat an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions"
         " that it calls, are known."
@@ -155,7 +155,7 @@ def effects_header(provenance: str, own: Sequence[Event] = ()) -> str:
     for event in automaton.EVENTS:
         lines_of = [f"case {event_name(event)}:", *(f"    {line}" for line in _effect(event)), "    break;"]
         body += ["#if RUBS", *lines_of, "#endif"] if dict(event.where).keys() & {"rolling"} else lines_of
-    for event in own:
+    for event in user_events:
         body += [f"case {event_name(event)}:", *(f"    {line}" for line in _own_effect(event)), "    break;"]
     body.append("}")
     head = "static void act(queue *q, lanes *l, fixed *f, int lane, int event)"

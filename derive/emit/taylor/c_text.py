@@ -65,8 +65,8 @@ class Text:
         raise EmissionError(f"no lane-wise C for {type(node).__name__}: {node}")
 
     def _at_least(self, node: sp.Basic, strength: int) -> str:
-        text, own = self._print(node)
-        return text if own >= strength else f"({text})"
+        text, binding = self._print(node)
+        return text if binding >= strength else f"({text})"
 
     def _sum(self, node: sp.Add) -> str:
         terms = sorted(node.as_ordered_terms(), key=lambda term: term.could_extract_minus_sign())
@@ -146,7 +146,7 @@ def split_flags(expression: sp.Expr, flags: Iterable[sp.Symbol]) -> tuple[list[s
 
 
 class Constants:
-    """Quantities computed once per collision: given and named values, and factors hoisted out of the recurrences."""
+    """Quantities computed once per collision: groups, named values, and factors hoisted out of the recurrences."""
 
     def __init__(self, places: Mapping[sp.Symbol, str], flags: tuple[sp.Symbol, ...] = (), place: str = "c->") -> None:
         self._places = dict(places)
@@ -194,10 +194,11 @@ class Constants:
     def factor(self, expression: sp.Expr, hint: str) -> str:
         """Text of a constant: a literal, a name, or a value hoisted under `hint`; the region's flags as factors."""
         flags, rest = split_flags(expression, self._flags)
-        text = self._plain(rest, hint)
+        text = self._without_flags(rest, hint)
         return "*".join([*(flag.name for flag in flags), *([text] if text != "1.0" else [])]) or text
 
-    def _plain(self, rest: sp.Expr, hint: str) -> str:
+    def _without_flags(self, rest: sp.Expr, hint: str) -> str:
+        """Text of a constant without flags: a literal, a name, or a value hoisted under `hint`."""
         if rest.is_number and not rest.free_symbols:
             return number(rest)
         if isinstance(rest, sp.Symbol):
@@ -300,16 +301,18 @@ class Recurrences:
                 return f"{target} = {terms};"
             return f"{target} = k == 0 ? {terms} + {offset} : {terms};"
         if kind == "product":
-            ages = {each.name: age for age, each in enumerate(self.program.operations)}  # given series come first
+            ages = {
+                each.name: age for age, each in enumerate(self.program.operations)
+            }  # series that the program does not compute come first
             older, newer = (self.array(part) for part in sorted(operation.series, key=lambda part: ages.get(part, -1)))
             return f"{target} = {_times(factors[0])}product({older}, {newer}, k);"
         if kind in _RECURRENCES:
             inner = f"{place}slope_of_{operation.series[0]}"
             over, slope = f"&{place}over_{name}", f"{place}slope_of_{name}"
-            made = _RECURRENCES[kind].format(
+            recurrence = _RECURRENCES[kind].format(
                 *series, whole=whole, over=over, slope=slope, inner=inner, factor=factors[0] if factors else ""
             )
-            return f"{target} = {made};"
+            return f"{target} = {recurrence};"
         if kind == "sine":
             inner = operation.series[0]
             cosine = self.array(f"cosine_of_{inner}")

@@ -186,9 +186,9 @@ def slow_manifold_functions(model: Model, constants: Constants, prepared: dict[t
     recurrences = Recurrences(program, constants, lambda series: f"s->{series}")
     lines: list[str] = []
     fields = ["vec gap[TERMS];", *recurrences.fields()]
-    own = {operation.name for operation in program.operations}
+    names = {operation.name for operation in program.operations}
     for name, value in result.items():
-        if value == name and name in own:
+        if value == name and name in names:
             continue
         fields.append(f"vec {name}[TERMS];")
         if isinstance(value, str):

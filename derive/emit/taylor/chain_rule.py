@@ -63,14 +63,14 @@ class Chain:
             self._known[key] = self._name(_expanded(total), f"{call}_by_{variable.name}")
         return self._known[key]
 
-    def _name(self, found: sp.Expr, name: str) -> sp.Expr:
+    def _name(self, derivative: sp.Expr, name: str) -> sp.Expr:
         """A derivative under its own name if it is a sum or a product of varying factors; quotients are cancelled."""
-        moving = [part for part in sp.Mul.make_args(found) if part.free_symbols - set(self._constant)]
+        moving = [part for part in sp.Mul.make_args(derivative) if part.free_symbols - set(self._constant)]
         several = len(moving) > 1 and not any(part.is_Pow and part.exp.is_negative for part in moving)
-        if not (isinstance(found, sp.Add) or several):
-            return found
+        if not (isinstance(derivative, sp.Add) or several):
+            return derivative
         symbol = sp.Symbol(name, real=True)
-        self.named.append((symbol, found))
+        self.named.append((symbol, derivative))
         return symbol
 
     def _short(self, symbol: sp.Symbol, variable: sp.Symbol) -> sp.Expr:

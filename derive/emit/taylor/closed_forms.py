@@ -34,7 +34,7 @@ def work_function(model: Model, constants: Constants, calls: Calls) -> list[str]
     for slot in attracting(model):
         force = next(value for symbol, value in model.definitions if symbol.name == f"{slot}_force")
         (call,) = slot_calls(force)
-        name = next(name for name, (own, _, _) in calls.items() if own == slot)
+        name = next(name for name, (called_slot, _, _) in calls.items() if called_slot == slot)
         per = sp.cancel(force / call / call.args[0].diff(gap))
         scale = constants.factor(call.args[0].diff(gap), f"{slot}_gap_factor")
         factor = constants.factor(per, f"{slot}_work_factor")

@@ -16,13 +16,13 @@ _PER_DISTANCE = q.R / q.x0
 _OWN_RUPTURE = _PER_DISTANCE * slot_call("bridge", "rupture_distance", q.volume, q.contact_angle)
 
 
-def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
+def scale_function(model: Model, user_groups: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     """The groups from SI quantities; names and order of the quantities are exported.
 
     Arguments:
-        own: groups of a user's model in SI quantities.
+        user_groups: groups of a user's model in SI quantities.
     """
-    expressions = _expressions(model, own)
+    expressions = _expressions(model, user_groups)
     names = [symbol.name for symbol in _quantities(expressions)]
     text = Text(_place("c", expressions))
     lines = [f"enum {{ {', '.join(f'SI_{name.upper()}' for name in names)}, QUANTITIES }};"]
@@ -40,9 +40,9 @@ def scale_function(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     return lines + documented("Omega, the unit of angular velocities, in rad/s.", head, [f"return {text(value)};"])
 
 
-def _expressions(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+def _expressions(model: Model, user_groups: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
     """The groups of a model in SI quantities."""
-    definitions = {**group_definitions(), **impact_groups(model.structure.partner), **own}
+    definitions = {**group_definitions(), **impact_groups(model.structure.partner), **user_groups}
     return {group: definitions.get(group, group) for group in model.groups}
 
 
@@ -59,9 +59,9 @@ def _quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
     return result + sorted(used - set(result), key=lambda symbol: str(symbol.name))
 
 
-def scale_slopes(model: Model, own: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
-    """Derivatives of the groups by the quantities in SI, and the groups that each quantity affects; `own` as above."""
-    wanted, shape = _expressions(model, own), (q.volume, q.contact_angle)
+def scale_slopes(model: Model, user_groups: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
+    """Derivatives of the groups by the quantities in SI, and the groups that each quantity affects."""
+    wanted, shape = _expressions(model, user_groups), (q.volume, q.contact_angle)
     text = Text(_place("v", wanted))
     bits: dict[sp.Symbol, int] = dict.fromkeys(_quantities(wanted), 0)
     body = ["(void)v; (void)q;", "memset(slope, 0, sizeof(vec)*GROUPS);", "switch (quantity) {"]

@@ -138,8 +138,8 @@ def _search(event: Event) -> list[str]:
             excluded = f"least_of({series}, h) > 0.0"
         else:
             excluded = f"({start} > 0.0) & (least_of({series}, h) > 0.0)"
-        found = f"look(&first, close, {series}, {target}, {sign}, h, splat_mask({event_name(event)}));"
-        lines += ["if (bits(close))", f"    close &= NOT({excluded});", "if (bits(close))", f"    {found}"]
+        search = f"look(&first, close, {series}, {target}, {sign}, h, splat_mask({event_name(event)}));"
+        lines += ["if (bits(close))", f"    close &= NOT({excluded});", "if (bits(close))", f"    {search}"]
     return lines
 
 

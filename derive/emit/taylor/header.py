@@ -92,12 +92,12 @@ class Header:
     def text(self) -> str:
         """The header."""
         functions = [*self._coefficients(), *self._values()]
-        table, own = own_event_functions(self.model, self.beside.events, self.constants, self._valued)
+        table, event_functions = own_event_functions(self.model, self.beside.events, self.constants, self._valued)
         lines = comment(header(model_digest(self.model)))
         doc = describe(self.model, self.beside.own)
         lines += ["", *comment(f"{doc}\n\nProducts of series: {self.flow.cost:g} and those of the laws."), ""]
         lines += [*self._enumerations(), *table]
-        lines += [*self._constants(), *self._series(), *functions, *own]
+        lines += [*self._constants(), *self._series(), *functions, *event_functions]
         return "\n".join(lines).rstrip() + "\n"
 
     def _enumerations(self) -> list[str]:
@@ -247,16 +247,16 @@ class Header:
         values = (expression for _, expression in outputs)
         program = Program.for_outputs((*self.model.states, *further), values, self.model.definitions)
         arguments = {symbol.name for symbol in further}
-        found = {key: program.result(expression, key) for key, expression in outputs}
+        results = {key: program.result(expression, key) for key, expression in outputs}
 
         def where(series: str) -> str:
             return series if series in arguments else f"y[{series.upper()}]"
 
         recurrences = Recurrences(program, constants, where)
         program.collect_calls(self.calls)
-        body = ["(void)c; (void)y;", *recurrences.values(found.values())]
+        body = ["(void)c; (void)y;", *recurrences.values(results.values())]
         computed = {operation.name for operation in program.operations}
-        for key, result in found.items():
+        for key, result in results.items():
             if isinstance(result, str):
                 text = result if result in computed else where(result)
             else:
@@ -313,7 +313,7 @@ class Header:
         margins = Margins(model, self.constants, prepared)
         lines += margins.lines()
         if self.beside.events:
-            lines += ["#define SLOW_MANIFOLD 0", ""]  # whose tubes know of no declared event
+            lines += ["#define SLOW_MANIFOLD 0", ""]  # the bounds of the slow manifold do not hold with declared events
         else:
             lines += slow_manifold_functions(model, self.constants, prepared)
         lines += margins.approach()

@@ -157,10 +157,10 @@ def _clearance(
     positive = bool(under.is_positive)
     clearance = LIMIT * under - over if positive else LIMIT - result
     clearance = sp.collect(sp.expand(clearance), moving[-1])  # approach*(gap^2 - 1) vanishes exactly at the film's rim
-    program, found = cheapest(clearance, (), moving)
+    program, series = cheapest(clearance, (), moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in (*still, LIMIT)})
     doc = f"Limit minus value{', times the positive denominator' if positive else ''}: the sign of the event function."
-    lines = _recurrences(f"{name}_clearance", doc, program, found, constants, moving)
+    lines = _recurrences(f"{name}_clearance", doc, program, series, constants, moving)
     return [*_constants(f"{name}_clearance", constants, (*still, LIMIT)), *lines]
 
 

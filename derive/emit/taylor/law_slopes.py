@@ -44,7 +44,7 @@ def slopes_header(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str
             continue
         name = f"{law.slot}_{each.name}"
         moved = moves(each.arguments, groups)
-        moving = tuple(argument for argument, own in zip(each.arguments, moved, strict=True) if own)
+        moving = tuple(argument for argument, does in zip(each.arguments, moved, strict=True) if does)
         if (law.slot, each.name) in COMPARED:
             lines += _clearance(name, each)
         elif moving:
@@ -102,18 +102,18 @@ def factored(expression: sp.Expr) -> tuple[sp.Expr, ...]:
 def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list[str]:
     kept, _ = needed([each.result], each.definitions)
     value, _ = cheapest(each.result, kept, moving)
-    own = {operation.name for operation in value.operations}
+    law_series = {operation.name for operation in value.operations}
     program, chain = value.continued(), Chain(kept)
     slopes = {argument: chain.by(each.result, argument) for argument in each.arguments}
     for symbol, expression in chain.named:
         program.define(symbol, expression)
     forms = {argument: (slope, sp.factor(slope)) for argument, slope in slopes.items()}
-    found = {argument: shortest(program, each, _by(argument)) for argument, each in forms.items()}
+    results = {argument: shortest(program, each, _by(argument)) for argument, each in forms.items()}
     places = {symbol: f"v->{symbol.name}" for symbol in (*each.arguments, *value.named) if symbol not in moving}
     constants = Constants(places)
-    recurrences = Recurrences(program, constants, lambda series: f"of->{series}" if series in own else series)
+    recurrences = Recurrences(program, constants, lambda series: f"of->{series}" if series in law_series else series)
     ending, fields = [], recurrences.fields()
-    for argument, result in found.items():
+    for argument, result in results.items():
         target = _by(argument)
         if isinstance(result, str):
             if result != target:

@@ -50,7 +50,7 @@ class Ledger:
         constants: those of the structure; constants of the ledger are stored separately.
     """
 
-    def __init__(self, model: Model, flow: Program, made: Recurrences, constants: Constants) -> None:
+    def __init__(self, model: Model, flow: Program, recurrences: Recurrences, constants: Constants) -> None:
         self.model = model
         self.there = not model.structure.reduced
         self.constants = constants.beside("c->ledger.")
@@ -63,7 +63,7 @@ class Ledger:
         self._rates = {name: self.program.series(sp.sympify(rate), f"rate_of_{name}") for name, rate in rates.items()}
         if any(operation.kind == "call" for operation in self.program.operations):
             raise EmissionError(f"{model.structure.name}: the ledger calls a law that the equations of motion do not")
-        self.recurrences = Recurrences(self.program, self.constants, made.array)
+        self.recurrences = Recurrences(self.program, self.constants, recurrences.array)
 
     def enumerations(self) -> list[str]:
         """The number of states that the ledger adds."""

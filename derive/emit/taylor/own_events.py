@@ -25,29 +25,29 @@ def own_event_functions(
     Raises:
         EmissionError: a guard has an operation without a recurrence, or there are more marks than room for states.
     """
-    own = [each for each in events if each.there(model.structure)]
-    if not own:
+    present = [each for each in events if each.there(model.structure)]
+    if not present:
         return [], []
     if len(model.states) - 1 > _SHOWN:
-        raise EmissionError(f"{len(own)} declared events are more than the kernel has room for")
+        raise EmissionError(f"{len(present)} declared events are more than the kernel has room for")
     guards = model["events"].by_name
-    program = Program.for_outputs(model.states, (guards[each.name] for each in own), model.definitions)
-    result = {each.name: program.series(sp.sympify(guards[each.name]), f"guard_of_{each.name}") for each in own}
+    program = Program.for_outputs(model.states, (guards[each.name] for each in present), model.definitions)
+    result = {each.name: program.series(sp.sympify(guards[each.name]), f"guard_of_{each.name}") for each in present}
     recurrences = Recurrences(program, constants, lambda name: f"m->{name}")
     body = ["(void)c; (void)m;", *recurrences.lines()]
-    body += [f"s->guard[{k}][k] = {recurrences.array(result[each.name])}[k];" for k, each in enumerate(own)]
+    body += [f"s->guard[{k}][k] = {recurrences.array(result[each.name])}[k];" for k, each in enumerate(present)]
     lines = comment("Series of the guards of declared events.")
     lines += struct("own_series", [*recurrences.fields(), "vec guard[OWN_EVENTS][TERMS];"])
     head = "static inline void own_coefficients(own_series *s, const series *m, const constants *c, int k)"
     lines += [*function(head, body), ""]
     lines += valued(
-        [(each.name, guards[each.name]) for each in own],
+        [(each.name, guards[each.name]) for each in present],
         "static inline void own_guards(const constants *c, const vec *y, vec *guard)",
-        {each.name: f"guard[{k}]" for k, each in enumerate(own)},
+        {each.name: f"guard[{k}]" for k, each in enumerate(present)},
         "Guards of declared events, positive before them.",
     )
     cases = []
-    for k, each in enumerate(own):
+    for k, each in enumerate(present):
         jump, release = model[f"jump_{each.name}"], model[f"release_{each.name}"]
         after = {state.name: f"after[{state.name.upper()}]" for state in model.states}
         head = f"static inline void {jump.name}(const constants *c, const vec *y, vec *after)"
@@ -63,12 +63,12 @@ def own_event_functions(
     head = "static inline void own_jump(const constants *c, const vec *y, int which, vec *after, vec *released)"
     lines += comment("State after a declared event, and the energy that it may give.")
     lines += function(head, ["switch (which) {", *cases, "}"])
-    table = [f"#define OWN_EVENTS {len(own)}"]
+    table = [f"#define OWN_EVENTS {len(present)}"]
     table += comment("Where each is watched (motion -1 closing, 1 opening; film -1 anywhere), and the signs of its "
                      "guard's slopes.")  # fmt: skip
     table += [f"static const struct {{ int {_FIELDS}; }} OWN[OWN_EVENTS] = {{"]
     everywhere = list(events)
-    for each in own:
+    for each in present:
         where, reach, place = dict(each.proposed.row.where), each.reach(model.structure), everywhere.index(each)
         numbers = [len(EVENTS) + place, len(WORDS) + place, where.get("motion", 0), where.get("film", -1)]
         signs = [sign or 0 for sign in (reach.by_gap, reach.opening, reach.closing)]

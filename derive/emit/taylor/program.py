@@ -265,11 +265,11 @@ def cheapest(
     expression: sp.Expr, definitions: Iterable[tuple[sp.Symbol, sp.Expr]], moving: tuple[sp.Symbol, ...]
 ) -> tuple[Program, str | sp.Expr]:
     """The program of an expression, as written or expanded, whichever is cheaper; and its result."""
-    found: list[tuple[float, int, Program, str | sp.Expr]] = []
+    candidates: list[tuple[float, int, Program, str | sp.Expr]] = []
     for form in dict.fromkeys((expression, sp.expand(expression, trig=False))):
         program = Program(moving)
         for symbol, value in definitions:
             program.define(symbol, value)
         result = program.result(form, "result")
-        found.append((program.cost, len(found), program, result))
-    return min(found, key=lambda entry: entry[:2])[2:]
+        candidates.append((program.cost, len(candidates), program, result))
+    return min(candidates, key=lambda entry: entry[:2])[2:]

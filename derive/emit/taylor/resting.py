@@ -16,7 +16,7 @@ from .program import Program
 
 FLAGS = (friction.SLIDING, friction.ROLLING)
 SERIES = ("slip", "limit", "holding", "reaction")
-GRIPS = {"grip_backward": "-", "grip_forward": "+"}  # what friction could hold beyond what it does, in both directions
+GRIPS = {"grip_backward": "-", "grip_forward": "+"}  # largest friction less the one that acts, in both directions
 # Fields of the states that are integrals along a trajectory
 QUADRATURES = (
     *compiled_if("CAPILLARY_STATE", ["vec capillary_work[TERMS];"]),

@@ -127,16 +127,16 @@ class Tangent(LinearFlow):
         turning -= {entry for (row, _), entry in entries if row != "turned"}
         rows = []
         for operation, line in zip(self.program.operations, self.recurrences.lines(), strict=True):
-            own = () if operation.name in always else tuple(g for g in self._groups if g in needs[operation.name])
+            groups = () if operation.name in always else tuple(g for g in self._groups if g in needs[operation.name])
             loop = [each_term(line)]
-            rows.append((own, compiled_if("TURNING_STATE", loop) if operation.name in turning else loop))
+            rows.append((groups, compiled_if("TURNING_STATE", loop) if operation.name in turning else loop))
         # operations needed by more groups come first; they never depend on those needed by fewer
         rows.sort(key=lambda row: (bool(row[0]), -len(row[0]), row[0]))
         lines: list[str] = []
-        for own, some in groupby(rows, key=lambda row: row[0]):
+        for groups, some in groupby(rows, key=lambda row: row[0]):
             inner = [line for _, each in some for line in each]
-            if own:
-                test = f"if (asked & ({' | '.join(f'1u << BY_{group.upper()}' for group in own)})) {{"
+            if groups:
+                test = f"if (asked & ({' | '.join(f'1u << BY_{group.upper()}' for group in groups)})) {{"
                 inner = [test, *(line if line.startswith("#") else _IN + line for line in inner), "}"]
             lines += inner
         return lines
@@ -259,8 +259,8 @@ class Tangent(LinearFlow):
         slot, name = call.func.__name__.split(".")
         passed = ", ".join(f"v->{argument}" for argument in call.args)
         body = ["(void)v;", "switch (group) {"]
-        for argument, own in zip(self.law_arguments(slot, name, len(call.args)), call.args, strict=True):
-            body += [f"case BY_{own.name.upper()}:", f"{_IN}return {slot}_{name}_by_{argument}({passed});"]
+        for argument, value in zip(self.law_arguments(slot, name, len(call.args)), call.args, strict=True):
+            body += [f"case BY_{value.name.upper()}:", f"{_IN}return {slot}_{name}_by_{argument}({passed});"]
         body += ["default:", f"{_IN}return splat(0.0);", "}"]
         head = "static inline vec tangential_edge_along(const constants *v, int group)"
         return documented("Derivative of the gap beyond which there is no tangential force.", head, body)

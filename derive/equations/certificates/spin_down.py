@@ -81,8 +81,8 @@ def decay(structure: Structure, near: sp.Expr, far: sp.Expr, logarithm: sp.Expr)
         return sp.expand(expression.xreplace(dict.fromkeys(slot_calls(expression), logarithm)))
 
     line = opened(named[q.orbital_momentum] / DISTANCE**2).subs(DISTANCE, far)
-    own = [opened(named[state]).subs(DISTANCE, near) for state in states]
-    return sp.Matrix([[sp.factor(-(line - turn).coeff(s)) for s in slips(structure)] for turn in own])
+    turns = [opened(named[state]).subs(DISTANCE, near) for state in states]
+    return sp.Matrix([[sp.factor(-(line - turn).coeff(s)) for s in slips(structure)] for turn in turns])
 
 
 _SIZES = ("centres", "radius", "partner_radius", "spin_inertia", "partner_inertia")
@@ -142,5 +142,5 @@ def first_momentum(structure: Structure) -> sp.Expr:
     parts = [
         whole.coeff(state) * first[state] for state in (q.orbital_momentum, q.spin, q.partner_spin) if whole.has(state)
     ]
-    size, sizes = (sp.Add(*(sp.Max(each, -each) for each in those)) for those in ((sp.Add(*parts),), parts))
+    size, sizes = (sp.Add(*(sp.Max(each, -each) for each in values)) for values in ((sp.Add(*parts),), parts))
     return sp.Max(size / sizes - ROUNDING, 0)

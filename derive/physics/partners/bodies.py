@@ -21,8 +21,8 @@ r = CENTRES * a + x
 def radii() -> tuple[sp.Expr, sp.Expr]:
     """R_1 and R_2 from a = R_1 R_2/(R_1 + R_2) and R_2 = radius_ratio R_1."""
     first = sp.Symbol("R_1", positive=True)
-    (own,) = sp.solve(sp.Eq(a, sp.simplify(first * radius_ratio * first / (first + radius_ratio * first))), first)
-    return sp.factor(own), sp.factor(own * radius_ratio)
+    (radius,) = sp.solve(sp.Eq(a, sp.simplify(first * radius_ratio * first / (first + radius_ratio * first))), first)
+    return sp.factor(radius), sp.factor(radius * radius_ratio)
 
 
 @cache
@@ -42,8 +42,8 @@ def centres() -> sp.Expr:
 @cache
 def inertias() -> tuple[sp.Expr, sp.Expr]:
     """Moments of inertia (2/5) M_i R_i^2."""
-    own = sphere_inertia() / (2 * m * (2 * a) ** 2)  # that of a sphere of mass 2m and radius 2a over M R^2
-    return tuple(sp.factor(own * mass * radius**2) for mass, radius in zip(masses(), radii(), strict=True))
+    equal_sphere = sphere_inertia() / (2 * m * (2 * a) ** 2)  # that of a sphere of mass 2m and radius 2a over M R^2
+    return tuple(sp.factor(equal_sphere * mass * radius**2) for mass, radius in zip(masses(), radii(), strict=True))
 
 
 @dataclass(frozen=True)

@@ -75,11 +75,11 @@ def definitions(eliminated: Eliminated = ()) -> tuple[Definition, ...]:
     log = SHEAR * slot_call("shear", "log_factor", q.x / q.x0, q.x0 / q.a)
     unit = 2 * sp.pi * q.mu * q.a**3
     result = [*sizes(), *(eliminated or _momenta())]
-    result += [(rate, own / DISTANCE**2) for rate, own in zip(RATES, q.orbital_momenta, strict=True)]
+    result += [(rate, part / DISTANCE**2) for rate, part in zip(RATES, q.orbital_momenta, strict=True)]
     result += [(MOMENTUM_SQUARE, dot(MOMENTA, MOMENTA)), (RATE_SQUARE, dot(RATES, RATES))]
     result.append((INERTIA_RATIO, DISTANCE**2 + SPIN_INERTIA + PARTNER_INERTIA))
-    result += [(slip, rate - own) for slip, rate, own in zip(SLIPS, RATES, q.spins, strict=True)]
-    result += [(slip, rate - own) for slip, rate, own in zip(PARTNER_SLIPS, RATES, q.partner_spins, strict=True)]
+    result += [(slip, rate - part) for slip, rate, part in zip(SLIPS, RATES, q.spins, strict=True)]
+    result += [(slip, rate - part) for slip, rate, part in zip(PARTNER_SLIPS, RATES, q.partner_spins, strict=True)]
     result += _twists(eliminated)
     result.append((DRAG, scaled(log * unit * q.rate_scale / (TANGENTIAL * q.a))))
     result.append((STRENGTH, DRAG * DISTANCE / CENTRES))

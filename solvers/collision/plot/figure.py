@@ -65,8 +65,8 @@ def _title(collision: Outcome) -> str:
 
 def _spins(collision: Outcome) -> str:
     """The spins at initial contact, where there are any."""
-    given = [spin for spin in (collision.scene.impact.spin, collision.scene.impact.partner_spin) if spin is not None]
-    return f", ξ₀ = {' and '.join(f'{spin:.4g}' for spin in given)} rad/s" if any(given) else ""
+    spins = [spin for spin in (collision.scene.impact.spin, collision.scene.impact.partner_spin) if spin is not None]
+    return f", ξ₀ = {' and '.join(f'{spin:.4g}' for spin in spins)} rad/s" if any(spins) else ""
 
 
 def _note(collision: Outcome, pictures: Sequence[Frame]) -> str:

@@ -86,11 +86,11 @@ def frames(collision: Outcome) -> list[Frame]:
     trajectory = _Trajectory.of(collision)
     still = np.ptp(trajectory.rotation) < math.radians(20) and np.ptp(trajectory.gap) < 0.2 * trajectory.first.radius
     instants = np.linspace(0.0, trajectory.time[-1], 3 if still else _MOVING + (collision.outcome == "stick"))
-    found = [trajectory.at(instant) for instant in (instants if trajectory.time[-1] > 0 else [0.0])]
-    found[0] = replace(found[0], relative=trajectory.approach)
+    result = [trajectory.at(instant) for instant in (instants if trajectory.time[-1] > 0 else [0.0])]
+    result[0] = replace(result[0], relative=trajectory.approach)
     if collision.outcome != "stick" and any(trajectory.parting):
-        found += [trajectory.apart(_wait(trajectory.last, *trajectory.parting))]
-    return found
+        result += [trajectory.apart(_wait(trajectory.last, *trajectory.parting))]
+    return result
 
 
 def sampled(collision: Outcome, instants: Sequence[float]) -> list[Frame]:
@@ -98,15 +98,15 @@ def sampled(collision: Outcome, instants: Sequence[float]) -> list[Frame]:
 
     A stick has no instants after its end.
     """
-    trajectory, found = _Trajectory.of(collision), []
+    trajectory, result = _Trajectory.of(collision), []
     for instant in instants:
         if instant < 0:
-            found.append(trajectory.before(instant))
+            result.append(trajectory.before(instant))
         elif instant <= trajectory.time[-1]:
-            found.append(trajectory.at(instant))
+            result.append(trajectory.at(instant))
         elif collision.outcome != "stick":
-            found.append(trajectory.apart(instant - trajectory.time[-1]))
-    return found
+            result.append(trajectory.apart(instant - trajectory.time[-1]))
+    return result
 
 
 @dataclass(frozen=True)
@@ -139,8 +139,8 @@ class _Trajectory:
         sliding = np.asarray(data.get("sliding_velocity", np.zeros(time.size)))
         across = float(sliding[-1]) if first.wall else float(rate[-1]) * (first.distance - gap[0] + gap[-1])
         parting = float(data["normal_velocity"][-1]), across
-        found = collision.scene.material
-        begun = found["impact_spin"], found.get("impact_partner_spin", 0.0)
+        material = collision.scene.material
+        begun = material["impact_spin"], material.get("impact_partner_spin", 0.0)
         spins = float(spin[-1]), float(other[-1])
         return cls(time, gap, rotation, turned, _integral(time, sliding), first, approach, parting, begun, spins)
 

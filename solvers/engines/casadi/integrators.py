@@ -16,7 +16,7 @@ import numpy as np
 from casadi import SX, Function, fabs, if_else, integrator, jacobian, jtimes, vertcat
 
 from ...host.buffered import Buffered
-from ...host.captured_stderr import listening
+from ...host.captured_stderr import captured_stderr
 from ...host.interrupts import check
 from ...host.thread_caches import own_cache
 from ...model.phases import Flow, WatchedEvents, event_table, expressions, mechanical_energy
@@ -34,9 +34,9 @@ class IntegrationFailed(Exception):
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
     """Suppress CasADi's expected warning and its prints on a failure."""
-    with listening() as heard:
+    with captured_stderr() as printed:
         yield
-    for line in heard.getvalue().splitlines():
+    for line in printed.getvalue().splitlines():
         if line and _EXPECTED not in line:
             sys.stderr.write(line + "\n")
 
@@ -44,17 +44,17 @@ def quiet() -> Iterator[None]:
 def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Call an integrator, suppress its prints, and reduce its failure to one line."""
     check()
-    with listening() as heard:
+    with captured_stderr() as printed:
         try:
             result = _buffered(function)(x0, p)
         except (RuntimeError, SystemError) as error:
             # CasADi wraps an interrupt that arrives during a call; CVODES only prints it
-            message = str(error) + heard.getvalue()
+            message = str(error) + printed.getvalue()
             if "KeyboardInterrupt" in message or isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
                 raise KeyboardInterrupt from None
             check()
             raise IntegrationFailed(_reason(str(error))) from None
-    if "KeyboardInterrupt" in heard.getvalue():  # an interrupt that CVODES reported as a failed step
+    if "KeyboardInterrupt" in printed.getvalue():  # an interrupt that CVODES reported as a failed step
         raise KeyboardInterrupt
     if not np.isfinite(result).all():
         raise IntegrationFailed("the state is not finite")

@@ -120,13 +120,13 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
-    own = has_events(variant.choice)
+    declared = has_events(variant.choice)
     return {
-        **({} if own else {"own_events.h": ""}),
+        **({} if declared else {"own_events.h": ""}),
         "settings.h": "\n".join(
             [_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), _binomials(variant.order), ""]
         ),
-        "layout.h": f'{_ONCE}\n#include "vector.h"\n{declarations(variant.ledger, own, variant.space)}\n',
+        "layout.h": f'{_ONCE}\n#include "vector.h"\n{declarations(variant.ledger, declared, variant.space)}\n',
         **automaton(variant.choice),
         "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted]),
     }
@@ -148,14 +148,14 @@ def _emitted(variant: Variant) -> tuple[str, ...] | None:
 
 
 def _flags(variant: Variant) -> tuple[str, ...]:
-    own = RECORD_FLAGS if variant.ledger or variant.trajectory else FLAGS
-    return own + more_flags()
+    flags = RECORD_FLAGS if variant.ledger or variant.trajectory else FLAGS
+    return flags + more_flags()
 
 
 def _stem(variant: Variant) -> str:
     package = variant.choice.package
-    own = f"-{package.digest[:8]}" if package is not None else ""
-    return f"taylor-{'tangent-' if variant.gradients else ''}{variant.choice.structure}{own}"
+    suffix = f"-{package.digest[:8]}" if package is not None else ""
+    return f"taylor-{'tangent-' if variant.gradients else ''}{variant.choice.structure}{suffix}"
 
 
 def _entry(variant: Variant, text: str, flags: tuple[str, ...]) -> str:
@@ -212,8 +212,8 @@ def compile_all(
     def compiled_here(variant: Variant) -> float | None:
         threads.append(threading.get_ident())
         start = time.perf_counter()
-        made = kernel(variant) is not None
-        return time.perf_counter() - start if made else None
+        built = kernel(variant) is not None
+        return time.perf_counter() - start if built else None
 
     took: dict[Variant, float | None] = {}
     with ThreadPoolExecutor(usable_cores()) as pool:  # threads suffice, since compilers are separate processes

@@ -53,8 +53,8 @@ def variant(
     scene: Scene, choice: ModelKey, rtol: float, rotation: bool, ledger: bool = False, trajectory: bool = False
 ) -> Variant:
     """The variant of the kernel for a scene at a tolerance."""
-    own = scene.bridge is not None and scene.bridge.rupture == "own"
-    return Variant(choice, order_for(rtol), rotation, own, ledger=ledger, trajectory=trajectory)
+    own_rupture = scene.bridge is not None and scene.bridge.rupture == "own"
+    return Variant(choice, order_for(rtol), rotation, own_rupture, ledger=ledger, trajectory=trajectory)
 
 
 def variant_for_many(scene: Scene, oblique: bool, rtol: float, rotation: bool, fold: bool = True) -> Variant:
@@ -108,11 +108,11 @@ def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
             list(pool.map(run, firsts))
 
 
-def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made: np.ndarray, jumps: int = 0) -> Task:
+def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, answers: np.ndarray, jumps: int = 0) -> Task:
     """The task of a kernel for impacts that fit it.
 
     Arguments:
-        made: array for the answers, zeros of ANSWER.
+        answers: array for the answers, zeros of ANSWER.
     """
     one = Task(library, impacts.angle.size, min(rtol, LOOSEST), budget)
     one.number("jumps", jumps)
@@ -120,7 +120,7 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, made:
     values |= si_values(impacts.scene, None, None)
     values |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
     one.columns([_column(values[name]) for name in names(library, "quantity_names")])
-    one.buffer("answers", made)
+    one.buffer("answers", answers)
     return one
 
 
@@ -131,7 +131,7 @@ def _column(values: np.ndarray | float) -> np.ndarray | float:
 def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int, jumps: int = 0) -> RunKernel:
     """A kernel as a function of impacts that fit it and of an array for the answers (zeros of ANSWER)."""
 
-    def run(impacts: Impacts, made: np.ndarray) -> None:
-        task(library, impacts, rtol, budget, made, jumps).run()
+    def run(impacts: Impacts, answers: np.ndarray) -> None:
+        task(library, impacts, rtol, budget, answers, jumps).run()
 
     return run

@@ -106,8 +106,10 @@ def variant_of(
     scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool = False, fold: bool = True
 ) -> Variant:
     """The variant of the kernel that differentiates a scene's collisions."""
-    own = scene.bridge is not None and scene.bridge.rupture == "own"
-    return Variant(select_model(scene, oblique, fold=fold), order, rotation, own, gradients=True, backward=backward)
+    own_rupture = scene.bridge is not None and scene.bridge.rupture == "own"
+    return Variant(
+        select_model(scene, oblique, fold=fold), order, rotation, own_rupture, gradients=True, backward=backward
+    )
 
 
 def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:
@@ -116,7 +118,7 @@ def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> b
     Arguments:
         oblique: for oblique collisions, or for head-on ones; only that structure is derived.
     """
-    choices = [select_model(scene, own) for own in oblique]
+    choices = [select_model(scene, is_oblique) for is_oblique in oblique]
     return compiler() is not None and all(headers(choice) and tangents(choice) for choice in choices)
 
 

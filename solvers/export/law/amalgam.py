@@ -39,11 +39,11 @@ class _Kernel:
 
     @property
     def names(self) -> dict[str, list[Item]]:
-        found: dict[str, list[Item]] = {}
+        by_name: dict[str, list[Item]] = {}
         for item in self.items:
             for name in item.defines:
-                found.setdefault(name, []).append(item)
-        return found
+                by_name.setdefault(name, []).append(item)
+        return by_name
 
 
 def merged(sources: Sequence[Source], callers: Sequence[Item]) -> tuple[str, list[str], list[str]]:
@@ -55,8 +55,8 @@ def merged(sources: Sequence[Source], callers: Sequence[Item]) -> tuple[str, lis
     kernels = [_parsed(source) for source in sources]
     wanted = set().union(*(item.uses for item in callers)) if callers else set()
     for kernel in kernels:
-        own = {name.removeprefix(f"{kernel.prefix}_") for name in wanted if name.startswith(f"{kernel.prefix}_")}
-        kernel.items = _reached(kernel, own | wanted)
+        called = {name.removeprefix(f"{kernel.prefix}_") for name in wanted if name.startswith(f"{kernel.prefix}_")}
+        kernel.items = _reached(kernel, called | wanted)
     shared = _shared(kernels)
     parts, done = [], set[tuple[str, str]]()
     for kernel in kernels:
@@ -74,46 +74,46 @@ def merged(sources: Sequence[Source], callers: Sequence[Item]) -> tuple[str, lis
     return text, sorted(includes - conditional), sorted(conditional)
 
 
-def _includes(own: Sequence[Item]) -> list[str]:
+def _includes(parts: Sequence[Item]) -> list[str]:
     """The includes of a kernel, each with the conditions that it stands under."""
-    found, above = list[str](), list[str]()
-    for item in own:
+    includes, above = list[str](), list[str]()
+    for item in parts:
         if item.kind == "include":
-            found.append("\n".join([*above, item.code.strip(), *["#endif"] * len(above)]))
+            includes.append("\n".join([*above, item.code.strip(), *["#endif"] * len(above)]))
         elif item.code.startswith("#endif"):
             above.pop()
         elif item.code.startswith("#if"):
             above.append(item.code.strip())
         elif item.kind == "condition" and above:
             above[-1] = f"{above[-1]}\n{item.code.strip()}"
-    return found
+    return includes
 
 
 def digests(sources: Iterable[Source]) -> list[str]:
     """The digests of the equations that the kernels' texts are emitted from."""
-    found = {digest[2] for source in sources for text in source.made.values() for digest in _EMITTED.finditer(text)}
-    return sorted(found)
+    result = {digest[2] for source in sources for text in source.made.values() for digest in _EMITTED.finditer(text)}
+    return sorted(result)
 
 
 def _parsed(source: Source) -> _Kernel:
-    conditions, found, heads = Conditions(), list[Item](), dict[str, str]()
+    conditions, result, heads = Conditions(), list[Item](), dict[str, str]()
     seen: set[str] = set()
 
     def put(name: str) -> None:
         if name in seen:
             return
         seen.add(name)
-        own = OWN / name
-        text = source.made[name] if name in source.made else (own if own.exists() else RUNTIME / name).read_text()
+        path = OWN / name
+        text = source.made[name] if name in source.made else (path if path.exists() else RUNTIME / name).read_text()
         for other in included(text):
             put(other)
         text = re.sub(r'^#include "[^"]+"\n', "", text, flags=re.MULTILINE)
         heads[name], parts = items(name, conditions.resolved(_unmarked(text)))
-        found.extend(parts)
+        result.extend(parts)
 
     for root in source.roots:
         put(root)
-    return _Kernel(source.prefix, found, heads)
+    return _Kernel(source.prefix, result, heads)
 
 
 def _unmarked(text: str) -> str:
@@ -139,22 +139,22 @@ def _reached(kernel: _Kernel, roots: Iterable[str]) -> list[Item]:
     return _without_empty([item for item in kernel.items if item.kind in kept or id(item) in reached])
 
 
-def _without_empty(given: list[Item]) -> list[Item]:
+def _without_empty(parts: list[Item]) -> list[Item]:
     """The items without conditionals that have no others in them."""
     again = True
     while again:
         again = False
-        for k, item in enumerate(given):
+        for k, item in enumerate(parts):
             if not item.code.startswith("#if"):
                 continue
             end = k + 1
-            while given[end].kind == "condition" and not given[end].code.startswith(("#endif", "#if")):
+            while parts[end].kind == "condition" and not parts[end].code.startswith(("#endif", "#if")):
                 end += 1
-            if given[end].code.startswith("#endif"):
-                del given[k : end + 1]
+            if parts[end].code.startswith("#endif"):
+                del parts[k : end + 1]
                 again = True
                 break
-    return given
+    return parts
 
 
 def _shared(kernels: Sequence[_Kernel]) -> set[str]:
@@ -165,7 +165,7 @@ def _shared(kernels: Sequence[_Kernel]) -> set[str]:
     for table in tables:
         for name, defined in table.items():
             texts.setdefault(name, set()).add("\n".join(item.text for item in defined))
-    shared = {name for name, found in texts.items() if len(found) == 1}
+    shared = {name for name, definitions in texts.items() if len(definitions) == 1}
     everywhere = set(texts)
     while True:
         lost = {
@@ -184,24 +184,25 @@ def _is(item: Item, shared: set[str]) -> bool:
     return item.kind == "condition" or (bool(item.defines) and shared >= {*item.defines})
 
 
-def _renamer(kernel: _Kernel, own: Sequence[Item]) -> Callable[[Item], str]:
+def _renamer(kernel: _Kernel, parts: Sequence[Item]) -> Callable[[Item], str]:
     """Writes items with the kernel's prefix in front of the names that they define."""
-    functions = {name for item in own if item.kind == "function" for name in item.defines}
-    defined = {name for item in own for name in item.defines}
+    functions = {name for item in parts if item.kind == "function" for name in item.defines}
+    defined = {name for item in parts for name in item.defines}
 
     def name_of(name: str) -> str:
         return f"{kernel.prefix.upper()}_{name}" if name.isupper() else f"{kernel.prefix}_{name}"
 
     def renamed(item: Item) -> str:
+        """The text of an item; names that it declares for itself stay, unless they are called as functions."""
         hidden = own_names(item) & defined
         text = item.code
 
-        def one(found: re.Match[str]) -> str:
-            token = found[0]
+        def one(match: re.Match[str]) -> str:
+            token = match[0]
             if token not in defined:
                 return token
             if token in hidden:
-                called = token in functions and text[found.end() :].lstrip().startswith("(")
+                called = token in functions and text[match.end() :].lstrip().startswith("(")
                 if not called:
                     return token
             return name_of(token)
@@ -211,11 +212,11 @@ def _renamer(kernel: _Kernel, own: Sequence[Item]) -> Callable[[Item], str]:
     return renamed
 
 
-def _sections(own: Sequence[Item], heads: Mapping[str, str], written: Callable[[Item], str]) -> list[str]:
+def _sections(items: Sequence[Item], heads: Mapping[str, str], written: Callable[[Item], str]) -> list[str]:
     """Items in their order, each file under its head comment."""
-    own = _without_empty([item for item in own if item.kind != "include"])
+    items = _without_empty([item for item in items if item.kind != "include"])
     parts, file, last = list[str](), "", None
-    for item in own:
+    for item in items:
         if item.file != file and item.kind != "condition":
             file, last = item.file, None
             parts.append(f"{_rule(file.removesuffix('.h'))}\n" + (f"{heads[file]}\n\n" if heads.get(file) else ""))

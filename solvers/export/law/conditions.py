@@ -39,8 +39,8 @@ class Conditions:
     def _lines(self, text: str) -> Iterator[str]:
         stack: list[_Part] = []  # of nested conditions
         for line in _logical(text):
-            found = _DIRECTIVE.match(line)
-            word, rest = (found[1], _without_comment(found[2])) if found else ("", "")
+            directive = _DIRECTIVE.match(line)
+            word, rest = (directive[1], _without_comment(directive[2])) if directive else ("", "")
             outside = all(part.kept for part in stack[:-1])
             if word in ("if", "ifdef", "ifndef"):
                 test = rest if word == "if" else f"{'' if word == 'ifdef' else '!'}defined({rest})"
@@ -80,11 +80,11 @@ class Conditions:
     def _plain(self, expression: str, depth: int) -> str:
         """The expression without names: `defined` is answered, macros are replaced."""
 
-        def answered(found: re.Match[str]) -> str:
-            return str(int((found[1] or found[2]) in self._macros))
+        def answered(match: re.Match[str]) -> str:
+            return str(int((match[1] or match[2]) in self._macros))
 
-        def replaced(found: re.Match[str]) -> str:
-            name = found[0]
+        def replaced(match: re.Match[str]) -> str:
+            name = match[0]
             return f"({self._plain(self._macros[name], depth + 1)})" if self._macros.get(name) else "0"
 
         expression = re.sub(r"\bdefined\s*(?:\(\s*(\w+)\s*\)|(\w+))", answered, expression)

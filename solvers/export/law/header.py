@@ -29,7 +29,7 @@ RESULTS = (
 )
 
 
-def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Number], said: Sequence[Result]) -> str:
+def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Number], statuses: Sequence[Result]) -> str:
     """The text of NAME.h, with `law_` and `LAW_` in the place of the law's prefix."""
     lines = ["#ifndef LAW_H", "#define LAW_H", "", "#ifdef __cplusplus", 'extern "C" {', "#endif", ""]
     lines += [
@@ -52,7 +52,7 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
             + [(word.upper(), KINDS.index(word), row.name) for word, row in CRITERIA.items()]
         ),
         *comment("Statuses: LAW_OK; UNDECIDED_...: no answer to this impact; from 100 on: bad input."),
-        *_enumeration([(one.name, one.number, one.message) for one in said]),
+        *_enumeration([(one.name, one.number, one.message) for one in statuses]),
         *comment("A status in words. The text is never null, and must not be freed."),
         "const char *law_message(int status);",
         "",
@@ -89,10 +89,10 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
     return "\n".join(lines)
 
 
-def message_function(said: Sequence[Result]) -> str:
+def message_function(statuses: Sequence[Result]) -> str:
     """The C function with a text for every status."""
     lines = ["const char *law_message(int status)", "{", "    switch (status) {"]
-    for one in said:
+    for one in statuses:
         lines += [f"    case LAW_{one.name}:", f'        return "{one.message}";']
     return "\n".join([*lines, "    }", '    return "no such status";', "}", ""])
 

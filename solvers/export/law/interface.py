@@ -43,23 +43,23 @@ def fortran(header: str) -> str:
 
 def _function(kind: str, name: str, parameters: str) -> str:
     """The interface of a C function; what it only reads is `const`, and with a `count` pointers are arrays."""
-    given = [] if parameters == "void" else [each.strip().rsplit(" ", 1) for each in parameters.split(",")]
-    counted = any(each == "count" for _, each in given)
+    arguments = [] if parameters == "void" else [each.strip().rsplit(" ", 1) for each in parameters.split(",")]
+    counted = any(each == "count" for _, each in arguments)
     result = {"int": "status", "long": "failed"}.get(kind, name)
     declared = []
-    for type_, each in given:
-        own, bare = type_.removeprefix("const "), each.lstrip("*")
+    for type_, each in arguments:
+        type_name, bare = type_.removeprefix("const "), each.lstrip("*")
         if not each.startswith("*"):
-            declared.append((own, f"{_KINDS[own]}, value", bare))
+            declared.append((type_name, f"{_KINDS[type_name]}, value", bare))
             continue
-        intent = "in" if type_ != own else "inout" if own == "law_particle" else "out"
-        array = "(count)" if counted and own != "law_material" else ""
-        declared.append((own, f"type({own}), intent({intent})", f"{bare}{array}"))
+        intent = "in" if type_ != type_name else "inout" if type_name == "law_particle" else "out"
+        array = "(count)" if counted and type_name != "law_material" else ""
+        declared.append((type_name, f"type({type_name}), intent({intent})", f"{bare}{array}"))
     declared.sort(key=lambda each: each[2] != "count" and not each[1].startswith("type(law_material)"))
-    types = [kind, *(own for own, *_ in declared)]
+    types = [kind, *(type_name for type_name, *_ in declared)]
     imported = [f"c_{each}" for each in ("int", "long", "double") if each in types]
     imported += dict.fromkeys(each for each in types if each.startswith("law_"))
-    head = f"    function {name}({', '.join(each.lstrip('*') for _, each in given)}) bind(c)"
+    head = f"    function {name}({', '.join(each.lstrip('*') for _, each in arguments)}) bind(c)"
     returned = f"type({kind})" if kind.startswith("law_") else _KINDS[kind]
     lines = [head + ("" if result == name else f" result({result})"), f"      import :: {', '.join(imported)}"]
     lines += [f"      {type_} :: {member}" for _, type_, member in declared]

@@ -49,19 +49,19 @@ def own_names(item: Item) -> set[str]:
     """Names that an item declares for itself: parameters and variables of a function, members of a structure."""
     if item.kind == "function":
         return _locals(plain(item.code))
-    found = re.match(r"[^{]*struct[^{]*\{(.*?)\}", plain(item.code), re.DOTALL)
-    return set(re.findall(r"(\w+)\s*(?:\[[^;]*?\]\s*)*[,;]", found[1])) if found else set()
+    body = re.match(r"[^{]*struct[^{]*\{(.*?)\}", plain(item.code), re.DOTALL)
+    return set(re.findall(r"(\w+)\s*(?:\[[^;]*?\]\s*)*[,;]", body[1])) if body else set()
 
 
 def _locals(code: str) -> set[str]:
     head, _, body = code.partition("{")
-    found: set[str] = set()
+    names: set[str] = set()
     for parameter in _parts(head[head.index("(") + 1 : head.rindex(")")]):
         named = re.search(r"\(\s*\*\s*(\w+)", parameter) or re.search(r"(\w+)\s*(?:\[[^\]]*\]\s*)*$", parameter.strip())
-        found |= {named[1]} if named else set()
+        names |= {named[1]} if named else set()
     for declared in re.finditer(rf"(?<![\w)]){_TYPES}\s+([^;{{}}]*);", body):
-        found |= {*_declared(declared[1])}
-    return found
+        names |= {*_declared(declared[1])}
+    return names
 
 
 def plain(code: str) -> str:
@@ -72,10 +72,10 @@ def plain(code: str) -> str:
 def _head(text: str) -> tuple[str, str]:
     """The first comment of a file, without what marks it as emitted, and the rest."""
     text = re.sub(r"\A\s*", "", text)
-    found = _COMMENT.match(text)
-    if found is None or not re.match(r"\s*\n\s*\n|\s*\Z|\s*\n#", text[found.end() :]):
+    comment = _COMMENT.match(text)
+    if comment is None or not re.match(r"\s*\n\s*\n|\s*\Z|\s*\n#", text[comment.end() :]):
         return "", text
-    return found[0], text[found.end() :]
+    return comment[0], text[comment.end() :]
 
 
 def _items(file: str, text: str) -> Iterator[Item]:
@@ -85,10 +85,10 @@ def _items(file: str, text: str) -> Iterator[Item]:
         if blank:
             at = blank.end()
             continue
-        said = _COMMENT.match(text, at)
-        if said:
-            comment += said[0] + "\n"
-            at = said.end()
+        remark = _COMMENT.match(text, at)
+        if remark:
+            comment += remark[0] + "\n"
+            at = remark.end()
             continue
         end = _end(text, at)
         code = text[at:end].rstrip() + "\n"
@@ -105,12 +105,12 @@ def _items(file: str, text: str) -> Iterator[Item]:
 def _end(text: str, at: int) -> int:
     """The end of the item that starts here, with the comment behind it on its last line."""
     if text[at] == "#":
-        found = re.compile(r"(?:[^\n\\]|\\\n|\\.)*\n?").match(text, at)
-        assert found is not None
-        return found.end()
+        match = re.compile(r"(?:[^\n\\]|\\\n|\\.)*\n?").match(text, at)
+        assert match is not None
+        return match.end()
     depth, place = 0, at
-    for found in re.compile(r"/\*.*?\*/|\"(?:[^\"\\]|\\.)*\"|[{}()\[\];]", re.DOTALL).finditer(text, at):
-        token, place = found[0], found.end()
+    for match in re.compile(r"/\*.*?\*/|\"(?:[^\"\\]|\\.)*\"|[{}()\[\];]", re.DOTALL).finditer(text, at):
+        token, place = match[0], match.end()
         depth += (token in "{([") - (token in "})]") if len(token) == 1 else 0
         if depth == 0 and (token == ";" or (token == "}" and _is_function(text[at:place]))):
             behind = re.compile(r"[ \t]*/\*[^\n]*?\*/[ \t]*\n").match(text, place)
@@ -126,13 +126,13 @@ def _is_function(text: str) -> bool:
 def _item(file: str, comment: str, code: str) -> Item:
     bare = plain(code)
     if code.startswith("#"):
-        found = re.match(r"#\s*(?:define|undef)\s+(\w+)", code)
-        if not found:
+        match = re.match(r"#\s*(?:define|undef)\s+(\w+)", code)
+        if not match:
             raise CheckFailed(f"a directive that is not understood: {code}")
-        names, kind = [found[1]], "macro"
+        names, kind = [match[1]], "macro"
     elif bare.startswith("typedef"):
-        found = re.search(r"(\w+)\s*(?:\[[^\]]*\])?\s*;\s*$", bare)
-        names, kind = ([found[1]] if found else []), "type"
+        match = re.search(r"(\w+)\s*(?:\[[^\]]*\])?\s*;\s*$", bare)
+        names, kind = ([match[1]] if match else []), "type"
         names += re.findall(r"^typedef struct (\w+)", bare)
     elif re.match(r"(enum|struct)\b[^=(]*\{", bare):
         kind = "type"
@@ -141,8 +141,8 @@ def _item(file: str, comment: str, code: str) -> Item:
             inside = bare[bare.index("{") + 1 : bare.rindex("}")]
             names = [part.split("=")[0].strip() for part in _parts(inside) if part.strip()]
     elif _is_function(bare):
-        found = re.search(r"(\w+)\s*\(", bare)
-        names, kind = ([found[1]] if found else []), "function"
+        match = re.search(r"(\w+)\s*\(", bare)
+        names, kind = ([match[1]] if match else []), "function"
     else:
         names, kind = _declared(bare.rstrip().rstrip(";")), "data"
     if not names:
@@ -162,11 +162,11 @@ def _declared(text: str) -> list[str]:
 
 def _parts(text: str) -> list[str]:
     """The text between commas that no bracket encloses."""
-    found, depth = [""], 0
+    parts, depth = [""], 0
     for sign in text:
         depth += (sign in "([{") - (sign in ")]}")
         if sign == "," and depth == 0:
-            found.append("")
+            parts.append("")
         else:
-            found[-1] += sign
-    return found
+            parts[-1] += sign
+    return parts

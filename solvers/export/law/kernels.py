@@ -49,10 +49,10 @@ class Kernel:
         if emitted is None:
             accepted = "a model that has one: laws with recurrences, and few events (docs/reference/models.md)"
             raise InputError("--to", "c", accepted, "cannot be written for this model, which has no Taylor kernel")
-        made = files(self.variant, emitted)
+        texts = files(self.variant, emitted)
         # how many lanes there are is decided by the compiler, and numpy has no part in it
-        made["settings.h"] = re.sub(r"^#define LANES .*\n", "", made["settings.h"], flags=re.MULTILINE)
-        return made | {"in_si.h": self._in_si()}
+        texts["settings.h"] = re.sub(r"^#define LANES .*\n", "", texts["settings.h"], flags=re.MULTILINE)
+        return texts | {"in_si.h": self._in_si()}
 
     @property
     def material(self) -> tuple[str, ...]:
@@ -62,17 +62,17 @@ class Kernel:
     @property
     def quantities(self) -> tuple[str, ...]:
         """Names of the quantities in SI that it takes, in order."""
-        found = re.search(r"const char quantity_names\[\] =(.*?);", "\n".join(headers(self.choice) or ()), re.DOTALL)
-        if found is None:
+        names = re.search(r"const char quantity_names\[\] =(.*?);", "\n".join(headers(self.choice) or ()), re.DOTALL)
+        if names is None:
             raise CheckFailed("a kernel without quantities")
-        return tuple(re.findall(r'"(\w+) ?"', found[1]))
+        return tuple(re.findall(r'"(\w+) ?"', names[1]))
 
     def source(self, roots: tuple[str, ...]) -> Source:
         """The kernel before it is merged with others."""
         return Source(self.prefix, self.made, roots)
 
     def _in_si(self) -> str:
-        own = self._places() if self.prefix == SPACE else [*self._columns(), *self._show()]
+        lines = self._places() if self.prefix == SPACE else [*self._columns(), *self._show()]
         return "\n".join(
             [
                 "/* Where the kernel's quantities come from, and where its outputs go. */",
@@ -84,7 +84,7 @@ class Kernel:
                 "/* Most steps of a collision, or of an interrupted one in a call. */",
                 f"enum {{ MOST_STEPS_TAKEN = {STEPS_IN_SPACE if self.prefix == SPACE else STEPS} }};",
                 "",
-                *own,
+                *lines,
             ]
         )
 
@@ -129,16 +129,16 @@ def kernels(scene: Scene, rtol: float) -> tuple[Kernel, ...]:
 
     Each of two spheres has its own spin; only on strings they share one.
     """
-    own = scene
+    spinning = scene
     if not scene.wall and scene.pendulum is None:
-        own = scene.with_entries({"impact.partner_spin": 0.0})
-    found = []
+        spinning = scene.with_entries({"impact.partner_spin": 0.0})
+    result = []
     for prefix, oblique in ((HEAD_ON, False), (PLANE, True)):
-        choice = select_model(own, oblique)
-        found.append(Kernel(prefix, replace(variant(scene, choice, rtol, rotation=True), limit=True), own))
+        choice = select_model(spinning, oblique)
+        result.append(Kernel(prefix, replace(variant(scene, choice, rtol, rotation=True), limit=True), spinning))
     if not scene.wall and not only_in_a_plane(scene):
-        found.append(Kernel(SPACE, variant_in_space(scene, rtol), own))
-    return tuple(found)
+        result.append(Kernel(SPACE, variant_in_space(scene, rtol), spinning))
+    return tuple(result)
 
 
 def only_in_a_plane(scene: Scene) -> str:

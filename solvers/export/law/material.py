@@ -72,26 +72,26 @@ def material(scene: Scene, kernels: Iterable[Kernel]) -> tuple[Number, ...]:
     """The numbers of a material, in the order of the vocabulary."""
     from ....derive.vocabulary.quantities import VOCABULARY
 
-    given = {"poisson_ratio": 0.0, **NEVER_MET, **si_values(scene, None, None)}
+    values = {"poisson_ratio": 0.0, **NEVER_MET, **si_values(scene, None, None)}
     names = {name for kernel in kernels for name in kernel.material}
     known = [name for name in VOCABULARY if name in names]
-    found = []
+    result = []
     for name in [*known, *sorted(names - {*known})]:
         if name in known:
             unit, meaning = VOCABULARY[name].unit, _meaning(name, scene)
         else:
-            own = user_model.fields(scene.package)[f"{user_model.TABLE}.{name}"]
-            unit, meaning = own.unit or "1", own.what
-        found.append(Number(name, unit, meaning, _range(name, scene), float(given[name])))
-    return tuple(found)
+            field = user_model.fields(scene.package)[f"{user_model.TABLE}.{name}"]
+            unit, meaning = field.unit or "1", field.what
+        result.append(Number(name, unit, meaning, _range(name, scene), float(values[name])))
+    return tuple(result)
 
 
 def _meaning(name: str, scene: Scene) -> str:
     """The vocabulary's, but for numbers whose R and M the header does not explain."""
     from ....derive.vocabulary.quantities import VOCABULARY
 
-    own = {**_ALONE, **_BESIDE_WALL} if scene.wall else _ALONE
-    return own.get(name, VOCABULARY[name].meaning)
+    meanings = {**_ALONE, **_BESIDE_WALL} if scene.wall else _ALONE
+    return meanings.get(name, VOCABULARY[name].meaning)
 
 
 def impact(scene: Scene) -> tuple[Number, ...]:
@@ -125,8 +125,8 @@ def results(numbers: Iterable[Number]) -> tuple[Result, ...]:
         Status.WITHIN_ROUNDING: "not decided: the pair separates so slowly that rounding decides",
         Status.ESCAPED: "a pair that was proved to stick has separated: please report it",
     }
-    found = [Result(0, _OK, "decided")]
-    found += [Result(int(status), f"UNDECIDED_{status.name}", said) for status, said in failed.items()]
+    statuses = [Result(0, _OK, "decided")]
+    statuses += [Result(int(status), f"UNDECIDED_{status.name}", sentence) for status, sentence in failed.items()]
     rules = {
         "BAD_RTOL": f"rtol must be {TOLERANCE.range.text}",
         "BAD_TIME": "a contact is advanced to a finite time that is not before its own",
@@ -135,11 +135,11 @@ def results(numbers: Iterable[Number]) -> tuple[Result, ...]:
         "STRINGS_TOO_SHORT": "string_length is too short for two spheres to swing around each other",
         "NOTHING_STOPS": "nothing stops the approach: roughness is 0 and there is no elastic length",
     }
-    found += [Result(100 + k, name, said) for k, (name, said) in enumerate(rules.items())]
+    statuses += [Result(100 + k, name, sentence) for k, (name, sentence) in enumerate(rules.items())]
     for k, number in enumerate(numbers):
         unit = "" if number.unit == "1" else f", {number.unit}"
-        found.append(Result(200 + k, number.status, f"{number.name} must be {number.said}{unit}"))
-    return tuple(found)
+        statuses.append(Result(200 + k, number.status, f"{number.name} must be {number.said}{unit}"))
+    return tuple(statuses)
 
 
 def checks(scene: Scene, of_material: Iterable[Number], of_impact: Iterable[Number], kernels: Iterable[Kernel]) -> str:
@@ -191,10 +191,8 @@ def _range(name: str, scene: Scene) -> Range:
     """The interval of a quantity, as the schema of a scene has it."""
     if name in ("radius_ratio", "mass_ratio"):
         return _RATIO
-    found = next((field.range for field in FIELDS.values() if field.quantity == name), None)
-    if found is None:
-        own = user_model.fields(scene.package).get(f"{user_model.TABLE}.{name}")
-        if own is None:
-            raise CheckFailed(f"no range of {name} is known")
-        return own.range
-    return found
+    field = next((each for each in FIELDS.values() if each.quantity == name), None)
+    field = field or user_model.fields(scene.package).get(f"{user_model.TABLE}.{name}")
+    if field is None:
+        raise CheckFailed(f"no range of {name} is known")
+    return field.range

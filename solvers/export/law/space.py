@@ -8,7 +8,7 @@ from .material import Result
 ROOTS = ("space_rows.h",)
 """Files of the kernel with vectors, besides those of every kernel."""
 TYPES = ("ends.h",)
-"""Files of what is passed between kernels and callers."""
+"""Files with the types that kernels and callers exchange."""
 PAIR = (
     ("double", "normal", (3,), "from the first particle to the second, of any length but zero"),
     ("double", "velocities", (2, 3), "m/s, of the centres, or of the centre and the wall"),
@@ -55,17 +55,17 @@ def callers(scene: Scene) -> tuple[str, ...]:
 def bodies(scene: Scene) -> str:
     """The C function that takes the two bodies from a material."""
     names = ["reduced_radius", "reduced_mass", "radius_ratio", "mass_ratio", "film_thickness", "viscosity"]
-    given = ["1.0" if scene.wall and name.endswith("ratio") else f"m->{name}" for name in names]
+    arguments = ["1.0" if scene.wall and name.endswith("ratio") else f"m->{name}" for name in names]
     lines = ["static bodies bodies_of(const law_material *m)", "{"]
-    return "\n".join([*lines, f"    return bodies_with({', '.join(given)}, {int(scene.wall)});", "}", ""])
+    return "\n".join([*lines, f"    return bodies_with({', '.join(arguments)}, {int(scene.wall)});", "}", ""])
 
 
 def declarations(scene: Scene) -> list[str]:
     """What the header says of collisions in space."""
     why = only_in_a_plane(scene)
     if why:
-        said = f"There are no collisions in space (law_collide_pair) of this scene: {why}."
-        return [*comment(said), "#define LAW_IN_SPACE 0", ""]
+        sentence = f"There are no collisions in space (law_collide_pair) of this scene: {why}."
+        return [*comment(sentence), "#define LAW_IN_SPACE 0", ""]
     lines = [
         *comment("There are collisions in space."),
         "#define LAW_IN_SPACE 1",

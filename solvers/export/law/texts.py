@@ -19,7 +19,7 @@ from .vectors import table
 
 ROOTS = ("integrate.h", "follow.h")
 """Files of a kernel whose functions the law calls, with what they include."""
-CALLERS = ("law.h", "contact.h")
+CALLERS = ("collide.h", "contact.h")
 """Files behind the kernels, which call their functions."""
 _TAKEN = ("check", "example", "vectors", "add", "oblique", HEAD_ON, PLANE, SPACE, f"{SPACE}_set")
 """Names of other files of the folder, and beginnings of names within the law that would be those of its types."""
@@ -62,24 +62,24 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
         ComputationError: no compiler is found for the test vectors.
     """
     name = law_name(scene)
-    own = kernels(scene, rtol)
-    of_material, of_impact = material(scene, own), impact(scene)
+    law_kernels = kernels(scene, rtol)
+    of_material, of_impact = material(scene, law_kernels), impact(scene)
     declared = header(scene, of_material, of_impact, _results(scene, (*of_material, *of_impact)))
-    found = {
-        f"{name}.h": _head(scene, own) + declared,
-        f"{name}.c": _law(scene, own),
+    files = {
+        f"{name}.h": _head(scene, law_kernels) + declared,
+        f"{name}.c": _law(scene, law_kernels),
         f"{name}.f90": fortran(declared).replace("@NAME@", name),
-        "vectors.h": table(scene, own),
+        "vectors.h": table(scene, law_kernels),
     }
-    found |= {shown: _filled(file, scene, declared) for shown, file in _files(scene).items()}
-    return {file: _named(name, text) for file, text in found.items()}
+    files |= {shown: _filled(file, scene, declared) for shown, file in _files(scene).items()}
+    return {file: _named(name, text) for file, text in files.items()}
 
 
 def _files(scene: Scene) -> dict[str, str]:
     """The other files by name, and where their texts are."""
     names = ("Makefile", "README.md", "check.c", "example.c", "example.f90")
-    found = {**{name: name for name in names}, "example.py": "example.py.in"}
-    return found | ({} if only_in_a_plane(scene) else {"example.c": "example-space.c", "pairs.py": "pairs.py.in"})
+    files = {**{name: name for name in names}, "example.py": "example.py.in"}
+    return files | ({} if only_in_a_plane(scene) else {"example.c": "example-space.c", "pairs.py": "pairs.py.in"})
 
 
 def _filled(file: str, scene: Scene, declared: str) -> str:
@@ -105,8 +105,9 @@ def _sizes(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
     return (float(scene.material["reduced_radius"]), 0.0), (float(scene.material["reduced_mass"]), 0.0)
 
 
-def _law(scene: Scene, own: tuple[Kernel, ...]) -> str:
-    of_material, of_impact = material(scene, own), impact(scene)
+def _law(scene: Scene, law_kernels: tuple[Kernel, ...]) -> str:
+    """Text of NAME.c: its kernels, and behind them the functions that a host calls."""
+    of_material, of_impact = material(scene, law_kernels), impact(scene)
     called, parts = list(CALLERS), []
     if not only_in_a_plane(scene):
         called += space.callers(scene)
@@ -115,34 +116,34 @@ def _law(scene: Scene, own: tuple[Kernel, ...]) -> str:
         [
             default_material(of_material),
             message_function(_results(scene, (*of_material, *of_impact))),
-            checks(scene, of_material, of_impact, own),
+            checks(scene, of_material, of_impact, law_kernels),
             *parts,
             *(_LINE.sub("", (OWN / name).read_text()) for name in called),
         ]
     )
-    text, always, sometimes = merged(_sources(scene, own), items("law", behind)[1])
-    return "\n".join([_head(scene, own), '#include "law.h"', "", *always, "", _LANES, *sometimes, text, behind])
+    text, always, sometimes = merged(_sources(scene, law_kernels), items("law", behind)[1])
+    return "\n".join([_head(scene, law_kernels), '#include "law.h"', "", *always, "", _LANES, *sometimes, text, behind])
 
 
-def _sources(scene: Scene, own: tuple[Kernel, ...]) -> list[Source]:
+def _sources(scene: Scene, law_kernels: tuple[Kernel, ...]) -> list[Source]:
     types = () if only_in_a_plane(scene) else space.TYPES
     in_plane = (*ROOTS, *types)
-    return [kernel.source(space.ROOTS if kernel.prefix == SPACE else in_plane) for kernel in own]
+    return [kernel.source(space.ROOTS if kernel.prefix == SPACE else in_plane) for kernel in law_kernels]
 
 
 def _results(scene: Scene, numbers: Iterable[Number]) -> tuple[Result, ...]:
     return (*results(numbers), *(() if only_in_a_plane(scene) else space.RESULTS))
 
 
-def _head(scene: Scene, own: tuple[Kernel, ...]) -> str:
+def _head(scene: Scene, law_kernels: tuple[Kernel, ...]) -> str:
     """The comment at the head of both files: what they are, and what they come from."""
     lines = [f"Collisions of wet particles: the law of the scene `{scene.name or 'scene'}`.", ""]
     lines += [f"Exported by wetdoublet {version('wetdoublet')}. Do not edit: change the scene and export it again."]
-    for kernel in own:
+    for kernel in law_kernels:
         laws = ", ".join(f"{slot} {law}" for slot, law in kernel.choice.laws)
         lines.append(f"Kernel {kernel.prefix}: structure {kernel.choice.structure}; laws: {laws}.")
-    found = digests(_sources(scene, own))
-    lines += ["Digests of what is emitted from the derivation:", *(f"  {digest}" for digest in found)]
+    hashes = digests(_sources(scene, law_kernels))
+    lines += ["Digests of what is emitted from the derivation:", *(f"  {digest}" for digest in hashes)]
     inside = "\n".join(f" * {line}".rstrip() for line in lines).replace("*/", "* /")
     return f"/*\n{inside}\n */\n"
 

@@ -56,16 +56,16 @@ def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
         raise ComputationError(
             "the test vectors are computed by compiled code, and there is no C compiler", advice=advice
         )
-    found: list[Vector] = []
+    result: list[Vector] = []
     for impacts in _impacts(scene):
         oblique = bool(impacts["angle"][0] > 0)
-        own = next(one for one in kernels if (one.prefix != HEAD_ON) == oblique)
-        found += _computed(own, impacts)
-    by_outcome = {outcome: [one for one in found if one.codes[0] == outcome] for outcome in range(3)}
+        one_kernel = next(one for one in kernels if (one.prefix != HEAD_ON) == oblique)
+        result += _computed(one_kernel, impacts)
+    by_outcome = {outcome: [one for one in result if one.codes[0] == outcome] for outcome in range(3)}
     present = [group for group in by_outcome.values() if group]
     share = -(-_WANTED // len(present))
     chosen = [one for group in present for one in group[:share]]
-    return chosen + [one for one in found if one not in chosen][: max(0, _WANTED - len(chosen))]
+    return chosen + [one for one in result if one not in chosen][: max(0, _WANTED - len(chosen))]
 
 
 def table(scene: Scene, kernels: Sequence[Kernel]) -> str:
@@ -126,25 +126,25 @@ def _impacts(scene: Scene) -> list[dict[str, np.ndarray]]:
     return [{k: v[~ahead] for k, v in both.items()}, {k: v[ahead] for k, v in still.items()}]
 
 
-def _computed(own: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
+def _computed(of_law: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
     """The vectors of candidates whose results are the same at a tighter tolerance."""
-    library = kernel(own.variant)
+    library = kernel(of_law.variant)
     if library is None:
         raise ComputationError("the kernel for the test vectors cannot be compiled")
     spins = {name: values for name, values in impacts.items() if name.endswith("spin")}
-    if own.scene.wall:
+    if of_law.scene.wall:
         del spins["impact_partner_spin"]
-    given = Impacts(own.scene, impacts["speed"], impacts["angle"], spins)
-    codes, numbers, sound = [], [], np.ones(given.speed.size, bool)
+    candidates = Impacts(of_law.scene, impacts["speed"], impacts["angle"], spins)
+    codes, numbers, sound = [], [], np.ones(candidates.speed.size, bool)
     for rtol in (RTOL, _TIGHTER * RTOL):
-        answers = np.zeros(given.speed.size, ANSWER)
-        bind_kernel(library, rtol, STEPS)(given, answers)
-        batch = Batch(own.scene, None, given.speed, given.angle, {}, rtol, "taylor", _RESULTS)
-        block, separated = block_of(batch, answers, given, None), answers["outcome"] > 0
-        block["final_gap"] = np.where(separated, answers["final_gap"] * own.scene.liquid.film_thickness, np.nan)
+        answers = np.zeros(candidates.speed.size, ANSWER)
+        bind_kernel(library, rtol, STEPS)(candidates, answers)
+        batch = Batch(of_law.scene, None, candidates.speed, candidates.angle, {}, rtol, "taylor", _RESULTS)
+        block, separated = block_of(batch, answers, candidates, None), answers["outcome"] > 0
+        block["final_gap"] = np.where(separated, answers["final_gap"] * of_law.scene.liquid.film_thickness, np.nan)
         partner, spin = block["final_spin_partner"], block["final_spin"]
         block["final_spin_partner"] = np.where(np.isnan(partner), spin, partner)
-        if own.prefix == HEAD_ON:
+        if of_law.prefix == HEAD_ON:
             block["final_rotation_rate"] = np.where(separated, 0.0, np.nan)
         numbers.append(np.column_stack([block[name] for name in _RESULTS]))
         codes.append(np.column_stack([answers[name] for name in ("outcome", "certified", "reversal")]))
@@ -158,22 +158,26 @@ def _computed(own: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
 
 def pair_table(scene: Scene, rtol: float, tolerance: float) -> list[str]:
     """Lines of vectors.h: pairs of all outcomes that occur, away from boundaries, one in four of them in a plane."""
-    given = _pairs(scene)
-    normal, velocities, spins = given["normal"], given["velocities"], given["spins"][:, : 1 if scene.wall else 2]
-    found, other = (
+    scene_pairs = _pairs(scene)
+    normal, velocities, spins = (
+        scene_pairs["normal"],
+        scene_pairs["velocities"],
+        scene_pairs["spins"][:, : 1 if scene.wall else 2],
+    )
+    pairs, other = (
         collide_pair(scene, normal, velocities, spins, rtol=each, engine="taylor") for each in (rtol, rtol / 3)
     )
-    rows = {name: found[name].values for name in found.data_vars}
+    rows = {name: pairs[name].values for name in pairs.data_vars}
     sound = (rows["outcome"] == other.outcome.values) & (rows["outcome"] >= 0)
     for name in ("time", "restitution", "velocities", "spins"):
-        one, two = (np.nan_to_num(each[name].values.reshape(_DRAWN, -1)) for each in (found, other))
+        one, two = (np.nan_to_num(each[name].values.reshape(_DRAWN, -1)) for each in (pairs, other))
         sound &= np.abs(one - two).max(axis=1) <= 0.1 * tolerance * np.abs(one).max(axis=1)
     chosen = [k for outcome in range(3) for k in np.flatnonzero(sound & (rows["outcome"] == outcome))[:_KEPT]]
     if not chosen:
         raise ComputationError("no pair in space could be computed for the test vectors")
     lines = ["static const struct {", "    law_pair pair;", "    law_pair_after expected;", "} pair_vectors[] = {"]
     for k in chosen:
-        before = ", ".join(_braced(given[name][k]) for _, name, _, _ in PAIR)
+        before = ", ".join(_braced(scene_pairs[name][k]) for _, name, _, _ in PAIR)
         numbers = {"status": 0} | {name: values[k] for name, values in rows.items()}
         after = ", ".join(
             str(int(numbers[name])) if kind == "int" else _braced(np.asarray(numbers[name], float))
@@ -201,8 +205,8 @@ def _pairs(scene: Scene) -> dict[str, np.ndarray]:
 
 
 def _directions(draw: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
-    found = draw.normal(size=(*shape, 3))
-    return np.asarray(found / np.linalg.norm(found, axis=-1, keepdims=True))
+    drawn = draw.normal(size=(*shape, 3))
+    return np.asarray(drawn / np.linalg.norm(drawn, axis=-1, keepdims=True))
 
 
 def _braced(numbers: np.ndarray) -> str:

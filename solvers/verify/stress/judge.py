@@ -100,9 +100,11 @@ def _spins_of(scene: Scene) -> tuple[str, ...]:
 def _surface_speeds(scene: Scene, *spins: float | None) -> tuple[float, ...]:
     """Spins times radii over the initial relative speed; 0 for one that a stick or a head-on collision has not."""
     speed, angle = scene.need_impact()
-    radius, given = 2 * scene.particles.reduced_radius, (scene.impact.spin, scene.impact.partner_spin)
+    radius, impact_spins = 2 * scene.particles.reduced_radius, (scene.impact.spin, scene.impact.partner_spin)
     radii = radius, radius * (scene.radius_ratio or 1.0)
-    fast = speed / math.cos(angle) + sum(abs(spin or 0.0) * size for spin, size in zip(given, radii, strict=True))
+    fast = speed / math.cos(angle) + sum(
+        abs(spin or 0.0) * size for spin, size in zip(impact_spins, radii, strict=True)
+    )
     sizes = zip(spins, radii, strict=False)
     return tuple(0.0 if spin is None or math.isnan(spin) else spin * size / fast for spin, size in sizes)
 

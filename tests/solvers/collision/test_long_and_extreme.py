@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from wetdoublet.solvers import ComputationError, InputError, Scene, boundary, collide_many, collide_pair, regime_map
-from wetdoublet.solvers.boundaries.by_kernel import looked
+from wetdoublet.solvers.boundaries.by_kernel import sample_by_kernel
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.engines.settings import (
     CASADI_STEPS,
@@ -346,7 +346,7 @@ def test_circling_on_the_surface_lever_arm_is_decided_by_its_limit() -> None:
     """Where angular momentum drifts in the film its limit drifts with it: a million steps on either side agree."""
     scene, angle = Scene.from_dict(DRIFTS), np.full(2, 1.4227617104312076)
     speed = 0.0057660216 * np.array([1 - 3e-5, 1 + 3e-5]) / scene.stokes_per_speed
-    sample = looked(scene, speed, angle, 1e-9, budget=KERNEL_STEPS)
+    sample = sample_by_kernel(scene, speed, angle, 1e-9, budget=KERNEL_STEPS)
     far = run_kernel(Impacts(scene, speed, angle, {}), 1e-9, budget=3_000_000)
     if sample is not None and far is not None:  # there is a kernel
         assert sample["chatters"].all()

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from casadi import SX
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.host.captured_stderr import listening
+from wetdoublet.solvers.host.captured_stderr import captured_stderr
 from wetdoublet.solvers.host.thread_caches import once, own_cache
 from wetdoublet.solvers.model.model import Model, load, select_model
 
@@ -102,7 +102,7 @@ def test_a_thread_hears_only_itself():
     inside, leave, heard = threading.Event(), threading.Event(), []
 
     def other() -> None:
-        with listening() as mine:
+        with captured_stderr() as mine:
             sys.stderr.write("other ")
             inside.set()
             leave.wait()
@@ -111,7 +111,7 @@ def test_a_thread_hears_only_itself():
 
     with contextlib.redirect_stderr(shown):
         thread = threading.Thread(target=other)
-        with listening() as mine:
+        with captured_stderr() as mine:
             thread.start()
             inside.wait()
             sys.stderr.write("own")

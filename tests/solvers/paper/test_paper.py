@@ -16,7 +16,7 @@ from wetdoublet.solvers.formatting.document import Table, page
 from wetdoublet.solvers.formatting.document import report as written
 from wetdoublet.solvers.host.files import write_all_in
 from wetdoublet.solvers.paper import PARTS, factors, fig1, fig3, fig4a, fig4b, report, table1
-from wetdoublet.solvers.paper.desk import Desk, Detail, Job, outcomes
+from wetdoublet.solvers.paper.boundary_cache import BoundaryCache, Detail, Job, outcomes
 from wetdoublet.solvers.paper.parts import Comparison, number
 from wetdoublet.solvers.paper.printed import CURVES, PRINTED, SHOTS
 from wetdoublet.solvers.paper.variants import BRIDGED, PENDULUM, variant
@@ -38,12 +38,12 @@ FACTORS = {  # an independent prototype's: midgap, surface
 def made(tmp_path_factory):
     """Every part, coarsely drawn, in one folder with the report."""
     folder = tmp_path_factory.mktemp("paper")
-    desk = Desk(COARSE)
+    cache = BoundaryCache(COARSE)
     modules = {"table1": table1, "fig1": fig1, "fig3": fig3, "fig4a": fig4a, "fig4b": fig4b, "factors": factors}
     assert tuple(modules) == PARTS
-    parts = {name: module.make(desk, folder) for name, module in modules.items()}
+    parts = {name: module.make(cache, folder) for name, module in modules.items()}
     write_all_in(folder, written(report.TITLE, report.blocks(list(parts.values()), "In a test.")))
-    return folder, parts, desk
+    return folder, parts, cache
 
 
 @pytest.fixture
@@ -210,11 +210,11 @@ def test_assumed_values_are_named(made):
 
 def test_desk_traces_nothing_twice():
     """A line that is known is not traced again, in whatever order it is asked for."""
-    desk, scene = Desk(COARSE), variant(BRIDGED, {})
-    first = desk.lines(scene, CURVES[2:4])
-    count = desk.collisions
-    again = desk.many([Job(scene, CURVES[3:4]), Job(scene, CURVES[2:3])])
-    assert desk.collisions == count
+    cache, scene = BoundaryCache(COARSE), variant(BRIDGED, {})
+    first = cache.lines(scene, CURVES[2:4])
+    count = cache.collisions
+    again = cache.many([Job(scene, CURVES[3:4]), Job(scene, CURVES[2:3])])
+    assert cache.collisions == count
     assert [again[1][0], again[0][0]] == first
     assert outcomes(first[0]) == ("stick", "stick-rotate-separate", "bounce")
 

@@ -76,8 +76,8 @@ static void unmeet(sweep *r, mask falls, mask damped)
     for (int state = 0; state < STATES; state++)
         total += r->of[state]*m.rate[state];
     vec value = only(falls, -total/choose(falls, m.pace, one)); /* d restitution/d event function */
-    r->of[GAP] += only(falls, value*choose(m.gap, one, choose(m.turned, zero, m.by_gap)));
-    r->of[NORMAL_VELOCITY] += only(falls, value*choose(m.gap, zero, choose(m.turned, one, -m.by_approach)));
+    r->of[GAP] += only(falls, value*choose(m.gap, one, choose(m.velocity, zero, m.by_gap)));
+    r->of[NORMAL_VELOCITY] += only(falls, value*choose(m.gap, zero, choose(m.velocity, one, -m.by_approach)));
     for (int which = 0; which < MOVING_GAPS; which++)
         r->at_gap[which] -= only(m.moving[which], value);
     r->by_group[BY_GLASS_NUMBER] += only(m.glass, value);
@@ -279,17 +279,17 @@ static void in_groups(const queue *q)
     for (long first = 0; first < t->ended; first += LANES) {
         int many = t->ended - first < LANES ? (int)(t->ended - first) : LANES;
         fixed f;
-        vec given[QUANTITIES], at[STATES], turned[sizeof(struct derivatives)/sizeof(double)];
+        vec quantities[QUANTITIES], at[STATES], by_lane[sizeof(struct derivatives)/sizeof(double)];
         EACH_LANE(lane)
         {
-            long own = first + (lane < many ? lane : 0);
+            long row = first + (lane < many ? lane : 0);
             for (int k = 0; k < QUANTITIES; k++)
-                LANE(given[k], lane) = quantity(q, k, t->ends[own].index);
-            for (unsigned place = 0; place < sizeof turned/sizeof *turned; place++)
-                LANE(turned[place], lane) = ((const double *)(t->derivatives + own))[place];
+                LANE(quantities[k], lane) = quantity(q, k, t->ends[row].index);
+            for (unsigned place = 0; place < sizeof by_lane/sizeof *by_lane; place++)
+                LANE(by_lane[place], lane) = ((const double *)(t->derivatives + row))[place];
         }
-        scale(&f.c, given);
-        vec *of = turned, *constant = of + STATES, *events = constant + CONSTANTS, *by_group = events + MOVING_GAPS;
+        scale(&f.c, quantities);
+        vec *of = by_lane, *constant = of + STATES, *events = constant + CONSTANTS, *by_group = events + MOVING_GAPS;
         along_constants(&f.c, constant, by_group);
         for (int group = 0; group < GROUPS; group++) {
             vec by_gaps = splat(0.0);

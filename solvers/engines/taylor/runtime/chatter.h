@@ -148,8 +148,8 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
         slip = vec_abs(slip);
         distance = 4.0 + c->aspect*high;
         vec size = vec_abs(from[ORBITAL_MOMENTUM]) + slip*distance*distance;
-        vec turned = c->obliquity*c->obliquity*(1.0/16.0)*size*only(gained > 0.0, slip);
-        vec error = u*u + vec_abs(u) + 2.0*vec_abs(attraction) + vec_abs(inward) + turned;
+        vec rotational = c->obliquity*c->obliquity*(1.0/16.0)*size*only(gained > 0.0, slip);
+        vec error = u*u + vec_abs(u) + 2.0*vec_abs(attraction) + vec_abs(inward) + rotational;
         held |= stays_below(0.5*u*u - inward + gained, SAFETY*tolerance, error);
     }
     return candidates & held;

@@ -41,7 +41,7 @@ static int begin_lanes(queue *q, lanes *l, fixed *f)
 {
     EACH_LANE(lane) refill(q, l, f, lane);
 #if JUMPS
-    if (!bits(l->alive) && q->turns) { /* all may jump from initial contact */
+    if (!bits(l->alive) && q->jump_count) { /* all may jump from initial contact */
         jump(q);
         EACH_LANE(lane) refill(q, l, f, lane);
     }
@@ -66,7 +66,7 @@ static void take_up_waiting(queue *q, lanes *l, fixed *f)
         EACH_LANE(lane) if (!LANE(l->alive, lane)) refill(q, l, f, lane);
     }
 #if JUMPS
-    if (q->turns && (q->turns >= LANES || !bits(l->alive))) {
+    if (q->jump_count && (q->jump_count >= LANES || !bits(l->alive))) {
         jump(q);
         EACH_LANE(lane) if (!LANE(l->alive, lane)) refill(q, l, f, lane);
     }
@@ -294,7 +294,7 @@ static void run(queue *q)
         mask lost = take_step(&e, &l, h, creeps, bits(falls) ? sum_at(e.s.gap, h) : first.gap);
         act_on(q, &l, &f, falls & NOT(lost), first.event);
 #if JUMPS
-        park_turned(q, &l, &f, falls & NOT(lost) & (first.event == splat_mask(AT_TURNING)) & l.alive & NOT(l.closing));
+        park_for_jump(q, &l, &f, falls & NOT(lost) & (first.event == splat_mask(AT_TURNING)) & l.alive & NOT(l.closing));
 #endif
         leave_to_others(q, &l, &f, lost, falls);
     }

@@ -69,9 +69,9 @@ static inline void states_at(const vec (*a)[TERMS], vec t, vec *y)
 /* The part of the step up to a turn, which then is the whole step to search. */
 static inline vec up_to_turn(first_event *first)
 {
-    mask turned = (first->time <= 1.0) & (first->time > 0.0);
-    vec part = choose(turned, first->time, splat(1.0));
-    first->time = choose(turned, splat(1.0), first->time);
+    mask within = (first->time <= 1.0) & (first->time > 0.0);
+    vec part = choose(within, first->time, splat(1.0));
+    first->time = choose(within, splat(1.0), first->time);
     return part;
 }
 

@@ -33,9 +33,9 @@ OUTLINE void jump(queue *q)
     lanes l;
     fixed f;
     slow_series s;
-    int count = q->turns < LANES ? q->turns : LANES;
+    int count = q->jump_count < LANES ? q->jump_count : LANES;
     for (int lane = 0; lane < LANES; lane++)
-        unpack(q->turned[lane < count ? lane : 0], &l, &f, lane);
+        unpack(q->for_jump[lane < count ? lane : 0], &l, &f, lane);
     vec last = LAST*vec_smaller(splat(1.0), f.edge);
     opening from = {l.y[GAP], l.y[GAP], splat(0.0)}, falls = from;
     place here;
@@ -80,7 +80,7 @@ OUTLINE void jump(queue *q)
     }
     for (int lane = 0; lane < count; lane++)
         pack(q->resumed[q->resumes++], &l, &f, lane);
-    q->turns -= count;
-    memmove(q->turned[0], q->turned[count], sizeof q->turned[0]*(size_t)q->turns);
+    q->jump_count -= count;
+    memmove(q->for_jump[0], q->for_jump[count], sizeof q->for_jump[0]*(size_t)q->jump_count);
 }
 #endif

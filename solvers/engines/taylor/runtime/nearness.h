@@ -4,7 +4,7 @@
  * `along_near` keeps the smallest measure of the trajectory with the boundary that it belongs to. Some measures are
  * relative distances; those of boundaries before TIE in the enumeration are not (a passage is a squared speed), and say
  * only that the distance has to be computed (`hint`). A near miss of the glass criterion is not measured where a bound
- * shows that it exceeds WORTH_SAYING.
+ * shows that it exceeds FARTHEST_GRAZE.
  */
 #pragma once
 
@@ -16,7 +16,7 @@
 #include "tangents.h"
 
 #if GRADIENTS
-static const double WORTH_SAYING = 1e-2;
+static const double FARTHEST_GRAZE = 1e-2; /* relative clearance of the glass criterion */
 enum { PLACES = 8 };
 
 /* The least relative clearance of the glass criterion within a step: the lowest of some samples, refined by Newton's
@@ -150,13 +150,13 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask ends,
         vec start[STATES];
         memcpy(start, l->y, sizeof start);
         start[NORMAL_VELOCITY] = splat(0.0);
-        close &= NOT(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, start));
+        close &= NOT(least_of(s->glass.result, h) > FARTHEST_GRAZE*glass_clearance(&f->c, start));
     }
     if (bits(close)) {
         vec end[STATES];
         states_at(a, h, end);
         end[NORMAL_VELOCITY] = splat(0.0);
-        close &= NOT(least_of(s->glass.result, h) > WORTH_SAYING*glass_clearance(&f->c, end));
+        close &= NOT(least_of(s->glass.result, h) > FARTHEST_GRAZE*glass_clearance(&f->c, end));
     }
     if (bits(close)) {
         vec least = vec_abs(vec_log(1.0 - least_pressure_margin(f, s, h)));

@@ -165,8 +165,8 @@ static void refill(queue *q, lanes *l, fixed *f, int lane)
         begin(q, l, f, lane, row);
 #if LEAPS
         if (q->leaps[row]) {
-            pack(q->turned[q->turns++], l, f, lane);
-            if (q->turns >= LANES)
+            pack(q->for_jump[q->jump_count++], l, f, lane);
+            if (q->jump_count >= LANES)
                 jump(q);
             continue;
         }
@@ -185,12 +185,12 @@ static void park(queue *q, lanes *l, fixed *f, int lane)
 #if JUMPS
 /* Moves trajectories that have just turned from approach to separation to those that wait for the jump along the slow
  * manifold (jump.h), where they may take it. */
-static void park_turned(queue *q, lanes *l, fixed *f, mask turned)
+static void park_for_jump(queue *q, lanes *l, fixed *f, mask rebounds)
 {
-    unsigned left = q->t->jumps ? bits(turned) : 0;
+    unsigned left = q->t->jumps ? bits(rebounds) : 0;
     if (left)
         EACH_OF(lane, left & bits(may_jump(l, f, q->rtol))) {
-            pack(q->turned[q->turns++], l, f, lane);
+            pack(q->for_jump[q->jump_count++], l, f, lane);
             refill(q, l, f, lane);
         }
 }

@@ -8,7 +8,7 @@
 #if GRADIENTS
 /* Derivatives of the function of an event that ends a step. */
 typedef struct {
-    mask gap, turned, glass;   /* lanes by what the function depends on */
+    mask gap, velocity, glass; /* lanes by what the function depends on */
     mask moving[MOVING_GAPS];  /* of those at a gap that moves with a group, at which */
     vec rate[STATES];          /* of the states at the event */
     vec by_gap, by_approach;   /* of the glass criterion */
@@ -26,12 +26,12 @@ static meeting met(const fixed *f, const vec (*a)[TERMS], vec h, mask falls, mas
     for (int which = 0; which < MOVING_GAPS; which++)
         m.moving[which] = falls & (event == EVENT_AT[which]);
     m.gap = falls & is_on_gap(event);
-    m.turned = falls & is_on_normal_velocity(event);
+    m.velocity = falls & is_on_normal_velocity(event);
     m.glass = falls & is_on_glass_clearance(event);
     vec limit;
     glass_pressure_margin_slopes(
         m.at[GAP], -m.at[NORMAL_VELOCITY], f->c.glass_number, &m.by_gap, &m.by_approach, &limit);
-    m.pace = choose(m.gap, m.rate[GAP], choose(m.turned, m.rate[NORMAL_VELOCITY],
+    m.pace = choose(m.gap, m.rate[GAP], choose(m.velocity, m.rate[NORMAL_VELOCITY],
         m.by_gap*m.rate[GAP] - m.by_approach*m.rate[NORMAL_VELOCITY]));
     return m;
 }

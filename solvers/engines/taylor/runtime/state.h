@@ -111,8 +111,8 @@ typedef struct {
     int parks, resumes; /* trajectories waiting for implicit.h, and trajectories that return to lanes */
     double parked[2*LANES][FIXED + LANE_STATE], resumed[4*LANES][FIXED + LANE_STATE];
 #if JUMPS
-    int turns; /* trajectories waiting for jump.h */
-    double turned[2*LANES][FIXED + LANE_STATE];
+    int jump_count; /* trajectories waiting for jump.h */
+    double for_jump[2*LANES][FIXED + LANE_STATE];
 #endif
 #if GRADIENTS
     double *by_group, *gradients; /* RESULTS derivatives by each group, and by each quantity */

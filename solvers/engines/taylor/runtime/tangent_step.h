@@ -63,7 +63,7 @@ static void carry(lanes *l, const fixed *f, const series *s, const tangents *all
         if (!meets)
             continue;
         vec *here = a->t[group], target = target_along(f, &m, group);
-        vec value = choose(m.gap, here[GAP] - target, choose(m.turned, here[NORMAL_VELOCITY],
+        vec value = choose(m.gap, here[GAP] - target, choose(m.velocity, here[NORMAL_VELOCITY],
             m.by_gap*here[GAP] - m.by_approach*here[NORMAL_VELOCITY]));
         if (group == BY_GLASS_NUMBER)
             value += only(m.glass, splat(1.0));
@@ -71,7 +71,7 @@ static void carry(lanes *l, const fixed *f, const series *s, const tangents *all
         for (int state = 0; state < STATES; state++)
             here[state] += only(falls, m.rate[state]*later);
         here[GAP] = choose(m.gap, target, here[GAP]);
-        here[NORMAL_VELOCITY] = only(NOT(m.turned), here[NORMAL_VELOCITY]);
+        here[NORMAL_VELOCITY] = only(NOT(m.velocity), here[NORMAL_VELOCITY]);
         a->time[group] += later;
         a->there[group] |= falls & (later != 0.0);
         a->smallest[group] = choose(falls & (m.at[GAP] < a->least), here[GAP], a->smallest[group]);

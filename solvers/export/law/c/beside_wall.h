@@ -22,17 +22,17 @@ static ending beside_wall(const bodies *b, const arrival *a, const law_collision
 {
     ending made = planar_end(b, a, slides);
     double radius = b->radius[0], unit = radius/a->speed, roll = unit*slides->final_spin;
-    vector3 sliding = times(-1.0, a->sliding), rolling = times(radius, cross(a->normal, a->spin[0])), turned;
+    vector3 sliding = times(-1.0, a->sliding), rolling = times(radius, cross(a->normal, a->spin[0])), rolls;
     if (made.status == LAW_OK)
         made.status = both->status;
     if (made.status != LAW_OK || made.outcome == LAW_STICK)
         return made;
     made.sliding = times(slides->tangential_restitution, sliding);
     made.sliding = plus(made.sliding, both->tangential_restitution - slides->tangential_restitution, rolling);
-    turned = plus(times(roll, sliding), unit*both->final_spin - roll, rolling);
+    rolls = plus(times(roll, sliding), unit*both->final_spin - roll, rolling);
     made.spin[0] = times(dot(a->spin[0], a->normal), a->normal);
-    made.spin[0] = plus(made.spin[0], 1.0/radius, cross(turned, a->normal));
-    double first = length(plus(sliding, -1.0, rolling)), last = length(plus(made.sliding, -1.0, turned));
+    made.spin[0] = plus(made.spin[0], 1.0/radius, cross(rolls, a->normal));
+    double first = length(plus(sliding, -1.0, rolling)), last = length(plus(made.sliding, -1.0, rolls));
     made.slip = first > 0.0 ? last/first : NAN;
     return made;
 }

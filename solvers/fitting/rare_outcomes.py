@@ -99,8 +99,8 @@ def _nearest(changes: Changes, least: np.ndarray, rows: np.ndarray, allowed: np.
     up, row = changes.place > 0, rows[changes.line]
     outward, inward = np.where(up, changes.after, changes.before), np.where(up, changes.before, changes.after)
     agrees, agreed = ((each >= 0) & allowed[row, each] for each in (outward, inward))
-    those = np.flatnonzero(agrees & ~agreed)
-    order = those[np.argsort(np.maximum(np.abs(changes.place), least[changes.line])[those], kind="stable")]
+    gained = np.flatnonzero(agrees & ~agreed)
+    order = gained[np.argsort(np.maximum(np.abs(changes.place), least[changes.line])[gained], kind="stable")]
     return order[np.unique(row[order], return_index=True)[1]]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, boundary
 from wetdoublet.solvers.boundaries.line import Line
-from wetdoublet.solvers.boundaries.look import Look
+from wetdoublet.solvers.boundaries.scene_sampler import SceneSampler
 from wetdoublet.solvers.host.compiler import compiler
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
@@ -22,7 +22,7 @@ def test_collisions_looked_at(name: str):
     scene, angle = Scene.load(name), math.radians(LINES[name][0])
     stokes = np.geomspace(1e-4, 100, 24)
     angles = np.full(stokes.size, angle)
-    kernel, other = Look(scene, RTOL)(angles, stokes), Look(scene, RTOL, kernel=False)(angles, stokes)
+    kernel, other = (SceneSampler(scene, RTOL)(angles, stokes), SceneSampler(scene, RTOL, kernel=False)(angles, stokes))
     for field in ("stokes", "outcome", "reversal"):
         assert kernel[field].tolist() == other[field].tolist()
     separates = kernel["outcome"] > 0
@@ -40,7 +40,7 @@ def test_margins(name: str):
     scene, angle = Scene.load(name), math.radians(LINES[name][0])
     line = Line(scene, angle, RTOL)
     stokes = LINES[name][1] * np.geomspace(1.1, 100, 12)
-    seen = Look(scene, RTOL)(np.full(stokes.size, angle), stokes)
+    seen = SceneSampler(scene, RTOL)(np.full(stokes.size, angle), stokes)
     assert ((seen["criterion"] > 0) == (seen["reversal"] >= 0)).all()
     assert seen["criterion"] == pytest.approx([line.criterion(one) for one in stokes], abs=0.01)
 
@@ -51,7 +51,7 @@ def test_contact_time_diverges_at_the_separatrix():
     scene, angle = Scene.load("granulation"), math.radians(LINES["granulation"][0])
     (change, *_) = boundary(scene, angle=angle, stokes=(0.01, 0.02)).changes[0]
     stokes = change.stokes * (1 + np.geomspace(1e-2, 1e-6, 9))
-    time = Look(scene, RTOL)(np.full(stokes.size, angle), stokes)["time"]
+    time = SceneSampler(scene, RTOL)(np.full(stokes.size, angle), stokes)["time"]
     growth = np.diff(time)
     assert (np.diff(growth) > 0).all()
     assert growth[-1] == pytest.approx(growth[-2], rel=0.01)  # equal ratios of distance, equal times

@@ -15,7 +15,7 @@ from ..model.model import load, select_model
 from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, si_values
 from ..scene.scene import Scene
-from .by_kernel import LOOK_BUDGET, looked
+from .by_kernel import SAMPLE_BUDGET, sample_by_kernel
 from .samples import SAMPLE
 
 BY_KERNEL, BY_ROSENBROCK = 100, 10  # initial samples of a line per decade of the Stokes number
@@ -24,7 +24,7 @@ DEEP = 1e-3  # relative to the contact gap; an approach to this depth has reache
 
 
 @dataclass
-class Look:
+class SceneSampler:
     """Sampler of a scene's collisions. Counts the integrated ones, and stores the reasons of failures.
 
     Arguments:
@@ -86,7 +86,7 @@ class Look:
         Arguments:
             kernel_only: leave collisions undecided that the kernel does not complete with the steps of a sample.
         """
-        budget = LOOK_BUDGET if kernel_only else KERNEL_STEPS
+        budget = SAMPLE_BUDGET if kernel_only else KERNEL_STEPS
         records = self._records(angle, stokes, budget) if self.kernel else None
         if records is None:
             return self.by_rosenbrock(angle, stokes)
@@ -109,7 +109,7 @@ class Look:
         return next(reasons, "no collision could be computed")
 
     def _records(self, angle: np.ndarray, stokes: np.ndarray, budget: int) -> np.ndarray | None:
-        records = looked(self.scene, stokes / self.scene.stokes_per_speed, angle, self.rtol, budget=budget)
+        records = sample_by_kernel(self.scene, stokes / self.scene.stokes_per_speed, angle, self.rtol, budget=budget)
         if records is not None:
             self.collisions += int(np.count_nonzero(~records["at_touch"]))
             self.creeping.update(angle[records["creeps"]].tolist())
@@ -117,7 +117,7 @@ class Look:
 
     def _by_kernel(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray | None:
         """Samples by the kernel; sticks are continued until they fall back, bounces repeated without solids."""
-        records = self._records(angle, stokes, LOOK_BUDGET)
+        records = self._records(angle, stokes, SAMPLE_BUDGET)
         if records is None:
             return None
         samples, speed, outcome = blank(stokes), stokes / self.scene.stokes_per_speed, records["outcome"]
@@ -130,14 +130,16 @@ class Look:
         samples["time"][outcome == 0] = np.nan
         sticks = np.flatnonzero((outcome == 0) & ~records["at_touch"])
         if sticks.size:
-            ends = looked(self.scene, speed[sticks], angle[sticks], self.rtol, Purpose.ESCAPE, budget=_MARGIN)
+            ends = sample_by_kernel(self.scene, speed[sticks], angle[sticks], self.rtol, Purpose.ESCAPE, budget=_MARGIN)
             if ends is not None:
                 samples["reach"][sticks] = np.where(ends["outcome"] == 0, ends["final_gap"], np.nan)
         which = np.flatnonzero(outcome == 2)
         if which.size:  # with quantities of solids that are met far below the contact gap
             solids = {name: np.full(which.size, value) for name, value in NEVER_MET.items()}
             solids["roughness"] = DEEP * contact[which] * self.scene.liquid.film_thickness
-            bare = looked(self.scene, speed[which], angle[which], self.rtol, Purpose.APPROACH, solids, _MARGIN)
+            bare = sample_by_kernel(
+                self.scene, speed[which], angle[which], self.rtol, Purpose.APPROACH, solids, _MARGIN
+            )
             if bare is not None:
                 samples["criterion"][which] = np.where(bare["outcome"] >= 0, _margin(bare, contact[which]), np.nan)
         return samples

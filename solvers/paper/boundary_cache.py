@@ -9,7 +9,7 @@ import numpy as np
 from ..boundaries.boundary import Atlas, atlas, boundary
 from ..boundaries.changes import Change
 from ..boundaries.line import ready
-from ..boundaries.look import Look
+from ..boundaries.scene_sampler import SceneSampler
 from ..engines.settings import RTOL
 from ..errors import ComputationError
 from ..scene.scene import Scene
@@ -49,7 +49,7 @@ class Detail:
     critical: tuple[float, ...] = CURVES[2:]
 
 
-class Desk:
+class BoundaryCache:
     """Cache of traced lines by scene and angle; `say` is called with the current step."""
 
     def __init__(self, detail: Detail | None = None, say: Callable[[str], None] | None = None) -> None:
@@ -140,10 +140,10 @@ def shown(read: Callable[[], float]) -> str:
 
 def criterion_met(scene: Scene, low: float, high: float, angle: float = 0.0, rtol: float = 1e-6) -> float:
     """The Stokes number between `low` and `high` from which a rebound criterion is met, bracketed to `rtol`."""
-    look = Look(scene, RTOL)
+    sampler = SceneSampler(scene, RTOL)
     while high - low > rtol * high:
         stokes = np.geomspace(low, high, _AT_ONCE)
-        met = look(np.full(stokes.size, angle), stokes)["reversal"] >= 0
+        met = sampler(np.full(stokes.size, angle), stokes)["reversal"] >= 0
         if met[0] or not met[-1]:
             raise ComputationError(f"no criterion is first met between St {low:g} and {high:g}")
         first = int(np.argmax(met))

@@ -52,7 +52,7 @@ def heights(data: Data, third: np.ndarray, angle: np.ndarray) -> tuple[np.ndarra
     places = [none + data.low[2], none + data.high[2]]
     for k in range(int((last - first).max(initial=0))):
         there = np.flatnonzero(first + k < last)
-        own = none + data.high[2]
-        own[there] = data.shapes.values(data.edges[first[there] + k], t[there], x[there], none[there])[0][:, 0]
-        places.append(own)
+        top = none + data.high[2]
+        top[there] = data.shapes.values(data.edges[first[there] + k], t[there], x[there], none[there])[0][:, 0]
+        places.append(top)
     return np.array(places), last - first + 2
