@@ -14,8 +14,9 @@ import numpy as np
 from casadi import SX, Function, densify, jacobian, vertcat
 
 from ...generated.automaton import LAST_ANSWER, Status
+from ..engines.taylor.build import supported
 from ..engines.taylor.call import Impacts, run_kernel
-from ..engines.taylor.tangent import COLUMNS, differentiates, run_tangent
+from ..engines.taylor.tangent import COLUMNS, run_tangent
 from ..errors import ComputationError
 from ..many.batch import Batch
 from ..many.by_kernel import admissible
@@ -304,7 +305,7 @@ class Experiment:
 
 def check_derivatives(scene: Scene) -> None:
     """Raise ComputationError unless the kernel differentiates the scene's collisions on this machine."""
-    if not differentiates(scene, (True,)):
+    if not supported(scene, (True,), gradients=True):
         raise _without_derivatives()
 
 

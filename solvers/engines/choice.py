@@ -10,7 +10,6 @@ from collections.abc import Collection, Sequence
 from ..scene.scene import Scene
 from ..settings import CASADI_ENGINES, ENGINES
 from .taylor.build import supported
-from .taylor.tangent import differentiates
 
 
 def collision_engine(scene: Scene, requested: str | None = None) -> str:
@@ -37,7 +36,7 @@ def gradient_engine(scene: Scene, of: Sequence[str], known: Collection[str], obl
         known: results that the kernel differentiates.
         oblique: contains True if some collisions are oblique, False if some are head-on; these are separate kernels.
     """
-    return _kernel_or_rosenbrock(set(of) <= set(known) and differentiates(scene, oblique))
+    return _kernel_or_rosenbrock(set(of) <= set(known) and supported(scene, oblique, gradients=True))
 
 
 def available_engines(scene: Scene) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""The machine's C compiler: search, test and compilation with a time limit.
+"""The machine's C compiler, or else Zig's from `wetdoublet[compiler]`: search, test and compilation with a time limit.
 
 A compiler is accepted if it compiles a two-line program that then runs. Without one everything is interpreted, with one
 remark on standard error. WETDOUBLET_COMPILE_SECONDS sets the time limit for a file.
@@ -13,9 +13,11 @@ import shlex
 import shutil
 import signal
 import subprocess
+import sys
 import threading
 from collections.abc import Collection, Sequence
 from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
@@ -26,9 +28,12 @@ from .remarks import say
 from .thread_caches import once
 
 _COMPILERS = ("cc", "gcc", "clang")
+_ZIG = "ziglang"  # the module with which pip installs a compiler
+_ONLY_GCC = ("-fexpensive-optimizations", "-ftree-pre", "-fgcse")  # which others ignore, and Zig refuses
 _SECONDS = "WETDOUBLET_COMPILE_SECONDS"
 _LIMIT = 120.0  # s; the largest kernel takes about ten on a busy machine
 _TRIAL_LIMIT = 20.0  # s
+_FIRST_OF_ZIG = 120.0  # s; compiles its own C library first, once
 _LONGEST = 86400.0  # s; cap of the time limit, as the system's waits accept no arbitrary times
 _GIVEN_UP = "WETDOUBLET_NO_COMPILER"  # inherited by workers; set after a compiler has exceeded its time
 _INTERRUPTED = (-signal.SIGINT, 128 + signal.SIGINT)  # exit statuses after SIGINT, of a program and of a shell script
@@ -73,14 +78,14 @@ def compiler() -> Compiler | None:
     tried: set[tuple[str, ...]] = set()
     failed: list[str] = []
     wanted = os.environ.get("CC", "").strip()
-    for named in (*([wanted] if wanted else []), *_COMPILERS):
+    for named in (*([wanted] if wanted else []), *_COMPILERS, *_zig()):
         command = _command(named)
         wrong = "there is no such program"
         if command is not None:
             if command in tried:
                 continue
             tried.add(command)
-            found = _accepted(command, min(limit, _TRIAL_LIMIT))
+            found = _accepted(command, min(limit, _FIRST_OF_ZIG if _ZIG in command else _TRIAL_LIMIT))
             if isinstance(found, Compiler):
                 return found
             wrong = found
@@ -94,14 +99,10 @@ def compiler() -> Compiler | None:
     return None
 
 
-def key(source: str, flags: Sequence[str], machine: str = "") -> str:
-    """Digest of everything that a compiled library depends on: source, flags and the compiler's version.
-
-    Arguments:
-        machine: description of this machine, for code compiled for its processor only.
-    """
+def key(source: str, flags: Sequence[str]) -> str:
+    """Digest of everything that a compiled library depends on: source, flags and the compiler's version."""
     found = compiler()
-    content = "\0".join([source, str(found), found.version if found else "", *flags, machine])
+    content = "\0".join([source, str(found), found.version if found else "", *flags])
     return hashlib.sha256(content.encode(errors="surrogateescape")).hexdigest()[:32]
 
 
@@ -169,6 +170,13 @@ def _command(named: str) -> tuple[str, ...] | None:
     return None if first is None else (first, *words[1:])
 
 
+def _zig() -> tuple[str, ...]:
+    """The command of Zig's C compiler, where it is installed beside this Python."""
+    if find_spec(_ZIG) is None:
+        return ()
+    return (shlex.join((sys.executable, "-m", _ZIG, "cc")),)
+
+
 def _accepted(command: tuple[str, ...], limit: float) -> Compiler | str:
     """The compiler of a command if it compiles a program that runs; else the reason as text.
 
@@ -224,6 +232,12 @@ def _ran(program: bytes, place: Path, limit: float) -> tuple[int, str]:
 
 def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit: float) -> bytes:
     """Path of the compiled `source.c` of a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
+    if _ZIG in command:  # its names of instruction sets have underscores
+        flags = [
+            each.replace("x86-64", "x86_64").replace("-v", "_v") if each.startswith("-march=") else each
+            for each in flags
+            if each not in _ONLY_GCC
+        ]
     made = place / "made"
     status, said = _run((*command, *flags, "-o", str(made), str(place / "source.c"), "-lm"), limit, place)
     if status:

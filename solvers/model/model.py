@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property, lru_cache, reduce
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -18,6 +17,7 @@ from ..host.buffered import Buffered
 from ..host.thread_caches import own_cache
 from ..scene.contact import GAPS
 from ..scene.user_model import OwnEvent, Package
+from .key import ModelKey
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -27,18 +27,6 @@ if TYPE_CHECKING:
 # Fraction of the contact gap. Solutions stay above the contact gap; the floor keeps trial stages out of x <= 0.
 _FLOOR = 0.5
 _SMALLEST_GAP = 1e-12
-
-
-@dataclass(frozen=True)
-class ModelKey:
-    """Identifier of a model: the structure module and the law in each slot; laws may be of a user's model."""
-
-    structure: str
-    laws: tuple[tuple[str, str], ...]
-    package: Package | None = None
-
-    def law(self, slot: str) -> str | None:
-        return dict(self.laws).get(slot)
 
 
 @lru_cache(maxsize=256)

@@ -10,9 +10,10 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.casadi.locate import EventSequence
+from ..engines.taylor.build import supported
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_for
-from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, differentiates, run_tangent
+from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, run_tangent
 from ..model.dimensionless import nondimensionalise
 from ..scene.groups import rate_scales, si_values
 from ..scene.scene import Scene
@@ -42,7 +43,7 @@ _TURNS = tuple(name for name in KNOWN if DIFFERENTIATED[name].odd or name == "ta
 
 def offers(scene: Scene, of: Sequence[str], oblique: Collection[bool] = (True, False)) -> bool:
     """True if the kernel differentiates these results of the scene, for oblique and head-on collisions as requested."""
-    return all(name in KNOWN for name in of) and differentiates(scene, oblique)
+    return all(name in KNOWN for name in of) and supported(scene, oblique, gradients=True)
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,8 @@ from ...generated.automaton import LAST_ANSWER, OUTCOMES, Status
 from ...generated.automaton import STICK as STICKS
 from ..engines.choice import gradient_engine
 from ..engines.taylor.call import Impacts
-from ..engines.taylor.orders import order_for
-from ..engines.taylor.tangent import DISTANCES, Carried, order_backward, run_tangent
+from ..engines.taylor.orders import order_backward, order_for
+from ..engines.taylor.tangent import DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores

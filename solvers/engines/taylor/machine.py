@@ -1,4 +1,4 @@
-"""What kernels are compiled for: the processor's features, the lanes that follow from them, and its compiler flag."""
+"""What kernels are compiled for: instruction sets, the lanes that follow from them, and the one of this machine."""
 
 from __future__ import annotations
 
@@ -6,35 +6,57 @@ import platform
 from collections.abc import Collection
 from functools import cache
 from pathlib import Path
-
-_NEEDED = ((8, "avx512dq"), (4, "avx2"), (2, "sse2"), (2, "asimd"))  # doubles in a register of that feature
-_BASELINE = frozenset({"sse2"})  # assumed where the system does not report features; every such machine has two lanes
-_ARM = ("aarch64", "arm64")
+from typing import NamedTuple
 
 
-def native(machine: str) -> str:
-    """The compiler flag for the processor of this kind of machine; on ARM -march names the architecture alone."""
-    return "-mcpu=native" if machine in _ARM else "-march=native"
+class InstructionSet(NamedTuple):
+    """A set of instructions that compilers know by name.
 
-
-def lanes_of(features: Collection[str]) -> int:
-    """Number of doubles in the widest vector register of a processor with these features.
-
-    >>> lanes_of(["fp", "asimd", "aes"])
-    2
+    Arguments:
+        name: as compilers have it after `-march=`.
+        lanes: doubles in a vector register.
+        needed: features of the processor, as Linux reports them.
     """
-    return next((count for count, feature in _NEEDED if feature in features), 1)
+
+    name: str
+    lanes: int
+    needed: frozenset[str] = frozenset()
+
+
+_V3 = frozenset(["abm", "avx2", "bmi1", "bmi2", "f16c", "fma", "movbe"])
+_V4 = _V3 | frozenset(["avx512bw", "avx512cd", "avx512dq", "avx512f", "avx512vl"])
+SETS = {
+    "x86_64": (InstructionSet("x86-64-v4", 8, _V4), InstructionSet("x86-64-v3", 4, _V3), InstructionSet("x86-64", 2)),
+    "aarch64": (InstructionSet("armv8-a", 2),),
+}
+"""Instruction sets of a kind of machine, widest first; all have the last."""
+_SPELLINGS = {"amd64": "x86_64", "arm64": "aarch64"}
+
+
+def sets_of(machine: str, features: Collection[str]) -> tuple[InstructionSet, ...]:
+    """The instruction sets that a processor has, widest first.
+
+    >>> [each.name for each in sets_of("arm64", ["fp", "asimd"])]
+    ['armv8-a']
+    """
+    name = machine.lower()
+    known = SETS.get(_SPELLINGS.get(name, name), (InstructionSet("native", 1),))
+    return tuple(each for each in known if each.needed <= set(features))
 
 
 @cache
+def here() -> tuple[InstructionSet, ...]:
+    """The instruction sets of this machine, widest first; kernels are compiled for the first."""
+    return sets_of(platform.machine(), _features())
+
+
 def lanes() -> int:
     """Number of doubles in a vector register of this machine."""
-    return lanes_of(features())
+    return here()[0].lanes
 
 
-@cache
-def features() -> frozenset[str]:
-    """Processor features, as Linux reports them."""
+def _features() -> frozenset[str]:
+    """Processor features, as Linux reports them; none elsewhere."""
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:
@@ -43,9 +65,9 @@ def features() -> frozenset[str]:
         name, _, value = line.partition(":")
         if name.strip() in ("flags", "Features"):
             return frozenset(value.split())
-    return _BASELINE
+    return frozenset()
 
 
 def described() -> str:
-    """The machine in words that tell two processors apart for which different code is compiled."""
-    return f"{platform.machine()} {' '.join(sorted(features()))}"
+    """The machine in words: two that differ in them may compute other last digits."""
+    return f"{platform.machine()} {here()[0].name}"
