@@ -19,8 +19,8 @@ TAYLOR = "wetdoublet.solvers.engines.taylor"
 class BuildWithKernels(build_py):
     """Python files and compiled kernels; an editable installation compiles its kernels when they are needed.
 
-    WETDOUBLET_INSTRUCTION_SETS names the instruction sets that they are compiled for, separated by commas ("" for none);
-    without it that of this machine.
+    WETDOUBLET_INSTRUCTION_SETS names the instruction sets that they are compiled for, separated by commas, or "" for
+    none; without it that of this machine.
     """
 
     def run(self) -> None:
