@@ -232,11 +232,8 @@ def _ran(program: bytes, place: Path, limit: float) -> tuple[int, str]:
 
 def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit: float) -> bytes:
     """Path of the compiled `source.c` of a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
-    if _ZIG in command:  # its names of instruction sets have underscores; "-s": no text with paths of this machine
-        spelled = (
-            each.replace("x86-64", "x86_64").replace("-v", "_v") if "-march=" in each else each for each in flags
-        )
-        flags = [*(each for each in spelled if each not in _ONLY_GCC), "-s"]
+    if _ZIG in command:  # "-s": without text with paths of this machine
+        flags = [*(each for each in flags if each not in _ONLY_GCC), "-s"]
     made = place / "made"
     status, said = _run((*command, *flags, "-o", str(made), str(place / "source.c"), "-lm"), limit, place)
     if status:

@@ -10,23 +10,31 @@ from typing import NamedTuple
 
 
 class InstructionSet(NamedTuple):
-    """A set of instructions that compilers know by name.
+    """A set of instructions that kernels are compiled for.
 
     Arguments:
-        name: as compilers have it after `-march=`.
+        name: of the level, as the psABI of x86-64 has it; of the architecture elsewhere.
         lanes: doubles in a vector register.
         needed: features of the processor, as Linux reports them.
+        flags: of compilers; those of the features, which also compilers know that do not know the level's name.
     """
 
     name: str
     lanes: int
     needed: frozenset[str] = frozenset()
+    flags: tuple[str, ...] = ()
 
 
-_V3 = frozenset(["abm", "avx2", "bmi1", "bmi2", "f16c", "fma", "movbe"])
-_V4 = _V3 | frozenset(["avx512bw", "avx512cd", "avx512dq", "avx512f", "avx512vl"])
+_V3 = {"abm": "lzcnt", "avx2": "avx2", "bmi1": "bmi", "bmi2": "bmi2", "f16c": "f16c", "fma": "fma", "movbe": "movbe"}
+_V4 = _V3 | {name: name for name in ("avx512bw", "avx512cd", "avx512dq", "avx512f", "avx512vl")}
 SETS = {
-    "x86_64": (InstructionSet("x86-64-v4", 8, _V4), InstructionSet("x86-64-v3", 4, _V3), InstructionSet("x86-64", 2)),
+    "x86_64": (
+        *(
+            InstructionSet(name, lanes, frozenset(features), tuple(f"-m{flag}" for flag in features.values()))
+            for name, lanes, features in (("x86-64-v4", 8, _V4), ("x86-64-v3", 4, _V3))
+        ),
+        InstructionSet("x86-64", 2),
+    ),
     "aarch64": (InstructionSet("armv8-a", 2),),
 }
 """Instruction sets of a kind of machine, widest first; all have the last."""
@@ -40,7 +48,7 @@ def sets_of(machine: str, features: Collection[str]) -> tuple[InstructionSet, ..
     ['armv8-a']
     """
     name = machine.lower()
-    known = SETS.get(_SPELLINGS.get(name, name), (InstructionSet("native", 1),))
+    known = SETS.get(_SPELLINGS.get(name, name), (InstructionSet("scalar", 1),))
     return tuple(each for each in known if each.needed <= set(features))
 
 

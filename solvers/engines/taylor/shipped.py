@@ -87,10 +87,11 @@ def _compilation(variant: Variant, instructions: InstructionSet) -> tuple[str, t
     return source(fitting, emitted), flags(fitting, instructions)
 
 
-def _compile(folder: Path, sets: list[InstructionSet]) -> None:
-    """Compile the shipped kernels into a folder, and remove others from it."""
+def _compile(folder: Path, sets: list[InstructionSet], structure: str | None) -> None:
+    """Compile the shipped kernels, all or of one structure, into a folder, and remove others from it."""
     folder.mkdir(parents=True, exist_ok=True)
-    wanted = {_name(each, instructions): (each, instructions) for each in variants() for instructions in sets}
+    chosen = [each for each in variants() if structure in (None, each.choice.structure)]
+    wanted = {_name(each, instructions): (each, instructions) for each in chosen for instructions in sets}
     for path in folder.iterdir():
         if wanted.pop(path.name.split(".")[0], None) is None:
             path.unlink()
@@ -108,5 +109,6 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Compile the kernels that come with the package.")
     parser.add_argument("folder", type=Path)
     parser.add_argument("sets", nargs="*", help=f"instruction sets [this machine's]: {', '.join(known)}")
+    parser.add_argument("--structure", help="of this structure only")
     arguments = parser.parse_args()
-    _compile(arguments.folder, [known[name] for name in arguments.sets] or [here()[0]])
+    _compile(arguments.folder, [known[name] for name in arguments.sets] or [here()[0]], arguments.structure)

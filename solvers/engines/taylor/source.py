@@ -126,7 +126,7 @@ def emitted_headers(variant: Variant) -> tuple[str, ...] | None:
 def flags(variant: Variant, instructions: InstructionSet) -> tuple[str, ...]:
     """The compiler's flags for a variant."""
     by_purpose = RECORD_FLAGS if variant.ledger or variant.trajectory else FLAGS
-    return (f"-march={instructions.name}", *by_purpose, *more_flags())
+    return (*instructions.flags, *by_purpose, *more_flags())
 
 
 def stem(variant: Variant) -> str:
