@@ -125,7 +125,7 @@ def gradients_many(
         of: results by name, as for `sensitivities`.
         rtol: relative tolerance, 1e-13..1e-3.
         hold: quantity held when another parameter varies, as for `sensitivities`.
-        engine: "taylor" (default; compiled on first use), or "rosenbrock" (also where the kernel lacks a result, or
+        engine: "taylor" (default), or "rosenbrock" (also where the kernel lacks a result, or
             there is no C compiler) or "cvodes", which take them one after another.
 
     Returns:
