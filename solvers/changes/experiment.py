@@ -14,7 +14,7 @@ import numpy as np
 from casadi import SX, Function, densify, jacobian, vertcat
 
 from ...generated.automaton import LAST_ANSWER, Status
-from ..engines.taylor.build import supported
+from ..engines.choice import differentiates
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.tangent import COLUMNS, run_tangent
 from ..errors import ComputationError
@@ -305,7 +305,7 @@ class Experiment:
 
 def check_derivatives(scene: Scene) -> None:
     """Raise ComputationError unless the kernel differentiates the scene's collisions on this machine."""
-    if not supported(scene, (True,), gradients=True):
+    if not differentiates(scene, (True,)):
         raise _without_derivatives()
 
 

@@ -36,7 +36,12 @@ def gradient_engine(scene: Scene, of: Sequence[str], known: Collection[str], obl
         known: results that the kernel differentiates.
         oblique: contains True if some collisions are oblique, False if some are head-on; these are separate kernels.
     """
-    return _kernel_or_rosenbrock(set(of) <= set(known) and supported(scene, oblique, gradients=True))
+    return _kernel_or_rosenbrock(set(of) <= set(known) and differentiates(scene, oblique))
+
+
+def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:
+    """True if the kernel differentiates a scene's collisions: oblique ones, head-on ones or both."""
+    return supported(scene, oblique, gradients=True)
 
 
 def available_engines(scene: Scene) -> tuple[str, ...]:

@@ -93,7 +93,7 @@ def compiler() -> Compiler | None:
         if named == wanted:
             say(f"CC={named} does not work here ({wrong}): others are tried")
     say(
-        f"no C compiler ({'; '.join(failed) or ', '.join(_COMPILERS)}): there is no Taylor kernel, "
+        f"no C compiler ({'; '.join(failed) or ', '.join(_COMPILERS)}): where the package has no Taylor kernel, "
         "other engines answer; their integrators run interpreted, about five times slower"
     )
     return None

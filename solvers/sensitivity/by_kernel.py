@@ -10,7 +10,7 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.casadi.locate import EventSequence
-from ..engines.taylor.build import supported
+from ..engines.choice import differentiates
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_for
 from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, run_tangent
@@ -43,7 +43,7 @@ _TURNS = tuple(name for name in KNOWN if DIFFERENTIATED[name].odd or name == "ta
 
 def offers(scene: Scene, of: Sequence[str], oblique: Collection[bool] = (True, False)) -> bool:
     """True if the kernel differentiates these results of the scene, for oblique and head-on collisions as requested."""
-    return all(name in KNOWN for name in of) and supported(scene, oblique, gradients=True)
+    return all(name in KNOWN for name in of) and differentiates(scene, oblique)
 
 
 @dataclass(frozen=True)

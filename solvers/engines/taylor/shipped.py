@@ -67,6 +67,11 @@ def shipped(variant: Variant) -> bytes | None:
     return None
 
 
+def shipped_digest() -> str:
+    """Digest of all shipped libraries; "" if there are none."""
+    return digest_of("".join(_names()).encode()) if _names() else ""
+
+
 @cache
 def _names() -> tuple[str, ...]:
     return tuple(sorted(path.name for path in FOLDER.glob("*.so")))
