@@ -1,9 +1,52 @@
-"""The packages, found: `wetdoublet` is solvers/package, and the three folders are packages in it."""
+"""The packages, found: `wetdoublet` is solvers/package, and the three folders are packages in it; and its kernels."""
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
 
 from setuptools import find_namespace_packages, setup
+from setuptools.command.bdist_wheel import bdist_wheel
+from setuptools.command.build_py import build_py
 
 FOLDERS = find_namespace_packages(
     include=["derive*", "generated*", "solvers*"], exclude=["*__pycache__*", "solvers.package*"]
 )
+TAYLOR = "wetdoublet.solvers.engines.taylor"
 
-setup(packages=["wetdoublet", *(f"wetdoublet.{folder}" for folder in FOLDERS)])
+
+class BuildWithKernels(build_py):
+    """Python files and compiled kernels; an editable installation compiles its kernels when they are needed.
+
+    WETDOUBLET_INSTRUCTION_SETS names the instruction sets that they are compiled for, separated by commas, or "" for
+    none; without it that of this machine.
+    """
+
+    def run(self) -> None:
+        super().run()
+        sets = os.environ.get("WETDOUBLET_INSTRUCTION_SETS")
+        if self.editable_mode or sets == "":
+            return
+        folder = Path(self.build_lib, *TAYLOR.split("."), "kernels")
+        command = [sys.executable, "-m", f"{TAYLOR}.shipped", str(folder), *(sets.split(",") if sets else [])]
+        path = os.pathsep.join([self.build_lib, *filter(None, [os.environ.get("PYTHONPATH")])])
+        with tempfile.TemporaryDirectory() as cache:
+            subprocess.run(command, env=os.environ | {"PYTHONPATH": path, "WETDOUBLET_CACHE": cache}, check=True)
+
+
+class WheelWithKernels(bdist_wheel):
+    """A wheel for one kind of machine and any Python: kernels are loaded by ctypes."""
+
+    def finalize_options(self) -> None:
+        super().finalize_options()
+        self.root_is_pure = os.environ.get("WETDOUBLET_INSTRUCTION_SETS") == ""
+
+    def get_tag(self) -> tuple[str, str, str]:
+        return "py3", "none", super().get_tag()[2]
+
+
+setup(
+    packages=["wetdoublet", *(f"wetdoublet.{folder}" for folder in FOLDERS)],
+    cmdclass={"build_py": BuildWithKernels, "bdist_wheel": WheelWithKernels},
+)

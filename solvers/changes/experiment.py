@@ -14,9 +14,10 @@ import numpy as np
 from casadi import SX, Function, densify, jacobian, vertcat
 
 from ...generated.automaton import LAST_ANSWER, Status
+from ..engines.choice import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts, run_kernel
-from ..engines.taylor.tangent import COLUMNS, differentiates, run_tangent
+from ..engines.taylor.tangent import COLUMNS, run_tangent
 from ..errors import ComputationError
 from ..many.batch import Batch
 from ..many.by_kernel import admissible

@@ -37,7 +37,7 @@ def collide(
         relative_speed: magnitude of the relative velocity, m/s or a string with its unit.
         angle: impact angle, rad or a string with its unit.
         rtol: relative tolerance of the integrators, 1e-13..1e-3.
-        engine: "taylor" (default; compiled on first use), "rosenbrock" (also where taylor cannot answer: the result's
+        engine: "taylor" (default), "rosenbrock" (also where taylor cannot answer: the result's
             `engine_reason` says why) or "cvodes".
         ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
         trajectory: keep the trajectory as an xarray Dataset.

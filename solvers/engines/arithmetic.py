@@ -10,6 +10,7 @@ from pathlib import Path
 from ...generated import scaling
 from ..host.compiler import compiler, more_flags
 from .taylor.machine import described, lanes
+from .taylor.shipped import shipped_digest
 
 _NONE = "none"
 
@@ -24,6 +25,7 @@ def arithmetic() -> dict[str, str]:
     """
     tool = compiler()
     return {
+        "kernels": shipped_digest() or _NONE,
         "compiler": _NONE if tool is None else tool.version,
         "WETDOUBLET_CFLAGS": " ".join(more_flags()) or _NONE,
         "lanes": str(lanes()),
@@ -45,8 +47,8 @@ def _software() -> Mapping[str, str]:
 
 
 def has_kernel(description: Mapping[str, str]) -> bool:
-    """True if a process of this arithmetic can compile the Taylor kernel."""
-    return description["compiler"] != _NONE
+    """True if a process of this arithmetic has Taylor kernels: shipped ones, or a compiler."""
+    return any(description[name] != _NONE for name in ("kernels", "compiler"))
 
 
 def difference(first: Mapping[str, str], other: Mapping[str, str]) -> str:

@@ -8,7 +8,6 @@ from collections.abc import Collection, Sequence
 from ..scene.scene import Scene
 from .settings import CASADI_ENGINES, ENGINES
 from .taylor.build import supported
-from .taylor.tangent import differentiates
 
 
 def collision_engine(scene: Scene, requested: str | None = None) -> str:
@@ -36,6 +35,11 @@ def gradient_engine(scene: Scene, of: Sequence[str], known: Collection[str], obl
         oblique: contains True if some collisions are oblique, False if some are head-on; these are separate kernels.
     """
     return _kernel_or_rosenbrock(set(of) <= set(known) and differentiates(scene, oblique))
+
+
+def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:
+    """True if the kernel differentiates a scene's collisions: oblique ones, head-on ones or both."""
+    return supported(scene, oblique, gradients=True)
 
 
 def available_engines(scene: Scene) -> tuple[str, ...]:

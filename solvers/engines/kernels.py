@@ -11,11 +11,12 @@ from ..host.compiler import compiler
 from ..host.user_cache import folder, unwritable
 from ..scene.scene import Scene
 from .settings import RTOL, check_rtol
-from .taylor.build import Variant, compile_all, is_compiled, size_of, supported
+from .taylor.build import compile_all, is_compiled, size_of, supported
 from .taylor.call import variant_for_many
-from .taylor.orders import order_for
+from .taylor.orders import order_backward, order_for
 from .taylor.record import variant_to_record
-from .taylor.tangent import order_backward, variant_of
+from .taylor.source import Variant
+from .taylor.tangent import variant_of
 
 Named = Scene | str | Path
 
@@ -29,7 +30,7 @@ class CompiledKernel:
         oblique: for oblique collisions; else for head-on ones.
         order: of the Taylor series.
         serves: what it answers.
-        already: True if it was compiled before.
+        already: True if it came with the package or was compiled before.
         seconds: that its compilation took, 0 if it was compiled before.
         bytes: size in the cache.
     """
@@ -82,11 +83,11 @@ def compile_kernels(
     loaded = [Scene.load(each) for each in ([scenes] if isinstance(scenes, (Scene, str, Path)) else scenes)]
     tolerances = [check_rtol(each) for each in ([rtol] if isinstance(rtol, (int, float, str)) else rtol)]
     check_flag(derivatives, "derivatives")
-    if compiler() is None:
-        raise ComputationError("there is no C compiler", advice="install one; the other engines answer without")
     wanted: dict[Variant, tuple[Scene, bool, list[str]]] = {}
     for scene in loaded:
         if not supported(scene):
+            if compiler() is None:
+                raise ComputationError("there is no C compiler", advice="install one; the other engines answer without")
             message = "a law of this scene has no Taylor series: the other engines answer"
             raise ComputationError(f"{scene.name or 'scene'}: {message}")
         for use, oblique, variant in _needed(scene, tolerances, derivatives):

@@ -14,7 +14,8 @@ from ..collision.collide import collide
 from ..errors import ComputationError, InputError, did_you_mean
 from ..host import bounded
 from ..host.emitted import text, with_imports
-from ..model.model import ModelKey, select_model
+from ..model.key import ModelKey
+from ..model.model import select_model
 from ..scene.scene import Scene
 from ..scene.scenefile import PRESETS
 from ..scene.user_model import Package

@@ -1,4 +1,4 @@
-"""The machine's C compiler: search, test and compilation with a time limit.
+"""The machine's C compiler, or else Zig's from `wetdoublet[compiler]`: search, test and compilation with a time limit.
 
 A compiler is accepted if it compiles a two-line program that then runs. Without one everything is interpreted, with one
 remark on standard error. WETDOUBLET_COMPILE_SECONDS sets the time limit for a file.
@@ -11,9 +11,11 @@ import shlex
 import shutil
 import signal
 import subprocess
+import sys
 import threading
 from collections.abc import Collection, Sequence
 from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
@@ -24,9 +26,12 @@ from .remarks import say
 from .thread_caches import once
 
 _COMPILERS = ("cc", "gcc", "clang")
+_ZIG = "ziglang"  # the module with which pip installs a compiler
+_ONLY_GCC = ("-fexpensive-optimizations", "-ftree-pre", "-fgcse")  # which others ignore, and Zig refuses
 _SECONDS = "WETDOUBLET_COMPILE_SECONDS"
 _LIMIT = 120.0  # s; the largest kernel takes about ten on a busy machine
 _TRIAL_LIMIT = 20.0  # s
+_FIRST_OF_ZIG = 120.0  # s; compiles its own C library first, once
 _LONGEST = 86400.0  # s; cap of the time limit, as the system's waits accept no arbitrary times
 _GIVEN_UP = "WETDOUBLET_NO_COMPILER"  # inherited by workers; set after a compiler has exceeded its time
 _INTERRUPTED = (-signal.SIGINT, 128 + signal.SIGINT)  # exit statuses after SIGINT, of a program and of a shell script
@@ -71,14 +76,14 @@ def compiler() -> Compiler | None:
     tried: set[tuple[str, ...]] = set()
     failed: list[str] = []
     wanted = os.environ.get("CC", "").strip()
-    for named in (*([wanted] if wanted else []), *_COMPILERS):
+    for named in (*([wanted] if wanted else []), *_COMPILERS, *_zig()):
         command = _command(named)
         wrong = "there is no such program"
         if command is not None:
             if command in tried:
                 continue
             tried.add(command)
-            accepted = _accepted(command, min(limit, _TRIAL_LIMIT))
+            accepted = _accepted(command, min(limit, _FIRST_OF_ZIG if _ZIG in command else _TRIAL_LIMIT))
             if isinstance(accepted, Compiler):
                 return accepted
             wrong = accepted
@@ -86,20 +91,16 @@ def compiler() -> Compiler | None:
         if named == wanted:
             say(f"CC={named} does not work here ({wrong}): others are tried")
     say(
-        f"no C compiler ({'; '.join(failed) or ', '.join(_COMPILERS)}): there is no Taylor kernel, "
+        f"no C compiler ({'; '.join(failed) or ', '.join(_COMPILERS)}): where the package has no Taylor kernel, "
         "other engines answer; their integrators run interpreted, about five times slower"
     )
     return None
 
 
-def key(source: str, flags: Sequence[str], machine: str = "") -> str:
-    """Digest of everything that a compiled library depends on: source, flags and the compiler's version.
-
-    Arguments:
-        machine: description of this machine, for code compiled for its processor only.
-    """
+def key(source: str, flags: Sequence[str]) -> str:
+    """Digest of everything that a compiled library depends on: source, flags and the compiler's version."""
     working = compiler()
-    content = "\0".join([source, str(working), working.version if working else "", *flags, machine])
+    content = "\0".join([source, str(working), working.version if working else "", *flags])
     return hashlib.sha256(content.encode(errors="surrogateescape")).hexdigest()[:32]
 
 
@@ -167,6 +168,13 @@ def _command(named: str) -> tuple[str, ...] | None:
     return None if first is None else (first, *words[1:])
 
 
+def _zig() -> tuple[str, ...]:
+    """The command of Zig's C compiler, where it is installed beside this Python."""
+    if find_spec(_ZIG) is None:
+        return ()
+    return (shlex.join((sys.executable, "-m", _ZIG, "cc")),)
+
+
 def _accepted(command: tuple[str, ...], limit: float) -> Compiler | str:
     """The compiler of a command if it compiles a program that runs; else the reason as text.
 
@@ -222,6 +230,8 @@ def _ran(program: bytes, place: Path, limit: float) -> tuple[int, str]:
 
 def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit: float) -> bytes:
     """The binary compiled from `source.c` of a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
+    if _ZIG in command:  # "-s": without text with paths of this machine
+        flags = [*(each for each in flags if each not in _ONLY_GCC), "-s"]
     binary = place / "made"
     status, output = _run((*command, *flags, "-o", str(binary), str(place / "source.c"), "-lm"), limit, place)
     if status:

@@ -181,7 +181,7 @@ def _verified(path: Path, digest: str) -> bytes | None:
     except OSError as error:
         if error.errno != errno.ELOOP:  # absent or unreadable, but not known to be damaged
             return None
-    if content is not None and _digest(content) == digest:
+    if content is not None and digest_of(content) == digest:
         return content
     try:
         path.unlink()
@@ -193,7 +193,8 @@ def _verified(path: Path, digest: str) -> bytes | None:
     return None
 
 
-def _digest(content: bytes) -> str:
+def digest_of(content: bytes) -> str:
+    """Digest of a content, as it stands in the names of entries."""
     return hashlib.sha256(content).hexdigest()[:_DIGITS]
 
 
@@ -260,7 +261,7 @@ def _written(place: Path, name: str, content: bytes) -> str:
             finally:
                 os.close(descriptor)
             if name:
-                (beside / "entry").replace(place / f"{stem}.{_digest(content)}.{suffix}")
+                (beside / "entry").replace(place / f"{stem}.{digest_of(content)}.{suffix}")
     except OSError as error:
         return error.strerror or str(error)
     return ""

@@ -5,7 +5,8 @@ import numpy as np
 from ...generated import scaling
 from ..scene.scene import Scene
 from .dimensionless import DimensionlessGroups
-from .model import ModelKey, load, select_model
+from .key import ModelKey
+from .model import load, select_model
 
 
 def generalised_centrifugal(scene: Scene, n: DimensionlessGroups) -> float | None:

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property, lru_cache, reduce
 from types import ModuleType
 from typing import Any
@@ -18,22 +17,11 @@ from ..host.thread_caches import own_cache
 from ..scene.contact import GAPS
 from ..scene.scene import Scene
 from ..scene.user_model import OwnEvent, Package
+from .key import ModelKey
 
 # Fraction of the contact gap. Solutions stay above the contact gap; the floor keeps trial stages out of x <= 0.
 _FLOOR = 0.5
 _SMALLEST_GAP = 1e-12
-
-
-@dataclass(frozen=True)
-class ModelKey:
-    """Identifier of a model: the structure module and the law in each slot; laws may be of a user's model."""
-
-    structure: str
-    laws: tuple[tuple[str, str], ...]
-    package: Package | None = None
-
-    def law(self, slot: str) -> str | None:
-        return dict(self.laws).get(slot)
 
 
 @lru_cache(maxsize=256)

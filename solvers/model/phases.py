@@ -12,7 +12,8 @@ from ...generated.automaton import CLOSING, EVENTS, VOID_WITHOUT
 from ...generated.automaton import Event as Row
 from ..host.thread_caches import own_cache
 from ..scene.user_model import OwnEvent
-from .model import Model, ModelKey, load
+from .key import ModelKey
+from .model import Model, load
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,8 @@ from casadi import SX, Function, densify, if_else, vertcat
 
 from ..host.thread_caches import own_cache
 from ..scene.contact import GAPS
-from .model import Model, ModelKey, load
+from .key import ModelKey
+from .model import Model, load
 
 _MOST = ("most", "rest_most")  # Coulomb's limit of a rebound, and of one by which the doublet comes to rest
 

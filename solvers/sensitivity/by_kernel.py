@@ -8,10 +8,11 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.casadi.locate import EventSequence
+from ..engines.choice import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_for
-from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, differentiates, run_tangent
+from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, run_tangent
 from ..model.dimensionless import nondimensionalise
 from ..scene.groups import rate_scales, si_values
 from ..scene.scene import Scene

@@ -15,8 +15,8 @@ from ...generated.automaton import STICK as STICKS
 from ..engines.choice import gradient_engine
 from ..engines.settings import KERNEL_STEPS, RTOL, check_engine
 from ..engines.taylor.call import Impacts
-from ..engines.taylor.orders import order_for
-from ..engines.taylor.tangent import DISTANCES, Carried, order_backward, run_tangent
+from ..engines.taylor.orders import order_backward, order_for
+from ..engines.taylor.tangent import DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
@@ -125,7 +125,7 @@ def gradients_many(
         of: results by name, as for `sensitivities`.
         rtol: relative tolerance, 1e-13..1e-3.
         hold: quantity held when another parameter varies, as for `sensitivities`.
-        engine: "taylor" (default; compiled on first use), or "rosenbrock" (also where the kernel lacks a result, or
+        engine: "taylor" (default), or "rosenbrock" (also where the kernel lacks a result, or
             there is no C compiler) or "cvodes", which take them one after another.
 
     Returns:

@@ -13,7 +13,8 @@ from casadi import SX, Function, cross, densify, dot, jacobian, norm_2, vertcat
 
 from ...generated import scaling
 from ..host.thread_caches import own_cache
-from ..model.model import Model, ModelKey, load
+from ..model.key import ModelKey
+from ..model.model import Model, load
 
 AXES = "xyz"
 INPUTS = 15  # normal, two velocities, two spins

@@ -53,7 +53,7 @@ def sensitivities(
         stokes, speed, angle, relative_speed: the impact, as for `collide`.
         method: "forward" has a cost proportional to the number of parameters, "adjoint" to that of results.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "cvodes", "rosenbrock", or "taylor" (forward; compiled on first use; what the kernel does not know is
+        engine: "cvodes", "rosenbrock", or "taylor" (forward; what the kernel does not know is
             rosenbrock's); None: taylor where it can answer, else rosenbrock, which needs no compiler and is more
             accurate than cvodes.
         hold: quantity held when another parameter varies, the impact's "speed", "stokes" number or "relative_speed";

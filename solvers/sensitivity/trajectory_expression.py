@@ -14,7 +14,8 @@ from casadi import DM, MX, Function, vertcat
 from ..engines.casadi.integrators import Tolerance, landing, plain
 from ..engines.casadi.locate import EventSequence
 from ..host.thread_caches import own_cache
-from ..model.model import Model, ModelKey, load
+from ..model.key import ModelKey
+from ..model.model import Model, load
 from ..model.phases import Flow, Phase, WatchedEvents, extra_units
 from ..model.rebound import jump, rubs
 from ..scene.contact import GAPS, contact_word

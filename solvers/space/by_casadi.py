@@ -16,7 +16,8 @@ from ..engines.casadi.locate import EventLocator, EventSequence
 from ..engines.casadi.replay import Replay, Stopped, as_located, replay
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
-from ..model.model import Model, ModelKey, load, select_model
+from ..model.key import ModelKey
+from ..model.model import Model, load, select_model
 from ..model.phases import Flow, Region
 from ..scene.groups import si_values
 from .books import OPEN, extras_of, is_open, of_casadi

@@ -67,7 +67,7 @@ def collide_pair(
         velocities: (..., 2, 3), m/s. Beside a wall (..., 1, 3), or (..., 2, 3) with the wall's velocity.
         spins: (..., 2, 3), angular velocities in rad/s. Beside a wall (..., 1, 3). Velocities too may carry units.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "taylor" (default; compiled on first use), "rosenbrock" (also where there is no C compiler) or "cvodes".
+        engine: "taylor" (default), "rosenbrock" (also where there is no C compiler) or "cvodes".
         ledger: also the energy ledger, which takes longer.
 
     Leading shapes are broadcast against each other. Vectors are in the laboratory's axes.

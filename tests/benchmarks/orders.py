@@ -25,10 +25,11 @@ from typing import Any
 import numpy as np
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.settings import STEPS
-from wetdoublet.solvers.engines.taylor.build import Variant, compile_all, kernel
+from wetdoublet.solvers.engines.taylor.build import compile_all, kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, variant
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
 from wetdoublet.solvers.engines.taylor.orders import order_for
+from wetdoublet.solvers.engines.taylor.source import Variant
 from wetdoublet.solvers.host.environment import environment
 from wetdoublet.solvers.model.model import select_model
 

@@ -23,10 +23,10 @@ from wetdoublet.generated.automaton import LAST_ANSWER, Status
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.certificates import NoCertificate, OrbitalMomentumCertificate, at_maximum
 from wetdoublet.solvers.engines.settings import RTOL
-from wetdoublet.solvers.engines.taylor.build import FLAGS, source
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, run_kernel, variant_for_many
 from wetdoublet.solvers.engines.taylor.headers import headers
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
+from wetdoublet.solvers.engines.taylor.source import FLAGS, source
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.host.compiler import library
 from wetdoublet.solvers.host.user_cache import loaded

@@ -11,7 +11,7 @@ import numpy as np
 from casadi import SX, Function, jtimes, vertcat
 
 from ...host.thread_caches import own_cache
-from ...model.model import ModelKey
+from ...model.key import ModelKey
 from ...model.phases import Flow, WatchedEvents, event_table, expressions, extra_units
 from ...model.rebound import rebounded
 from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain

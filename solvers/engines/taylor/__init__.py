@@ -1,1 +1,1 @@
-"""The Taylor kernel: emitted C recurrences, compiled on first use, that integrate many collisions in parallel lanes."""
+"""The Taylor kernel: emitted C recurrences, compiled, that integrate many collisions in parallel lanes."""

@@ -14,14 +14,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....generated.automaton import LOOSEST
-from ...model.model import ModelKey, select_model
+from ...model.key import ModelKey
+from ...model.model import select_model
 from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values, sideways
 from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS
-from .build import Variant, kernel
+from .build import kernel
 from .layout import ANSWER, Task, names
 from .orders import order_for
+from .source import Variant
 
 CHUNK = 4096  # collisions in a block for a thread
 

@@ -5,7 +5,8 @@ import numpy as np
 from ....generated.automaton import Status
 from ...certificates import OrbitalMomentumCertificate, limit_of_circling, proof_for
 from ...model.dimensionless import nondimensionalise
-from ...model.model import ModelKey, load
+from ...model.key import ModelKey
+from ...model.model import load
 from ...scene.scene import Scene
 
 

@@ -3,7 +3,7 @@
 from ...host import emitted
 from ...host.remarks import say
 from ...host.thread_caches import once
-from ...model.model import ModelKey
+from ...model.key import ModelKey
 
 _NONE = "#error "  # start of a header that could not be emitted
 

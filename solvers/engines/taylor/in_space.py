@@ -10,9 +10,10 @@ from ...scene.contact import NEVER_MET
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS_IN_SPACE
-from .build import Variant, kernel
+from .build import kernel
 from .call import CHUNK, in_chunks, variant
 from .layout import ANSWER_IN_SPACE, LEDGER, Task, names
+from .source import Variant
 
 AXES = "xyz"
 

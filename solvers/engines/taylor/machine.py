@@ -1,38 +1,68 @@
-"""What kernels are compiled for: the processor's features, the lanes that follow from them, and its compiler flag."""
+"""What kernels are compiled for: instruction sets, the lanes that follow from them, and the one of this machine."""
 
 import platform
 from collections.abc import Collection
 from functools import cache
 from pathlib import Path
-
-_NEEDED = ((8, "avx512dq"), (4, "avx2"), (2, "sse2"), (2, "asimd"))  # doubles in a register of that feature
-_BASELINE = frozenset({"sse2"})  # assumed where the system does not report features; every such machine has two lanes
-_ARM = ("aarch64", "arm64")
+from typing import NamedTuple
 
 
-def native(machine: str) -> str:
-    """The compiler flag for the processor of this kind of machine; on ARM -march names the architecture alone."""
-    return "-mcpu=native" if machine in _ARM else "-march=native"
+class InstructionSet(NamedTuple):
+    """A set of instructions that kernels are compiled for.
 
-
-def lanes_of(features: Collection[str]) -> int:
-    """Number of doubles in the widest vector register of a processor with these features.
-
-    >>> lanes_of(["fp", "asimd", "aes"])
-    2
+    Arguments:
+        name: of the level, as the psABI of x86-64 has it; of the architecture elsewhere.
+        lanes: doubles in a vector register.
+        needed: features of the processor, as Linux reports them.
+        flags: of compilers; those of the features, which also compilers know that do not know the level's name.
     """
-    return next((count for count, feature in _NEEDED if feature in features), 1)
+
+    name: str
+    lanes: int
+    needed: frozenset[str] = frozenset()
+    flags: tuple[str, ...] = ()
+
+
+_V3 = {"abm": "lzcnt", "avx2": "avx2", "bmi1": "bmi", "bmi2": "bmi2", "f16c": "f16c", "fma": "fma", "movbe": "movbe"}
+_V4 = _V3 | {name: name for name in ("avx512bw", "avx512cd", "avx512dq", "avx512f", "avx512vl")}
+SETS = {
+    "x86_64": (
+        *(
+            InstructionSet(name, lanes, frozenset(features), tuple(f"-m{flag}" for flag in features.values()))
+            for name, lanes, features in (("x86-64-v4", 8, _V4), ("x86-64-v3", 4, _V3))
+        ),
+        InstructionSet("x86-64", 2),
+    ),
+    "aarch64": (InstructionSet("armv8-a", 2),),
+}
+"""Instruction sets of a kind of machine, widest first; all have the last."""
+_SPELLINGS = {"amd64": "x86_64", "arm64": "aarch64"}
+
+
+def sets_of(machine: str, features: Collection[str]) -> tuple[InstructionSet, ...]:
+    """The instruction sets that a processor has, widest first.
+
+    >>> [each.name for each in sets_of("arm64", ["fp", "asimd"])]
+    ['armv8-a']
+    """
+    name = machine.lower()
+    known = SETS.get(_SPELLINGS.get(name, name), (InstructionSet("scalar", 1),))
+    return tuple(each for each in known if each.needed <= set(features))
 
 
 @cache
+def here() -> tuple[InstructionSet, ...]:
+    """The instruction sets of this machine, widest first; kernels are compiled for the first."""
+    return sets_of(platform.machine(), _features())
+
+
 def lanes() -> int:
     """Number of doubles in a vector register of this machine."""
-    return lanes_of(features())
+    return here()[0].lanes
 
 
-@cache
-def features() -> frozenset[str]:
-    """Processor features, as Linux reports them."""
+def _features() -> frozenset[str]:
+    """Processor features, as Linux reports them; none elsewhere."""
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:
@@ -41,9 +71,9 @@ def features() -> frozenset[str]:
         name, _, value = line.partition(":")
         if name.strip() in ("flags", "Features"):
             return frozenset(value.split())
-    return _BASELINE
+    return frozenset()
 
 
 def described() -> str:
-    """The machine in words that tell two processors apart for which different code is compiled."""
-    return f"{platform.machine()} {' '.join(sorted(features()))}"
+    """The machine in words: two that differ in them may compute other last digits."""
+    return f"{platform.machine()} {here()[0].name}"

@@ -10,10 +10,11 @@ from ....generated.automaton import Purpose
 from ...model.model import select_model
 from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS
-from .build import Variant, kernel
+from .build import kernel
 from .call import CHUNK, Impacts, in_chunks, task, variant
 from .headers import has_events
 from .layout import ANSWER, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
+from .source import Variant
 
 _ROOM = 64, 256  # events and steps of a collision
 

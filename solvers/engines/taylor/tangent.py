@@ -1,23 +1,22 @@
 """Many collisions by the kernel with derivatives: one direction for each group that the quantities affect."""
 
 import ctypes
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ....generated.automaton import LOOSEST
-from ...host.compiler import compiler
 from ...model.model import select_model
 from ...scene.contact import ENTRIES, TIE
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS
-from .build import Variant, kernel
+from .build import kernel, supported
 from .call import Impacts, task
-from .headers import headers, tangents
 from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
-from .orders import order_for
+from .orders import order_backward, order_for
+from .source import Variant
 
 COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
 CHATTERS = 5  # boundary of a trajectory with resting contact
@@ -75,7 +74,7 @@ def run_tangent(
     order = order or (order_backward if backward else order_for)(min(rtol, LOOSEST))
     scene = impacts.scene
     variant = variant_of(scene, oblique, order, rotation, backward, fold)
-    library = kernel(variant) if differentiates(scene, (oblique,)) else None
+    library = kernel(variant) if supported(scene, (oblique,), gradients=True) else None
     if library is None:
         return None
     if backward:
@@ -97,11 +96,6 @@ def run_tangent(
     return Carried(answers, slopes, measures, quantities, bool(number(library, "proved_by_energy")))
 
 
-def order_backward(rtol: float) -> int:
-    """Order of the series for a tolerance with the adjoint sweep; with costlier steps a higher order pays earlier."""
-    return order_for(rtol / 30)
-
-
 def variant_of(
     scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool = False, fold: bool = True
 ) -> Variant:
@@ -110,16 +104,6 @@ def variant_of(
     return Variant(
         select_model(scene, oblique, fold=fold), order, rotation, own_rupture, gradients=True, backward=backward
     )
-
-
-def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:
-    """True if the kernel differentiates a scene's collisions: its tangent can be emitted, and there is a compiler.
-
-    Arguments:
-        oblique: for oblique collisions, or for head-on ones; only that structure is derived.
-    """
-    choices = [select_model(scene, is_oblique) for is_oblique in oblique]
-    return compiler() is not None and all(headers(choice) and tangents(choice) for choice in choices)
 
 
 def _groups_moved(

@@ -5,12 +5,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from ...engines.settings import STEPS, STEPS_IN_SPACE
-from ...engines.taylor.build import Variant, files
 from ...engines.taylor.call import variant
 from ...engines.taylor.headers import headers
 from ...engines.taylor.in_space import variant_in_space
+from ...engines.taylor.source import Variant, files
 from ...errors import CheckFailed, InputError
-from ...model.model import ModelKey, load, select_model
+from ...model.key import ModelKey
+from ...model.model import load, select_model
 from ...scene.scene import Scene
 from ...space.collide_pair import check_scene
 from .amalgam import Source

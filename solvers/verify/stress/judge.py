@@ -14,8 +14,8 @@ from ....generated.automaton import OUTCOMES
 from ...certificates import Certainty, NoCertificate
 from ...collision.by_casadi import by_casadi
 from ...engines.casadi.locate import CHATTERS, EventLocator, EventSequence
-from ...engines.taylor.build import Variant
 from ...engines.taylor.call import variant_for_many
+from ...engines.taylor.source import Variant
 from ...errors import ComputationError, ModelWarning
 from ...many.collide_many import collide_many
 from ...model.dimensionless import DimensionlessGroups, nondimensionalise

@@ -10,8 +10,9 @@ from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any
 
-from ...engines.taylor.build import Variant, compile_all
+from ...engines.taylor.build import compile_all
 from ...engines.taylor.call import variant
+from ...engines.taylor.source import Variant
 from ...host.compiled import FLAGS
 from ...host.compiler import CannotCompile, compiler, key, library
 from ...host.cores import usable_cores

@@ -17,7 +17,7 @@ from wetdoublet.solvers import (
     sensitivities,
 )
 from wetdoublet.solvers.boundaries.on_map import map_curves
-from wetdoublet.solvers.engines.taylor import build
+from wetdoublet.solvers.engines.taylor import source as text
 from wetdoublet.solvers.engines.taylor.call import variant
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
@@ -208,7 +208,7 @@ def test_kernels_without_events_are_untouched(snaps: Path):
     for one in (plain, own):
         choice = select_model(one, True)
         wanted = variant(one, choice, 1e-9, False)
-        texts.append(build.source(wanted, ("#define MODEL\n",)))
+        texts.append(text.source(wanted, ("#define MODEL\n",)))
     assert "own_event" not in texts[0].lower()
     assert "OWN_EVENTS" not in texts[0]
     assert "own_event_jumps" in texts[1]

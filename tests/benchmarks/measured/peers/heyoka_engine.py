@@ -17,7 +17,8 @@ from wetdoublet.solvers.certificates.choice import energy_proof
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
-from wetdoublet.solvers.model.model import ModelKey, load, select_model
+from wetdoublet.solvers.model.key import ModelKey
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from ..answers import Impact, dimensionless

@@ -18,7 +18,8 @@ from wetdoublet.generated.automaton import CRITERIA
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
-from wetdoublet.solvers.model.model import ModelKey, load, select_model
+from wetdoublet.solvers.model.key import ModelKey
+from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from .heyoka_callbacks import Inside

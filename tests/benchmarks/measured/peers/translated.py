@@ -5,7 +5,7 @@ from importlib.util import find_spec, module_from_spec
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
-from wetdoublet.solvers.model.model import ModelKey
+from wetdoublet.solvers.model.key import ModelKey
 
 _GENERATED = "wetdoublet.generated"
 _FUNCTIONS = ("exp", "log", "sqrt", "sin", "cos", "tan", "atan", "fmax", "fmin")

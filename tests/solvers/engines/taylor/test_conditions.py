@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from wetdoublet.generated import automaton
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.engines.taylor import build
+from wetdoublet.solvers.engines.taylor import source as text
 from wetdoublet.solvers.engines.taylor.headers import headers
 from wetdoublet.solvers.engines.taylor.includes import resolved
 from wetdoublet.solvers.host.compiler import compiler
@@ -46,7 +46,7 @@ def kernel(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     assert tool is not None
     folder = tmp_path_factory.mktemp("conditions")
     calls = '#include "guards.h"\n' + "".join(call(*each) for each in CONDITIONS.items())
-    (folder / "conditions.c").write_text(resolved(calls, build.files(build.Variant(choice, 9, lanes=2), emitted)))
+    (folder / "conditions.c").write_text(resolved(calls, text.files(text.Variant(choice, 9, lanes=2), emitted)))
     flags = ["-std=gnu11", "-fPIC", "-shared", "-O1"]
     command = [*tool.command, *flags, "-o", str(folder / "it.so"), str(folder / "conditions.c"), "-lm"]
     subprocess.run(command, check=True, capture_output=True)

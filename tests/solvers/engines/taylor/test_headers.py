@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.engines.taylor import build
+from wetdoublet.solvers.engines.taylor import source
 from wetdoublet.solvers.engines.taylor.headers import headers, tangents
 from wetdoublet.solvers.engines.taylor.includes import RUNTIME, included
 from wetdoublet.solvers.host.compiler import compiler
@@ -27,11 +27,11 @@ VARIANTS = {
 def made(name: str) -> dict[str, str]:
     """The files of a variant of a small model beside the runtime's, for two doubles side by side."""
     choice = select_model(Scene.load("granulation"), True, full=name.startswith("ledger"))
-    variant = build.Variant(choice, 9, lanes=2, **VARIANTS[name])
+    variant = source.Variant(choice, 9, lanes=2, **VARIANTS[name])
     own, along = headers(choice), tangents(choice)
     assert own is not None
     assert along is not None
-    return build.files(variant, own + along if variant.gradients else own)
+    return source.files(variant, own + along if variant.gradients else own)
 
 
 def test_no_header_needs_itself():

@@ -1,6 +1,5 @@
 """Collisions by the Taylor kernel: the same as by other engines and as the reference, at the tolerance asked for."""
 
-import platform
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +12,6 @@ from wetdoublet.solvers.engines.settings import STEPS
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
-from wetdoublet.solvers.engines.taylor.machine import lanes_of, native
 from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.results import QUANTITIES
@@ -150,29 +148,6 @@ def test_every_number_of_lanes_gives_the_same():
     for lanes in (2, 4, 8):
         assert (found[lanes]["outcome"] == found[1]["outcome"]).all()
         np.testing.assert_allclose(found[lanes]["shown"][:, 0], found[1]["shown"][:, 0], rtol=1e-11)
-
-
-@pytest.mark.parametrize(
-    ("features", "lanes"),
-    [
-        ("fp asimd evtstrm aes pmull sha1 sha2 crc32 atomics", 2),
-        ("fpu sse sse2 ssse3", 2),
-        ("fpu sse2 avx avx2 fma", 4),
-        ("fpu sse2 avx2 avx512f avx512dq", 8),
-        ("half thumb fastmult vfp", 1),
-    ],
-)
-def test_lanes_follow_from_the_processor(features: str, lanes: int) -> None:
-    """As many as its widest register holds: 2 on ARM with 64 bits."""
-    assert lanes_of(features.split()) == lanes
-
-
-def test_the_flag_for_the_processor_is_one_that_compilers_have() -> None:
-    """-march on x86; on ARM -mcpu, which every compiler there takes."""
-    assert [native(machine) for machine in ("x86_64", "aarch64", "arm64")] == [
-        "-march=native", "-mcpu=native", "-mcpu=native",
-    ]  # fmt: skip
-    assert native(platform.machine()) in library.FLAGS
 
 
 def test_what_varies():

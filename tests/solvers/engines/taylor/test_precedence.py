@@ -7,7 +7,7 @@ from itertools import combinations
 import pytest
 from wetdoublet.generated.automaton import EVENTS
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.engines.taylor import build
+from wetdoublet.solvers.engines.taylor import source
 from wetdoublet.solvers.engines.taylor.headers import headers
 from wetdoublet.solvers.engines.taylor.includes import resolved
 from wetdoublet.solvers.host.compiler import compiler
@@ -68,7 +68,7 @@ def kernel(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     assert emitted is not None
     assert found is not None
     folder = tmp_path_factory.mktemp("precedence")
-    text = resolved(HARNESS, build.files(build.Variant(choice, 9, lanes=2), emitted))
+    text = resolved(HARNESS, source.files(source.Variant(choice, 9, lanes=2), emitted))
     (folder / "events.c").write_text(text)
     flags = ["-std=gnu11", "-fPIC", "-shared", "-O1"]
     command = [*found.command, *flags, "-o", str(folder / "events.so"), str(folder / "events.c"), "-lm"]

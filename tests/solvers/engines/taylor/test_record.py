@@ -10,6 +10,7 @@ from wetdoublet.solvers import Collision, Scene, collide
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor import headers, layout, record
+from wetdoublet.solvers.engines.taylor import source as text
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
 
@@ -215,15 +216,13 @@ def test_a_buffer_that_is_too_small_is_refused(short: str):
 def test_who_does_not_ask_does_not_pay(reduced: bool):
     """What a compiler sees of the plain kernel has no field, constant or function of the variants."""
     scene = Scene.load("granulation" if reduced else "pendulum")
-    variant = library.Variant(select_model(scene, True), 10)
+    variant = text.Variant(select_model(scene, True), 10)
     paths = headers.headers(variant.choice)
     found = compiler()
     assert paths is not None
     assert found is not None
     command = [*found.command, "-E", "-P", "-x", "c", "-"]
-    seen = subprocess.run(
-        command, input=library.source(variant, paths), capture_output=True, text=True, check=True
-    ).stdout
+    seen = subprocess.run(command, input=text.source(variant, paths), capture_output=True, text=True, check=True).stdout
     assert "static void run(" in seen
     for name in ("loss", "ledger", "book_", "booked", "step_row", "keep_steps", "energies"):
         assert name not in seen, name

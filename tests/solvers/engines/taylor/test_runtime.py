@@ -6,8 +6,8 @@ import subprocess
 
 import numpy as np
 import pytest
-from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import machine
+from wetdoublet.solvers.engines.taylor import source as text
 from wetdoublet.solvers.engines.taylor.includes import resolved
 from wetdoublet.solvers.host.compiler import compiler
 
@@ -68,7 +68,7 @@ def runtime(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     assert found is not None
     settings = f"#define LANES {machine.lanes()}\n#define ORDER {ORDER}\n#define TERMS {ORDER + 1}\n"
     (folder / "runtime.c").write_text(resolved(HARNESS, {"settings.h": settings}))
-    command = [*found.command, *library.FLAGS, "-o", str(folder / "runtime.so"), str(folder / "runtime.c"), "-lm"]
+    command = [*found.command, *text.FLAGS, "-o", str(folder / "runtime.so"), str(folder / "runtime.c"), "-lm"]
     subprocess.run(command, check=True, capture_output=True)
     loaded = ctypes.CDLL(str(folder / "runtime.so"))
     loaded.first.restype = ctypes.c_double

@@ -1,0 +1,15 @@
+"""The build backend: setuptools, with a C compiler from the registry where the machine has none."""
+
+from __future__ import annotations
+
+import shutil
+from typing import Any
+
+from setuptools import build_meta
+from setuptools.build_meta import *  # noqa: F403 # the hooks that a backend has
+
+
+def get_requires_for_build_wheel(settings: dict[str, Any] | None = None) -> list[str]:
+    """What a wheel needs besides: its kernels are compiled."""
+    compiler = [] if any(shutil.which(name) for name in ("cc", "gcc", "clang")) else ["ziglang"]
+    return [*build_meta.get_requires_for_build_wheel(settings), *compiler]

@@ -1,0 +1,134 @@
+"""The text of a kernel: emitted headers and the runtime, with the options and compiler flags of its variant.
+
+Imported when the package is built, too, and so without CasADi.
+"""
+
+import math
+import re
+from dataclasses import dataclass, field
+
+from ...host.compiler import more_flags
+from ...model.key import ModelKey
+from .headers import automaton, has_events, headers, tangents
+from .includes import resolved
+from .layout import MORE_RESULTS, MOST_STEPS, SHOWN, SHOWN_IN_SPACE, declarations
+from .machine import InstructionSet, lanes
+
+# No -ffast-math: NaN and infinity are compared. Products may be fused with sums; sqrt does not set errno.
+# -w: the tests compile every file with -Wall -Wextra -Werror; warnings of a newer compiler should not reach users.
+FLAGS = ("-O2", "-funroll-loops", "-fno-math-errno", "-ffp-contract=fast", "-fPIC", "-shared", "-std=gnu11", "-w")
+# With the ledger or the trajectory: compiles faster, runs about 5 % slower (docs/engineering/kernel.md).
+RECORD_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
+_ONCE = "#pragma once"
+# What only kernels of models with declared events contain is taken out of the others' text, and so out of their digest.
+_OWN_EVENTS = re.compile(r"^#if OWN_EVENTS\n.*?^#endif /\* OWN_EVENTS \*/\n", re.MULTILINE | re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Variant:
+    """Compile-time options of a kernel.
+
+    Arguments:
+        order: of the series (`orders.py`).
+        rotation: with the angle turned as a quadrature, where it is not a state.
+        own_rupture: the bridge ruptures at its law's own distance.
+        gradients: with derivatives by the groups, along the trajectory.
+        backward: with derivatives of the restitution only, by the adjoint sweep.
+        ledger: with the energy ledger; the structure must keep the spin.
+        trajectory: every step is recorded.
+        limit: a collision may be interrupted at a time.
+        lanes: collisions side by side, 1, 2, 4 or 8; as many as the processor has room for.
+    """
+
+    choice: ModelKey
+    order: int
+    rotation: bool = False
+    own_rupture: bool = False
+    gradients: bool = False
+    backward: bool = False
+    ledger: bool = False
+    trajectory: bool = False
+    limit: bool = False
+    lanes: int = field(default_factory=lanes)
+
+    def __post_init__(self) -> None:
+        """Reset options without effect, so that equal kernels are compiled once."""
+        structure = self.choice.structure
+        if structure.startswith("head_on") or "strings" in structure:  # nothing turns, or the rotation is a state
+            object.__setattr__(self, "rotation", False)
+
+    @property
+    def space(self) -> bool:
+        """True if the states are vectors in space."""
+        return "_space" in self.choice.structure
+
+
+def source(variant: Variant, emitted: tuple[str, ...]) -> str:
+    """C source of a kernel, from its emitted headers."""
+    whole = resolved('#include "entry.h"\n', files(variant, emitted))
+    return whole if has_events(variant.choice) else _OWN_EVENTS.sub("", whole)
+
+
+def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
+    """Files of a variant that the runtime includes besides its own, by name.
+
+    Arguments:
+        emitted: its emitted headers.
+    """
+    slots = dict(variant.choice.laws)
+    settings = {
+        "LANES": variant.lanes,
+        "ORDER": variant.order,
+        "TERMS": variant.order + 1,
+        "WITH_ROTATION": int(variant.rotation),
+        "OWN_RUPTURE": int(variant.own_rupture),
+        "GRADIENTS": int(variant.gradients),
+        "BACKWARD": int(variant.backward),
+        "LIBRARY_LAWS": int(variant.choice.package is None),
+        "WITH_LEDGER": int(variant.ledger),
+        "WITH_TRAJECTORY": int(variant.trajectory),
+        "WITH_LIMIT": int(variant.limit),
+        "SURFACE_ARM": int(slots.get("arm") == "surface"),
+        "SHOWN": SHOWN_IN_SPACE if variant.space else SHOWN,
+        "RESULTS": 1 if variant.backward else MORE_RESULTS + (SHOWN_IN_SPACE if variant.space else SHOWN),
+        "MOST_STEPS": MOST_STEPS,
+        "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
+    }
+    own = has_events(variant.choice)
+    return {
+        **({} if own else {"own_events.h": ""}),
+        "settings.h": "\n".join(
+            [_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), _binomials(variant.order), ""]
+        ),
+        "layout.h": f'{_ONCE}\n#include "vector.h"\n{declarations(variant.ledger, own, variant.space)}\n',
+        **automaton(variant.choice),
+        "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted]),
+    }
+
+
+def _binomials(order: int) -> str:
+    """Table that takes a polynomial of this order from powers to Bernstein coefficients on [0, 1]."""
+    row = ", ".join(f"1.0/{math.comb(order, k)}.0" for k in range(order + 1))
+    return f"static const double INVERSE_BINOMIAL[TERMS] = {{{row}}}; /* 1/C(ORDER, k) */"
+
+
+def emitted_headers(variant: Variant) -> tuple[str, ...] | None:
+    """The emitted headers of a variant; None if a law has no recurrence."""
+    values = headers(variant.choice)
+    if values is None or not variant.gradients:
+        return values
+    tangent = tangents(variant.choice)
+    return None if tangent is None else values + tangent
+
+
+def flags(variant: Variant, instructions: InstructionSet) -> tuple[str, ...]:
+    """The compiler's flags for a variant."""
+    by_purpose = RECORD_FLAGS if variant.ledger or variant.trajectory else FLAGS
+    return (*instructions.flags, *by_purpose, *more_flags())
+
+
+def stem(variant: Variant) -> str:
+    """First part of the names of a variant's libraries."""
+    package = variant.choice.package
+    model = f"-{package.digest[:8]}" if package is not None else ""
+    return f"taylor-{'tangent-' if variant.gradients else ''}{variant.choice.structure}{model}"

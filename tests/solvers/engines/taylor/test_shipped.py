@@ -1,0 +1,115 @@
+"""Kernels that come compiled with the package: which they are, and what is never loaded."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from wetdoublet.solvers import compile_kernels
+from wetdoublet.solvers.engines.taylor import machine, shipped
+from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.scene.scenefile import PRESETS
+
+V3 = "abm avx2 bmi1 bmi2 f16c fma movbe"
+V4 = f"{V3} avx512bw avx512cd avx512dq avx512f avx512vl"
+COLLIDED = """
+import pathlib, sys
+import wetdoublet as wd
+from wetdoublet.solvers.engines.taylor import shipped
+
+shipped.FOLDER = pathlib.Path(sys.argv[1])
+one = wd.collide("granulation", stokes=0.3, angle=0, ledger=False)
+print(one.engine, one.restitution.hex())
+"""
+needs_compiler = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+
+
+@pytest.mark.parametrize(
+    ("kind", "features", "expected"),
+    [
+        ("x86_64", "fpu sse sse2 ssse3", ["x86-64"]),
+        ("x86_64", "fpu sse2 avx avx2 fma", ["x86-64"]),  # some of the third level is missing
+        ("AMD64", f"sse2 {V3}", ["x86-64-v3", "x86-64"]),
+        ("x86_64", f"sse2 {V4}", ["x86-64-v4", "x86-64-v3", "x86-64"]),
+        ("arm64", "fp asimd evtstrm aes", ["armv8-a"]),
+        ("riscv64", "", ["scalar"]),
+    ],
+)
+def test_a_processor_has_the_instruction_sets_of_its_features(kind: str, features: str, expected: list[str]) -> None:
+    """As the x86-64 psABI lists them; each set below the widest one too."""
+    assert [each.name for each in machine.sets_of(kind, features.split())] == expected
+
+
+def test_lanes_are_the_doubles_in_a_register() -> None:
+    """Of 512, 256 and 128 bits."""
+    assert {each.name: 64 * each.lanes for family in machine.SETS.values() for each in family} == {
+        "x86-64-v4": 512, "x86-64-v3": 256, "x86-64": 128, "armv8-a": 128,
+    }  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the shipped kernels of head-on collisions with a bridge, as the package's build compiles them."""
+    return build(tmp_path_factory.mktemp("shipped") / "kernels")
+
+
+def build(folder: Path) -> Path:
+    command = [sys.executable, "-m", shipped.__name__, str(folder), "--structure", "head_on_bridge"]
+    subprocess.run(command, env=without_flags(), check=True)
+    return folder
+
+
+def without_flags(**more: str) -> dict[str, str]:
+    """The environment without the suite's compiler flags, with which nothing shipped is used."""
+    return {name: value for name, value in os.environ.items() if name != "WETDOUBLET_CFLAGS"} | more
+
+
+def collided(folder: Path, tmp_path: Path) -> tuple[str, str]:
+    """Output and remarks of a process without compiler whose shipped kernels are in a folder."""
+    env = without_flags(PATH=str(tmp_path), WETDOUBLET_CACHE=str(tmp_path / "cache")) | {"CC": ""}
+    command = [sys.executable, "-c", COLLIDED, str(folder)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=env)
+    return done.stdout, done.stderr
+
+
+@needs_compiler
+def test_without_a_compiler_the_shipped_kernel_answers(built: Path, tmp_path: Path) -> None:
+    """And nothing is said, compiled or kept."""
+    said, remarks = collided(built, tmp_path)
+    assert (said.split()[0], remarks) == ("taylor", "")
+    assert not (tmp_path / "cache").exists()
+
+
+@needs_compiler
+def test_a_damaged_or_stale_library_is_not_loaded(built: Path, tmp_path: Path) -> None:
+    """One flipped bit is named; a library of other equations is no library of these. Another engine then answers."""
+    shutil.copytree(built, damaged := tmp_path / "damaged")
+    for path in damaged.iterdir():
+        content = bytearray(path.read_bytes())
+        content[len(content) // 2] ^= 1
+        path.write_bytes(content)
+    shutil.copytree(built, stale := tmp_path / "stale")
+    for path in list(stale.iterdir()):
+        name, digest, _ = path.name.split(".")
+        path.rename(path.with_name(f"{name[:-1]}{'0' if name[-1] != '0' else '1'}.{digest}.so"))
+    whole = float.fromhex(collided(built, tmp_path)[0].split()[1])
+    for folder, expected in ((damaged, "is damaged"), (stale, "no C compiler")):
+        said, remarks = collided(folder, tmp_path)
+        assert expected in remarks
+        assert said.split()[0] == "rosenbrock"
+        assert float.fromhex(said.split()[1]) == pytest.approx(whole, rel=1e-7)
+
+
+@needs_compiler
+def test_the_bytes_are_reproducible(built: Path, tmp_path: Path) -> None:
+    """Two builds give the same files: their names have digests of their contents."""
+    assert {path.name for path in build(tmp_path / "again").iterdir()} == {path.name for path in built.iterdir()}
+
+
+@pytest.mark.skipif(not shipped.FOLDER.is_dir(), reason="an editable installation ships none")
+def test_an_installation_has_the_kernels_of_every_preset(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of values and derivatives at the default tolerance."""
+    monkeypatch.delenv("WETDOUBLET_CFLAGS")
+    assert all(each.already for each in compile_kernels(PRESETS, derivatives=True))
