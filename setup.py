@@ -33,7 +33,9 @@ class BuildWithKernels(build_py):
         command = [sys.executable, "-m", f"{TAYLOR}.shipped", str(folder), *(sets.split(",") if sets else [])]
         path = os.pathsep.join([self.build_lib, *filter(None, [os.environ.get("PYTHONPATH")])])
         with tempfile.TemporaryDirectory() as cache:
-            done = subprocess.run(command, env=os.environ | {"PYTHONPATH": path, "WETDOUBLET_CACHE": cache}, check=False)
+            done = subprocess.run(
+                command, env=os.environ | {"PYTHONPATH": path, "WETDOUBLET_CACHE": cache}, check=False
+            )
         if done.returncode:
             raise CompileError('no kernels, for the reason above; WETDOUBLET_INSTRUCTION_SETS="" leaves them out')
 
