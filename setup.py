@@ -6,9 +6,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from setuptools import find_namespace_packages, setup
+from setuptools import Distribution, find_namespace_packages, setup
 from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build_py import build_py
+from setuptools.errors import CompileError
 
 FOLDERS = find_namespace_packages(
     include=["derive*", "generated*", "solvers*"], exclude=["*__pycache__*", "solvers.package*"]
@@ -32,15 +33,22 @@ class BuildWithKernels(build_py):
         command = [sys.executable, "-m", f"{TAYLOR}.shipped", str(folder), *(sets.split(",") if sets else [])]
         path = os.pathsep.join([self.build_lib, *filter(None, [os.environ.get("PYTHONPATH")])])
         with tempfile.TemporaryDirectory() as cache:
-            subprocess.run(command, env=os.environ | {"PYTHONPATH": path, "WETDOUBLET_CACHE": cache}, check=True)
+            done = subprocess.run(
+                command, env=os.environ | {"PYTHONPATH": path, "WETDOUBLET_CACHE": cache}, check=False
+            )
+        if done.returncode:
+            raise CompileError('no kernels, for the reason above; WETDOUBLET_INSTRUCTION_SETS="" leaves them out')
+
+
+class WithKernels(Distribution):
+    """Files of one kind of machine, unless the kernels are left out."""
+
+    def has_ext_modules(self) -> bool:
+        return os.environ.get("WETDOUBLET_INSTRUCTION_SETS") != ""
 
 
 class WheelWithKernels(bdist_wheel):
     """A wheel for one kind of machine and any Python: kernels are loaded by ctypes."""
-
-    def finalize_options(self) -> None:
-        super().finalize_options()
-        self.root_is_pure = os.environ.get("WETDOUBLET_INSTRUCTION_SETS") == ""
 
     def get_tag(self) -> tuple[str, str, str]:
         return "py3", "none", super().get_tag()[2]
@@ -48,5 +56,6 @@ class WheelWithKernels(bdist_wheel):
 
 setup(
     packages=["wetdoublet", *(f"wetdoublet.{folder}" for folder in FOLDERS)],
+    distclass=WithKernels,
     cmdclass={"build_py": BuildWithKernels, "bdist_wheel": WheelWithKernels},
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from typing import Any
 
@@ -11,5 +12,6 @@ from setuptools.build_meta import *  # noqa: F403 # the hooks that a backend has
 
 def get_requires_for_build_wheel(settings: dict[str, Any] | None = None) -> list[str]:
     """What a wheel needs besides: its kernels are compiled."""
-    compiler = [] if any(shutil.which(name) for name in ("cc", "gcc", "clang")) else ["ziglang"]
-    return [*build_meta.get_requires_for_build_wheel(settings), *compiler]
+    names = [*os.environ.get("CC", "").split()[:1], "cc", "gcc", "clang"]
+    needed = os.environ.get("WETDOUBLET_INSTRUCTION_SETS") != "" and not any(map(shutil.which, names))
+    return [*build_meta.get_requires_for_build_wheel(settings), *(["ziglang"] if needed else [])]

@@ -124,5 +124,8 @@ def compile_all(
 
 def size_of(variant: Variant) -> int:
     """Size in bytes of the compiled library of a variant; 0 if there is none yet."""
-    entry = _expected(variant, flags(variant, here()[0]))
-    return len(shipped(variant) or (found(entry) if entry is not None else None) or b"")
+    content = shipped(variant)
+    if content is None:
+        entry = _expected(variant, flags(variant, here()[0]))
+        content = found(entry) if entry is not None else None
+    return len(content or b"")
