@@ -1,4 +1,4 @@
-"""Check an installed wheel: without a C compiler it answers by its own kernels, with the digits that it has beside one."""
+"""Check an installed wheel: without a C compiler its own kernels answer, with the same digits as beside one."""
 
 import json
 import os
@@ -10,7 +10,11 @@ import tempfile
 from pathlib import Path
 
 COMMAND = Path(sysconfig.get_path("scripts"), "wetdoublet")
-IMPACTS = "speed [m/s],angle [deg],outcome,restitution,restitution_sd\n0.2,0,stick,,\n0.6,0,bounce,0.2,0.02\n0.9,30,,0.4,0.02\n"
+IMPACTS = """speed [m/s],angle [deg],outcome,restitution,restitution_sd
+0.2,0,stick,,
+0.6,0,bounce,0.2,0.02
+0.9,30,,0.4,0.02
+"""
 RUNS = {
     "collide.json": ("collide", "granulation", "--json"),
     "pendulum.json": ("collide", "pendulum", "--json"),
