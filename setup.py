@@ -15,27 +15,26 @@ FOLDERS = find_namespace_packages(
     include=["derive*", "generated*", "solvers*"], exclude=["*__pycache__*", "solvers.package*"]
 )
 TAYLOR = "wetdoublet.solvers.engines.taylor"
+SETS = os.environ.get("WETDOUBLET_INSTRUCTION_SETS", "" if os.name == "nt" else None)  # not tried on Windows
 
 
 class BuildWithKernels(build_py):
     """Python files and compiled kernels; an editable installation compiles its kernels when they are needed.
 
     WETDOUBLET_INSTRUCTION_SETS names the instruction sets that they are compiled for, separated by commas, or "" for
-    none; without it that of this machine.
+    none; without it that of this machine, and none on Windows.
     """
 
     def run(self) -> None:
         super().run()
-        sets = os.environ.get("WETDOUBLET_INSTRUCTION_SETS")
-        if self.editable_mode or sets == "":
+        if self.editable_mode or SETS == "":
             return
         folder = Path(self.build_lib, *TAYLOR.split("."), "kernels")
-        command = [sys.executable, "-m", f"{TAYLOR}.shipped", str(folder), *(sets.split(",") if sets else [])]
+        command = [sys.executable, "-m", f"{TAYLOR}.shipped", str(folder), *(SETS.split(",") if SETS else [])]
         path = os.pathsep.join([self.build_lib, *filter(None, [os.environ.get("PYTHONPATH")])])
         with tempfile.TemporaryDirectory() as cache:
-            done = subprocess.run(
-                command, env=os.environ | {"PYTHONPATH": path, "WETDOUBLET_CACHE": cache}, check=False
-            )
+            env = os.environ | {"PYTHONPATH": path, "WETDOUBLET_CACHE": cache}
+            done = subprocess.run(command, env=env, check=False)
         if done.returncode:
             raise CompileError('no kernels, for the reason above; WETDOUBLET_INSTRUCTION_SETS="" leaves them out')
 
@@ -44,7 +43,7 @@ class WithKernels(Distribution):
     """Files of one kind of machine, unless the kernels are left out."""
 
     def has_ext_modules(self) -> bool:
-        return os.environ.get("WETDOUBLET_INSTRUCTION_SETS") != ""
+        return SETS != ""
 
 
 class WheelWithKernels(bdist_wheel):

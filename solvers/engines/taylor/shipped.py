@@ -29,7 +29,7 @@ _RTOL = 1e-9  # whose orders are shipped
 _WITH_LEDGER = ({"ledger": True}, {"ledger": True, "trajectory": True})
 _WITHOUT: tuple[dict[str, bool], ...] = ({}, {"trajectory": True}, {"gradients": True})
 _BACKWARD = {"gradients": True, "backward": True}
-_ORDERS_BACKWARD = [order for _, order in ORDERS]  # fits begin with loose tolerances
+_ORDERS_BACKWARD = [order for _, order in ORDERS]  # fits have a looser default tolerance
 _STRUCTURES = {
     ("oblique", "oblique_bridge"): tuple(each | {"rotation": True} for each in _WITH_LEDGER),
     ("oblique_reduced", "oblique_bridge_reduced"): (

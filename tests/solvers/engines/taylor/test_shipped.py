@@ -1,27 +1,38 @@
 """Kernels that come compiled with the package: which they are, and what is never loaded."""
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from wetdoublet.solvers import compile_kernels
+from wetdoublet.solvers import Scene, compile_kernels
 from wetdoublet.solvers.engines.taylor import machine, shipped
+from wetdoublet.solvers.engines.taylor.orders import order_backward
+from wetdoublet.solvers.engines.taylor.tangent import variant_of
+from wetdoublet.solvers.fitting.fit import RTOL as FIT_RTOL
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.scenefile import PRESETS
+from wetdoublet.solvers.settings import RTOL
 
 V3 = "abm avx2 bmi1 bmi2 f16c fma movbe"
 V4 = f"{V3} avx512bw avx512cd avx512dq avx512f avx512vl"
 COLLIDED = """
 import pathlib, sys
 import wetdoublet as wd
-from wetdoublet.solvers.engines.taylor import shipped
+from wetdoublet.solvers.engines.taylor import machine
+
+if sys.argv[2:]:
+    lesser = machine.sets_of(sys.argv[2], [])
+    machine.here = lambda: lesser
+from wetdoublet.solvers.engines.taylor import build, shipped
 
 shipped.FOLDER = pathlib.Path(sys.argv[1])
 one = wd.collide("granulation", stokes=0.3, angle=0, ledger=False)
-print(one.engine, one.restitution.hex())
+sizes = [build.size_of(each) for each in shipped.variants() if each.choice.structure == "head_on_bridge"]
+print(one.engine, one.restitution.hex(), min(sizes))
 """
 needs_compiler = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 
@@ -55,8 +66,8 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build(tmp_path_factory.mktemp("shipped") / "kernels")
 
 
-def build(folder: Path) -> Path:
-    command = [sys.executable, "-m", shipped.__name__, str(folder), "--structure", "head_on_bridge"]
+def build(folder: Path, *sets: str) -> Path:
+    command = [sys.executable, "-m", shipped.__name__, str(folder), *sets, "--structure", "head_on_bridge"]
     subprocess.run(command, env=without_flags(), check=True)
     return folder
 
@@ -66,20 +77,49 @@ def without_flags(**more: str) -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if name != "WETDOUBLET_CFLAGS"} | more
 
 
-def collided(folder: Path, tmp_path: Path) -> tuple[str, str]:
-    """Output and remarks of a process without compiler whose shipped kernels are in a folder."""
+def collided(folder: Path, tmp_path: Path, *lesser: str) -> tuple[str, str]:
+    """Output and remarks of a process without compiler whose shipped kernels are in a folder.
+
+    Arguments:
+        lesser: kind of a machine whose processor has no more than the least of its instruction sets.
+    """
     env = without_flags(PATH=str(tmp_path), WETDOUBLET_CACHE=str(tmp_path / "cache")) | {"CC": ""}
-    command = [sys.executable, "-c", COLLIDED, str(folder)]
+    command = [sys.executable, "-c", COLLIDED, str(folder), *lesser]
     done = subprocess.run(command, capture_output=True, text=True, check=True, env=env)
     return done.stdout, done.stderr
 
 
 @needs_compiler
 def test_without_a_compiler_the_shipped_kernel_answers(built: Path, tmp_path: Path) -> None:
-    """And nothing is said, compiled or kept."""
+    """And nothing is said, compiled or kept; nor for the sizes that `wetdoublet compile` shows."""
     said, remarks = collided(built, tmp_path)
     assert (said.split()[0], remarks) == ("taylor", "")
+    assert int(said.split()[2]) > 0
     assert not (tmp_path / "cache").exists()
+
+
+@needs_compiler
+@pytest.mark.skipif(machine.sets_of(platform.machine(), [])[0].name != "x86-64", reason="one instruction set only")
+def test_a_lesser_processor_loads_the_baseline(built: Path, tmp_path: Path) -> None:
+    """Of x86-64, where the wheel has wider sets too: its digits are those of the wider to rounding."""
+    several = shutil.copytree(built, tmp_path / "several")
+    for path in build(tmp_path / "baseline", "x86-64").iterdir():
+        shutil.copy(path, several)
+    wide, narrow = (collided(several, tmp_path, *lesser)[0].split() for lesser in ((), ("x86_64",)))
+    assert narrow[0] == "taylor"
+    assert float.fromhex(narrow[1]) == pytest.approx(float.fromhex(wide[1]), rel=1e-9)  # the tolerance
+    with pytest.raises(subprocess.CalledProcessError):
+        build(tmp_path / "unknown", "x86-64-v9")
+
+
+@pytest.mark.parametrize("rtol", [RTOL, FIT_RTOL])
+def test_derivatives_at_default_tolerances_are_shipped(rtol: float) -> None:
+    """Of collisions and of fits, which have a looser default; for every preset in which the laws are the usual ones."""
+    there = set(shipped.variants())
+    for name in ("granulation", "pendulum", "granulation-dry-bridge"):
+        for oblique in (True, False):
+            variant = variant_of(Scene.load(name), oblique, order_backward(rtol), rotation=False, backward=True)
+            assert variant in there
 
 
 @needs_compiler
