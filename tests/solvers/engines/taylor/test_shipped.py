@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import Scene, compile_kernels
+from wetdoublet.solvers.engines.settings import RTOL
 from wetdoublet.solvers.engines.taylor import machine, shipped
 from wetdoublet.solvers.engines.taylor.orders import order_backward
 from wetdoublet.solvers.engines.taylor.tangent import variant_of
 from wetdoublet.solvers.fitting.fit import RTOL as FIT_RTOL
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.scenefile import PRESETS
-from wetdoublet.solvers.settings import RTOL
 
 V3 = "abm avx2 bmi1 bmi2 f16c fma movbe"
 V4 = f"{V3} avx512bw avx512cd avx512dq avx512f avx512vl"
