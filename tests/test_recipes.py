@@ -77,7 +77,7 @@ RESULT = [  # its row, and its expression
     (
         "solvers/sensitivity/trajectory_expression.py",
         '    names = model.names("energies")\n',
-        '    found["lost_speed"] = 1 - found["restitution"]\n{}',
+        '    outputs_by_name["lost_speed"] = 1 - outputs_by_name["restitution"]\n{}',
     ),
 ]
 COMMAND = [("solvers/commands/cli.py", '    "scenes", ', '{}"hello", ')]
