@@ -22,7 +22,7 @@ class BuildWithKernels(build_py):
     """Python files and compiled kernels; an editable installation compiles its kernels when they are needed.
 
     WETDOUBLET_INSTRUCTION_SETS names the instruction sets that they are compiled for, separated by commas, or "" for
-    none; without it that of this machine, and none on Windows.
+    none; without it that of this machine, none with derivatives, and no kernels on Windows.
     """
 
     def run(self) -> None:
@@ -30,7 +30,13 @@ class BuildWithKernels(build_py):
         if self.editable_mode or SETS == "":
             return
         folder = Path(self.build_lib, *TAYLOR.split("."), "kernels")
-        command = [sys.executable, "-m", f"{TAYLOR}.shipped", str(folder), *(SETS.split(",") if SETS else [])]
+        command = [
+            sys.executable,
+            "-m",
+            f"{TAYLOR}.shipped",
+            str(folder),
+            *(SETS.split(",") if SETS else ["--only-values"]),
+        ]
         path = os.pathsep.join([self.build_lib, *filter(None, [os.environ.get("PYTHONPATH")])])
         with tempfile.TemporaryDirectory() as cache:
             env = os.environ | {"PYTHONPATH": path, "WETDOUBLET_CACHE": cache}

@@ -92,10 +92,11 @@ def _compilation(variant: Variant, instructions: InstructionSet) -> tuple[str, t
     return source(fitting, emitted), flags(fitting, instructions)
 
 
-def _compile(folder: Path, sets: list[InstructionSet], structure: str | None) -> None:
-    """Compile the shipped kernels, all or of one structure, into a folder, and remove others from it."""
+def _compile(folder: Path, sets: list[InstructionSet], structure: str | None, only_values: bool) -> None:
+    """Compile the shipped kernels, all or some of them, into a folder, and remove others from it."""
     folder.mkdir(parents=True, exist_ok=True)
     chosen = [each for each in variants() if structure in (None, each.choice.structure)]
+    chosen = [each for each in chosen if not (only_values and each.gradients)]
     wanted = {_name(each, instructions): (each, instructions) for each in chosen for instructions in sets}
     for path in folder.iterdir():
         if wanted.pop(path.name.split(".")[0], None) is None:
@@ -115,10 +116,12 @@ if __name__ == "__main__":
     parser.add_argument("folder", type=Path)
     parser.add_argument("sets", nargs="*", help=f"instruction sets [this machine's]: {', '.join(known)}")
     parser.add_argument("--structure", help="of this structure only")
+    parser.add_argument("--only-values", action="store_true", help="none with derivatives, which take twice as long")
     arguments = parser.parse_args()
     if unknown := set(arguments.sets) - set(known):
         parser.error(f"no such instruction set: {', '.join(sorted(unknown))}; accepted: {', '.join(known)}")
     try:
-        _compile(arguments.folder, [known[name] for name in arguments.sets] or [here()[0]], arguments.structure)
+        sets = [known[name] for name in arguments.sets] or [here()[0]]
+        _compile(arguments.folder, sets, arguments.structure, arguments.only_values)
     except CannotCompile as error:
         parser.exit(1, f"the kernels cannot be compiled: {error}\n")

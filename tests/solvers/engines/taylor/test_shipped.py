@@ -150,6 +150,6 @@ def test_the_bytes_are_reproducible(built: Path, tmp_path: Path) -> None:
 
 @pytest.mark.skipif(not shipped.FOLDER.is_dir(), reason="an editable installation ships none")
 def test_an_installation_has_the_kernels_of_every_preset(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of values and derivatives at the default tolerance."""
+    """Of values at the default tolerance; a wheel that is published has derivatives, too (.ci/installed.py)."""
     monkeypatch.delenv("WETDOUBLET_CFLAGS")
-    assert all(each.already for each in compile_kernels(PRESETS, derivatives=True))
+    assert all(each.already for each in compile_kernels(PRESETS))
