@@ -1,0 +1,104 @@
+"""Fits of synthetic experiments: coverage of the intervals, verdicts, and time.
+
+`python -m tests.benchmarks.fits 200 --seed 1 -o fits.jsonl` draws scenes near the presets, impacts of which some stick,
+and measurements with the scatter and noise that the likelihood assumes, starts each fit from the preset's values, and
+prints in how many intervals the truth lies. A verdict is right if the fit of the same impacts without scatter and noise
+gives it. With `--read FILE` it only prints the summary of what was written.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+
+import numpy as np
+from wetdoublet.generated.automaton import OUTCOMES
+from wetdoublet.solvers import ComputationError, InputError
+from wetdoublet.solvers.fitting.fit import fit
+from wetdoublet.solvers.fitting.free_entries import IDENTIFIED
+from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
+
+from tests.helpers.synthetic import drawn
+
+from .near_presets import ANGLES, ENTRIES, NOISE, drawn_truth, repeat, window_of
+
+ROWS = (20, 60)
+
+
+def experiment(seed: int) -> dict[str, object]:
+    """One synthetic experiment and its two fits."""
+    random = np.random.default_rng(seed)
+    while True:
+        preset, truth = drawn_truth(random, ENTRIES[1])
+        free = list(truth)
+        try:
+            scene = preset.with_si(truth)
+            window = window_of(scene)
+        except InputError:
+            continue
+        if window is not None:
+            break
+    rows = int(random.integers(ROWS[0], ROWS[1] + 1))
+    speed = np.exp(random.uniform(*np.log(window), rows)) / scene.stokes_per_speed
+    angle = random.uniform(*ANGLES, rows)
+    noise, scatter = random.uniform(*NOISE), random.uniform(*NOISE)
+    plan = Measurements(
+        speed, angle, scatter * speed, np.full(rows, np.radians(random.uniform(0.5, 2.0))), np.full(rows, UNKNOWN),
+        {"restitution": (np.ones(rows), np.full(rows, noise))},
+    )  # fmt: skip
+    told: dict[str, object] = {"seed": seed, "preset": preset.name, "rows": rows, "truth": truth, "noise": noise}
+    data = drawn(scene, plan, seed)
+    told["outcomes"] = np.bincount(data.outcome, minlength=len(OUTCOMES)).tolist()
+    start, wall = time.process_time(), time.perf_counter()
+    found = fit(preset, data, free)
+    told["seconds"], told["wall"] = time.process_time() - start, time.perf_counter() - wall
+    told["quadrature"] = found.quadrature
+    told["remarks"] = found.remarks
+    told["estimates"] = {name: each.to_dict() for name, each in found.estimates.items()}
+    told["below"] = float(found.objective.value(found.best) - found.objective.value(_inner(found, truth)))
+    try:
+        expected = fit(preset, drawn(scene, plan, None), free)
+        told["expected"] = {name: each.to_dict() for name, each in expected.estimates.items()}
+    except ComputationError as error:
+        told["expected"] = str(error)
+    return told
+
+
+def _inner(found: object, truth: dict[str, float]) -> np.ndarray:
+    return np.array([each.inner(truth[each.name]) for each in found.free.entries])
+
+
+def summary(runs: list[dict]) -> str:
+    """Coverage and verdicts, with binomial errors."""
+    done = [run for run in runs if "estimates" in run]
+    covered, right = {True: [], False: []}, []
+    verdicts: Counter[str] = Counter()
+    for run in done:
+        for name, each in run["estimates"].items():
+            low = -np.inf if each["low"] is None else each["low"]
+            high = np.inf if each["high"] is None else each["high"]
+            covered[each["verdict"] == IDENTIFIED].append(low <= run["truth"][name] <= high)
+            verdicts[each["verdict"]] += 1
+            if isinstance(run["expected"], dict):
+                right.append(each["verdict"] == run["expected"][name]["verdict"])
+    lines = [f"{len(done)} experiments, {len(runs) - len(done)} without a fit"]
+    for identified, label in ((True, "identified"), (False, "other")):
+        held = np.array(covered[identified], dtype=float)
+        if held.size:
+            error = np.sqrt(held.mean() * (1 - held.mean()) / held.size)
+            lines.append(f"{label}: the interval holds the truth in {held.mean():.1%} +- {error:.1%} of {held.size}")
+    if right:
+        share = float(np.mean(right))
+        lines.append(f"verdicts right: {share:.1%} +- {np.sqrt(share * (1 - share) / len(right)):.1%} of {len(right)}")
+    lines.append(", ".join(f"{word}: {count}" for word, count in verdicts.items()))
+    for label in ("seconds", "wall"):
+        times = [run[label] for run in done]
+        lines.append(f"{label}: median {np.median(times):.2f}, 90 % {np.quantile(times, 0.9):.2f}")
+    for preset in dict.fromkeys(run["preset"] for run in done):
+        own = [run for run in done if run["preset"] == preset]
+        lines.append(f"  {preset}: {len(own)}, median {np.median([run['seconds'] for run in own]):.2f} s")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    repeat(__doc__, 20, lambda seed, _: experiment(seed), summary)
