@@ -183,13 +183,14 @@ def _made(
         builder = Builder(slicer.signatures, of, tolerance, lambda k: tell(f"{k} panels"))
         slicer.fill(builder)
         data = builder.data(*ranges.corners, ranges.logarithmic, np.float64 if error < _DOUBLE_BELOW else np.float32)
-        attacked_data = attacked(data, scene, ranges.third, of, error, rtol, count, attempt + 1,
-                       lambda k: tell(f"{k} queries"))  # fmt: skip
-        if not attacked_data.failed:
-            return Table(scene, of, ranges, error, attacked_data, rtol, data)
-        doubts = np.vstack([doubts, [place for place, _ in attacked_data.failures]])
+        attack = attacked(
+            data, scene, ranges.third, of, error, rtol, count, attempt + 1, lambda k: tell(f"{k} queries")
+        )
+        if not attack.failed:
+            return Table(scene, of, ranges, error, attack, rtol, data)
+        doubts = np.vstack([doubts, [place for place, _ in attack.failures]])
         tolerance *= _SHARPER
-    raise _lost(ranges, error, attacked_data, slicer.failures)
+    raise _lost(ranges, error, attack, slicer.failures)
 
 
 def _lost(ranges: Range, error: float, attack: Attack, remarks: list[str]) -> ComputationError:

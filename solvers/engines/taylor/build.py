@@ -18,7 +18,7 @@ from ...scene.scene import Scene
 from .headers import headers, tangents
 from .machine import here
 from .orders import ORDERS
-from .shipped import shipped
+from .shipped import is_shipped, shipped
 from .source import Variant, emitted_headers, flags, source, stem
 
 _PATIENCE = 1.0  # s of compilation without a remark
@@ -35,12 +35,12 @@ def supported(scene: Scene, obliquities: Collection[bool] = (True, False), gradi
     if not all(headers(each) and (tangents(each) if gradients else True) for each in choices):
         return False
     variants = (Variant(each, ORDERS[0][1], gradients=gradients) for each in choices)
-    return all(shipped(each) for each in variants) or compiler() is not None
+    return all(is_shipped(each) for each in variants) or compiler() is not None
 
 
 def is_compiled(variant: Variant) -> bool:
     """True if the library of a variant is shipped or in the cache; nothing is derived or compiled for the answer."""
-    if shipped(variant):
+    if is_shipped(variant):
         return True
     if not has(f"{stem(variant)}-"):
         return False  # its headers may not have been derived yet

@@ -67,6 +67,16 @@ def shipped(variant: Variant) -> bytes | None:
     return None
 
 
+def is_shipped(variant: Variant) -> bool:
+    """True if the library of a variant came with the package and is whole; its file is read once a process."""
+    return not more_flags() and _is_whole(variant)
+
+
+@cache
+def _is_whole(variant: Variant) -> bool:
+    return shipped(variant) is not None
+
+
 def shipped_digest() -> str:
     """Digest of all shipped libraries; "" if there are none."""
     return digest_of("".join(_names()).encode()) if _names() else ""
