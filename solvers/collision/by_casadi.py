@@ -65,15 +65,12 @@ def by_casadi(
     flow, p = Flow(choice, Region(1, 1, False), _quadratures(model, ledger)), model.group_values(n.groups)
     looser: Tolerance | None = None
     path: EventSequence | None = None
-    located = 0  # steps to locate the events
     replayed: Replay | None = None
     try:
         while replayed is None:
             tolerance = looser or control(used, plugin, n.groups)
             try:
-                if path is None:
-                    path = find(load(small), n.groups, used, ())
-                    located = located or budget.spent
+                path = path or find(load(small), n.groups, used, ())
                 replayed = replay(path, plugin, tolerance, flow, model.start(p))
                 continue
             except Stopped as stopped:
@@ -81,7 +78,7 @@ def by_casadi(
                     continue
                 if stopped.missed and used > _TIGHTEST:
                     used, looser, path = used * 1e-2 if used > 200 * _TIGHTEST else _TIGHTEST, None, None
-                    budget.kept = 2 * located
+                    budget.kept = budget.kept or budget.spent
                     continue
                 failure = ComputationError(
                     f"{plugin} {stopped.why}",

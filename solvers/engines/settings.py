@@ -38,16 +38,11 @@ def casadi_steps(rtol: float, space: bool = False, spent: int = 0) -> int:
 
 @dataclass
 class Budget:
-    """Steps of CasADi's Rosenbrock that a collision has, shared by all integrations that it takes.
-
-    Arguments:
-        most: all of them.
-        kept: those kept for a last resort.
-    """
+    """Steps of CasADi's Rosenbrock that a collision has, shared by all integrations that it takes."""
 
     most: int
     spent: int = 0
-    kept: int = 0
+    kept: int = 0  # for a last resort
 
     @property
     def is_spent(self) -> bool:

@@ -117,9 +117,9 @@ def beside_wall(
         spin = {"impact_spin": spinning * speed / radius}
         return planar(Impacts(pairs.scene, speed, np.full(pairs.size, angle), spin))
 
-    cases = ((_SLIDES, 0.0), (_SLIDES, 1.0), (0.0, 1.0), (_SLIDES, -1.0))
-    parts = [part for case in cases[: 4 if ledger else 2] if (part := collided(*case))]
-    if len(parts) < 2:
+    cases = ((_SLIDES, 0.0), (_SLIDES, 1.0), (0.0, 1.0), (_SLIDES, -1.0))[: 4 if ledger else 2]
+    parts = [part for case in cases if (part := collided(*case))]
+    if len(parts) < len(cases):
         return None
     slides, both = parts[:2]
     # sliding is that of the sphere along the wall; rolling turns it about normal x sliding

@@ -3,9 +3,8 @@
 The events, their effects and the rules of a rebound are those of `generated/automaton.py`; this module interprets them.
 """
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -50,7 +49,7 @@ from ...model.rebound import rebounded
 from ...scene.contact import contact_gap, contact_word
 from ...scene.user_model import OwnEvent
 from ..settings import CALL, Budget, casadi_steps
-from .integrators import EventHit, IntegrationFailed, Locator, Plain, Tolerance, locator, plain, tolerance_for
+from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance_for
 
 # why a collision stays undecided, in messages
 CREEPS, RESTS = "the gap changes too slowly", "the resting doublet turns for too long"
@@ -220,11 +219,10 @@ class EventLocator:
         most = self.budget.most if self.machine_code else self.budget.call  # each limit is compiled anew
         return replace(self.tolerance, steps=min(self.tolerance.steps, most))
 
-    @contextmanager
-    def _counted(self, integrator: Locator | Plain) -> Iterator[None]:
-        """Count the steps of a call, which may fail."""
+    def _call(self, integrator: Any, *given: float) -> Any:
+        """The result of an integrator from the present state; its steps are counted, also where it fails."""
         try:
-            yield
+            return integrator(self.y, self.p, *given)
         finally:
             self.budget.spend(integrator.steps)
 
@@ -309,8 +307,7 @@ class EventLocator:
         level, spent, most = max(level, -1e30), self.budget.spent, self.budget.call
         find = locator(self._flow(), self.watch, self._tolerance(), self.machine_code)
         try:
-            with self._counted(find):
-                stop = find(self.y, self.p, stretch, self.phase.motion, level)
+            stop = self._call(find, stretch, self.phase.motion, level)
             if stop.dipped and stop.event:
                 stop = self._refined(find, stop, stop.event, level)
             return self._overshot(find, stop, level)
@@ -346,9 +343,7 @@ class EventLocator:
             trial = 0.5 * (before + after)
             if g_before is not None and count % 2:
                 trial = before + (after - before) * g_before / (g_before - g_after)
-            integrate = plain(self._flow(), "rosenbrock", self._tolerance())
-            with self._counted(integrate):
-                y = integrate(self.y, self.p, trial)
+            y = self._call(plain(self._flow(), "rosenbrock", self._tolerance()), trial)
             g = find.value(event, y, self.p, self.phase.motion, level)
             if g < 0:
                 after, g_after, y_after = trial, g, y

@@ -4,9 +4,8 @@ The sequence of phases and events is given. The engine's own solution meets each
 which the landing step corrects, so that events and their derivatives are those of the engine.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 
 import numpy as np
 from casadi import SX, Function, jtimes, vertcat
@@ -95,8 +94,8 @@ def replay(
         flow = Flow(kind.choice, step.phase.region, kind.extras)
         if step.duration > 0:
             before = replayed.y
-            integrate = partial(_integrate, flow, plugin, tolerance, budget, replayed, step, p)
-            duration, replayed.y = _integrate_onto_event(integrate, flow, path.watch, step, replayed, p)
+            given = flow, plugin, tolerance, budget, path.watch, step, replayed, p
+            duration, replayed.y = _integrate_onto_event(*given)
             replayed.pieces.append(Piece(str(step.phase), flow, before, replayed.time, duration))
             replayed.time += duration
         replayed.events += [(kind, replayed.time) for kind in step.kinds]
@@ -134,40 +133,32 @@ def as_located(path: EventSequence, choice: ModelKey) -> Replay:
     return replayed
 
 
-def _integrate(
+def _integrate_onto_event(
     flow: Flow,
     plugin: str,
     tolerance: Tolerance,
     budget: Budget,
-    replayed: Replay,
-    step: PhaseRun,
-    p: np.ndarray,
-    duration: float,
-) -> np.ndarray:
-    """The state after a part of a phase."""
-    if budget.is_spent:
-        raise Stopped(f"has not finished in {budget.most} steps", step, replayed.time, replayed.y)
-    cost = CVODES if plugin == "cvodes" else 1
-    most = min(tolerance.steps, int(budget.call / cost))
-    engine = plain(flow, plugin, replace(tolerance, steps=most))
-    try:
-        return engine(replayed.y, p, duration)
-    except IntegrationFailed as failure:
-        raise Stopped(f"gave up ({failure})", step, replayed.time, replayed.y) from None
-    finally:
-        replayed.steps += engine.steps
-        budget.spend((engine.steps or most) * cost)  # CVODES says nothing of those after which it fails
-
-
-def _integrate_onto_event(
-    integrate: Callable[[float], np.ndarray],
-    flow: Flow,
     watch: WatchedEvents,
     step: PhaseRun,
     replayed: Replay,
     p: np.ndarray,
 ) -> tuple[float, np.ndarray]:
     """Duration and final state of one phase, on the event's surface."""
+    cost = CVODES if plugin == "cvodes" else 1
+
+    def integrate(duration: float) -> np.ndarray:
+        if budget.is_spent:
+            raise Stopped(f"has not finished in {budget.most} steps", step, replayed.time, replayed.y)
+        most = min(tolerance.steps, int(budget.call / cost))
+        engine = plain(flow, plugin, replace(tolerance, steps=most))
+        try:
+            return engine(replayed.y, p, duration)
+        except IntegrationFailed as failure:
+            raise Stopped(f"gave up ({failure})", step, replayed.time, replayed.y) from None
+        finally:
+            replayed.steps += engine.steps
+            budget.spend((engine.steps or most) * cost)  # CVODES says nothing of those after which it fails
+
     y = integrate(step.duration)
     if step.event is None:
         return step.duration, y
