@@ -126,13 +126,15 @@ def _work(
             known = other(*other.arguments)
             if sp.simplify(known.diff(moving[0]) - each(*each.arguments)) == 0:
                 return known
-    force = each.result
-    for symbol, value in reversed(kept):
-        if value.free_symbols & {moving[0], *(s for s, v in kept if v.has(moving[0]))}:
-            force = force.subs(symbol, value)
+    force, change = each.result, {moving[0]}  # what changes with the gap, directly or by another intermediate
     for symbol, value in kept:
-        if not value.has(moving[0]):
+        if value.free_symbols & change:
+            change.add(symbol)
+        else:
             constants.define(symbol, value)
+    for symbol, value in reversed(kept):
+        if symbol in change:
+            force = force.subs(symbol, value)
     return antiderivative(force, moving[0])
 
 

@@ -1,6 +1,7 @@
 """Series programs: which recurrences an expression becomes, what is constant, and what has no recurrence."""
 
 import re
+from dataclasses import replace
 
 import pytest
 import sympy as sp
@@ -98,6 +99,18 @@ def test_every_law_has_its_header():
                 closed.add(law.name)
     assert {"mikami", "mikami-log10", "soulie", "lambert", "constant", "van-der-waals", "finite"} <= closed
     assert "willett" not in closed
+
+
+def test_intermediates_that_change_with_the_gap_through_others():
+    """A force by way of two intermediates is the force itself, and so is its work."""
+    mikami = LAWS["bridge"]["mikami"]
+    gap = mikami["force"].arguments[0]
+    square, shifted = sp.symbols("square shifted", positive=True)
+    force = replace(mikami["force"], definitions=((square, gap**2), (shifted, square + 1)), result=shifted)
+    plain = replace(force, definitions=(), result=gap**2 + 1)
+    chained, direct = (law_header(replace(mikami, functions=(each,))) for each in (force, plain))
+    work = re.compile(r"bridge_force_work\(.*?\n}", re.S)
+    assert work.search(chained)[0] == work.search(direct)[0]
 
 
 def test_arguments_that_move():
