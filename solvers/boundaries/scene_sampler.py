@@ -26,15 +26,11 @@ _STICK, _ROTATE, _BOUNCE = map(OUTCOMES.index, (STICK, ROTATE, BOUNCE))
 
 @dataclass
 class SceneSampler:
-    """Sampler of a scene's collisions.
+    """Sampler of a scene's collisions. Counts the integrated ones, and stores the reasons of failures.
 
     Arguments:
         rtol: relative tolerance of the integrations.
         kernel: use the Taylor kernel; None: if it supports the scene.
-
-    Attributes:
-        collisions: number of integrated collisions.
-        reasons: (angle, Stokes number) -> why that collision failed.
         creeping: number of creeping collisions that the kernel left unfinished, by angle.
     """
 
@@ -122,11 +118,7 @@ class SceneSampler:
         return records
 
     def _by_kernel(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray | None:
-        """Samples by the kernel; None if it does not run.
-
-        Sticks are continued until they fall back. Bounces are repeated with solids that are met far below the contact
-        gap, to see how far the approach passes the criterion.
-        """
+        """Samples by the kernel; sticks are continued until they fall back, None if the kernel does not run."""
         records = self._records(angle, stokes, SAMPLE_BUDGET)
         if records is None:
             return None
@@ -144,7 +136,7 @@ class SceneSampler:
             if ends is not None:
                 samples["reach"][sticks] = np.where(ends["outcome"] == _STICK, ends["final_gap"], np.nan)
         which = np.flatnonzero(outcome == _BOUNCE)
-        if which.size:
+        if which.size:  # repeated with solids that are met far below the contact gap
             bare_quantities = {name: np.full(which.size, value) for name, value in NEVER_MET.items()}
             bare_quantities["roughness"] = DEEP * contact[which] * self.scene.liquid.film_thickness
             bare = sample_by_kernel(
@@ -165,10 +157,7 @@ def blank(stokes: np.ndarray) -> np.ndarray:
 
 
 def contact_gap_at(scene: Scene, speed: np.ndarray) -> np.ndarray:
-    """Gap of solid contact over x0, for each normal speed (m/s): the largest of the elastic and the roughness gap.
-
-    0 if the scene gives neither.
-    """
+    """Gap of solid contact over x0, by normal speed (m/s): the larger of elastic and roughness gap; 0 without both."""
     values = {**si_values(scene, None, None), "speed": speed}
     gap = np.zeros(speed.size)
     for group in GAPS.values():

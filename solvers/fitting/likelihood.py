@@ -64,9 +64,7 @@ class Likelihood:
     """The log-likelihood of measurements as a function of the free entries' values.
 
     Arguments:
-        scene: whose free entries take the values.
-        names: the free entries, dotted.
-        data: the rows.
+        scene, names, data: the scene, its free entries, and the rows.
         rtol: relative tolerance of the integrations.
     """
 
@@ -84,9 +82,9 @@ class Likelihood:
             self.constant[seen] -= np.log(sd[seen] * np.sqrt(2 * np.pi))
 
     def aim(self, values: np.ndarray) -> None:
-        """Turn the lines of each row towards its nearest change of outcome, or along a steep result's gradient.
+        """Turn the lines of each row towards its nearest change of outcome, or along a result's gradient.
 
-        A measured result is steep if it changes over the scatter by more than the standard deviation of its noise.
+        The gradient is that of the first measured result that changes over the scatter by more than its noise.
 
         Raises:
             InputError: these values make the scene of a row impossible.
@@ -112,10 +110,7 @@ class Likelihood:
                 break
 
     def refine(self, values: np.ndarray, tolerance: float) -> None:
-        """Choose each row's factor of lines anew, for these values.
-
-        It is 1, or the finest of `FINER` at which the row's log-likelihood changed by more than the tolerance.
-        """
+        """Choose each row's factor of lines: the last of `FINER` that changes its log-likelihood by `tolerance`, or 1."""
         experiment, size = self.experiment_at(values), self.data.size
         self.line_factors = np.ones(size, int)
         now, open_ = self.evaluate(experiment, Resolution()).rows, np.ones(size, bool)

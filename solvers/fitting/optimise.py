@@ -38,8 +38,7 @@ class Objective:
     """Residuals of a fit and their derivatives, with the last evaluations kept.
 
     Arguments:
-        likelihood: the likelihood as a function of the free entries.
-        free: the same entries in the same order.
+        likelihood, free: both of the same entries in the same order.
         resolution: resolution of the integrals.
     """
 
@@ -186,10 +185,7 @@ def maximum_with_aiming(likelihood: Likelihood, free: FreeEntries, inner: np.nda
 
 
 def refined_maximum(objective: Objective, start: np.ndarray) -> np.ndarray:
-    """The nearest maximum, by SLSQP in variables in which the information matrix is the unit matrix at the start.
-
-    The start if nothing is gained.
-    """
+    """The nearest maximum, by SLSQP in variables with unit information matrix at the start; else the start itself."""
     low, high = objective.free.low, objective.free.high
     start = np.clip(start, low, high)
     white, at_start, span = whitening(objective, start), objective.value(start), high - low
@@ -201,9 +197,8 @@ def refined_maximum(objective: Objective, start: np.ndarray) -> np.ndarray:
     def loss(z: np.ndarray) -> tuple[float, np.ndarray]:
         at = from_white(z)
         value = objective.value(at)
-        if not np.isfinite(value):
-            return _IMPOSSIBLE, np.zeros(z.size)
-        return at_start - value, -white.T @ objective.gradient(at)
+        possible = np.isfinite(value)
+        return (at_start - value, -white.T @ objective.gradient(at)) if possible else (_IMPOSSIBLE, np.zeros(z.size))
 
     box = LinearConstraint(white / span[:, None], (low - start) / span, (high - start) / span)
     optimum = minimize(

@@ -8,11 +8,7 @@ from ..errors import InputError, did_you_mean
 
 
 def check_names(requested: object, known: Sequence[str], label: str) -> tuple[str, ...]:
-    """Return the requested names, one or a collection, in order and without duplicates.
-
-    Raises:
-        InputError: an unknown name; suggests the nearest.
-    """
+    """Return the requested name or names, in order, without duplicates; InputError suggests the nearest known name."""
     accepted = ", ".join(known)
     if isinstance(requested, str):
         requested = (requested,)

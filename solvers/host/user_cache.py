@@ -235,9 +235,8 @@ def _put(name: str, content: bytes) -> None:
         if not refused and not reason:
             return
         private = os.environ.get(_PRIVATE)
-        where = private
-        if not private or _write_failure(Path(private), name, content):
-            where = _put_in_private_folder(name, content)
+        usable = private and not _write_failure(Path(private), name, content)
+        where = private if usable else _put_in_private_folder(name, content)
         if where is None:
             _MEMORY[name] = content
         if not refused:

@@ -24,10 +24,7 @@ def varied_columns(request: Batch) -> dict[str, np.ndarray]:
 
 
 def quantities_and_impacts(request: Batch) -> dict[str, Any]:
-    """Quantities by vocabulary name with speed, Stokes number and angle, SI.
-
-    Speed, Stokes number and angle are arrays; so are the others if entries vary, else they are numbers.
-    """
+    """Quantities by vocabulary name, SI. Speed, Stokes number and angle are arrays; others only if entries vary."""
     values: dict[str, Any] = varied_columns(request) if request.vary else dict(si_values(request.scene, None, None))
     with np.errstate(all="ignore"):
         stokes_per_speed = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)

@@ -46,7 +46,6 @@ class OwnEvent:
     Arguments:
         row: the event as a row of the automaton's table.
         mark: name of the state that is 1 before the event and 0 after it.
-        meaning: what happens, in words.
         reach: signs of the guard's derivatives by the gap, and by the speed while opening and closing, where proved;
             None if they do not determine where the guard is least.
         takes: proved that its jump never adds kinetic energy.
@@ -193,10 +192,7 @@ class Package:
         return tuple(OwnEvent.from_manifest(entry) for entry in self.manifest.get("events", ()))
 
     def events_in(self, structure: str) -> tuple[OwnEvent, ...]:
-        """The events that a structure can have.
-
-        Head-on and beside a wall nothing rotates; an event that changes the spin needs it as a state.
-        """
+        """The events that a structure can have: it needs their rotations, and the spin as a state if they change it."""
         head_on = structure.startswith("head_on")
         wall, reduced = (part in structure.split("_") for part in ("wall", "reduced"))
         return tuple(

@@ -27,24 +27,15 @@ _NO_LEVEL = 0.0
 
 @dataclass(frozen=True)
 class Leg:
-    """A phase of a trajectory, as `PhaseRun` without its duration, and what happens at its end.
-
-    Arguments:
-        lasts: it has a duration; else only what happens at its end counts.
-        event: the event function on which it lands; None if it just ends.
-        rebounds: the doublet rebounds at its end.
-        holds: the normal velocity is set to zero at its end.
-        rubs: the rebound at its end is with dry friction.
-        declared: name of the declared event that happens at its end.
-    """
+    """A phase of a trajectory, as `PhaseRun` without its duration, and what happens at its end."""
 
     phase: Phase
-    lasts: bool
-    event: str | None
+    lasts: bool  # it has a duration; else only its end counts
+    event: str | None  # on which it ends; None if it just ends
     rebounds: bool
-    holds: bool
-    rubs: bool = False
-    declared: str = ""
+    holds: bool  # the normal velocity is set to zero at its end
+    rubs: bool = False  # the rebound at its end is with dry friction
+    declared: str = ""  # the declared event that happens at its end
 
 
 @dataclass(frozen=True)
@@ -84,13 +75,7 @@ def course_of(path: EventSequence, choice: ModelKey) -> Course:
 
 @dataclass(frozen=True)
 class TrajectoryExpression:
-    """A course as a function of groups and durations.
-
-    Arguments:
-        function: (groups, durations) -> the quantities, and the relative shifts of the durations by the landings.
-        of: names of the quantities.
-        groups: names of the groups.
-    """
+    """A course as a function: (groups, durations) -> quantities `of`, relative shifts of durations by the landings."""
 
     function: Function
     of: tuple[str, ...]

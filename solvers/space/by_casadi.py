@@ -31,9 +31,7 @@ _TIGHTEST = 1e-13  # relative tolerance down to which a missed event is sought a
 
 
 def pairs_by_casadi(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False, steps: int | None = None) -> Ends:
-    """The ends of the relative motions of sphere pairs, integrated one after the other.
-
-    A pair that fails has the outcome FAILED and its reason.
+    """Ends of pairs integrated one after the other; a failed pair has the outcome FAILED and its reason.
 
     Arguments:
         steps: most steps of a pair; None for those of `settings`.

@@ -60,7 +60,7 @@ class Layout:
     def log_stokes(self, which: int, k: int, angle: np.ndarray) -> np.ndarray:
         """Logarithms of St of boundary k (from below) of panel `which` at these angles, rad.
 
-        It is searched for up and down from its polyline; NaN where no such change of signature is found.
+        They are searched for up and down from its polyline; NaN where no such change of signature is found.
         """
         panel, plane = self.panels[which], self.plane
         arc = panel.arcs[k]
