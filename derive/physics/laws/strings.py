@@ -24,7 +24,7 @@ def half_angles(expression: sp.Expr) -> sp.Expr:
 def swing_squared() -> sp.Expr:
     """d^2, with d the horizontal displacement of either sphere from rest: half the change of the separation vector.
 
-    That vector is 4a along the first axis at rest and (r, beta) in polar coordinates now. Written in r - 4a and
+    It is 4a along the first axis at rest and (r, beta) in polar coordinates now. Written in r - 4a and
     sin(beta/2), because r^2 + 16 a^2 - 8 a r cos(beta) loses digits by cancellation at small displacements.
     """
     now = sp.Matrix([r * sp.cos(beta), r * sp.sin(beta)])
