@@ -110,7 +110,10 @@ class Likelihood:
                 break
 
     def refine(self, values: np.ndarray, tolerance: float) -> None:
-        """Choose each row's factor of lines: the last of `FINER` that changes its log-likelihood by `tolerance`, or 1."""
+        """Choose each row's factor of lines: the last of `FINER` that still changes its log-likelihood, else 1.
+
+        A change counts if it is larger than `tolerance`.
+        """
         experiment, size = self.experiment_at(values), self.data.size
         self.line_factors = np.ones(size, int)
         now, open_ = self.evaluate(experiment, Resolution()).rows, np.ones(size, bool)
