@@ -141,8 +141,7 @@ class Likelihood:
         """The log-likelihoods of all rows in an experiment.
 
         Arguments:
-            factors: (rows,), by which each row's number of lines is multiplied, in place of those that `refine` chose;
-                0 leaves a row out.
+            factors: (rows,), in place of the `line_factors` that `refine` chose; 0 leaves a row out.
         """
         data, size = self.data, self.data.size
         if factors is None:
