@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -12,8 +11,9 @@ import numpy as np
 
 from ..engines.casadi.integrators import Tolerance, tolerance_for
 from ..engines.casadi.locate import EventSequence, locate
-from ..engines.casadi.replay import Replay, Stopped, as_located, replay
-from ..engines.settings import casadi_steps
+from ..engines.casadi.replay import Replay, Stopped, as_located
+from ..engines.casadi.replay import replay as _replay
+from ..engines.settings import Budget, casadi_steps
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups
 from ..model.model import Model, load, select_model, slip_restitution
@@ -39,45 +39,46 @@ def by_casadi(
     trajectory: bool,
     find: Callable[[Model, dict[str, float], float, tuple[str, ...]], EventSequence] = locate,
     control: Callable[[float, str, dict[str, float]], Tolerance] = tolerance_for,
-    replay: Callable[..., Replay] = replay,
+    replay: Callable[..., Replay] = _replay,
     until: float | None = None,
-    steps: int | None = None,
+    budget: Budget | None = None,
 ) -> Collision:
     """One collision by CVODES or Rosenbrock: its events are located, then its phases are integrated by the engine.
 
     Both tolerances are tightened while the engine misses a located event, that is while its error exceeds the distance
     to a boundary; one that was tightened for a grazing start is loosened where the engine cannot meet it. Where no
-    tolerance helps within the steps of the requested one, the trajectory of the event location is the result.
+    tolerance helps within the steps of the budget, the trajectory of the event location is the result.
 
     Arguments:
         find: locates the sequence of events; the same for both engines.
         control: integrator tolerances of an engine at a relative tolerance.
         replay: integrates the located phases.
         until: time (s) to which a stick is followed on after its proof, located as usual.
-        steps: most steps to locate the events; None for those of `settings`.
+        budget: of all these integrations; None for that of `settings`.
     """
-    budget = casadi_steps(rtol)
+    budget = budget or Budget(casadi_steps(rtol))
     if find is locate:
-        find = partial(locate, until=0.0 if until is None else until / n.time, steps=steps or budget)
+        find = partial(locate, until=0.0 if until is None else until / n.time, budget=budget)
+    replay = partial(_replay, budget=budget) if replay is _replay else replay
     small, choice = (select_model(scene, n.oblique, full, fold=True) for full in (False, ledger or trajectory))
     model, used = load(choice), rtol
     flow, p = Flow(choice, Region(1, 1, False), _quadratures(model, ledger)), model.group_values(n.groups)
     looser: Tolerance | None = None
+    path: EventSequence | None = None
     replayed: Replay | None = None
     try:
         while replayed is None:
             tolerance = looser or control(used, plugin, n.groups)
-            if plugin != "cvodes":
-                tolerance = replace(tolerance, steps=min(tolerance.steps, budget))
             try:
-                path = find(load(small), n.groups, used, ())
+                path = path or find(load(small), n.groups, used, ())
                 replayed = replay(path, plugin, tolerance, flow, model.start(p))
                 continue
             except Stopped as stopped:
                 if not stopped.missed and (looser := tolerance.loosened(used)):
                     continue
                 if stopped.missed and used > _TIGHTEST:
-                    used, looser = used * 1e-2 if used > 200 * _TIGHTEST else _TIGHTEST, None
+                    used, looser, path = used * 1e-2 if used > 200 * _TIGHTEST else _TIGHTEST, None, None
+                    budget.kept = budget.kept or budget.spent
                     continue
                 failure = ComputationError(
                     f"{plugin} {stopped.why}",
@@ -90,6 +91,7 @@ def by_casadi(
                 if used == rtol:
                     raise
                 failure = error
+            budget.kept = 0
             try:
                 path, used = find(model, n.groups, rtol, flow.extras), rtol
             except ComputationError:
@@ -97,6 +99,7 @@ def by_casadi(
             replayed, plugin = as_located(path, choice), "rosenbrock"
     except ComputationError as error:
         raise n.in_si(error) from None
+    assert path is not None
     energy = _energy(model, replayed, p, n) if ledger else None
     if energy is not None and path.separated and energy.is_open(rtol):
         raise ComputationError(

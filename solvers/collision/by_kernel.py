@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOMES, Status
-from ..engines.settings import KERNEL_STEPS
+from ..engines.settings import CALL, CHATTER_STEPS, KERNEL_STEPS, ROSENBROCK, STEPS
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, Steps, run_recorded
 from ..model.dimensionless import DimensionlessGroups
@@ -26,7 +26,11 @@ if TYPE_CHECKING:
     from ..engines.casadi.trajectory import Stretch
 
 
-_MOST_EVENTS = 1000  # of a result; chatter that lasts longer is followed by CasADi, whose certificates end it sooner
+class Undecided(NamedTuple):
+    """Why the kernel has not decided a collision, and the steps that are then spent of those for all engines."""
+
+    reason: str
+    spent: int = 0
 
 
 def words_of(scene: Scene) -> tuple[str, ...]:
@@ -41,7 +45,7 @@ def collision(
     ledger: bool = False,
     trajectory: bool = False,
     budget: int = KERNEL_STEPS,
-) -> Collision | str:
+) -> Collision | Undecided:
     """The collision by one call of the kernel; the reason if the kernel cannot complete it or is not available.
 
     Arguments:
@@ -51,16 +55,17 @@ def collision(
     impacts = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
     recorded = run_recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
     if recorded is None:
-        return "no Taylor kernel can be compiled for this scene here"  # a remark has said why
+        return Undecided("no Taylor kernel can be compiled for this scene here")  # a remark has said why
     answer, books = recorded.answers[0], None if recorded.ledger is None else recorded.ledger[0]
+    steps = int(answer["steps"])
     if answer["status"] > LAST_ANSWER:
-        return f"the Taylor kernel gave up: {Status(answer['status']).name.lower().replace('_', ' ')}"
-    if answer["events"] > _MOST_EVENTS:
-        return f"the Taylor kernel gave up: more than {_MOST_EVENTS} events"
+        chatters = steps + int(answer["events"]) * CALL * ROSENBROCK > STEPS
+        status = Status(answer["status"]).name.lower().replace("_", " ")
+        return Undecided(f"the Taylor kernel gave up: {status}", STEPS - CHATTER_STEPS if chatters else steps)
     energy = None if books is None else _energy(scene, n, books)
     separated = bool(answer["outcome"])
     if energy is not None and separated and energy.is_open(rtol):
-        return "the Taylor kernel gave up: its energy ledger is open"  # so the trajectory is wrong
+        return Undecided("the Taylor kernel gave up: its energy ledger is open", steps)  # so the trajectory is wrong
     names, words = load(select_model(scene, n.oblique, fold=True)).names("outputs"), words_of(scene)
     return assembled(
         scene,
@@ -75,7 +80,7 @@ def collision(
         slip=float(answer["slip"]),
         events=[(words[int(each["kind"])], float(each["time"])) for each in recorded.events[0, : answer["events"]]],
         engine="taylor",
-        steps=int(answer["steps"]),
+        steps=steps,
         rtol=rtol,
         energy=energy,
         drift=None if books is None else _drift(scene, n, books),

@@ -4,13 +4,13 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 
 from ...generated.automaton import STICK
-from ..engines.settings import UNTIL, casadi_steps, check_engine, check_rtol
+from ..engines.settings import UNTIL, Budget, casadi_steps, check_engine, check_rtol
 from ..host.arguments import check_flag
 from ..model.dimensionless import nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .by_casadi import by_casadi
-from .by_kernel import collision
+from .by_kernel import Undecided, collision
 from .result import Collision
 
 
@@ -72,8 +72,7 @@ def collide(
     if isinstance(result, Collision):
         if last is None or result.outcome != STICK:
             return result
-        result, steps = "the Taylor kernel does not follow a stick beyond its proof", None
-    else:
-        steps = casadi_steps(rtol, after_kernel=True)
-    other = by_casadi(loaded, dimensionless, rtol, "rosenbrock", ledger, trajectory, until=last, steps=steps)
-    return replace(other, engine_reason=result)
+        result = Undecided("the Taylor kernel does not follow a stick beyond its proof")
+    budget = Budget(casadi_steps(rtol, spent=result.spent))
+    other = by_casadi(loaded, dimensionless, rtol, "rosenbrock", ledger, trajectory, until=last, budget=budget)
+    return replace(other, engine_reason=result.reason)

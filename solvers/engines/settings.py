@@ -1,5 +1,8 @@
 """Numerical settings of a run: relative tolerance, engine and step budget."""
 
+import math
+from dataclasses import dataclass
+
 from ..errors import InputError
 from ..host.arguments import check_name
 from ..scene.schema import Field, Range
@@ -11,9 +14,12 @@ RTOL = 1e-9  # default
 # it a ComputationError says where the collision stands, or a status of the exported law that it is undecided.
 STEPS = 300_000
 STEPS_IN_SPACE = STEPS // 3  # the same time in steps of the kernel in space
-CASADI_STEPS, CASADI_STEPS_IN_SPACE = STEPS // 20, STEPS // 30  # and in steps of CasADi's Rosenbrock
+ROSENBROCK, ROSENBROCK_IN_SPACE = 20, 30  # a step of CasADi's Rosenbrock, in steps of the planar kernel
+CVODES = 1 / 8  # and one of CVODES, in those of Rosenbrock
+CASADI_STEPS, CASADI_STEPS_IN_SPACE = STEPS // ROSENBROCK, STEPS // ROSENBROCK_IN_SPACE
 KERNEL_STEPS, KERNEL_STEPS_IN_SPACE = STEPS // 2, STEPS_IN_SPACE // 2  # of the kernel, where CasADi has the other half
-CALL = 25  # least number of steps that a CasADi call counts for; bounds chatter, which makes many short calls
+CHATTER_STEPS = STEPS // 8  # left to CasADi where it cannot follow as many rebounds as the kernel has
+CALL, CALLS = 25, 3  # least number of steps that a CasADi call counts for; ratio of the numbers that it may take
 FEW = 100  # up to this many collisions, a second core does not pay
 TOLERANCE = Field(
     "rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", 1e-13, 1e-3, low_open=False, high_open=False)
@@ -21,13 +27,38 @@ TOLERANCE = Field(
 UNTIL = Field("until", "a time after initial contact", '"5 ms"', unit="s")  # to which a stick is followed on
 
 
-def casadi_steps(rtol: float, space: bool = False, after_kernel: bool = False) -> int:
-    """Most steps of one collision by CasADi: of all its budget, or of what the kernel leaves.
+def casadi_steps(rtol: float, space: bool = False, spent: int = 0) -> int:
+    """Most steps of one collision by CasADi's Rosenbrock, after `spent` steps of the planar kernel.
 
     Below the default tolerance they are more in the ratio of the step lengths of Rosenbrock, of order 5.
     """
-    most = (CASADI_STEPS_IN_SPACE if space else CASADI_STEPS) // (2 if after_kernel else 1)
+    most = (STEPS - spent) // (ROSENBROCK_IN_SPACE if space else ROSENBROCK)
     return round(most * max(1.0, float((RTOL / rtol) ** (1 / 5))))
+
+
+@dataclass
+class Budget:
+    """Steps of CasADi's Rosenbrock that a collision has, shared by all integrations that it takes."""
+
+    most: int
+    spent: int = 0
+    kept: int = 0  # for a last resort
+
+    @property
+    def is_spent(self) -> bool:
+        return self.most - self.kept - self.spent < CALL
+
+    @property
+    def call(self) -> int:
+        """Most steps of the next call; one of few numbers, as each needs an integrator of its own."""
+        steps = CALL
+        while steps * CALLS <= self.most - self.kept - self.spent:
+            steps *= CALLS
+        return steps
+
+    def spend(self, steps: float) -> None:
+        """Count the steps of a call."""
+        self.spent += max(math.ceil(steps), CALL)
 
 
 def check_rtol(rtol: object, label: str = "rtol") -> float:

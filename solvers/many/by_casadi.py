@@ -10,7 +10,7 @@ from ..collision.by_casadi import by_casadi
 from ..engines.casadi.integrators import Tolerance
 from ..engines.casadi.locate import EventSequence, locate
 from ..engines.casadi.replay import Replay, as_located, replay
-from ..engines.settings import casadi_steps
+from ..engines.settings import KERNEL_STEPS, Budget, casadi_steps
 from ..errors import WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import Model
@@ -42,20 +42,20 @@ def _one(request: Batch, k: int, machine_code: bool) -> dict[str, Any]:
     plugin = "cvodes" if request.engine == "cvodes" else "rosenbrock"
     ledger = any(name in LEDGER for name in request.of)
     located = plugin == "rosenbrock" and not ledger and "steps" not in request.of
-    steps = casadi_steps(request.rtol, after_kernel=request.engine == "taylor")
+    budget = Budget(casadi_steps(request.rtol, spent=KERNEL_STEPS if request.engine == "taylor" else 0))
 
     def find(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
         turns = located and "rotation" in request.of and model.has("turning_rate") and not model.strings
-        return locate(model, groups, rtol, ("rotation",) if turns else extras, located and machine_code, 0.0, steps)
+        return locate(model, groups, rtol, ("rotation",) if turns else extras, located and machine_code, 0.0, budget)
 
     def kept(path: EventSequence, plugin: str, tolerance: Tolerance, flow: Flow, start: np.ndarray) -> Replay:
         if not located:
-            return replay(path, plugin, tolerance, flow, start)
+            return replay(path, plugin, tolerance, flow, start, budget)
         replayed = as_located(path, flow.choice)
         replayed.time = path.time
         return replayed
 
-    one = by_casadi(scene, n, request.rtol, plugin, ledger, False, find, replay=kept)
+    one = by_casadi(scene, n, request.rtol, plugin, ledger, False, find, replay=kept, budget=budget)
     values: dict[str, Any] = {"outcome": OUTCOMES.index(one.outcome), "certified": one.certified}
     for name in ("restitution", *(name for name in request.of if name in INTEGRATED)):
         table, _, term = name.rpartition(".")

@@ -8,13 +8,14 @@ Energies are quadratic in both vectors: for a ledger two more collisions, of whi
 coefficients.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.casadi.locate import locate
+from ..engines.settings import KERNEL_STEPS, Budget
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.record import run_with_books
 from ..errors import ComputationError, WetDoubletError
@@ -45,15 +46,16 @@ class Planar:
 
 
 def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar | None:
-    """Planar collisions by the kernel; None if none is available."""
+    """Planar collisions by the kernel; None if none is available. They share its steps."""
+    budget = KERNEL_STEPS // (4 if ledger else 2)
     terms = np.full((impacts.speed.size, len(TERMS)), np.nan)
     if ledger:
-        both = run_with_books(impacts, rtol, threads)
+        both = run_with_books(impacts, rtol, threads, budget)
         if both is None:
             return None
         answers, terms = both[0], of_kernel(both[1])
     else:
-        plain = run_kernel(impacts, rtol, False, threads)
+        plain = run_kernel(impacts, rtol, False, threads, budget)
         if plain is None:
             return None
         answers = plain
@@ -66,8 +68,12 @@ def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) 
     )
 
 
-def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool, steps: int) -> Planar:
-    """Planar collisions by Rosenbrock, one after the other, each within a number of steps."""
+def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool, budgets: Sequence[Budget]) -> Planar:
+    """Planar collisions by Rosenbrock, one after the other.
+
+    Arguments:
+        budgets: of each row, for all planar collisions that it takes.
+    """
     size = impacts.speed.size
     time, gap, opening, slide, roll = (np.full(size, np.nan) for _ in range(5))
     outcome, reason = np.full(size, FAILED), np.full(size, "", object)
@@ -79,7 +85,7 @@ def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool, steps: int) ->
             n = nondimensionalise(scene, float(impacts.speed[k]), float(impacts.angle[k]))
             try:
                 model = load(select_model(scene, True, full=ledger))
-                path = locate(model, n.groups, rtol, extras_of(model) if ledger else (), steps=steps)
+                path = locate(model, n.groups, rtol, extras_of(model) if ledger else (), budget=budgets[k])
             except ComputationError as error:
                 raise n.in_si(error) from None
         except WetDoubletError as error:
@@ -111,15 +117,20 @@ def beside_wall(
         spin = {"impact_spin": spinning * speed / radius}
         return planar(Impacts(pairs.scene, speed, np.full(pairs.size, angle), spin))
 
-    slides, both = collided(_SLIDES, 0.0), collided(_SLIDES, 1.0)
-    if slides is None or both is None:
+    cases = ((_SLIDES, 0.0), (_SLIDES, 1.0), (0.0, 1.0), (_SLIDES, -1.0))[: 4 if ledger else 2]
+    parts = [part for case in cases if (part := collided(*case))]
+    if len(parts) < len(cases):
         return None
+    slides, both = parts[:2]
     # sliding is that of the sphere along the wall; rolling turns it about normal x sliding
     sliding = -pairs.sliding
     rolling = radius * np.cross(pairs.normal, pairs.spins[:, 0])
     ends = Ends.blank(pairs.size)
     for name in ("outcome", "certified", "reason"):
         getattr(ends, name)[:] = getattr(slides, name)
+    for part in parts[1:]:  # of one that has spent its steps the others are not known
+        lost = (ends.outcome != FAILED) & (part.outcome == FAILED)
+        ends.outcome[lost], ends.reason[lost] = FAILED, part.reason[lost]
     thickness = float(pairs.scene.material["film_thickness"])
     ends.time[:] = slides.time * thickness / speed
     ends.gap[:] = slides.gap * thickness
@@ -135,13 +146,9 @@ def beside_wall(
     first, last = length(sliding - rolling), length(later[0] - later[1])
     with np.errstate(all="ignore"):
         ends.slip[:] = np.where((first > 0) & (ends.outcome > 0), last / first, np.nan)
-    left = slides.left | both.left
+    left = np.any([part.left for part in parts], axis=0)
     if ledger:
-        spins, against = collided(0.0, 1.0), collided(_SLIDES, -1.0)
-        if spins is None or against is None:
-            return None
-        left |= spins.left | against.left
-        ends.energy[:] = _energies(pairs, sliding, rolling, [each.energy for each in (slides, spins, both, against)])
+        ends.energy[:] = _energies(pairs, sliding, rolling, [part.energy for part in parts])
         left |= is_open(ends.energy, ends.outcome > 0, rtol)
     return ends, left
 
@@ -150,9 +157,9 @@ def _energies(pairs: Pairs, sliding: np.ndarray, rolling: np.ndarray, planar: li
     """The ledger, J: quadratic forms in sliding and rolling, which collisions with unit vectors determine.
 
     Arguments:
-        planar: terms of one that slides, one that spins, one with both, and one with both against each other.
+        planar: terms of one that slides, one with both, one that spins, and one with both against each other.
     """
-    slides, spins, both, against = (each[:, TRANSVERSE] for each in planar)
+    slides, both, spins, against = (each[:, TRANSVERSE] for each in planar)
     along = slides + spins - (both + against) / 2  # the normal motion's
     forms = slides - along, spins - along, (both - against) / 2
     mass, speed = float(pairs.scene.material["reduced_mass"]), -pairs.opening[:, None]

@@ -14,6 +14,7 @@ from ...generated.automaton import LEAST_SLIP, OUTCOMES, TURNLESS
 from ..engines.casadi.integrators import tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence
 from ..engines.casadi.replay import Replay, Stopped, as_located, replay
+from ..engines.settings import Budget, casadi_steps
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.key import ModelKey
@@ -30,16 +31,17 @@ _LEAST = 1e-300  # in place of zero where it divides
 _TIGHTEST = 1e-13  # relative tolerance down to which a missed event is sought again
 
 
-def pairs_by_casadi(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False, steps: int | None = None) -> Ends:
+def pairs_by_casadi(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False, spent: int = 0) -> Ends:
     """Ends of pairs integrated one after the other; a failed pair has the outcome FAILED and its reason.
 
     Arguments:
-        steps: most steps of a pair; None for those of `settings`.
+        spent: steps of the planar kernel that a pair has taken.
     """
     ends = Ends.blank(pairs.size)
     for k in range(pairs.size):
+        budget = Budget(casadi_steps(rtol, True, spent))
         try:
-            ends.put(np.array([k]), _one(pairs.part(np.array([k])), plugin, rtol, ledger, steps))
+            ends.put(np.array([k]), _one(pairs.part(np.array([k])), plugin, rtol, ledger, budget))
         except WetDoubletError as error:
             ends.outcome[k], ends.reason[k] = FAILED, str(error)
     return ends
@@ -91,13 +93,13 @@ def groups_of(pair: Pairs, axes: np.ndarray) -> DimensionlessGroups:
     return replace(n, groups={**n.groups, **groups, **normal, **first}, rate=rate)
 
 
-def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, steps: int | None) -> Ends:
+def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, budget: Budget) -> Ends:
     axes = own_axes(pair)
     n = groups_of(pair, axes)
     model = load(select_model(pair.scene, True, full=ledger, space=True))
     extras = EXTRAS + (extras_of(model) if ledger else ())
     try:
-        path, replayed = _integrated(model, extras, select_model(pair.scene, True, space=True), n, plugin, rtol, steps)
+        path, replayed = _integrated(model, extras, select_model(pair.scene, True, space=True), n, plugin, rtol, budget)
     except ComputationError as error:
         raise n.in_si(error) from None
     p, y = model.group_values(n.groups), replayed.y
@@ -146,7 +148,7 @@ def _integrated(
     n: DimensionlessGroups,
     plugin: str,
     rtol: float,
-    steps: int | None,
+    budget: Budget,
 ) -> tuple[EventSequence, Replay]:
     """The located events and the trajectory; the tolerance is tightened where the engine misses an event.
 
@@ -155,14 +157,18 @@ def _integrated(
     """
     tolerance = rtol
     while plugin != "rosenbrock":
-        path = EventLocator(load(small), n.groups, tolerance, EXTRAS).run()
         flow = Flow(model.choice, Region(1, 1, False), extras)
         start = model.start(model.group_values(n.groups))
         try:
-            return path, replay(path, plugin, tolerance_for(tolerance, plugin, n.groups), flow, start)
+            path = EventLocator(load(small), n.groups, tolerance, EXTRAS, budget=budget).run()
+            return path, replay(path, plugin, tolerance_for(tolerance, plugin, n.groups), flow, start, budget)
+        except ComputationError:
+            break
         except Stopped as failure:
             if not (failure.missed and tolerance > _TIGHTEST):
                 break
             tolerance = max(tolerance * 1e-2, _TIGHTEST)
-    path = EventLocator(model, n.groups, tolerance, extras, steps=steps).run()
+            budget.kept = budget.kept or budget.spent
+    budget.kept = 0
+    path = EventLocator(model, n.groups, tolerance, extras, budget=budget).run()
     return path, as_located(path, model.choice)

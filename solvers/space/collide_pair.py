@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..engines.choice import collision_engine
-from ..engines.settings import FEW, RTOL, casadi_steps, check_engine, check_rtol
+from ..engines.settings import FEW, KERNEL_STEPS, RTOL, Budget, casadi_steps, check_engine, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_flag
 from ..host.cores import usable_cores
@@ -184,19 +184,19 @@ def _ends(pairs: Pairs, engine: str, rtol: float, ledger: bool) -> Ends:
     left |= gains_energy(pairs, ends, rtol)
     if left.any():
         which = np.flatnonzero(left)
-        ends.put(which, _by_casadi(pairs.part(which), "rosenbrock", rtol, ledger, after_kernel=True))
+        ends.put(which, _by_casadi(pairs.part(which), "rosenbrock", rtol, ledger, KERNEL_STEPS))
     return ends
 
 
-def _by_casadi(pairs: Pairs, engine: str, rtol: float, ledger: bool, after_kernel: bool = False) -> Ends:
-    steps = casadi_steps(rtol, not pairs.scene.wall, after_kernel)
+def _by_casadi(pairs: Pairs, engine: str, rtol: float, ledger: bool, spent: int = 0) -> Ends:
     if pairs.scene.wall:
-        made = beside_wall(pairs, lambda those: planar_by_casadi(those, rtol, ledger, steps), rtol, ledger)
+        budgets = [Budget(casadi_steps(rtol, spent=spent)) for _ in range(pairs.size)]
+        made = beside_wall(pairs, lambda those: planar_by_casadi(those, rtol, ledger, budgets), rtol, ledger)
         assert made is not None
         ends, is_open = made
         ends.outcome[is_open], ends.reason[is_open] = FAILED, OPEN
     else:
-        ends = pairs_by_casadi(pairs, engine, rtol, ledger, steps)
+        ends = pairs_by_casadi(pairs, engine, rtol, ledger, spent)
     grown = gains_energy(pairs, ends, rtol)
     ends.outcome[grown], ends.reason[grown] = FAILED, GREW
     return ends

@@ -22,7 +22,7 @@ import numpy as np
 from wetdoublet.generated.automaton import LAST_ANSWER, Status
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.certificates import NoCertificate, OrbitalMomentumCertificate, at_maximum
-from wetdoublet.solvers.engines.settings import RTOL
+from wetdoublet.solvers.engines.settings import RTOL, Budget
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, run_kernel, variant_for_many
 from wetdoublet.solvers.engines.taylor.headers import headers
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
@@ -171,7 +171,7 @@ def by_casadi(kind: str, partner: str, sticks: int, seed: int) -> dict[str, list
             scene = scene_of(request, these, k)
             n = nondimensionalise(scene, *scene.need_impact())
             model = load(select_model(scene, n.oblique))
-            one = WithoutCertificate(model, n.groups, RTOL, steps=BUDGET)
+            one = WithoutCertificate(model, n.groups, RTOL, budget=Budget(BUDGET))
             proofs, states = list(_alone(one.proof)), [(one.y, one.phase)]
             with contextlib.suppress(ComputationError):  # it chatters, or creeps, without end
                 one.on(LONG)

@@ -4,6 +4,7 @@ The events, their effects and the rules of a rebound are those of `generated/aut
 """
 
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -47,8 +48,8 @@ from ...model.phases import Flow, Phase, WatchedEvents
 from ...model.rebound import rebounded
 from ...scene.contact import contact_gap, contact_word
 from ...scene.user_model import OwnEvent
-from ..settings import CALL, casadi_steps
-from .integrators import EventHit, IntegrationFailed, Locator, locator, plain, tolerance_for
+from ..settings import CALL, Budget, casadi_steps
+from .integrators import EventHit, IntegrationFailed, Locator, Tolerance, locator, plain, tolerance_for
 
 # why a collision stays undecided, in messages
 CREEPS, RESTS = "the gap changes too slowly", "the resting doublet turns for too long"
@@ -133,7 +134,7 @@ class EventLocator:
         rtol: float,
         extras: tuple[str, ...] = (),
         machine_code: bool = False,
-        steps: int | None = None,
+        budget: Budget | None = None,
         until: float = 0.0,
     ) -> None:
         rtol = min(rtol, LOOSEST)
@@ -155,7 +156,7 @@ class EventLocator:
         self.path = EventSequence(model, self.p, self.watch, extras=self.extras)
         self.y = self.path.y = np.append(model.start(self.p), [0.0] * len(self.extras))
         self.phase = Phase(film=1, shear=int(self.edge >= 1.0), motion=CLOSING)
-        self.spent, self.steps = 0, casadi_steps(rtol, model.space) if steps is None else steps
+        self.budget = budget or Budget(casadi_steps(rtol, model.space))
         self.until, self.deadline = until, np.inf
         self._maxima: list[np.ndarray] = []  # states at maxima of the gap
 
@@ -170,7 +171,7 @@ class EventLocator:
         self._follow()
         if not path.separated and path.steps[-1].event is None and path.time < self.until:
             proved, path.decided, self.deadline = path.certified, path.time, self.until
-            self.proof, self.watch, self.spent = NoCertificate(), replace(self.watch, certificate=None), 0
+            self.proof, self.watch, self.budget.spent = NoCertificate(), replace(self.watch, certificate=None), 0
             self._follow()
             if path.separated:
                 word = "proved" if proved else "decided, not proved,"
@@ -195,25 +196,35 @@ class EventLocator:
         self.path.certified = proof.theorem
         return True
 
-    def _spend(self, steps: int) -> None:
-        """Count the steps of an integrator call."""
-        self.spent += max(steps, CALL)
-        if self.spent > self.steps:
-            phases = len(self.path.steps)
-            if self.path.decided is not None:
-                message = f"{self.steps} steps have not led from the proof to the time that was asked for"
-                raise self._error(message, "try an earlier --until")
-            why, remedy = CREEPS, "a larger --rtol, or "
-            if self.phase.resting:
-                why = RESTS
-                if not (self.model.space and self.model.friction):  # the kernel has no such rest in space
-                    remedy = f"engine taylor, {remedy}"
-            elif phases > min(CHATTER_PHASES, self.steps // (4 * CALL)):
-                why, remedy = CHATTERS, ""  # which no tolerance shortens
-            raise self._error(
-                f"{self.steps} steps in {phases + 1} phases have not decided the outcome",
-                f"{why}: try {remedy}another impact",
-            )
+    def _undecided(self) -> ComputationError:
+        phases, most = len(self.path.steps), self.budget.most
+        if self.path.decided is not None:
+            message = f"{most} steps have not led from the proof to the time that was asked for"
+            return self._error(message, "try an earlier --until")
+        why, remedy = CREEPS, "a larger --rtol, or "
+        if self.phase.resting:
+            why = RESTS
+            if not (self.model.space and self.model.friction):  # the kernel has no such rest in space
+                remedy = f"engine taylor, {remedy}"
+        elif phases > min(CHATTER_PHASES, most // (4 * CALL)):
+            why, remedy = CHATTERS, ""  # which no tolerance shortens
+        return self._error(
+            f"{most} steps in {phases + 1} phases have not decided the outcome", f"{why}: try {remedy}another impact"
+        )
+
+    def _tolerance(self) -> Tolerance:
+        """The tolerance of the next call, with its limit of steps. ComputationError if none are left."""
+        if self.budget.is_spent:
+            raise self._undecided()
+        most = self.budget.most if self.machine_code else self.budget.call  # each limit is compiled anew
+        return replace(self.tolerance, steps=min(self.tolerance.steps, most))
+
+    def _call(self, integrator: Any, *given: float) -> Any:
+        """The result of an integrator from the present state; its steps are counted, also where it fails."""
+        try:
+            return integrator(self.y, self.p, *given)
+        finally:
+            self.budget.spend(integrator.steps)
 
     def _run_or_act(self) -> bool:
         """A criterion or declared event that is due at the start of a phase, or else the phase; True if all is over."""
@@ -253,12 +264,11 @@ class EventLocator:
 
     def _run_phase(self) -> bool:
         """Integrate to the next event and apply its effect; True if the collision is over."""
-        find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
         elapsed, stretch = 0.0, self._first_stretch()
         growth, most = (_DOUBLED, _MORE) if self.model.own_events else (GROWTH, STRETCHES)
         for _ in range(most):
             level, left, before = self._level(), self.deadline - self.path.time, self.y[: len(self.model.state)]
-            stop = self._advance(find, min(stretch, left), -np.inf if level is None else level)
+            stop = self._advance(min(stretch, left), -np.inf if level is None else level)
             elapsed += stop.time
             self.path.time += stop.time
             self.y = self.path.y = stop.y
@@ -292,22 +302,21 @@ class EventLocator:
         force = abs(self.model.values("inward_force", self.y, self.p)["inward_force"])
         return FIRST_STRETCH * min(1.0, _STRONG / np.sqrt(force)) if force > 0 else FIRST_STRETCH
 
-    def _advance(self, find: Locator, stretch: float, level: float) -> EventHit:
+    def _advance(self, stretch: float, level: float) -> EventHit:
         # an unreachable level is a large negative number, since infinities break the integrator's arithmetic
-        level = max(level, -1e30)
+        level, spent, most = max(level, -1e30), self.budget.spent, self.budget.call
+        find = locator(self._flow(), self.watch, self._tolerance(), self.machine_code)
         try:
-            stop = find(self.y, self.p, stretch, self.phase.motion, level)
-            self._spend(find.steps)
+            stop = self._call(find, stretch, self.phase.motion, level)
             if stop.dipped and stop.event:
                 stop = self._refined(find, stop, stop.event, level)
             return self._overshot(find, stop, level)
         except IntegrationFailed as error:
-            self._spend(find.steps + 1)
             if looser := self.tolerance.loosened(self.rtol):
                 self.tolerance = looser
-                find = locator(self._flow(), self.watch, self.tolerance, self.machine_code)
-                return self._advance(find, stretch, level)
-            self._spend(find.steps)  # an integrator whose steps are used up fails, too
+                return self._advance(stretch, level)
+            if self.budget.spent - spent >= most:  # an integrator whose steps are used up fails, too
+                raise self._undecided() from None
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
 
     def _overshot(self, find: Locator, stop: EventHit, level: float) -> EventHit:
@@ -328,16 +337,13 @@ class EventLocator:
 
     def _refined(self, find: Locator, stop: EventHit, event: str, level: float) -> EventHit:
         """The zero of an event function before a stop at which it is negative: bisection with secant steps."""
-        integrate = plain(self._flow(), "rosenbrock", self.tolerance)
-
         before, after, y_after = 0.0, stop.time, stop.y
         g_after, g_before = find.value(event, stop.y, self.p, self.phase.motion, level), None
         for count in range(80):
             trial = 0.5 * (before + after)
             if g_before is not None and count % 2:
                 trial = before + (after - before) * g_before / (g_before - g_after)
-            y = integrate(self.y, self.p, trial)
-            self._spend(integrate.steps)
+            y = self._call(plain(self._flow(), "rosenbrock", self._tolerance()), trial)
             g = find.value(event, y, self.p, self.phase.motion, level)
             if g < 0:
                 after, g_after, y_after = trial, g, y
@@ -516,7 +522,7 @@ def locate(
     extras: tuple[str, ...] = (),
     machine_code: bool = False,
     until: float = 0.0,
-    steps: int | None = None,
+    budget: Budget | None = None,
 ) -> EventSequence:
     """Phases and events of a collision.
 
@@ -524,9 +530,9 @@ def locate(
         extras: additional quadratures (`rotation`), included in the sequence's last state.
         machine_code: use integrators compiled to C.
         until: time (x0/v0) to which a stick is followed on after its proof.
-        steps: most steps; None for those of `settings`.
+        budget: of its steps; None for one of its own.
 
     Raises:
         ComputationError: with phase, time (x0/v0) and state, if the outcome cannot be decided.
     """
-    return EventLocator(model, groups, rtol, extras, machine_code, steps, until).run()
+    return EventLocator(model, groups, rtol, extras, machine_code, budget, until).run()

@@ -5,7 +5,7 @@ which the landing step corrects, so that events and their derivatives are those 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from casadi import SX, Function, jtimes, vertcat
@@ -14,7 +14,8 @@ from ...host.thread_caches import own_cache
 from ...model.key import ModelKey
 from ...model.phases import Flow, WatchedEvents, event_table, expressions, extra_units
 from ...model.rebound import rebounded
-from .integrators import IntegrationFailed, Plain, Tolerance, landing, plain
+from ..settings import CVODES, Budget
+from .integrators import IntegrationFailed, Tolerance, landing, plain
 from .locate import EventSequence, PhaseRun, own_loss
 
 _LANDED = 1e-4  # largest Taylor step, relative to the phase, for landing without another integration
@@ -69,12 +70,15 @@ class Replay:
         return float(self.units[position]) * (float(self.y[len(self.y) - len(self.extras) + position]) - self.offset)
 
 
-def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray) -> Replay:
+def replay(
+    path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray, budget: Budget | None = None
+) -> Replay:
     """Integrate the event sequence `path` with an integrator plugin.
 
     Arguments:
         kind: the model and its extras (flags of film and shear are taken from the sequence).
         start: state at initial contact.
+        budget: of its steps; None for those of the tolerance.
 
     Raises:
         Stopped: the engine failed, or its solution does not meet an event of the sequence.
@@ -85,12 +89,13 @@ def replay(path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, s
     start = np.concatenate([start, np.full(len(kind.extras), tolerance.offset)])
     replayed = Replay(start, kind.extras, extra_units(model, kind.extras, p), tolerance.offset)
     size = len(model.state)
+    budget = budget or Budget(tolerance.steps)
     for step in path.steps:
         flow = Flow(kind.choice, step.phase.region, kind.extras)
         if step.duration > 0:
-            engine = plain(flow, plugin, tolerance)
             before = replayed.y
-            duration, replayed.y = _integrate_onto_event(engine, flow, path.watch, step, replayed, p, tolerance.steps)
+            given = flow, plugin, tolerance, budget, path.watch, step, replayed, p
+            duration, replayed.y = _integrate_onto_event(*given)
             replayed.pieces.append(Piece(str(step.phase), flow, before, replayed.time, duration))
             replayed.time += duration
         replayed.events += [(kind, replayed.time) for kind in step.kinds]
@@ -129,19 +134,30 @@ def as_located(path: EventSequence, choice: ModelKey) -> Replay:
 
 
 def _integrate_onto_event(
-    engine: Plain, flow: Flow, watch: WatchedEvents, step: PhaseRun, replayed: Replay, p: np.ndarray, most: int
+    flow: Flow,
+    plugin: str,
+    tolerance: Tolerance,
+    budget: Budget,
+    watch: WatchedEvents,
+    step: PhaseRun,
+    replayed: Replay,
+    p: np.ndarray,
 ) -> tuple[float, np.ndarray]:
     """Duration and final state of one phase, on the event's surface."""
+    cost = CVODES if plugin == "cvodes" else 1
 
     def integrate(duration: float) -> np.ndarray:
+        if budget.is_spent:
+            raise Stopped(f"has not finished in {budget.most} steps", step, replayed.time, replayed.y)
+        most = min(tolerance.steps, int(budget.call / cost))
+        engine = plain(flow, plugin, replace(tolerance, steps=most))
         try:
-            y = engine(replayed.y, p, duration)
+            return engine(replayed.y, p, duration)
         except IntegrationFailed as failure:
             raise Stopped(f"gave up ({failure})", step, replayed.time, replayed.y) from None
-        replayed.steps += engine.steps
-        if replayed.steps > most:
-            raise Stopped(f"has not finished in {most} steps", step, replayed.time, replayed.y)
-        return y
+        finally:
+            replayed.steps += engine.steps
+            budget.spend((engine.steps or most) * cost)  # CVODES says nothing of those after which it fails
 
     y = integrate(step.duration)
     if step.event is None:

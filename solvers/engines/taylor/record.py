@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....generated.automaton import Purpose
+from ....generated.automaton import LAST_ANSWER, Purpose
 from ...model.model import select_model
 from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS
@@ -97,7 +97,7 @@ def run_recorded(
         purpose: other than WHOLE only with a trajectory.
         fold: treat a partner equal to the sphere as an equal sphere.
         keep: return the steps; otherwise the same kernel integrates without recording them.
-        events: also return the events; otherwise answers only count them.
+        events: also return the events, of undecided collisions the first; otherwise answers only count them.
         peaks: also the largest margin of the glass criterion; only with a trajectory.
         room: events and steps of a collision that there is room for; where that is not enough, all are integrated
             again.
@@ -122,7 +122,7 @@ def run_recorded(
             one.buffer("rows", rows)
         if margins is not None:
             one.buffer("peaks", margins)
-        steps, most = one.run(), int(answers["events"].max())
+        steps, most = one.run(), int(answers["events"][answers["status"] <= LAST_ANSWER].max(initial=0))
         if (most <= log_room or not events) and (rows is None or steps <= rows.size):
             break
         log_room, step_room = max(most, log_room), max(steps, step_room)
@@ -131,7 +131,9 @@ def run_recorded(
     return Recorded(answers, log, books if ledger else None, kept, margins)
 
 
-def run_with_books(impacts: Impacts, rtol: float, threads: int) -> tuple[np.ndarray, np.ndarray] | None:
+def run_with_books(
+    impacts: Impacts, rtol: float, threads: int, budget: int = KERNEL_STEPS
+) -> tuple[np.ndarray, np.ndarray] | None:
     """Answers and ledgers of impacts, oblique or head-on; None if there is no kernel here."""
     answers, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, LEDGER)
     turns, fold, done = impacts.oblique, not impacts.others, []
@@ -139,7 +141,7 @@ def run_with_books(impacts: Impacts, rtol: float, threads: int) -> tuple[np.ndar
 
         def chunk(first: int, oblique: bool = oblique, which: np.ndarray = which) -> None:
             part = which[first : first + CHUNK]
-            recorded = run_recorded(impacts.part(part), oblique, rtol, ledger=True, events=False, fold=fold)
+            recorded = run_recorded(impacts.part(part), oblique, rtol, True, budget=budget, events=False, fold=fold)
             done.append(recorded is not None)
             if recorded is not None and recorded.ledger is not None:
                 answers[part], books[part] = recorded.answers, recorded.ledger

@@ -7,6 +7,7 @@ import pytest
 from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.certificates import NoCertificate, proof_for
 from wetdoublet.solvers.certificates.approach import Approach
+from wetdoublet.solvers.engines.settings import Budget
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import Model, load, select_model
@@ -84,7 +85,7 @@ def test_nothing_decided_at_initial_contact_escapes(strings: bool) -> None:
         if below or not proof.decided(start, _START):
             continue
         decided += 1
-        free = WithoutCertificate(model, n.groups, 1e-8, steps=3_000)
+        free = WithoutCertificate(model, n.groups, 1e-8, budget=Budget(3_000))
         free.proof = NoCertificate()
         try:
             free.on(1e4)

@@ -8,6 +8,7 @@ import pytest
 from wetdoublet.solvers import ComputationError, Scene
 from wetdoublet.solvers.certificates import NoCertificate
 from wetdoublet.solvers.certificates.attraction import AttractionCertificate
+from wetdoublet.solvers.engines.settings import Budget
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.verify.audit import WithoutCertificate
@@ -58,7 +59,7 @@ def _held_sticks(count: int, seed: int) -> tuple[int, int]:
         if not AttractionCertificate(model, model.group_values(n.groups), 1e-9).decided(start, None):  # type: ignore[arg-type]  # no phase
             continue
         held += 1
-        trajectory = WithoutCertificate(model, n.groups, 1e-9, steps=5_000)
+        trajectory = WithoutCertificate(model, n.groups, 1e-9, budget=Budget(5_000))
         trajectory.proof = NoCertificate()
         with contextlib.suppress(ComputationError):  # it creeps without end
             trajectory.on(6e5)

@@ -11,7 +11,7 @@ from wetdoublet.solvers import ComputationError, Scene, collide_many
 from wetdoublet.solvers.certificates import EnergyCertificate, NoCertificate, energy_proof
 from wetdoublet.solvers.certificates.film_and_attraction import FilmAndAttractionCertificate
 from wetdoublet.solvers.engines.casadi import locate
-from wetdoublet.solvers.engines.settings import STEPS
+from wetdoublet.solvers.engines.settings import STEPS, Budget
 from wetdoublet.solvers.errors import ModelWarning
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
@@ -27,7 +27,7 @@ def trajectory(
 ) -> locate.EventLocator:
     """A collision about to be located."""
     n = nondimensionalise(scene, scene.speed_of(stokes), angle)
-    return locate.EventLocator(load(select_model(scene, n.oblique)), n.groups, rtol, steps=steps)
+    return locate.EventLocator(load(select_model(scene, n.oblique)), n.groups, rtol, budget=Budget(steps))
 
 
 def film_loss(s: float) -> float:

@@ -10,7 +10,7 @@ from wetdoublet.solvers import ComputationError, Scene, boundary, collide_many
 from wetdoublet.solvers.certificates import NoCertificate, OrbitalMomentumCertificate
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
-from wetdoublet.solvers.engines.settings import STEPS
+from wetdoublet.solvers.engines.settings import STEPS, Budget
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
@@ -25,7 +25,7 @@ pytestmark = pytest.mark.slow
 def trajectory(scene: Scene, steps: int = STEPS) -> Any:
     """The locating trajectory of a scene with its impact."""
     n = nondimensionalise(scene, *scene.need_impact())
-    return EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9, steps=steps)
+    return EventLocator(load(select_model(scene, oblique=True)), n.groups, 1e-9, budget=Budget(steps))
 
 
 def impacts(count: int, arm: str, seed: int, shear: str = "immersed") -> list[Scene]:
@@ -53,7 +53,7 @@ def test_what_separates_is_never_held(arm: str, shear: str) -> None:
     parted = held = kept = 0
     for scene in impacts(32, arm, 5, shear):
         n = nondimensionalise(scene, *scene.need_impact())
-        followed = WithoutCertificate(load(select_model(scene, oblique=True)), n.groups, 1e-9, steps=3_000)
+        followed = WithoutCertificate(load(select_model(scene, oblique=True)), n.groups, 1e-9, budget=Budget(3_000))
         proof, followed.proof = followed.proof, NoCertificate()
         followed.watch = locate.WatchedEvents(tangential_edge=followed.watch.tangential_edge)
         assert isinstance(proof, OrbitalMomentumCertificate)

@@ -14,6 +14,7 @@ from wetdoublet.solvers import ComputationError, Scene
 from wetdoublet.solvers.certificates import NoCertificate
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.casadi.locate import EventLocator, EventSequence
+from wetdoublet.solvers.engines.settings import Budget
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import Model, load, select_model
 from wetdoublet.solvers.verify.audit import WithoutCertificate
@@ -31,7 +32,7 @@ class Hung:
 
     def path(self) -> EventSequence:
         """Its trajectory with the proof."""
-        return EventLocator(self.model, self.groups, 1e-9, steps=100_000).run()  # rebounds take many
+        return EventLocator(self.model, self.groups, 1e-9, budget=Budget(100_000)).run()  # rebounds take many
 
 
 def _log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
@@ -106,7 +107,7 @@ def strings() -> list[Hung]:
         scene, stokes, angle = draw(rng)
         n = nondimensionalise(scene, scene.speed_of(stokes), angle)
         model = load(select_model(scene, oblique=True))
-        free = WithoutCertificate(model, n.groups, 1e-9, steps=20_000)
+        free = WithoutCertificate(model, n.groups, 1e-9, budget=Budget(20_000))
         free.proof = NoCertificate()
         with contextlib.suppress(ComputationError):  # it creeps on, unseparated
             free.on(1e4)

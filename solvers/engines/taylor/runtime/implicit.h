@@ -31,7 +31,7 @@ static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn a
 static const double LEAST_VECTOR = 1e-3;     /* a smaller one counts as this, as in step.h */
 static const double MOST_TURNED = 1e9;       /* turns in a step */
 #endif
-enum { COST = SPACE ? 16 : 1 }; /* of a step, from the budget: about as long as so many Taylor steps in space */
+enum { COST = SPACE ? 16 : 6 }; /* of a step, from the budget: about as long as so many Taylor steps */
 
 typedef struct {
     vec rates[STATES][MODEL_STATES]; /* derivatives of the states' rates */
@@ -272,7 +272,7 @@ OUTLINE void crawl(queue *q)
         l.steps += splat_mask(COST);
         vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/(int)COLUMNS));
         h *= choose(clear, vec_min(better, splat(4.0)), splat(0.25));
-        mask leaves = busy & NOT(h > least_step);
+        mask leaves = busy & (NOT(h > least_step) | (l.steps > splat_mask(q->budget)));
         EACH_OF(lane, bits(leaves)) {
             LANE(l.crept, lane) = LANE(taken, lane) ? 0 : -10*PATIENCE; /* without success: not again for a while */
             pack(q->resumed[q->resumes++], &l, &f, lane);

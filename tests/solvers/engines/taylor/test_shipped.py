@@ -31,7 +31,8 @@ from wetdoublet.solvers.engines.taylor import build, shipped
 
 shipped.FOLDER = pathlib.Path(sys.argv[1])
 one = wd.collide("granulation", stokes=0.3, angle=0, ledger=False)
-sizes = [build.size_of(each) for each in shipped.variants() if each.choice.structure == "head_on_bridge"]
+values = [each for each in shipped.variants() if each.choice.structure == "head_on_bridge" and not each.gradients]
+sizes = [build.size_of(each) for each in values]
 print(one.engine, one.restitution.hex(), min(sizes))
 """
 needs_compiler = pytest.mark.skipif(compiler() is None, reason="no C compiler")
@@ -62,12 +63,21 @@ def test_lanes_are_the_doubles_in_a_register() -> None:
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with the shipped kernels of head-on collisions with a bridge, as the package's build compiles them."""
+    """A folder with the shipped kernels of head-on values with a bridge, as the package's build compiles them."""
     return build(tmp_path_factory.mktemp("shipped") / "kernels")
 
 
 def build(folder: Path, *sets: str) -> Path:
-    command = [sys.executable, "-m", shipped.__name__, str(folder), *sets, "--structure", "head_on_bridge"]
+    command = [
+        sys.executable,
+        "-m",
+        shipped.__name__,
+        str(folder),
+        *sets,
+        "--structure",
+        "head_on_bridge",
+        "--only-values",
+    ]
     subprocess.run(command, env=without_flags(), check=True)
     return folder
 
