@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 6ce305c15b59230d4b04284e190e678e35f3ea94c216971d5cc1cf1e7934f57f
+# Equations sha256 a933f2528ebb17e1a2228f6326257f84129b30ea10ddcdd4021c41c807ec0779
 """Oblique doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -49,7 +49,7 @@ FUNCTIONS = (
     "pendulum_margins", "approach_step",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "6ce305c15b59230d4b04284e190e678e35f3ea94c216971d5cc1cf1e7934f57f"
+DIGEST = "a933f2528ebb17e1a2228f6326257f84129b30ea10ddcdd4021c41c807ec0779"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -279,10 +279,10 @@ def pendulum_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]
     weighing = (
         weight*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2)
     )
-    turning = largest_momentum*obliquity
-    taken = 640*farthest**2*nearest**3*weighing/(aspect*(5*farthest**2 + 32))
-    final = sqrt(fmax(0, fmin(1, outward/(8*weighing) - aspect*contact/8)))
-    width = fmax(0, final**3*(pi - 2) + 2*final - rotation)/8
+    scaled_momentum = largest_momentum*obliquity
+    loss_by_cosine = 640*farthest**2*nearest**3*weighing/(aspect*(5*farthest**2 + 32))
+    final_half_sine = sqrt(fmax(0, fmin(1, outward/(8*weighing) - aspect*contact/8)))
+    width = fmax(0, final_half_sine**3*(pi - 2) + 2*final_half_sine - rotation)/8
     angle_0 = rotation
     angle_1 = rotation + width
     angle_2 = rotation + 2*width
@@ -291,18 +291,18 @@ def pendulum_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]
     angle_5 = rotation + 5*width
     angle_6 = rotation + 6*width
     angle_7 = rotation + 7*width
-    turning_0 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_0))))
-    turning_1 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_1))))
-    turning_2 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_2))))
-    turning_3 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_3))))
-    turning_4 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_4))))
-    turning_5 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_5))))
-    turning_6 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_6))))
-    turning_7 = sqrt(fmax(0, turning**2 - taken*(cos(rotation) - cos(angle_7))))
+    scaled_momentum_0 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_0))))
+    scaled_momentum_1 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_1))))
+    scaled_momentum_2 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_2))))
+    scaled_momentum_3 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_3))))
+    scaled_momentum_4 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_4))))
+    scaled_momentum_5 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_5))))
+    scaled_momentum_6 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_6))))
+    scaled_momentum_7 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_7))))
     return {
         "outward": outward,
         "pull": pull,
-        "impulse": width*(fmax(0, (aspect*turning_0**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_0) + 4))/(4*aspect*nearest*turning_0)) + fmax(0, (aspect*turning_1**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_1) + 4))/(4*aspect*nearest*turning_1)) + fmax(0, (aspect*turning_2**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_2) + 4))/(4*aspect*nearest*turning_2)) + fmax(0, (aspect*turning_3**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_3) + 4))/(4*aspect*nearest*turning_3)) + fmax(0, (aspect*turning_4**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_4) + 4))/(4*aspect*nearest*turning_4)) + fmax(0, (aspect*turning_5**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_5) + 4))/(4*aspect*nearest*turning_5)) + fmax(0, (aspect*turning_6**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_6) + 4))/(4*aspect*nearest*turning_6)) + fmax(0, (aspect*turning_7**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_7) + 4))/(4*aspect*nearest*turning_7))),
+        "impulse": width*(fmax(0, (aspect*scaled_momentum_0**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_0) + 4))/(4*aspect*nearest*scaled_momentum_0)) + fmax(0, (aspect*scaled_momentum_1**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_1) + 4))/(4*aspect*nearest*scaled_momentum_1)) + fmax(0, (aspect*scaled_momentum_2**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_2) + 4))/(4*aspect*nearest*scaled_momentum_2)) + fmax(0, (aspect*scaled_momentum_3**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_3) + 4))/(4*aspect*nearest*scaled_momentum_3)) + fmax(0, (aspect*scaled_momentum_4**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_4) + 4))/(4*aspect*nearest*scaled_momentum_4)) + fmax(0, (aspect*scaled_momentum_5**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_5) + 4))/(4*aspect*nearest*scaled_momentum_5)) + fmax(0, (aspect*scaled_momentum_6**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_6) + 4))/(4*aspect*nearest*scaled_momentum_6)) + fmax(0, (aspect*scaled_momentum_7**2 - 16*nearest**3*weighing*(aspect*contact - 4*cos(angle_7) + 4))/(4*aspect*nearest*scaled_momentum_7))),
         "film": normal_velocity*stokes - laws.film.stopping(gap),
         "recoil": dry_restitution*fastest*stokes - laws.film.stopping(reach),
         "rebound": -dry_restitution*normal_velocity*stokes - laws.film.stopping(gap),

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 6ce305c15b59230d4b04284e190e678e35f3ea94c216971d5cc1cf1e7934f57f */
+ * Equations sha256 a933f2528ebb17e1a2228f6326257f84129b30ea10ddcdd4021c41c807ec0779 */
 
 /* Oblique doublet with pendulum strings.
  *
@@ -392,13 +392,14 @@ static inline void pendulum_impulse(const constants *c, const vec *y, vec *impul
     vec weighing = c->weight*strings_stiffness_value(&c->strings_stiffness_law,
         0.25*(c->aspect*c->aspect)*(c->contact*c->contact) + 4.0*(c->aspect*c->contact +
         4.0)*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION])));
-    vec turning = largest_momentum*c->obliquity;
-    vec taken =
+    vec scaled_momentum = largest_momentum*c->obliquity;
+    vec loss_by_cosine =
         640.0*(c->farthest*c->farthest)*(c->nearest*c->nearest*c->nearest)*weighing/(c->aspect*(5.0*(c->farthest*c->farthest)
         + 32.0));
-    vec final = vec_sqrt(vec_larger(splat(0.0), vec_smaller(splat(1.0), 0.125*outward/weighing -
+    vec final_half_sine = vec_sqrt(vec_larger(splat(0.0), vec_smaller(splat(1.0), 0.125*outward/weighing -
         0.125*c->aspect*c->contact)));
-    vec width = 0.125*vec_larger(splat(0.0), (final*final*final)*1.1415926535897933 + 2.0*final -
+    vec width = 0.125*vec_larger(splat(0.0),
+        (final_half_sine*final_half_sine*final_half_sine)*1.1415926535897933 + 2.0*final_half_sine -
         y[ROTATION]);
     vec angle_0 = y[ROTATION];
     vec angle_1 = y[ROTATION] + width;
@@ -408,46 +409,46 @@ static inline void pendulum_impulse(const constants *c, const vec *y, vec *impul
     vec angle_5 = y[ROTATION] + 5.0*width;
     vec angle_6 = y[ROTATION] + 6.0*width;
     vec angle_7 = y[ROTATION] + 7.0*width;
-    vec turning_0 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
-        vec_cos(angle_0))));
-    vec turning_1 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
-        vec_cos(angle_1))));
-    vec turning_2 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
-        vec_cos(angle_2))));
-    vec turning_3 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
-        vec_cos(angle_3))));
-    vec turning_4 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
-        vec_cos(angle_4))));
-    vec turning_5 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
-        vec_cos(angle_5))));
-    vec turning_6 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
-        vec_cos(angle_6))));
-    vec turning_7 = vec_sqrt(vec_larger(splat(0.0), (turning*turning) - taken*(vec_cos(y[ROTATION]) -
-        vec_cos(angle_7))));
-    *impulse = width*(vec_larger(splat(0.0), 0.25*(c->aspect*(turning_0*turning_0) -
+    vec scaled_momentum_0 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
+        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_0))));
+    vec scaled_momentum_1 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
+        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_1))));
+    vec scaled_momentum_2 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
+        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_2))));
+    vec scaled_momentum_3 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
+        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_3))));
+    vec scaled_momentum_4 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
+        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_4))));
+    vec scaled_momentum_5 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
+        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_5))));
+    vec scaled_momentum_6 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
+        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_6))));
+    vec scaled_momentum_7 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
+        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_7))));
+    *impulse = width*(vec_larger(splat(0.0), 0.25*(c->aspect*(scaled_momentum_0*scaled_momentum_0) -
         16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
-        4.0*vec_cos(angle_0)))/(c->aspect*c->nearest*turning_0)) + vec_larger(splat(0.0),
-        0.25*(c->aspect*(turning_1*turning_1) -
+        4.0*vec_cos(angle_0)))/(c->aspect*c->nearest*scaled_momentum_0)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(scaled_momentum_1*scaled_momentum_1) -
         16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
-        4.0*vec_cos(angle_1)))/(c->aspect*c->nearest*turning_1)) + vec_larger(splat(0.0),
-        0.25*(c->aspect*(turning_2*turning_2) -
+        4.0*vec_cos(angle_1)))/(c->aspect*c->nearest*scaled_momentum_1)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(scaled_momentum_2*scaled_momentum_2) -
         16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
-        4.0*vec_cos(angle_2)))/(c->aspect*c->nearest*turning_2)) + vec_larger(splat(0.0),
-        0.25*(c->aspect*(turning_3*turning_3) -
+        4.0*vec_cos(angle_2)))/(c->aspect*c->nearest*scaled_momentum_2)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(scaled_momentum_3*scaled_momentum_3) -
         16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
-        4.0*vec_cos(angle_3)))/(c->aspect*c->nearest*turning_3)) + vec_larger(splat(0.0),
-        0.25*(c->aspect*(turning_4*turning_4) -
+        4.0*vec_cos(angle_3)))/(c->aspect*c->nearest*scaled_momentum_3)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(scaled_momentum_4*scaled_momentum_4) -
         16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
-        4.0*vec_cos(angle_4)))/(c->aspect*c->nearest*turning_4)) + vec_larger(splat(0.0),
-        0.25*(c->aspect*(turning_5*turning_5) -
+        4.0*vec_cos(angle_4)))/(c->aspect*c->nearest*scaled_momentum_4)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(scaled_momentum_5*scaled_momentum_5) -
         16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
-        4.0*vec_cos(angle_5)))/(c->aspect*c->nearest*turning_5)) + vec_larger(splat(0.0),
-        0.25*(c->aspect*(turning_6*turning_6) -
+        4.0*vec_cos(angle_5)))/(c->aspect*c->nearest*scaled_momentum_5)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(scaled_momentum_6*scaled_momentum_6) -
         16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
-        4.0*vec_cos(angle_6)))/(c->aspect*c->nearest*turning_6)) + vec_larger(splat(0.0),
-        0.25*(c->aspect*(turning_7*turning_7) -
+        4.0*vec_cos(angle_6)))/(c->aspect*c->nearest*scaled_momentum_6)) + vec_larger(splat(0.0),
+        0.25*(c->aspect*(scaled_momentum_7*scaled_momentum_7) -
         16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
-        4.0*vec_cos(angle_7)))/(c->aspect*c->nearest*turning_7)));
+        4.0*vec_cos(angle_7)))/(c->aspect*c->nearest*scaled_momentum_7)));
 }
 /* The film then stops the opening and every rebound if film < 0 and recoil < 0, the impulse added. */
 static inline void pendulum_stops(const constants *c, const vec *y, vec *film, vec *recoil)

@@ -155,7 +155,7 @@ def _apart(plane: Plane, changes: list[tuple[np.ndarray, Change]]) -> list[tuple
     low, high = (np.array([OUTCOMES.index(getattr(one, side)) for _, one in changes]) for side in ("before", "after"))
     count = len(changes)
     located = crossings(plane.labels, places, np.tile([0.0, 1.0], (count, 1)), np.full(count, 1e-4), low, high)
-    distance = np.abs(located[:, 1] - places[:, 1]) * plane.decades
+    distance = np.abs(located[:, 1] - places[:, 1]) * plane.log_height
     return [
         (place, f"the line changes here, and collisions {_beside(far)}")
         for (place, _), far in zip(changes, distance.tolist(), strict=True)

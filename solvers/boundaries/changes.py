@@ -10,7 +10,7 @@ import numpy as np
 
 from ...generated.automaton import BOUNCE, CRITERIA, OUTCOMES, ROTATE, STICK
 from ..changes.brackets import Brackets, enclose
-from ..changes.roots import Function, root, sample
+from ..changes.roots import Function, evaluate, root
 from ..errors import ComputationError
 from ..scene.contact import GAPS
 from .line import Line
@@ -184,7 +184,7 @@ def _signed_root(function: Function, low: float, high: float, rises: bool) -> fl
         positive, value = function(stokes)
         return positive == rises, value if rises or value is None else -value
 
-    at_low, at_high = sample(upwards, low), sample(upwards, high)
+    at_low, at_high = evaluate(upwards, low), evaluate(upwards, high)
     if at_low.positive or not at_high.positive:
         return None
     return root(upwards, at_low, at_high)

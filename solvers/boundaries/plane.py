@@ -30,7 +30,7 @@ _THREADED = 20_000  # fewest collisions for which several cores pay
 
 @dataclass
 class Plane:
-    """Outcomes over (x, St). Points are in the unit square, an n x 2 array.
+    """The window of (x, St) in which outcomes are computed. Points are in the unit square, an n x 2 array.
 
     Arguments:
         over: dotted name of the entry x, which may be the impact's angle.
@@ -38,7 +38,7 @@ class Plane:
         stokes: lowest and highest Stokes number.
 
     Attributes:
-        edge: the lowest x as given; if that is head-on, the span starts at a small angle.
+        edge: the lowest x that was requested; if that is head-on, `span` starts at a small angle.
         collisions: number of computed collisions.
         kernel: True if the Taylor kernel supports the scene.
     """
@@ -69,7 +69,7 @@ class Plane:
         return np.where(across >= 1, high, low + across * (high - low))
 
     def shown(self, points: np.ndarray) -> np.ndarray:
-        """Values of the entry at points for results; the lower edge of the window gives the edge as given."""
+        """Values of the entry at points, for results: on the lower edge of the window, `edge`."""
         return np.where(points[..., 0] <= 0, self.edge, self.x(points))
 
     def stokes_at(self, points: np.ndarray) -> np.ndarray:
@@ -79,13 +79,13 @@ class Plane:
         return np.where(up >= 1, high, low * np.exp(up * math.log(high / low)))
 
     def points(self, x: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        """Points of the square for values of the entry and Stokes numbers."""
+        """Points of the square at values of the entry and Stokes numbers."""
         across = (np.asarray(x) - self.span[0]) / (self.span[1] - self.span[0])
-        return np.column_stack([across, np.log(np.asarray(stokes) / self.stokes[0]) / self.decades])
+        return np.column_stack([across, np.log(np.asarray(stokes) / self.stokes[0]) / self.log_height])
 
     @property
-    def decades(self) -> float:
-        """Height of the window in ln St."""
+    def log_height(self) -> float:
+        """Height of the window, in ln St."""
         return math.log(self.stokes[1] / self.stokes[0])
 
     def scene_at(self, x: float) -> tuple[Scene, float]:

@@ -133,7 +133,7 @@ def _across(scene: Scene, over: str, span: tuple[float, float]) -> tuple[float, 
 
 def _fill(axes: Axes, whole: Curves, factor: float) -> None:
     """Fill each region with its colour, slab by slab between neighbouring curves."""
-    decades = math.log(whole.window[1] / whole.window[0])
+    log_height = math.log(whole.window[1] / whole.window[0])
     across = whole.span[1] - whole.span[0]
     for slab in whole.slabs():
         edges = [np.array([[slab.low, 0.0], [slab.high, 0.0]])]
@@ -146,7 +146,7 @@ def _fill(axes: Axes, whole: Curves, factor: float) -> None:
         for label, below, above in zip(slab.labels, edges, edges[1:]):
             outline = np.vstack([below, above[::-1]])
             x = (whole.span[0] + outline[:, 0] * across) / factor
-            stokes = whole.window[0] * np.exp(outline[:, 1] * decades)
+            stokes = whole.window[0] * np.exp(outline[:, 1] * log_height)
             # antialiased edges of neighbours would show the background
             name = OUTCOMES[label]
             axes.fill(x, stokes, color=FILLS[name], linewidth=0, antialiased=False, zorder=1)

@@ -284,7 +284,7 @@ class Curves(Lines):
     @property
     def sought(self) -> dict[str, float | str]:
         """Resolution of the search, as distances in x and relative distances in St, and precision of the curves."""
-        decades = math.log(self.window[1] / self.window[0])
+        log_height = math.log(self.window[1] / self.window[0])
         across = self.span[1] - self.span[0]
         return {
             "over": self.over,
@@ -292,8 +292,8 @@ class Curves(Lines):
             "line_spacing": across / max(len(self.at) - 1, 1),
             "line_stokes": self.resolution,
             "lattice_spacing": across / (self.lattice[0] - 1),
-            "lattice_stokes": math.expm1(decades / (self.lattice[1] - 1)),
-            "chord_stokes": math.expm1(CHORD * decades),
+            "lattice_stokes": math.expm1(log_height / (self.lattice[1] - 1)),
+            "chord_stokes": math.expm1(CHORD * log_height),
         }
 
     def region(self, x: Any, stokes: Any) -> np.ndarray:

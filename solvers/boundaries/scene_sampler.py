@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...generated.automaton import KINDS, OUTCOMES, Purpose
+from ...generated.automaton import BOUNCE, KINDS, OUTCOMES, ROTATE, STICK, Purpose
 from ..engines.casadi.locate import CHATTERS, EventLocator
 from ..engines.choice import collision_engine
 from ..engines.settings import KERNEL_STEPS
@@ -19,8 +19,9 @@ from .by_kernel import SAMPLE_BUDGET, sample_by_kernel
 from .samples import SAMPLE
 
 BY_KERNEL, BY_ROSENBROCK = 100, 10  # initial samples of a line per decade of the Stokes number
-_MARGIN = 500  # steps of a trajectory for a margin; one that creeps longer has none
+_MARGIN = 500  # most steps of a trajectory for a margin; one that creeps longer has none
 DEEP = 1e-3  # relative to the contact gap; an approach to this depth has reached solid contact
+_STICK, _ROTATE, _BOUNCE = map(OUTCOMES.index, (STICK, ROTATE, BOUNCE))
 
 
 @dataclass
@@ -29,7 +30,8 @@ class SceneSampler:
 
     Arguments:
         rtol: relative tolerance of the integrations.
-        kernel: use the Taylor kernel; default: if it supports the scene.
+        kernel: use the Taylor kernel; None: if it supports the scene.
+        creeping: number of creeping collisions that the kernel left unfinished, by angle.
     """
 
     scene: Scene
@@ -37,7 +39,7 @@ class SceneSampler:
     kernel: bool | None = None
     collisions: int = field(default=0, init=False)
     reasons: dict[tuple[float, float], str] = field(default_factory=dict, init=False)
-    creeping: Counter[float] = field(default_factory=Counter, init=False)  # not completed by the kernel, by angle
+    creeping: Counter[float] = field(default_factory=Counter, init=False)
 
     def __post_init__(self) -> None:
         """Determine once whether the kernel supports the scene."""
@@ -57,7 +59,7 @@ class SceneSampler:
         return samples
 
     def by_rosenbrock(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        """The same by Rosenbrock, one by one (slow); `reasons` has the reasons of failures."""
+        """Samples as by `__call__`, by Rosenbrock one by one (slow); the reasons of failures are added to `reasons`."""
         samples = blank(stokes)
         for k, at in enumerate(zip(angle.tolist(), stokes.tolist(), strict=True)):
             try:
@@ -78,7 +80,7 @@ class SceneSampler:
         return samples
 
     def outcomes(self, angle: np.ndarray, stokes: np.ndarray, kernel_only: bool = False) -> np.ndarray:
-        """Outcomes (`outcome`, -1 for none, with its reason) and first rebound criteria met (`reversal`) alone.
+        """Outcomes (`outcome`, -1 where none is computed) and first rebound criteria met (`reversal`) only.
 
         A collision may take all steps of the budget. Chatter that exhausts the kernel's steps is not continued; other
         collisions that the kernel does not complete go to Rosenbrock.
@@ -116,7 +118,7 @@ class SceneSampler:
         return records
 
     def _by_kernel(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray | None:
-        """Samples by the kernel; sticks are continued until they fall back, bounces repeated without solids."""
+        """Samples by the kernel; sticks are continued until they fall back, None if the kernel does not run."""
         records = self._records(angle, stokes, SAMPLE_BUDGET)
         if records is None:
             return None
@@ -126,19 +128,19 @@ class SceneSampler:
         if self.scene.package is not None and self.scene.package.events:
             return samples  # no margin is smooth where a declared event may come first
         contact = contact_gap_at(self.scene, speed)
-        samples["criterion"] = np.where(outcome == 1, _margin(records, contact), np.nan)
-        samples["time"][outcome == 0] = np.nan
-        sticks = np.flatnonzero((outcome == 0) & ~records["at_touch"])
+        samples["criterion"] = np.where(outcome == _ROTATE, _margin(records, contact), np.nan)
+        samples["time"][outcome == _STICK] = np.nan
+        sticks = np.flatnonzero((outcome == _STICK) & ~records["at_touch"])
         if sticks.size:
             ends = sample_by_kernel(self.scene, speed[sticks], angle[sticks], self.rtol, Purpose.ESCAPE, budget=_MARGIN)
             if ends is not None:
-                samples["reach"][sticks] = np.where(ends["outcome"] == 0, ends["final_gap"], np.nan)
-        which = np.flatnonzero(outcome == 2)
-        if which.size:  # with quantities of solids that are met far below the contact gap
-            solids = {name: np.full(which.size, value) for name, value in NEVER_MET.items()}
-            solids["roughness"] = DEEP * contact[which] * self.scene.liquid.film_thickness
+                samples["reach"][sticks] = np.where(ends["outcome"] == _STICK, ends["final_gap"], np.nan)
+        which = np.flatnonzero(outcome == _BOUNCE)
+        if which.size:  # repeated with solids that are met far below the contact gap
+            bare_quantities = {name: np.full(which.size, value) for name, value in NEVER_MET.items()}
+            bare_quantities["roughness"] = DEEP * contact[which] * self.scene.liquid.film_thickness
             bare = sample_by_kernel(
-                self.scene, speed[which], angle[which], self.rtol, Purpose.APPROACH, solids, _MARGIN
+                self.scene, speed[which], angle[which], self.rtol, Purpose.APPROACH, bare_quantities, _MARGIN
             )
             if bare is not None:
                 samples["criterion"][which] = np.where(bare["outcome"] >= 0, _margin(bare, contact[which]), np.nan)
@@ -146,7 +148,7 @@ class SceneSampler:
 
 
 def blank(stokes: np.ndarray) -> np.ndarray:
-    """Empty samples at Stokes numbers."""
+    """Samples at Stokes numbers, without outcomes and margins yet."""
     samples = np.zeros(stokes.size, SAMPLE)
     samples["stokes"] = stokes
     samples["outcome"] = samples["reversal"] = -1
@@ -155,20 +157,21 @@ def blank(stokes: np.ndarray) -> np.ndarray:
 
 
 def contact_gap_at(scene: Scene, speed: np.ndarray) -> np.ndarray:
-    """Gap over film thickness at which the solids meet, at normal speeds (m/s)."""
+    """Gap of solid contact over x0, by normal speed (m/s): the larger of elastic and roughness gap; 0 without both."""
     values = {**si_values(scene, None, None), "speed": speed}
     gap = np.zeros(speed.size)
-    for name in GAPS.values():
-        formula, arguments = formulas(scene)[name]
+    for group in GAPS.values():
+        formula, arguments = formulas(scene)[group]
+        # a criterion whose quantities the scene does not give is never met
         if all(argument in values for argument in arguments):
             gap = np.maximum(gap, formula(*(values[argument] for argument in arguments)))
     return gap
 
 
 def _margin(records: np.ndarray, contact: np.ndarray) -> np.ndarray:
-    """Margin of the rebound criteria over the approach, as a logarithm; NaN without an approach."""
+    """Logarithm by which the approach passes the nearest rebound criterion, positive if met; NaN if there is none."""
     approached = (records["outcome"] >= 0) & ~records["at_touch"]
-    solids = np.full(contact.size, -np.inf)
-    there = approached & (contact > 0)
-    solids[there] = np.log(contact[there] / records["smallest_gap"][there])
-    return np.where(approached, np.maximum(records["glass"], solids), np.nan)
+    log_contact = np.full(contact.size, -np.inf)
+    has_contact = approached & (contact > 0)
+    log_contact[has_contact] = np.log(contact[has_contact] / records["smallest_gap"][has_contact])
+    return np.where(approached, np.maximum(records["glass"], log_contact), np.nan)

@@ -26,10 +26,10 @@ def command(
     rtol: options.Rtol,
     output: Annotated[Path | None, partial(check_file, label="", suffixes=(".nc", ".csv"), replaced=True)],
 ) -> None:
-    """Sticking probability and mean restitution of SCENE over all impact angles and a distribution of speeds.
+    """Sticking probability and mean restitution of SCENE over all impact angles and speeds, for each pair of radii.
 
-    Impact angles have the density sin(2 theta) of isotropic relative velocities. With maxwell:S each component of the
-    particles' velocities has the standard deviation S. Without -o the table is printed.
+    Impact angles have the density sin(2 theta) of isotropic relative velocities. With maxwell:S speeds are those of a
+    gas whose velocity components have the standard deviation S, weighted by flux. Without -o the table is printed.
 
     \b
     Example:
@@ -37,11 +37,12 @@ def command(
 
     Options:
         --speeds SPEEDS: Relative speeds: "1 m/s", "maxwell:0.3 m/s", or a table FILE.csv [impact.relative_speed].
-        --radii RANGE: Radii of both spheres, as "log:20:200 um:16" [the scene's pair].
-        --films RULE: Film and roughness of other sizes: fixed or proportional [fixed].
-        --tolerance E: Error of the quadrature, 1e-9..1e-2 [1e-6].
-        --wrt NAME,...: Entries by which the means are differentiated, as liquid.viscosity.
-        -o FILE (output): Write NetCDF (.nc) or a table (.csv); an interrupted run goes on.
+        --radii RANGE: Radii, such as "log:20:200 um:16"; every pair of them is computed, beside a wall each one [the
+            scene's pair].
+        --films RULE: How film and roughness change with the radii: fixed, or proportional to their sum [fixed].
+        --tolerance E: Absolute error of the quadrature, 1e-9..1e-2 [1e-6].
+        --wrt NAME,...: Entries by which the means are differentiated, such as liquid.viscosity.
+        -o FILE (output): Write NetCDF (.nc) or a table (.csv); the same command continues an interrupted run.
     """  # noqa: D301 # click wants the character itself
     scene = request.scene_without_impact("has no influence on averages")
 

@@ -8,7 +8,7 @@ from typing import Any
 from ..errors import ComputationError
 from ..host.arguments import check_flag
 from ..host.compiler import compiler
-from ..host.user_cache import folder, unwritable
+from ..host.user_cache import folder, why_unwritable
 from ..scene.scene import Scene
 from .settings import RTOL, check_rtol
 from .taylor.build import compile_all, is_compiled, size_of, supported
@@ -96,7 +96,7 @@ def compile_kernels(
                 serves.append(use)
     already = {variant for variant in wanted if is_compiled(variant)}
     missing = [variant for variant in wanted if variant not in already]
-    if missing and (reason := unwritable()):
+    if missing and (reason := why_unwritable()):
         message = f"kernels cannot be kept in the cache {folder()}: {reason}"
         raise ComputationError(message, advice="name a folder that can be written in WETDOUBLET_CACHE")
     took = compile_all(missing, progress)

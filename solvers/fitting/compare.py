@@ -19,7 +19,7 @@ from .fit import RTOL
 from .free_entries import FreeEntries, free_entries, in_unit
 from .likelihood import Likelihood
 from .measurements import Measurements, read_data
-from .optimise import Objective, Optimum, optimise, settled
+from .optimise import Objective, Optimum, maximum_with_aiming, optimise
 from .scatter import Resolution
 
 CHOICES = ("bridge.law", "model.film", "model.glass", "model.tangential", "model.arm", "pendulum.law")
@@ -186,7 +186,7 @@ def _predicted(
     for k in range(folds):
         left = np.sort(order[k::folds])
         kept = np.setdiff1d(order, left)
-        fitted = settled(Likelihood(scene, free.names, data.part(kept), rtol), free, best.inner)
+        fitted = maximum_with_aiming(Likelihood(scene, free.names, data.part(kept), rtol), free, best.inner)
         test = Likelihood(scene, free.names, data.part(left), rtol)
         test.aim(free.values(fitted.inner))
         evaluation = test(free.values(fitted.inner))

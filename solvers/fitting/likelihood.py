@@ -24,7 +24,7 @@ from .scatter import Resolution, ScatterLines, SegmentMap, Segments, in_deviatio
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
 FINER = (3, 7)
-"""Factors of the number of lines of rows that need more."""
+"""Factors of the number of lines of rows that need more. Odd: the middle line goes through the nominal impact."""
 KNEE, TAIL = 12.0, 4.0
 """A row that lies more than this many units of log-likelihood below the most likely observation (4.9 standard
 deviations) contradicts the model; from there its log-likelihood falls with the logarithm of the distance."""
@@ -41,9 +41,9 @@ class Evaluation:
     Attributes:
         rows: (rows,), natural logarithms, relative to a perfect observation's density and limited (`KNEE`).
         scores: (rows, free entries), derivatives by the free entries' values.
-        plain: (rows,), as `rows` without the limit.
+        plain: (rows,), as `rows`, but not limited.
         probability: (rows,), of the observed outcome.
-        undecided: (rows,), probability that no engine decides the outcome; it counts as not observed.
+        undecided: (rows,), probability of impacts whose outcome no engine decides; they count as not observed.
         mean, spread: result -> (rows,), mean and standard deviation over the scatter where the outcome agrees.
     """
 
@@ -64,7 +64,7 @@ class Likelihood:
     """The log-likelihood of measurements as a function of the free entries' values.
 
     Arguments:
-        scene, names, data: scene, free entries and rows.
+        scene, names, data: the scene, its free entries, and the rows.
         rtol: relative tolerance of the integrations.
     """
 
@@ -74,7 +74,7 @@ class Likelihood:
         self.measured = tuple(name for name, (values, _) in data.observed.items() if np.isfinite(values).any())
         self.experiments = rows_of(scene, names, data, rtol)
         self.direction = np.zeros(data.size)  # of the lines of each row
-        self.more = np.ones(data.size, int)  # factor of the number of lines of each row, odd
+        self.line_factors = np.ones(data.size, int)  # by which the number of lines of each row is multiplied
         self.constant = np.zeros(data.size)  # of the densities' normalisation
         for name in self.measured:
             values, sd = data.observed[name]
@@ -82,12 +82,14 @@ class Likelihood:
             self.constant[seen] -= np.log(sd[seen] * np.sqrt(2 * np.pi))
 
     def aim(self, values: np.ndarray) -> None:
-        """Turn the lines of every row to where its results change fastest, for these values.
+        """Turn the lines of each row towards its nearest change of outcome, or along a result's gradient.
+
+        The gradient is that of the first measured result that changes over the scatter by more than its noise.
 
         Raises:
-            InputError: values that no scene may have.
+            InputError: these values make the scene of a row impossible.
         """
-        experiment, data = self.bound(values), self.data
+        experiment, data = self.experiment_at(values), self.data
         if not ((data.speed_sd > 0) & (data.angle_sd > 0)).any():
             return
         distance, normal = nearest_normals(experiment, data)
@@ -107,20 +109,23 @@ class Likelihood:
             if turned.any():
                 break
 
-    def refine(self, values: np.ndarray, within: float) -> None:
-        """Give more lines to rows whose log-likelihood at these values is not within an error of what it should be."""
-        experiment, size = self.bound(values), self.data.size
-        self.more = np.ones(size, int)
+    def refine(self, values: np.ndarray, tolerance: float) -> None:
+        """Choose each row's factor of lines: the last of `FINER` that still changes its log-likelihood, else 1.
+
+        A change counts if it is larger than `tolerance`.
+        """
+        experiment, size = self.experiment_at(values), self.data.size
+        self.line_factors = np.ones(size, int)
         now, open_ = self.evaluate(experiment, Resolution()).rows, np.ones(size, bool)
         for factor in FINER:
             fine = self.evaluate(experiment, Resolution(), np.where(open_, factor, 0)).rows
-            open_ &= np.abs(fine - now) > within
-            self.more[open_], now = factor, fine
+            open_ &= np.abs(fine - now) > tolerance
+            self.line_factors[open_], now = factor, fine
             if not open_.any():
                 break
 
-    def bound(self, values: np.ndarray) -> Experiment:
-        """The rows with these values; InputError where no scene may have them."""
+    def experiment_at(self, values: np.ndarray) -> Experiment:
+        """The experiment with these values of the free entries; InputError if they make a row's scene impossible."""
         experiment = self.experiments.at(values)
         if experiment is None:
             named = ", ".join(f"{name} = {value:.6g}" for name, value in zip(self.names, values, strict=True))
@@ -136,11 +141,11 @@ class Likelihood:
         """The log-likelihoods of all rows in an experiment.
 
         Arguments:
-            factors: (rows,), of the number of lines, in place of those of `refine`; 0 leaves a row out.
+            factors: (rows,), in place of the `line_factors` that `refine` chose; 0 leaves a row out.
         """
         data, size = self.data, self.data.size
         if factors is None:
-            factors = self.more if resolution.lines > 1 else np.ones(size, int)
+            factors = self.line_factors if resolution.lines > 1 else np.ones(size, int)
         lines = ScatterLines.through(data, self.direction, resolution.lines * factors)
         changes = lines.changes(experiment, resolution)
         segments = Segments.between(lines, changes)
@@ -236,7 +241,7 @@ def _sums(terms: Sequence[_Terms], rows: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def limit(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Log-likelihoods with their heavy tail, and the derivative of that by the plain ones."""
+    """Log-likelihoods limited by a heavy tail (`KNEE`), and their derivatives by the log-likelihoods before that."""
     beyond = np.maximum(-KNEE - rows, 0.0)
     return np.maximum(rows, -KNEE) - TAIL * np.log1p(beyond / TAIL), 1 / (1 + beyond / TAIL)
 

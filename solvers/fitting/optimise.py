@@ -19,17 +19,18 @@ from .free_entries import FreeEntries
 from .likelihood import Evaluation, Likelihood
 from .scatter import COARSE, Resolution
 
-_STARTS = 16  # quasi-random points at which the likelihood is looked at
+_STARTS = 16  # quasi-random points at which the likelihood is evaluated
 _FOLLOWED = 3  # of these, the number from which an optimum is sought
-_NEIGHBOURHOOD = np.log(10.0)  # of the scene's value, within which they lie
+_NEIGHBOURHOOD = np.log(10.0)  # largest distance of these points from the scene's values, in logarithms
 _CLOSE = 6.0  # log-likelihood within which a coarse optimum is followed at full resolution
-_DIP = 0.1  # of the log-likelihood between two maxima
-_EVALUATIONS = 30
+_DIP = 0.1  # of the log-likelihood between two maxima that count as separate
+_EVALUATIONS = 30  # most evaluations of least squares, and most iterations of SLSQP
+_IMPOSSIBLE = 1e3  # loss of log-likelihood where the scene is impossible
 _TOLERANCE = 1e-3  # of the log-likelihood
 _ROUNDS = 3  # of turning the lines and refining rows
 _FAR_OFF = 1.5  # standard errors that a maximum may be from where the lines were turned
 _ROUGH = Resolution(1, 6, 96, 11)
-_DIRECT = 0.02  # error of a row's log-likelihood that is worth more lines
+_DIRECT = 0.02  # error of a row's log-likelihood beyond which it gets more lines
 _LEAST = 1e-9  # residual below which a row has no derivatives
 
 
@@ -37,8 +38,8 @@ class Objective:
     """Residuals of a fit and their derivatives, with the last evaluations kept.
 
     Arguments:
-        likelihood, free: of the same entries in the same order.
-        resolution: of the integrals.
+        likelihood, free: both of the same entries in the same order.
+        resolution: resolution of the integrals.
     """
 
     def __init__(self, likelihood: Likelihood, free: FreeEntries, resolution: Resolution) -> None:
@@ -48,7 +49,7 @@ class Objective:
         self._last: dict[bytes, Evaluation | None] = {}
 
     def at(self, inner: np.ndarray) -> Evaluation | None:
-        """The log-likelihoods; None where the scene is impossible."""
+        """The log-likelihoods at these variables of the search; None where the scene is impossible."""
         key = inner.tobytes()
         if key not in self._last:
             while len(self._last) > 8:
@@ -109,7 +110,7 @@ class Objective:
         return height, dict(zip(self.free.names, slope.tolist(), strict=True))
 
     def _priors(self, inner: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Of each entry the distance from its prior's centre in standard deviations, and its derivative; 0 without."""
+        """Distance of each entry from its prior's centre, in standard deviations, and its derivative; 0 without one."""
         values = self.free.values(inner)
         pairs = [
             (0.0, 0.0) if each.prior is None else each.prior.misfit(float(value))
@@ -142,7 +143,7 @@ class Optimum:
 
 
 def optimise(likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, seed: int = 0) -> Optimum:
-    """The maximum of the likelihood, with the lines of the likelihood turned for it.
+    """The most likely of the maxima that several starts lead to; the lines of the likelihood are left turned for it.
 
     Raises:
         ComputationError: no start has a likelihood.
@@ -152,7 +153,7 @@ def optimise(likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, s
         likelihood.aim(free.values(start))
         rough = Objective(likelihood, free, _ROUGH)
         if np.isfinite(rough.value(start)):
-            inner = climbed(rough, start)
+            inner = rough_maximum(rough, start)
             climbs.append(Optimum(inner, rough.value(inner)))
     if not climbs:
         raise ComputationError("no start of the fit has a likelihood", advice="give the scene another first guess")
@@ -161,61 +162,62 @@ def optimise(likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, s
     for each in climbs:
         if each.value > climbs[0].value - _CLOSE and all(_apart(rough, each, other) for other in distinct):
             distinct.append(each)
-    finished = [settled(likelihood, free, each.inner) for each in distinct]
+    finished = [maximum_with_aiming(likelihood, free, each.inner) for each in distinct]
     best, *others = sorted(finished, key=lambda each: -each.value)
     if best is not finished[-1]:
-        likelihood.aim(free.values(best.inner))  # the lines are those of the last one
+        likelihood.aim(free.values(best.inner))  # its lines were last turned for another maximum
         likelihood.refine(free.values(best.inner), _DIRECT)
     objective = Objective(likelihood, free, Resolution())
     return replace(best, others=tuple(each for each in others if _apart(objective, each, best)))
 
 
-def settled(likelihood: Likelihood, free: FreeEntries, inner: np.ndarray) -> Optimum:
-    """The maximum next to a point, with lines turned and rows refined for it."""
+def maximum_with_aiming(likelihood: Likelihood, free: FreeEntries, inner: np.ndarray) -> Optimum:
+    """The maximum nearest to a point, with `aim` and `refine` of the likelihood repeated there."""
     for _ in range(_ROUNDS):
         likelihood.aim(free.values(inner))
         likelihood.refine(free.values(inner), _DIRECT)
         objective = Objective(likelihood, free, Resolution())
-        before, inner = inner, polished(objective, inner)
+        before, inner = inner, refined_maximum(objective, inner)
         move = inner - before
         if float(move @ objective.information(inner) @ move) < _FAR_OFF**2:
             break
     return Optimum(inner, objective.value(inner))
 
 
-def polished(objective: Objective, start: np.ndarray) -> np.ndarray:
-    """The maximum next to a point, in variables in which the information matrix is the unit matrix."""
+def refined_maximum(objective: Objective, start: np.ndarray) -> np.ndarray:
+    """The nearest maximum, by SLSQP in variables with unit information matrix at the start; else the start itself."""
     low, high = objective.free.low, objective.free.high
     start = np.clip(start, low, high)
-    white, top, span = whitening(objective, start), objective.value(start), high - low
+    white, at_start, span = whitening(objective, start), objective.value(start), high - low
 
-    def inner(z: np.ndarray) -> np.ndarray:
+    def from_white(z: np.ndarray) -> np.ndarray:
         at: np.ndarray = np.clip(start + white @ z, low, high)
         return at
 
-    def lack(z: np.ndarray) -> tuple[float, np.ndarray]:
-        at = inner(z)
+    def loss(z: np.ndarray) -> tuple[float, np.ndarray]:
+        at = from_white(z)
         value = objective.value(at)
-        return (top - value, -white.T @ objective.gradient(at)) if np.isfinite(value) else (1e3, np.zeros(z.size))
+        possible = np.isfinite(value)
+        return (at_start - value, -white.T @ objective.gradient(at)) if possible else (_IMPOSSIBLE, np.zeros(z.size))
 
-    bounds = LinearConstraint(white / span[:, None], (low - start) / span, (high - start) / span)
+    box = LinearConstraint(white / span[:, None], (low - start) / span, (high - start) / span)
     optimum = minimize(
-        lack, np.zeros(start.size), jac=True, constraints=bounds, method="SLSQP",
+        loss, np.zeros(start.size), jac=True, constraints=box, method="SLSQP",
         options={"maxiter": _EVALUATIONS, "ftol": _TOLERANCE},
     )  # fmt: skip
-    best: np.ndarray = inner(optimum.x) if optimum.fun < 0 else start
+    best: np.ndarray = from_white(optimum.x) if optimum.fun < 0 else start
     return best
 
 
-def climbed(
+def rough_maximum(
     objective: Objective, start: np.ndarray, fixed: int | None = None, variables: float = 1e-3, most: int = _EVALUATIONS
 ) -> np.ndarray:
-    """The maximum that is reached from a start, by least squares to a part 1e-3 of the sum.
+    """The maximum that is reached from a start, by least squares to a relative 1e-3 of the sum of squares.
 
     Arguments:
         fixed: an entry that keeps its value.
         variables: relative tolerance of the variables.
-        most: evaluations.
+        most: most evaluations.
     """
     free = objective.free
     moving = np.flatnonzero(np.arange(free.size) != fixed)
@@ -247,6 +249,6 @@ def _screened(likelihood: Likelihood, free: FreeEntries, starts: int, seed: int)
 
 
 def _apart(objective: Objective, one: Optimum, other: Optimum) -> bool:
-    """Whether the likelihood is lower between two maxima than at either."""
+    """True if the likelihood halfway between two maxima is lower than at either."""
     between = objective.value((one.inner + other.inner) / 2)
     return between < min(one.value, other.value) - _DIP

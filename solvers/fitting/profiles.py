@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import ComputationError
 from .free_entries import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE, FreeEntries
 from .likelihood import Likelihood
-from .optimise import Objective, Optimum, climbed, settled, whitening
+from .optimise import Objective, Optimum, maximum_with_aiming, rough_maximum, whitening
 from .scatter import COARSE, Resolution
 
 DROP = 1.920729410347062  # half the 95 % quantile of chi-squared with one degree of freedom
@@ -62,7 +62,7 @@ def intervals(likelihood: Likelihood, free: FreeEntries, best: Optimum) -> tuple
         try:
             return best, _ends(Objective(likelihood, free, Resolution()), best.inner)
         except _MoreLikely as point:
-            again = settled(likelihood, free, point.inner)
+            again = maximum_with_aiming(likelihood, free, point.inner)
             best = Optimum(again.inner, again.value, best.others)
     advice = "give priors, free fewer entries, or start from other values"
     raise ComputationError("the likelihood has no maximum that its profiles agree on", advice=advice)
@@ -217,7 +217,7 @@ def profile_point(objective: Objective, start: np.ndarray, k: int, value: float)
     point = _with(start, k, value)
     if objective.free.size == 1 or not np.isfinite(objective.value(point)):
         return point
-    return climbed(objective, point, k, 1e-4, 12)
+    return rough_maximum(objective, point, k, 1e-4, 12)
 
 
 def _with(point: np.ndarray, k: int, value: float) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Reports: one sequence of blocks, written as Markdown and as one HTML page that loads nothing from elsewhere."""
+"""Reports: one sequence of blocks, as Markdown and as one HTML page that loads nothing but the pictures beside it."""
 
 import html
 import re
@@ -53,19 +53,19 @@ class Picture:
 
 @dataclass(frozen=True)
 class Formulas:
-    """Equations: heading of the group, LaTeX and note of each; in HTML their LaTeX behind a summary."""
+    """Equations: heading of the group, LaTeX and note of each. HTML shows only the LaTeX, folded."""
 
     lines: Sequence[tuple[str, str, str]]
 
 
 Block = str | Sequence[str] | Table | Picture | Formulas
-"""A paragraph or a heading (`## ` before it), a list, a table, a picture, or equations."""
+"""A paragraph, or a heading if the text begins with `## `; a list, a table, a picture, or equations."""
 
 
 def report(title: str, blocks: Iterable[Block]) -> dict[str, str]:
-    """The report in both forms, by file name."""
+    """The report as Markdown and as HTML, by file name."""
     content = list(blocks)
-    return {"report.md": markdown(title, content), "report.html": page(title, content)}
+    return {"report.md": markdown(title, content), "report.html": html_page(title, content)}
 
 
 def markdown(title: str, blocks: Iterable[Block]) -> str:
@@ -88,8 +88,8 @@ def markdown(title: str, blocks: Iterable[Block]) -> str:
     return "\n\n".join(out) + "\n"
 
 
-def page(title: str, blocks: Iterable[Block]) -> str:
-    """The report as one HTML page, in which pictures are linked."""
+def html_page(title: str, blocks: Iterable[Block]) -> str:
+    """The report as one HTML page; pictures are files beside it, and formulas only their LaTeX, without their notes."""
     body = [f"<h1>{html.escape(title)}</h1>"]
     for block in blocks:
         if isinstance(block, str):

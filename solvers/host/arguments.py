@@ -1,4 +1,4 @@
-"""Type checks for arguments of public functions that are not physical quantities."""
+"""Checks of arguments of public functions that are no physical quantities: names, flags, whole numbers, mappings."""
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from numbers import Integral
@@ -8,7 +8,7 @@ from ..errors import InputError, did_you_mean
 
 
 def check_names(requested: object, known: Sequence[str], label: str) -> tuple[str, ...]:
-    """Return the requested names without duplicates; InputError for an unknown one, with the nearest."""
+    """Return the requested name or names, in order, without duplicates; InputError suggests the nearest known name."""
     accepted = ", ".join(known)
     if isinstance(requested, str):
         requested = (requested,)
@@ -21,14 +21,14 @@ def check_names(requested: object, known: Sequence[str], label: str) -> tuple[st
 
 
 def check_name(requested: object, known: Sequence[str], label: str) -> str:
-    """Return one of the known names; InputError for anything else, with the nearest."""
+    """Return one of the known names; InputError for anything else, which suggests the nearest."""
     if not isinstance(requested, str) or requested not in known:
         raise InputError(label, requested, ", ".join(known), "is not known" + did_you_mean(requested, known))
     return requested
 
 
 def check_flag(value: object, label: str) -> bool:
-    """Return a truth value; InputError for anything else."""
+    """Return a bool, Python's or numpy's; InputError for anything else."""
     if isinstance(value, bool) or type(value).__name__ in ("bool_", "bool"):  # a numpy bool
         return bool(value)
     raise InputError(label, value, "True or False", "is neither")

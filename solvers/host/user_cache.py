@@ -1,9 +1,9 @@
 """The user's cache of derived code, compiled libraries and unit factors.
 
 An entry is a file STEM.DIGEST.SUFFIX in one folder. Its content is read and compared with the digest in its
-name before use; an entry that disagrees is removed, with a remark, and made again. Entries are written to a temporary
-file, moved into place and never changed, so several processes may write at once. A library is loaded from a verified
-copy in memory, so later changes of the file do not affect a running process.
+name before use; an entry that disagrees is removed, with a remark, and made again. An entry is written to a file in a
+temporary folder beside the entries, moved into place and never changed, so several processes may write at once. A
+library is loaded from a verified copy in memory, so later changes of the file do not affect a running process.
 
 A folder that other users can write to is refused, because its content is executed. If no folder can be written, entries
 go to a private temporary folder that is removed with the process, or to memory, with one remark.
@@ -36,7 +36,7 @@ _MAKING = ".making-"  # prefix of temporary folders
 _DIGITS = 32  # hexadecimal digits of the digest in a name
 _LARGEST = 1 << 28  # bytes; larger than any entry
 _ROOM = 16 << 20  # bytes; ample for a compilation
-_PROBE = bytes(1 << 18)  # more than most entries
+_PROBE = bytes(1 << 18)  # content of a trial entry, larger than most
 _MEMORY: dict[str, bytes] = {}  # entries kept in memory if no folder can be written
 _REFUSED: set[Path] = set()  # folders whose failure was reported
 _LOCK = threading.RLock()
@@ -60,7 +60,7 @@ def _folder(named: str | None, *_usual: str | None) -> Path:
 
 
 def kept(name: str, make: Callable[[], bytes]) -> bytes:
-    """The content of the entry of that name; made if missing or damaged.
+    """The content of the entry of that name; computed and stored if it is missing or damaged.
 
     Arguments:
         name: STEM.SUFFIX; must identify everything that the content depends on.
@@ -79,7 +79,7 @@ def kept(name: str, make: Callable[[], bytes]) -> bytes:
 
 
 def found(name: str) -> bytes | None:
-    """The content of the entry of that name; None if it is not there or not whole."""
+    """The content of the entry of that name; None if it is missing or damaged."""
     if name in _MEMORY:
         return _MEMORY[name]
     stem, _, suffix = name.rpartition(".")
@@ -185,8 +185,8 @@ def _verified(path: Path, digest: str) -> bytes | None:
         return content
     try:
         path.unlink()
-        say(f"{path} was damaged: it is made again", only_here=True)  # another process has removed it
-    except FileNotFoundError:
+        say(f"{path} was damaged: it is made again", only_here=True)
+    except FileNotFoundError:  # another process has removed it
         pass
     except OSError as error:
         say_once(f"{path} is damaged and cannot be removed ({error.strerror}): it is not used")
@@ -216,26 +216,27 @@ def _alone(status: os.stat_result) -> bool:
 
 
 def settle() -> None:
-    """Determine where entries can be written, and report it, before silent workers start; they share the folder."""
+    """Determine where entries can be written before workers start, which share that folder but report nothing."""
     with _LOCK:
-        if folder() not in _REFUSED and (reason := unwritable()):
-            _refuse(reason, os.environ.get(_PRIVATE) or _moved("", _PROBE))
+        if folder() not in _REFUSED and (reason := why_unwritable()):
+            _refuse(reason, os.environ.get(_PRIVATE) or _put_in_private_folder("", _PROBE))
 
 
-def unwritable() -> str:
-    """Why the user's folder takes no entries; "" if it does."""
-    return _written(folder(), "", _PROBE)
+def why_unwritable() -> str:
+    """Why the user's folder cannot be written; "" if it can."""
+    return _write_failure(folder(), "", _PROBE)
 
 
 def _put(name: str, content: bytes) -> None:
-    """Write an entry to the first folder that accepts it."""
+    """Write an entry to the first folder that accepts it, or keep it in memory."""
     with _LOCK:
         refused = folder() in _REFUSED
-        reason = "" if refused else _written(folder(), name, content)
+        reason = "" if refused else _write_failure(folder(), name, content)
         if not refused and not reason:
             return
         private = os.environ.get(_PRIVATE)
-        where = private if private and not _written(Path(private), name, content) else _moved(name, content)
+        usable = private and not _write_failure(Path(private), name, content)
+        where = private if usable else _put_in_private_folder(name, content)
         if where is None:
             _MEMORY[name] = content
         if not refused:
@@ -243,38 +244,39 @@ def _put(name: str, content: bytes) -> None:
 
 
 def _refuse(reason: str, where: str | None) -> None:
+    """Remember and say once that the user's folder cannot be written."""
     _REFUSED.add(folder())
     kept_in = "in memory" if where is None else f"in {where}"
     say(f"{folder()}: {reason}; what is derived or compiled is kept {kept_in} while this runs")
 
 
-def _written(place: Path, name: str, content: bytes) -> str:
-    """Write an entry, or without a name only test the folder; returns the reason of failure or ""."""
+def _write_failure(place: Path, name: str, content: bytes) -> str:
+    """Write an entry; returns why that failed, or "" if it did not. With an empty name only test the folder."""
     stem, _, suffix = name.rpartition(".")
     try:
         _check_private(place, create=place == folder())
         _sweep(place, _MAKING)
-        with held_folder(place, _MAKING) as beside:
-            descriptor = os.open(beside / "entry", os.O_WRONLY | os.O_CREAT, 0o600)
+        with held_folder(place, _MAKING) as temporary_folder:
+            descriptor = os.open(temporary_folder / "entry", os.O_WRONLY | os.O_CREAT, 0o600)
             try:
                 write_all(descriptor, content)
             finally:
                 os.close(descriptor)
             if name:
-                (beside / "entry").replace(place / f"{stem}.{digest_of(content)}.{suffix}")
+                (temporary_folder / "entry").replace(place / f"{stem}.{digest_of(content)}.{suffix}")
     except OSError as error:
         return error.strerror or str(error)
     return ""
 
 
-def _moved(name: str, content: bytes) -> str | None:
+def _put_in_private_folder(name: str, content: bytes) -> str | None:
     """Create a private folder for this run and write an entry there; returns its path, None if that fails."""
     for root in temporary():
         stack = ExitStack()
         with suppress(OSError):
             _sweep(root, TEMPORARY)
             place = stack.enter_context(held_folder(root, TEMPORARY))
-            if not _written(place, name, content):
+            if not _write_failure(place, name, content):
                 os.environ[_PRIVATE] = str(place)
                 atexit.register(_leave, stack, os.getpid())
                 return str(place)
@@ -289,5 +291,5 @@ def _leave(stack: ExitStack, owner: int) -> None:
 
 @cache
 def _sweep(place: Path, prefix: str) -> None:
-    """Remove stale temporary entries, once per process."""
+    """Remove stale temporary folders, once per process."""
     sweep(place, prefix)

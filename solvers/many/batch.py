@@ -35,9 +35,9 @@ class Batch:
         stokes, speed: one of them; the other is None.
         engine: the engine that computes the collisions, unless choices vary.
         of: names of the results to keep.
-        texts: choices that vary; the batch is split by them before anything is computed (`by_text`).
-        engines: the engine by choices, where these vary.
-        partial: it is a part of a request whose other parts may have been computed by the kernel.
+        texts: columns of entries that are choices; the batch is split by them before it is computed (`by_text`).
+        engines: the engine for each combination of these choices.
+        partial: the kernel may have computed other parts of the same request.
     """
 
     scene: Scene
@@ -82,7 +82,7 @@ class Batch:
         )
 
     def by_text(self) -> Iterator[tuple[np.ndarray, Batch | InputError]]:
-        """Indices of the collisions with the same choices, and their batch, or the InputError of a scene with these."""
+        """Indices of collisions with the same choices, and their batch, or the InputError of the scene."""
         columns = np.array(list(self.texts.values())).T
         for row in dict.fromkeys(map(tuple, columns.tolist())):
             which = np.flatnonzero((columns == np.array(row)).all(axis=1))
@@ -117,7 +117,7 @@ def validated_batch(
     loaded, columns, _ = checked_columns(scene, impact, vary)
     chosen = collision_engine(loaded, check_engine(engine))
     request = batch(loaded, of_one_length(columns), check_rtol(rtol), chosen, kept)
-    check_some_scene(request)
+    check_any_possible(request)
     return request
 
 
@@ -163,7 +163,7 @@ def checked_impact(
     """Impacts by dotted name, SI; defaults are the scene's. InputError if the scene has none.
 
     Arguments:
-        hold: the quantity of the scene's impact, "speed", "stokes" or "relative_speed"; None: as the scene gives it.
+        hold: quantity that stands for the scene's speed: "speed", "stokes" or "relative_speed"; None for the scene's.
     """
     speeds = {name: values for name, values in impact.items() if name != "angle" and values is not None}
     if len(speeds) > 1:
@@ -193,9 +193,9 @@ def checked_columns(
     most: int | None = 1,
     texts: bool = False,
 ) -> tuple[Scene, dict[str, np.ndarray], str]:
-    """The scene, its impacts and what varies by dotted name (SI), and what its impact keeps meanwhile, in words.
+    """The scene, impacts and varied entries by dotted name (SI), and which quantity of the impact is held, in words.
 
-    Nothing is kept where nothing varies, or where speeds are arguments.
+    No quantity is held if nothing varies or if speeds are arguments; the text is empty then.
 
     Arguments:
         impact: `stokes`, `speed`, `relative_speed` and `angle`; None for the scene's.
@@ -212,10 +212,10 @@ def checked_columns(
 def checked_vary(
     scene: Scene, vary: Mapping[str, Any], label: str = "vary", most: int | None = 1, texts: bool = False
 ) -> tuple[Scene, dict[str, np.ndarray]]:
-    """Other entries that vary, SI, and the scene with `bridge.volume` in the same unit; InputError for a wrong entry.
+    """The scene and the columns of entries that vary other than the impact's speed and angle, SI.
 
-    A spin that varies is an entry of the scene.
-    Values of `bridge.volume` with a unit are volumes in m^3 and plain numbers are V/R^3, whatever the scene gives.
+    A spin that varies becomes an entry of the scene. Values of `bridge.volume` with a unit are volumes in m^3 and plain
+    numbers are V/R^3; the scene's own volume is turned into the same. InputError for a wrong entry.
 
     Arguments:
         most: dimensions; None for any number.
@@ -232,7 +232,7 @@ def checked_vary(
     for name, values in vary.items():
         entry = fields(scene.package)[name]
         if entry.choices:
-            columns[name] = checked_texts(name, values, entry)
+            columns[name] = checked_choices(name, values, entry)
             continue
         measured = bool(entry.or_unit) and _carry_units(name, values)
         column = columns[name] = checked_numbers(name, values, entry.measured if measured else entry, most)
@@ -240,7 +240,7 @@ def checked_vary(
         if column.size and (other_unit or (name in SPINS and name not in scene.entries)):
             unit = f" {entry.or_unit}" if measured else ""
             texts_of = (f"{value!r}{unit}" if unit else value for value in column.ravel().tolist())
-            # with the first value that the scene accepts its entry is meant as the values are
+            # the first value that the scene accepts makes its entry of the same kind as the values
             scene = first_accepted(partial(scene.with_entries, {name: text}) for text in texts_of)
     return scene, columns
 
@@ -271,7 +271,7 @@ def first_accepted(attempts: Iterable[Callable[[], T]]) -> T:
 def check_varies(
     name: str, values: object, label: str = "vary", package: Package | None = None, texts: bool = False
 ) -> None:
-    """Raise InputError unless the entry is a number but not the impact's speed or angle, or with `texts` a choice."""
+    """Raise InputError unless the entry is a number (with `texts`, or a choice) and not the impact's speed or angle."""
     known = fields(package)
     if name not in known:
         raise unknown(name, values, package) or unknown_entry(name, values)
@@ -281,19 +281,20 @@ def check_varies(
         raise InputError(label, name, "entries that are numbers", "is a choice")
 
 
-def check_some_scene(request: Batch) -> None:
-    """Raise InputError if the varied entries make every collision impossible; single failures are marked later."""
+def check_any_possible(request: Batch) -> None:
+    """Raise InputError if the varied entries make every collision impossible; single ones are marked later."""
     if request.vary and request.size:
         first_accepted(partial(request.scene_of, k) for k in range(request.size))
 
 
-def checked_texts(name: str, values: Any, entry: Field) -> np.ndarray:
-    """An array of choices, in any number of dimensions; InputError for one that there is not."""
+def checked_choices(name: str, values: Any, entry: Field) -> np.ndarray:
+    """The values as an array of text of the same shape; InputError unless each is one of the entry's choices."""
     try:
         column = np.asarray(values, dtype=object)
     except Exception:  # noqa: BLE001 # whatever another library's conversion raises
         raise InputError(name, values, entry.accepts, "is not a list of names") from None
     names = column.ravel().tolist()
+    # text is checked once for each distinct value; values of other types may not be hashable
     for value in dict.fromkeys(names) if all(isinstance(each, str) for each in names) else names:
         entry.read(value)
     return column.astype(str)

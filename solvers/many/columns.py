@@ -1,4 +1,4 @@
-"""Quantities of many collisions as columns of one length, without any integration: from scene, impacts and entries."""
+"""Quantities of many collisions that need no integration: from scene, impacts and varied entries."""
 
 from typing import Any
 
@@ -17,24 +17,24 @@ from .results import FAILED, OF_IMPACT, Block
 
 
 def varied_columns(request: Batch) -> dict[str, np.ndarray]:
-    """Quantities under the vocabulary's names, SI, of every collision where entries vary; without speed and angle."""
+    """Quantities by vocabulary name, SI, one value for each collision; without speed and angle."""
     entries: dict[str, Any] = {name: value for name, value in request.scene.si if name not in MEETING}
     values = quantities(entries | dict(request.vary), request.scene.ways)
     return {name: np.broadcast_to(np.asarray(value, dtype=float), request.size) for name, value in values.items()}
 
 
-def with_impacts(request: Batch) -> dict[str, Any]:
-    """Quantities and impacts, SI, with the Stokes number: arrays, and numbers where all collisions share them."""
+def quantities_and_impacts(request: Batch) -> dict[str, Any]:
+    """Quantities by vocabulary name, SI. Speed, Stokes number and angle are arrays; others only if entries vary."""
     values: dict[str, Any] = varied_columns(request) if request.vary else dict(si_values(request.scene, None, None))
     with np.errstate(all="ignore"):
-        unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
-        speed = np.asarray(request.stokes) / unit if request.speed is None else request.speed
-        stokes = speed * unit if request.stokes is None else request.stokes
+        stokes_per_speed = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
+        speed = np.asarray(request.stokes) / stokes_per_speed if request.speed is None else request.speed
+        stokes = speed * stokes_per_speed if request.stokes is None else request.stokes
     return values | {"speed": speed, "stokes": stokes, "angle": request.angle}
 
 
 def impact_columns(request: Batch) -> Block:
-    """Columns of `OF_IMPACT`; NaN where a scene has no such number, or its collision cannot be."""
+    """Columns of `OF_IMPACT`; NaN where a scene has no such number, or where its collision is impossible."""
     columns = {name: np.full(request.size, np.nan) for name in OF_IMPACT if name in request.of}
     for k in range(request.size if columns else 0):
         try:
@@ -49,6 +49,6 @@ def impact_columns(request: Batch) -> Block:
 
 
 def validity(request: Batch, results: Block) -> np.ndarray:
-    """Flags of where each collision leaves the model's range; none of one that failed."""
-    passed = flags(request.scene, with_impacts(request) | results, request.size)
+    """Bits for the limits of the model that each collision passes; 0 for one that failed."""
+    passed = flags(request.scene, quantities_and_impacts(request) | results, request.size)
     return np.where(results["outcome"] == FAILED, np.int16(0), passed)

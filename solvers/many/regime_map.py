@@ -23,7 +23,7 @@ from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from ..scene.user_model import Package
 from .batch import Batch, check_outputs, checked_columns
-from .columns import with_impacts
+from .columns import quantities_and_impacts
 from .compute import Slow
 from .journal import Journal, checked_journal
 from .results import QUANTITIES, VALIDITY
@@ -65,7 +65,7 @@ class Grid(Scan):
         for dim, (name, (_, axis)) in zip(dims, self.columns.items(), strict=True):
             unit = {"units": self.scene.fields[name].unit or "1", "long_name": name.replace(".", ", ", 1)}
             coordinates[dim] = (dim,), axis, LABELS.get(dim, unit)
-        values = with_impacts(request)
+        values = quantities_and_impacts(request)
         for name in ("speed", "stokes"):
             column = np.reshape(values[name], self.shape)
             if dims[1] == "relative_speed":

@@ -1,4 +1,4 @@
-"""A scan: collisions over several dimensions, each argument over some of them, laid out as numpy or xarray does."""
+"""A scan: collisions over several dimensions, over which its arguments are broadcast as by numpy or xarray."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ..host.pictures import register
 from ..model.validity import flag_attributes, warn
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
-from .batch import Batch, batch, check_some_scene, of_one_length
+from .batch import Batch, batch, check_any_possible, of_one_length
 from .results import FAILED, RESULTS, VALIDITY, Block, attributes, outcome_attributes
 
 if TYPE_CHECKING:
@@ -41,11 +41,11 @@ class Scan:
     """Collisions of one scene over several dimensions.
 
     Arguments:
-        columns: argument by dotted name -> the dimensions that it has, and its checked values (SI) along these.
+        columns: dotted name of an argument -> its dimensions, and its checked values (SI) along these.
         engine: the requested engine; None for the best of each scene.
-        held: what the collisions share of the scene's impact, in words.
-        beside: coordinates that DataArrays bring along.
-        engines: the engines that answer, by the choices of a scene (`check`).
+        held: which quantity of the scene's impact all collisions share, in words.
+        beside: further coordinates, of DataArrays among the arguments.
+        engines: the engine for each combination of choices (`check`).
     """
 
     scene: Scene
@@ -65,7 +65,7 @@ class Scan:
 
     @property
     def answered_by(self) -> str:
-        """The engines that answer, as text."""
+        """The engines that compute the collisions, as text."""
         return ", ".join(dict.fromkeys(self.engines.values())) or self.engine or "rosenbrock"
 
     def order(self) -> np.ndarray:
@@ -96,7 +96,7 @@ class Scan:
     def check(self) -> None:
         """Determine the engines; InputError if the entries that vary make every scene impossible.
 
-        Scenes are warned of here, and not by the processes that compute them.
+        Warnings about scenes are given here, not by the processes that compute them.
         """
         if not set(self.columns) - {*MEETING}:  # one scene
             warn(self.scene)
@@ -110,7 +110,7 @@ class Scan:
             try:
                 if isinstance(part, InputError):
                     raise part
-                check_some_scene(part)
+                check_any_possible(part)
                 choices = tuple(str(values[where[0]]) for values in scenes.texts.values())
                 self.engines[choices] = collision_engine(part.scene, self.engine)
                 warn(part.scene)
@@ -209,13 +209,13 @@ def _digest(values: np.ndarray) -> str:
 def laid_out(
     arrays: Mapping[str, np.ndarray], arguments: Mapping[str, Any]
 ) -> tuple[Dims, tuple[int, ...], dict[str, tuple[Dims, np.ndarray]], xarray.Dataset | None]:
-    """Dimensions, shape, columns and further coordinates of a scan, as its arguments are broadcast.
+    """Dimensions, shape, columns and further coordinates of a scan, with its arguments broadcast.
 
-    Over `collision` where all have one dimension or none, without a name.
+    The dimension is `collision` if all arguments have at most one dimension, without a name.
 
     Arguments:
         arrays: checked values by dotted name.
-        arguments: what they were read from, with dimensions and coordinates if these are DataArrays.
+        arguments: the arguments as passed, of which DataArrays have dimensions and coordinates.
 
     Raises:
         InputError: a shape that does not fit, naming the argument.
@@ -246,12 +246,12 @@ def laid_out(
             array = array.reshape([array.shape[axis] for axis in kept])
             dims_of[name] = tuple(dims[axis] for axis in kept)
         columns_of[name] = dims_of[name], array
-    _check_names(dims, dims_of)
+    _check_dims(dims, dims_of)
     return dims, shape, columns_of, _beside(named)
 
 
-def _check_names(dims: Dims, dims_of: Mapping[str, Dims]) -> None:
-    """InputError for a dimension that is named as a result, or as an argument that is not along it alone."""
+def _check_dims(dims: Dims, dims_of: Mapping[str, Dims]) -> None:
+    """InputError for a dimension with the name of a result, or of an argument that has other dimensions too."""
     for dim in dims:
         if dim in RESULTS:
             raise InputError("dims", dim, "dimensions that are not named as a result", "is the name of a result")
@@ -274,7 +274,7 @@ def _misfit(name: str, array: np.ndarray, shape: tuple[int, ...]) -> InputError:
 
 
 def _beside(named: Mapping[str, Any]) -> xarray.Dataset | None:
-    """Coordinates of all DataArrays; those that contradict each other are left out, unless it is an index."""
+    """Coordinates of all DataArrays; contradictory ones are left out, or are an InputError if they are an index."""
     import xarray as xr
 
     if not named:
@@ -287,7 +287,7 @@ def _beside(named: Mapping[str, Any]) -> xarray.Dataset | None:
 
 
 def without(beside: xarray.Dataset, taken: set[str]) -> xarray.Dataset:
-    """The coordinates without those whose names the results take, and without indices that these are part of."""
+    """The coordinates without those that have the names of results, and without the indices of which these are part."""
     drop: set[Hashable] = set()
     for name in taken & set(beside.coords):
         drop |= set(beside.xindexes.get_all_coords(name, errors="ignore")) | {name}

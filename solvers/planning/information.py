@@ -64,7 +64,7 @@ def information(
     Raises:
         InputError: values that no scene may have.
     """
-    experiment, size = Likelihood(scene, names, plan, rtol).bound(values), plan.size
+    experiment, size = Likelihood(scene, names, plan, rtol).experiment_at(values), plan.size
     lines = ScatterLines.through(plan, _directions(experiment, plan), resolution.lines)
     changes = lines.changes(experiment, resolution)
     segments = Segments.between(lines, changes)

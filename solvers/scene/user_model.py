@@ -41,14 +41,18 @@ ENTRIES = {
 
 @dataclass(frozen=True)
 class OwnEvent:
-    """An event that a model declares, as its manifest has it.
+    """An event that a model declares, by its entry in the manifest.
 
     Arguments:
-        row: of the automaton. mark: its state, 1 before it and 0 after it.
-        reach: signs of its guard's slopes along the gap and along the speed, opening and closing, as far as they are
-            shown; None where the guard's least value cannot be told from them.
-        takes: its jump never adds kinetic energy. harmless: nor does it change any barrier of the energy.
-        rotates: it speaks of a rotation. turns: its guard of nothing else. spins: its jump changes one.
+        row: the event as a row of the automaton's table.
+        mark: name of the state that is 1 before the event and 0 after it.
+        reach: signs of the guard's derivatives by the gap, and by the speed while opening and closing, where proved;
+            None if they do not determine where the guard is least.
+        takes: proved that its jump never adds kinetic energy.
+        harmless: proved, in addition, that it leaves every energy barrier as it is.
+        rotates: guard or jump contains a rotation, which is absent beside a wall.
+        turns: the guard depends on rotations only, so that the event does not happen head-on.
+        spins: the jump changes a rotation.
     """
 
     row: Event
@@ -62,15 +66,15 @@ class OwnEvent:
     spins: bool
 
     @classmethod
-    def read(cls, one: Mapping[str, Any]) -> OwnEvent:
-        """An entry of the manifest."""
-        from ...generated.automaton import Event  # not where nothing emitted is read, as by `generate`
+    def from_manifest(cls, entry: Mapping[str, Any]) -> OwnEvent:
+        """The event that an element of the manifest's `events` describes; JSON's lists become tuples."""
+        from ...generated.automaton import Event  # imported here because `generate` must run without emitted code
 
-        fields = {name: one[name] for name in Event._fields}
-        fields |= {"where": tuple((part, value) for part, value in one["where"])}
-        fields |= {name: tuple(one[name]) for name in ("functions", "words", "actions")}
-        others = ("mark", "meaning", "reach", "takes", "harmless", "rotates", "turns", "spins")
-        return cls(Event(**fields), **{name: one[name] for name in others})
+        fields = {name: entry[name] for name in Event._fields}
+        fields |= {"where": tuple((part, value) for part, value in entry["where"])}
+        fields |= {name: tuple(entry[name]) for name in ("functions", "words", "actions")}
+        own_fields = ("mark", "meaning", "reach", "takes", "harmless", "rotates", "turns", "spins")
+        return cls(Event(**fields), **{name: entry[name] for name in own_fields})
 
     @property
     def name(self) -> str:
@@ -90,7 +94,7 @@ class Package:
         folder: the folder of the files, or the model file that they were derived from.
         files: texts by path, if the files are not in a folder.
 
-    A model that is only described (from a map file) has neither.
+    A model that is only described, as in a map file, has neither folder nor files.
     """
 
     text: str = field(repr=False)
@@ -140,11 +144,11 @@ class Package:
         return {name: value for name, value in values.items() if value is not None}
 
     def completed(self, entries: Mapping[str, Any]) -> dict[str, Any]:
-        """The given entries, completed with defaults."""
+        """The entries of a scene, completed with defaults."""
         return {**entries, **{name: value for name, value in self.defaults.items() if name not in entries}}
 
     def demand(self, entries: Mapping[str, Any]) -> None:
-        """Raise InputError for a quantity that is missing without a default, or an event that the scene cannot have."""
+        """Raise InputError for a missing quantity without a default, or an event that the scene cannot have."""
         turning = next((each.word for each in self.events if each.rotates), None)
         if turning is not None and entries.get("partner.wall"):
             accepted = f"another partner, or a model without the event {turning}"
@@ -185,10 +189,10 @@ class Package:
     @cached_property
     def events(self) -> tuple[OwnEvent, ...]:
         """The declared events, in order of precedence behind the library's."""
-        return tuple(OwnEvent.read(one) for one in self.manifest.get("events", ()))
+        return tuple(OwnEvent.from_manifest(entry) for entry in self.manifest.get("events", ()))
 
     def events_in(self, structure: str) -> tuple[OwnEvent, ...]:
-        """Those that a structure has: head-on and beside a wall nothing turns, a jump of the spin needs the spin."""
+        """The events that a structure can have: it needs their rotations, and the spin as a state if they change it."""
         head_on = structure.startswith("head_on")
         wall, reduced = (part in structure.split("_") for part in ("wall", "reduced"))
         return tuple(
@@ -199,7 +203,7 @@ class Package:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Words of the declared events; in the kernel they follow the library's."""
+        """Words by which results report the declared events; in the kernel they follow the library's."""
         return tuple(one.row.words[0] for one in self.events)
 
     def automaton_headers(self) -> tuple[str, str]:
@@ -283,7 +287,7 @@ class Package:
 
     @cached_property
     def groups(self) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
-        """Groups of the model: name -> its quantities, in order, and the function."""
+        """Groups of the model: name -> the quantities that its function takes, in order, and the function."""
         if not self.manifest["scaling"]:
             return {}
         scaling = _module(self, "scaling.py")
@@ -291,7 +295,7 @@ class Package:
 
     @property
     def plain(self) -> tuple[str, ...]:
-        """Quantities of the model that are groups without scaling."""
+        """Quantities of the model that are dimensionless groups as they are."""
         return tuple(one["name"] for one in self.manifest["quantities"] if one["group"] == one["name"])
 
     @property

@@ -1,7 +1,7 @@
 """A located trajectory as one CasADi expression: phases over constant durations, landings on events, and jumps.
 
 A landing is a correction of the state onto the event's surface. At the located durations it is almost zero, but its
-first and second derivatives are those of the saltation. So CasADi differentiates the whole trajectory.
+first and second derivatives are those of the saltation, so that CasADi can differentiate the whole trajectory.
 """
 
 from dataclasses import dataclass
@@ -21,26 +21,26 @@ from ..model.rebound import jump, rubs
 from ..scene.contact import GAPS, contact_word
 from .results import DIFFERENTIATED
 
-# further arguments of the guards: direction of motion, and the certificate's level, which is not used here
+# argument of the guards for the certificate's level, which is not used here
 _NO_LEVEL = 0.0
 
 
 @dataclass(frozen=True)
 class Leg:
-    """A phase of a trajectory without its duration: equations, final event and the effect of that."""
+    """A phase of a trajectory, as `PhaseRun` without its duration, and what happens at its end."""
 
     phase: Phase
-    lasts: bool
-    event: str | None
+    lasts: bool  # it has a duration; else only its end counts
+    event: str | None  # on which it ends; None if it just ends
     rebounds: bool
-    holds: bool
-    rubs: bool = False  # with friction of the dry contact
-    own: str = ""  # the declared event that happens at its end
+    holds: bool  # the normal velocity is set to zero at its end
+    rubs: bool = False  # the rebound at its end is with dry friction
+    declared: str = ""  # the declared event that happens at its end
 
 
 @dataclass(frozen=True)
 class Course:
-    """The sequence of phases and events of a trajectory, without numbers; the key of its cached expression.
+    """An `EventSequence` reduced to what its expression depends on: the key of the cached expression.
 
     Arguments:
         nearest: index of the leg at whose end the gap is smallest; -1 for initial contact.
@@ -61,11 +61,11 @@ class Course:
 
 
 def course_of(path: EventSequence, choice: ModelKey) -> Course:
-    """The course of a located path, for its own model or the full form of it."""
+    """The course of a located trajectory, by its reduced model or by the full form of that."""
     legs = tuple(
         Leg(
             step.phase, step.duration > 0, step.event, step.rebounds, step.holds,
-            rubs=step.rebounds and rubs(path.model, step.kinds[0]), own=step.own,
+            rubs=step.rebounds and rubs(path.model, step.kinds[0]), declared=step.own,
         )
         for step in path.steps
     )  # fmt: skip
@@ -75,7 +75,7 @@ def course_of(path: EventSequence, choice: ModelKey) -> Course:
 
 @dataclass(frozen=True)
 class TrajectoryExpression:
-    """Expression of a course: (groups, durations) -> quantities, relative shifts of the durations by the landings."""
+    """A course as a function: (groups, durations) -> quantities `of`, relative shifts of durations by the landings."""
 
     function: Function
     of: tuple[str, ...]
@@ -123,8 +123,8 @@ def follow_course(
             at.y = vertcat(after, at.y[size:])
         if leg.holds:
             at.y = vertcat(at.y[0], 0, at.y[2:])
-        if leg.own:
-            at.y = vertcat(model.function(f"jump_{leg.own}")(at.y[:size], p), at.y[size:])
+        if leg.declared:
+            at.y = vertcat(model.function(f"jump_{leg.declared}")(at.y[:size], p), at.y[size:])
     return at
 
 
@@ -137,7 +137,7 @@ def symbols(course: Course) -> tuple[MX, MX]:
 def trajectory_expression(
     course: Course, of: tuple[str, ...], plugin: str, tolerance: Tolerance
 ) -> TrajectoryExpression:
-    """The expression of a course for the requested quantities, with only the quadratures that these need."""
+    """The expression of the requested quantities of a course, with only the quadratures that they need."""
     model = course.model
     extras, size = _extras(model, of), len(model.state)
     p, durations = symbols(course)
@@ -165,7 +165,7 @@ def ending(course: Course, plugin: str, tolerance: Tolerance) -> TrajectoryExpre
 
 
 def _extras(model: Model, of: tuple[str, ...]) -> tuple[str, ...]:
-    """Names of the quadratures: the rotation where it is not a state, and the model's terms of the ledger."""
+    """Names of the quadratures needed: the rotation where it is not a state, and terms of the energy ledger."""
     wanted = [DIFFERENTIATED[name].extra for name in of]
     turns = model.has("turning_rate") and not model.strings
     has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
@@ -190,7 +190,7 @@ def _at_the_end(model: Model, start: MX, y: MX, p: MX) -> dict[str, MX]:
 
 
 def influential(course: Course, groups: dict[str, float]) -> list[bool]:
-    """Mask of groups that influence a course; those of rebound criteria that it does not meet have none."""
+    """Mask of the groups that influence a course: not those of rebound criteria that it does not meet."""
     landed = {leg.event for leg in course.legs}
     met = GAPS[contact_word(groups)] if "contact" in landed else None
     absent = {

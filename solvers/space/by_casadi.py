@@ -1,7 +1,7 @@
 """One pair in space by Rosenbrock or CVODES, in axes that go with the pair.
 
 CasADi's integrators measure errors by component, so the axes must not be the laboratory's: the first is the line of
-centres, the second lies along what rotates most across it. A rotation of the whole pair then changes rounding only.
+centres, the second the fastest direction across it. A rotation of the whole pair then changes rounding only.
 During the integration they turn about the angular momentum as a rigid doublet would (`model.phases`).
 """
 
@@ -27,12 +27,12 @@ from .pairs import Bodies, Pairs, length
 
 AXES = "xyz"
 EXTRAS = ("rotation",)
-_LEAST = 1e-300
-_TIGHTEST = 1e-13
+_LEAST = 1e-300  # in place of zero where it divides
+_TIGHTEST = 1e-13  # relative tolerance down to which a missed event is sought again
 
 
-def by_casadi(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False, spent: int = 0) -> Ends:
-    """Ends of the pairs, one after the other; a pair that fails says why.
+def pairs_by_casadi(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False, spent: int = 0) -> Ends:
+    """Ends of pairs integrated one after the other; a failed pair has the outcome FAILED and its reason.
 
     Arguments:
         spent: steps of the planar kernel that a pair has taken.
@@ -47,11 +47,11 @@ def by_casadi(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False, spen
     return ends
 
 
-def own_axes(pairs: Pairs) -> np.ndarray:
-    """Axes that go with a single pair, as rows."""
-    normal = pairs.normal[0]
-    radii = Bodies.of(pairs.scene).radius
-    speeds = [pairs.distance * pairs.turning[0], radii[0] * pairs.spins[0, 0], radii[1] * pairs.spins[0, 1]]
+def own_axes(pair: Pairs) -> np.ndarray:
+    """Axes of one pair at initial contact, as rows: normal, fastest direction across it, their cross product."""
+    normal = pair.normal[0]
+    radii = Bodies.of(pair.scene).radius
+    speeds = [pair.distance * pair.turning[0], radii[0] * pair.spins[0, 0], radii[1] * pair.spins[0, 1]]
     across = np.array([each - (each @ normal) * normal for each in speeds])
     sizes = length(across)
     second = across[int(np.argmax(sizes))]
@@ -62,16 +62,16 @@ def own_axes(pairs: Pairs) -> np.ndarray:
     return np.stack([normal, second, np.cross(normal, second)])
 
 
-def groups_of(pairs: Pairs, axes: np.ndarray) -> DimensionlessGroups:
-    """The groups of a single pair, with vectors in the given axes."""
-    speed = -float(pairs.opening[0])
-    n = nondimensionalise(pairs.scene, speed, 0.0)
+def groups_of(pair: Pairs, axes: np.ndarray) -> DimensionlessGroups:
+    """The groups of one pair, with the components of vectors along these axes."""
+    speed = -float(pair.opening[0])
+    n = nondimensionalise(pair.scene, speed, 0.0)
     vectors = {
-        "turning": axes @ pairs.turning[0],
-        "spin": axes @ pairs.spins[0, 0],
-        "partner_spin": axes @ pairs.spins[0, 1],
+        "turning": axes @ pair.turning[0],
+        "spin": axes @ pair.spins[0, 0],
+        "partner_spin": axes @ pair.spins[0, 1],
     }
-    quantities = dict(si_values(pairs.scene, None, None)) | {"speed": speed}
+    quantities = dict(si_values(pair.scene, None, None)) | {"speed": speed}
     quantities |= {f"impact_{name}_{axis}": float(v[k]) for name, v in vectors.items() for k, axis in enumerate(AXES)}
 
     def formula(name: str) -> float:
@@ -84,7 +84,7 @@ def groups_of(pairs: Pairs, axes: np.ndarray) -> DimensionlessGroups:
         "radius_ratio": quantities["radius_ratio"],
         "mass_ratio": quantities["mass_ratio"],
     }
-    normal = dict(zip((f"initial_normal_{axis}" for axis in AXES), axes @ pairs.normal[0], strict=True))
+    normal = dict(zip((f"initial_normal_{axis}" for axis in AXES), axes @ pair.normal[0], strict=True))
     first = {
         f"initial_{name}_{axis}": float(v[k]) / max(rate, _LEAST)
         for name, v in vectors.items()
@@ -129,7 +129,7 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, budget: Budget) ->
 
 
 def _turned_back(model: Model, replayed: Replay, p: np.ndarray) -> np.ndarray:
-    """The axes in which the integration ended, as rows, in those in which it began (`model.phases`)."""
+    """The axes at the end of the integration, as rows, in components along those at its start (`model.phases`)."""
     parts = model.values("precession", replayed.y, p)
     momentum = np.array([parts[f"momentum_{axis}"] for axis in AXES])
     angle = float(np.sqrt(momentum @ momentum)) * replayed.extra(EXTRAS[0])
@@ -150,7 +150,7 @@ def _integrated(
     rtol: float,
     budget: Budget,
 ) -> tuple[EventSequence, Replay]:
-    """The located events and the trajectory; tighter where the engine misses an event.
+    """The located events and the trajectory; the tolerance is tightened where the engine misses an event.
 
     Arguments:
         small: the reduced form of `model`, by which CVODES' events are located.

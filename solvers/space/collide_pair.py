@@ -19,7 +19,7 @@ from ..scene.groups import si_values
 from ..scene.scene import Scene
 from .beside_wall import beside_wall, planar_by_casadi, planar_by_kernel
 from .books import GREW, OPEN, named
-from .by_casadi import by_casadi
+from .by_casadi import pairs_by_casadi
 from .by_kernel import by_kernel
 from .ends import FAILED, Ends, Motions, after, after_wall, gains_energy
 from .pairs import Bodies, Pairs, checked, dot, length
@@ -196,7 +196,7 @@ def _by_casadi(pairs: Pairs, engine: str, rtol: float, ledger: bool, spent: int 
         ends, is_open = made
         ends.outcome[is_open], ends.reason[is_open] = FAILED, OPEN
     else:
-        ends = by_casadi(pairs, engine, rtol, ledger, spent)
+        ends = pairs_by_casadi(pairs, engine, rtol, ledger, spent)
     grown = gains_energy(pairs, ends, rtol)
     ends.outcome[grown], ends.reason[grown] = FAILED, GREW
     return ends

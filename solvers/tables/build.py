@@ -143,7 +143,9 @@ class Builder:
         for k in range(len(part.layouts[0].panels[which].arcs)):
 
             def sample(points: np.ndarray, k: int = k) -> np.ndarray:
-                heights = [one.boundary(which, k, strip.angles(points[:, 0], m)) for m, one in enumerate(part.layouts)]
+                heights = [
+                    one.log_stokes(which, k, strip.angles(points[:, 0], m)) for m, one in enumerate(part.layouts)
+                ]
                 return np.stack(heights, axis=1)[:, :, None]
 
             edges.append(fit(forest, sample, EDGE_ORDER))

@@ -1,6 +1,6 @@
 """Layout of a plane: angle panels in which no boundary begins or ends, and the boundaries that cross each.
 
-Boundaries are those between signatures: outcomes, and sequences of events at which the equations change.
+A boundary lies between two signatures: outcomes with the sequences of events at which the equations change.
 """
 
 from dataclasses import dataclass, field
@@ -16,25 +16,26 @@ from .collisions import UNKNOWN, Collisions
 from .fit import Order, Unresolved, fit
 from .series import Forest
 
-_LINES, _RANDOM = 33, 4096  # seed lines, random collisions held against the curves
-_BESIDE = 1e-6  # distance in the square at which signatures beside a traced change are looked at
+_LINES, _RANDOM = 33, 4096  # numbers of seed lines, and of random collisions with which the curves are compared
+_BESIDE = 1e-6  # distance in the square from a traced change at which the signatures on both sides are taken
 _THIN = 3e-7  # rad; a narrower panel is part of its neighbour
+# numbers of points on a line of a further search, of places per round that it starts from, and of rounds
 _FINER, _MORE, _ROUNDS = 385, 8, 3
 _LOCATED = 1e-9  # width in the square to which a boundary is located
 EDGE_ORDER = Order((16, 1), 5e-8, most=400, checks=8)
-_NARROW, _END = 1 / 100, 2e-3  # width of a patch, as part of its panel, that a kink makes; distance from the ends
-_DIVISIONS = 4
-_REACHES = (1e-4, 1e-3, 1e-2, 0.1)  # of the search for a boundary near its polyline
+_NARROW, _END = 1 / 100, 2e-3  # parts of a panel: width of a patch that shows a kink; its distance from the ends
+_DIVISIONS = 4  # most rounds of divisions at kinks
+_REACHES = (1e-4, 1e-3, 1e-2, 0.1)  # distances from its polyline in the square to which a boundary is searched for
 
 
 @dataclass
 class Panel:
-    """Angles between which the same boundaries follow each other.
+    """An interval of angles in which the same boundaries lie one above the other.
 
     Attributes:
         low, high: angles, rad.
         arcs: boundaries from below to above.
-        labels: signatures between them.
+        labels: signatures below, between and above them.
     """
 
     low: float
@@ -45,22 +46,25 @@ class Panel:
 
 @dataclass
 class Layout:
-    """The panels of a plane, and where collisions contradict them."""
+    """The panels of a plane, and messages about collisions that contradict them (`failures`)."""
 
     plane: Collisions
     panels: list[Panel]
     failures: list[str] = field(default_factory=list)
 
     @property
-    def shape(self) -> tuple[tuple[int, ...], ...]:
+    def signatures(self) -> tuple[tuple[int, ...], ...]:
         """The signatures of each panel, from below to above."""
         return tuple(panel.labels for panel in self.panels)
 
-    def boundary(self, which: int, k: int, angle: np.ndarray) -> np.ndarray:
-        """Logarithms of St of boundary k of a panel at angles; NaN where it is not found."""
+    def log_stokes(self, which: int, k: int, angle: np.ndarray) -> np.ndarray:
+        """Logarithms of St of boundary k (from below) of panel `which` at these angles, rad.
+
+        They are searched for up and down from its polyline; NaN where no such change of signature is found.
+        """
         panel, plane = self.panels[which], self.plane
         arc = panel.arcs[k]
-        low, high = panel.labels[k], panel.labels[k + 1]
+        below, above = panel.labels[k], panel.labels[k + 1]
         across = (angle - plane.span[0]) / (plane.span[1] - plane.span[0])
         centre = np.column_stack([across, np.interp(across, arc.points[:, 0], arc.points[:, 1])])
         heights = np.full(angle.size, np.nan)
@@ -69,16 +73,16 @@ class Layout:
             if not left.size:
                 break
             up = np.tile([0.0, 1.0], (left.size, 1))
-            ends = np.full(left.size, low), np.full(left.size, high)
-            heights[left] = crossings(plane.labels, centre[left], up, np.full(left.size, reach), *ends, _LOCATED)[:, 1]
-        return np.asarray(np.log(plane.stokes[0]) + heights * plane.decades)
+            sides = np.full(left.size, below), np.full(left.size, above)
+            heights[left] = crossings(plane.labels, centre[left], up, np.full(left.size, reach), *sides, _LOCATED)[:, 1]
+        return np.asarray(np.log(plane.stokes[0]) + heights * plane.log_height)
 
 
 def layout_of(plane: Collisions, doubts: np.ndarray | None = None) -> Layout:
     """The layout of a plane, from a lattice, seed lines and random collisions.
 
     Arguments:
-        doubts: points (angle, St) to look at as well.
+        doubts: points (angle, St) near which boundaries are searched for as well.
     """
     at, labels = lattice(plane, 65, 193)
     survey = surveyed(plane, at, labels, _traced(plane))
@@ -127,7 +131,7 @@ def _panels(plane: Collisions, regions: list[Slab]) -> list[Panel]:
 
 
 def _traced(plane: Collisions) -> list[tuple[np.ndarray, int, int]]:
-    """Changes of outcome on seed lines, with signatures on both sides: narrow strips that a lattice does not show."""
+    """Changes of outcome on seed lines, with the signatures on both sides: a lattice does not show narrow strips."""
     angles = np.linspace(*plane.span, _LINES)
     lines = trace(plane.scene, angles, plane.stokes, plane.rtol)
     places = [
@@ -145,7 +149,7 @@ def _traced(plane: Collisions) -> list[tuple[np.ndarray, int, int]]:
 
 
 def _look(plane: Collisions, survey: Survey, points: np.ndarray) -> None:
-    """Look for boundaries on a column and a row through each point."""
+    """Search for boundaries on a column and a row through each point."""
     for point in points:
         column = np.column_stack([np.full(_FINER, point[0]), np.linspace(0, 1, _FINER)])
         row = np.column_stack([np.linspace(0, 1, _FINER), np.full(_FINER, point[1])])
@@ -188,7 +192,7 @@ def _kink(layout: Layout, which: int) -> float | None:
 
         def sample(points: np.ndarray, k: int = k) -> np.ndarray:
             angle = panel.low + points[:, 0] * (panel.high - panel.low)
-            return layout.boundary(which, k, angle)[:, None, None]
+            return layout.log_stokes(which, k, angle)[:, None, None]
 
         try:
             fit(forest, sample, EDGE_ORDER)

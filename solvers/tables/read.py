@@ -35,7 +35,7 @@ class Read:
 
 def read(data: Data, third: np.ndarray, angle: np.ndarray, height: np.ndarray, slopes: bool = False) -> Read:
     """Results at the third variable (or its logarithm), angles (rad) and ln St, 1-D arrays of one length."""
-    size, count = angle.size, data.results.results
+    size, count = angle.size, data.results.count
     at = np.stack([third, angle, height])
     inside = np.flatnonzero(((at >= data.low[:, None]) & (at <= data.high[:, None])).all(axis=0))
     outcome, criterion = np.full(size, OUTSIDE), np.full(size, -1)

@@ -1,7 +1,7 @@
-"""Trees of tensor Chebyshev series on the unit square, as flat arrays, and their evaluation.
+"""Binary trees over (x, z) with a tensor-product Chebyshev series in t, x and z in each leaf, as flat arrays.
 
-Coordinates: t (of the third variable, in 0..1), x (across an angle panel), z (across a cell). A tree divides x and z;
-each of its leaves is a patch with a series in t, x and z.
+Coordinates, all in 0..1: t (third variable), x (across an angle panel), z (across a cell). The series of panel edges
+and of boundaries do not depend on z.
 """
 
 from dataclasses import dataclass
@@ -13,17 +13,17 @@ LEAF = -1
 
 @dataclass
 class Trees:
-    """Flat arrays of many trees.
+    """Many trees in common arrays; a tree is given by the number of its root node, a leaf holds a patch.
 
     Attributes:
-        axis: of each node, 0 for x, 1 for z, LEAF for a patch.
+        axis: what each node divides: 0 for x, 1 for z; LEAF for a leaf.
         cut: coordinate at which a node divides; below it goes to `child`, else to `child + 1`.
-        child: first child, or the patch of a leaf.
+        child: first child of each node; of a leaf, the number of its patch.
         box: lower ends and reciprocal sizes of each patch: (x, z, 1/dx, 1/dz).
         size: numbers of coefficients of each patch in t, x and z.
-        start: first coefficient of each patch; results one after the other.
-        coefficients: all coefficients.
-        results: number of results.
+        start: index in `coefficients` of each patch's first.
+        coefficients: of all patches, those of one in the order (result, t, x, z).
+        count: number of functions in each series, one for each result; 1 for edges.
     """
 
     axis: np.ndarray
@@ -33,10 +33,10 @@ class Trees:
     size: np.ndarray
     start: np.ndarray
     coefficients: np.ndarray
-    results: int
+    count: int
 
     def patch_of(self, root: np.ndarray, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-        """The patch of points in the trees with these roots."""
+        """Number of the patch of each point (x, z), in the tree with its root."""
         node = root.copy()
         while True:
             axis = self.axis[node]
@@ -49,34 +49,34 @@ class Trees:
     def values(
         self, root: np.ndarray, t: np.ndarray, x: np.ndarray, z: np.ndarray, slopes: bool = False
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Values (n x results), and with `slopes` derivatives by t, x and z (3 x n x results)."""
-        result = np.zeros((root.size, self.results))
-        along = np.zeros((3 if slopes else 0, root.size, self.results))
+        """Values (n x count), and with `slopes` derivatives by t, x and z (3 x n x count)."""
+        result = np.zeros((root.size, self.count))
+        slope = np.zeros((3 if slopes else 0, root.size, self.count))
         if not root.size:
-            return result, along
+            return result, slope
         patch = self.patch_of(root, x, z)
         order = np.argsort(patch, kind="stable")
         edges = np.flatnonzero(np.diff(patch[order])) + 1
         for group in np.split(order, edges):
             k = int(patch[group[0]])
             n_t, n_x, n_z = (int(n) for n in self.size[k])
-            count = n_t * n_x * n_z * self.results
-            c = self.coefficients[self.start[k] : self.start[k] + count].astype(float)
-            c = c.reshape(self.results, n_t, n_x, n_z)
+            size = n_t * n_x * n_z * self.count
+            block = self.coefficients[self.start[k] : self.start[k] + size].astype(float)
+            block = block.reshape(self.count, n_t, n_x, n_z)
             low_x, low_z, per_x, per_z = self.box[k]
             basis_t, slope_t = chebyshev(2 * t[group] - 1, n_t)
             basis_x, slope_x = chebyshev(2 * (x[group] - low_x) * per_x - 1, n_x)
             basis_z, slope_z = chebyshev(2 * (z[group] - low_z) * per_z - 1, n_z)
-            result[group] = np.einsum("mijk,ni,nj,nk->nm", c, basis_t, basis_x, basis_z, optimize=True)
+            result[group] = np.einsum("mijk,ni,nj,nk->nm", block, basis_t, basis_x, basis_z, optimize=True)
             if slopes:
-                along[0, group] = 2 * np.einsum("mijk,ni,nj,nk->nm", c, slope_t, basis_x, basis_z, optimize=True)
-                along[1, group] = (
-                    2 * per_x * np.einsum("mijk,ni,nj,nk->nm", c, basis_t, slope_x, basis_z, optimize=True)
+                slope[0, group] = 2 * np.einsum("mijk,ni,nj,nk->nm", block, slope_t, basis_x, basis_z, optimize=True)
+                slope[1, group] = (
+                    2 * per_x * np.einsum("mijk,ni,nj,nk->nm", block, basis_t, slope_x, basis_z, optimize=True)
                 )
-                along[2, group] = (
-                    2 * per_z * np.einsum("mijk,ni,nj,nk->nm", c, basis_t, basis_x, slope_z, optimize=True)
+                slope[2, group] = (
+                    2 * per_z * np.einsum("mijk,ni,nj,nk->nm", block, basis_t, basis_x, slope_z, optimize=True)
                 )
-        return result, along
+        return result, slope
 
 
 def chebyshev(x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -97,7 +97,7 @@ def nodes(count: int) -> np.ndarray:
 
 
 def transform(count: int) -> np.ndarray:
-    """The matrix from values at `nodes` to coefficients."""
+    """The matrix that turns values at `nodes` into coefficients."""
     at = 2 * nodes(count) - 1
     matrix: np.ndarray = 2.0 / count * np.cos(np.arange(count)[:, None] * np.arccos(at)[None, :])
     matrix[0] *= 0.5
@@ -107,8 +107,8 @@ def transform(count: int) -> np.ndarray:
 class Forest:
     """Trees under construction."""
 
-    def __init__(self, results: int) -> None:
-        self.results = results
+    def __init__(self, count: int) -> None:
+        self.count = count
         self.axis: list[int] = []
         self.cut: list[float] = []
         self.child: list[int] = []
@@ -121,14 +121,14 @@ class Forest:
         return len(self.axis), len(self.box)
 
     def reset(self, mark: tuple[int, ...]) -> None:
-        """Take away the nodes and patches made since a mark."""
+        """Remove the nodes and patches added since a mark."""
         for nodes_ in (self.axis, self.cut, self.child):
             del nodes_[mark[0] :]
         for patches in (self.box, self.size, self.coefficients):
             del patches[mark[1] :]
 
     def node(self) -> int:
-        """A new node; `divide` or `leaf` says what it is."""
+        """A new node, which `divide` or `leaf` must complete."""
         self.axis.append(LEAF)
         self.cut.append(0.0)
         self.child.append(-1)
@@ -141,14 +141,14 @@ class Forest:
         return first, second
 
     def leaf(self, node: int, low: np.ndarray, wide: np.ndarray, series: np.ndarray) -> None:
-        """Make a node the leaf of a patch with these coefficients (results x t x x x z)."""
+        """Make a node a leaf, whose patch has these coefficients (result, t, x, z)."""
         self.child[node] = len(self.box)
         self.box.append((float(low[0]), float(low[1]), 1 / float(wide[0]), 1 / float(wide[1])))
         self.size.append(series.shape[1:])
         self.coefficients.append(series)
 
     def trees(self, kind: type = np.float64) -> Trees:
-        """The trees so far; coefficients of this kind."""
+        """The trees so far, with coefficients of this number type."""
         counts = [one.size for one in self.coefficients]
         flat = [one.ravel() for one in self.coefficients]
         return Trees(
@@ -159,5 +159,5 @@ class Forest:
             np.array(self.size, dtype=np.int16).reshape(-1, 3),
             np.array(np.cumsum([0, *counts[:-1]]) if counts else [], dtype=np.int32),
             np.concatenate(flat).astype(kind) if flat else np.zeros(0, kind),
-            self.results,
+            self.count,
         )

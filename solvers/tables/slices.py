@@ -76,7 +76,7 @@ class Slicer:
         places = (low + nodes(NODES) * (high - low)).tolist()
         layouts = [self.layout(at) for at in places]
         for k in range(NODES - 1):
-            if layouts[k].shape != layouts[k + 1].shape:
+            if layouts[k].signatures != layouts[k + 1].signatures:
                 first, last = self._changes(places[k], places[k + 1])
                 self._fill(builder, low, first)
                 builder.slices[-1] = last  # what lies between is as close to one side as to the other
@@ -93,11 +93,11 @@ class Slicer:
 
     def _changes(self, low: float, high: float) -> tuple[float, float]:
         """Two values close to each other between which the layout changes."""
-        shape = self.layout(low).shape
+        signatures = self.layout(low).signatures
         apart = _APART * (1.0 if self.range.logarithmic else max(abs(low), abs(high)))
 
         def is_below(at: np.ndarray) -> np.ndarray:
-            return np.array([self.layout(float(each)).shape == shape for each in at])
+            return np.array([self.layout(float(each)).signatures == signatures for each in at])
 
         first, last = bisect(is_below, np.array([low]), np.array([high]), apart)
         return float(first[0]), float(last[0])

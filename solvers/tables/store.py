@@ -148,7 +148,7 @@ def load(path: str | Path) -> Law:
     attack = Attack(int(attributes["attack_queries"]), float(attributes["largest_error_found"]), (third, angle, stokes),
                     int(attributes["attack_direct"]))  # fmt: skip
     trees = [
-        Trees(**{name: content[f"{prefix}_{name}"].values for name in _TREES}, results=count)
+        Trees(**{name: content[f"{prefix}_{name}"].values for name in _TREES}, count=count)
         for prefix, count in (("shape", 1), ("result", len(of)))
     ]
     data = Data(*ranges.corners, ranges.logarithmic, *(content[name].values for name in _OWN), *trees)

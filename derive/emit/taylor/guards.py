@@ -9,7 +9,7 @@ from .layout import comment, compiled_if, documented, function, struct
 from .ledger import Valued
 from .program import Program
 
-# Series of the kernel, and their values at the states `y`; those of resting contact with friction
+# Series of the kernel and their values at the states `y`; then the series of resting contact with friction
 _STATES = ("gap", "normal_velocity", "rotation", "orbital_momentum", "spin")
 _SERIES = {name: (f"s->{name}", f"{{y}}[{name.upper()}]") for name in _STATES} | {
     "glass_clearance": ("s->glass.result", "glass_clearance(&f->c, {y})"),
@@ -17,7 +17,7 @@ _SERIES = {name: (f"s->{name}", f"{{y}}[{name.upper()}]") for name in _STATES} |
 }
 _AT_REST = {name: f"r->rest_{name}" for name in ("slip", "grip_backward", "grip_forward")}
 _DIFFERENTIATED = ("gap", "normal_velocity", "glass_clearance")
-# Values of targets that are no groups, and their derivatives by a group, with the condition under which they have any
+# Targets that are no groups: value, derivative by a group, and the preprocessor's condition for that derivative
 _TARGETS = {
     "": ("zero", "", ""),
     "contact": ("f->contact", "choose(contact_moves_with(&f->c, group), splat(1.0), splat(0.0))", ""),
@@ -116,7 +116,7 @@ def _find_at_rest() -> list[str]:
 
 
 def _search(event: Event) -> list[str]:
-    """The search for an event that does not happen at a gap, in the lanes in which it is not excluded."""
+    """C lines that search for an event that is not at a gap, in the lanes in which it is watched and not excluded."""
     lines, target = [], target_of(event)
     watched = _watched(event) or ["l->alive"]
     sign = {"": "one", "motion": "-away"}.get(event.follows, f"l->{event.follows}")
@@ -131,13 +131,12 @@ def _search(event: Event) -> list[str]:
                       f"        {name}_coefficients(&{name}, s, &f->c, k);"]  # fmt: skip
         if event.least:
             target = f"only({sign}*{series}[0] < {event.least}, -{event.least}*{sign})"
-        start = _guard(event, f"{series}[0]")
         if event.bound == "terms":
-            excluded = f"{start} > reach({series}, h)"
+            excluded = f"{_guard(event, f'{series}[0]')} > reach({series}, h)"
         elif event.follows:  # the component has the sign of the series
             excluded = f"least_of({series}, h) > 0.0"
         else:
-            excluded = f"({start} > 0.0) & (least_of({series}, h) > 0.0)"
+            excluded = f"({_guard(event, f'{series}[0]')} > 0.0) & (least_of({series}, h) > 0.0)"
         search = f"look(&first, close, {series}, {target}, {sign}, h, splat_mask({event_name(event)}));"
         lines += ["if (bits(close))", f"    close &= NOT({excluded});", "if (bits(close))", f"    {search}"]
     return lines
@@ -149,8 +148,11 @@ def _watched(event: Event) -> list[str]:
 
 
 def _guard(event: Event, value: str) -> str:
-    """The guard at a value of the series, where its direction follows nothing."""
-    if not event.target:
+    """C text of an event's guard for this text of its series: positive until the event, zero at it.
+
+    Only for an event with an empty `follows`.
+    """
+    if not event.target:  # a leading minus applies to the whole text
         return value if event.direction > 0 else value[1:] if value.startswith("-") else f"-{value}"
     return f"{value} - {target_of(event)}" if event.direction > 0 else f"{target_of(event)} - {value}"
 
@@ -219,7 +221,7 @@ def _present(event: Event, lines: list[str]) -> list[str]:
 
 
 def series_of_guards(model: Model, constants: Constants, valued: Valued) -> list[str]:
-    """C functions of what events watch and the flow has no series of, for a structure's header."""
+    """C functions for a structure's header: series and values that events watch and the flow does not compute."""
     lines: list[str] = []
     for event in EVENTS:
         for name in event.series if model.structure.has(*event.structures) else ():

@@ -42,17 +42,23 @@ from ...vocabulary import quantities as q
 from ..events import contact_gap
 from ..intermediates import MOMENTUM, ORBITAL_RATE, STRING_SIDEWAYS, rates, turning_rate
 
+# gap of solid contact; largest later closing speed; largest gap of a rebound at that speed
 CONTACT, FASTEST, REACH = sp.symbols("contact fastest reach", positive=True)
 NEAREST, FARTHEST = sp.symbols("nearest farthest", positive=True)  # smallest and largest centre distance over a
-SPUN_UP, LARGEST_MOMENTUM = sp.symbols("spun_up largest_momentum", real=True)
-LARGEST_PULL = sp.Symbol("largest_pull", positive=True)
+SPUN_UP, LARGEST_MOMENTUM = sp.symbols("spun_up largest_momentum", real=True)  # the share s of L, J_max
+LARGEST_PULL = sp.Symbol("largest_pull", positive=True)  # largest normal string force in the film
 PANELS = 8
-OUTWARD, PULL, WEIGHING, TURNING, TAKEN, FINAL, WIDTH = sp.symbols(
-    "outward pull weighing turning taken final width", nonnegative=True
+# outward: centrifugal force at J_max in contact; pull: normal string force there, at the present angle
+# weighing: weight times the strings' stiffness, now
+# scaled_momentum: J_max times the obliquity; with a number, its bound at the start of that panel
+# loss_by_cosine: decrease of the square of scaled_momentum over that of cos(beta)
+# final_half_sine: sin(beta/2) where the outward force vanishes
+# width: of a panel, rad; angle: beta at the start of each
+OUTWARD, PULL, WEIGHING, SCALED_MOMENTUM, LOSS_BY_COSINE, FINAL_HALF_SINE, WIDTH = sp.symbols(
+    "outward pull weighing scaled_momentum loss_by_cosine final_half_sine width", nonnegative=True
 )
 ANGLES = sp.symbols(f"angle_:{PANELS}", nonnegative=True)
-TURNINGS = sp.symbols(f"turning_:{PANELS}", nonnegative=True)
-
+SCALED_MOMENTA = sp.symbols(f"scaled_momentum_:{PANELS}", nonnegative=True)
 
 Functions = Iterator[tuple[str, str, Mapping[str, sp.Expr]]]
 """Name, docstring and outputs of the functions that a certificate emits."""
@@ -89,33 +95,33 @@ def outward_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
 
 
 def torque_at(at: sp.Expr, angle: sp.Expr) -> sp.Expr:
-    """What the strings take from J, over a^2 Omega v0/x0, at this gap and angle."""
+    """Rate at which the strings take from J, over a^2 Omega v0/x0, at this gap and angle."""
     _, sideways, _ = scaled_strings(oblique=True)
     rate = rates(PENDULUM)[q.orbital_momentum]
     return _swung(-sp.expand(rate).coeff(STRING_SIDEWAYS) * sideways, at, angle)
 
 
 def share(distance: sp.Expr) -> sp.Expr:
-    """The orbital part of L in rigid rotation."""
+    """Fraction of L that is orbital momentum J in rigid rotation at this centre distance."""
     return rigid_momentum(sp.Integer(1), distance)
 
 
 def turning_at(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
-    """D beta/dt per v0/x0 for this orbital momentum and centre distance."""
+    """Rate of beta (dbeta/dt) over v0/x0 for this orbital momentum and centre distance."""
     rate = turning_rate()
     assert rate is not None
     return rate.subs(ORBITAL_RATE, momentum / distance**2)
 
 
-def impulse_by_angle(turning: sp.Expr, pull: sp.Expr) -> sp.Expr:
-    """(centrifugal force - pull) over d beta/dt in contact; `turning` is J times the tangent of the impact angle."""
-    momentum = turning / q.obliquity
+def impulse_by_angle(scaled_momentum: sp.Expr, pull: sp.Expr) -> sp.Expr:
+    """(centrifugal force - pull) over dbeta/dt in contact; `scaled_momentum` is J times tan(impact angle)."""
+    momentum = scaled_momentum / q.obliquity
     result = (outward_at(momentum, NEAREST) - PULL) / turning_at(momentum, NEAREST)
     return sp.factor(result).subs(PULL, pull)  # a single quotient: -infinity, and no NaN, at the end of the rotation
 
 
-def taken_by_cosine() -> sp.Expr:
-    """Decrease of the squared `turning` over that of cos(beta), with the stiffness of the present angle."""
+def loss_by_cosine() -> sp.Expr:
+    """Decrease of the squared `scaled_momentum` over that of cos(beta), with the stiffness of the present angle."""
     torque = torque_at(CONTACT, q.beta).subs(sp.sin(q.beta), 1) / _stiffness() / q.weight * WEIGHING
     per_angle = torque * q.obliquity**2 / turning_at(sp.Integer(1), NEAREST)
     return sp.simplify(2 * share(FARTHEST) * per_angle.subs(4 + q.aspect * CONTACT, NEAREST))
@@ -134,30 +140,32 @@ def _stiffness() -> sp.Expr:
 
 
 def impulse_definitions() -> tuple[Definition, ...]:
-    """Named intermediates of the impulse, in order."""
+    """Symbols of `impulse` and their expressions, each after those that it uses; the first are margins too."""
+    final_angle = 2 * FINAL_HALF_SINE + (sp.pi - 2) * FINAL_HALF_SINE**3  # arcsin z <= z + (pi/2 - 1) z^3
     level = (OUTWARD / WEIGHING - _pull_by_stiffness(sp.Integer(0)) / WEIGHING) / 8  # sin(beta/2)^2 where it vanishes
-    each = zip(TURNINGS, ANGLES, strict=True)
+    falls = (LOSS_BY_COSINE * (sp.cos(q.beta) - sp.cos(angle)) for angle in ANGLES)
+    momenta = (sp.sqrt(sp.Max(0, SCALED_MOMENTUM**2 - fall)) for fall in falls)
     return (
         (OUTWARD, outward_at(LARGEST_MOMENTUM, NEAREST)),
         (PULL, pull_at(CONTACT, q.beta)),
         (WEIGHING, q.weight * _stiffness()),
-        (TURNING, LARGEST_MOMENTUM * q.obliquity),
-        (TAKEN, taken_by_cosine()),
-        (FINAL, sp.sqrt(sp.Max(0, sp.Min(1, level)))),
-        (WIDTH, sp.Max(0, 2 * FINAL + (sp.pi - 2) * FINAL**3 - q.beta) / PANELS),  # arcsin z <= z + (pi/2 - 1) z^3
+        (SCALED_MOMENTUM, LARGEST_MOMENTUM * q.obliquity),
+        (LOSS_BY_COSINE, loss_by_cosine()),
+        (FINAL_HALF_SINE, sp.sqrt(sp.Max(0, sp.Min(1, level)))),
+        (WIDTH, sp.Max(0, final_angle - q.beta) / PANELS),
         *((angle, q.beta + k * WIDTH) for k, angle in enumerate(ANGLES)),
-        *((later, sp.sqrt(sp.Max(0, TURNING**2 - TAKEN * (sp.cos(q.beta) - sp.cos(angle))))) for later, angle in each),
+        *zip(SCALED_MOMENTA, momenta, strict=True),
     )
 
 
 def impulse() -> sp.Expr:
     """Bound of the outward impulse from now on, over m v0."""
-    each = zip(TURNINGS, ANGLES, strict=True)
-    return WIDTH * sp.Add(*(sp.Max(0, impulse_by_angle(later, _pull_by_stiffness(angle))) for later, angle in each))
+    panels = zip(SCALED_MOMENTA, map(_pull_by_stiffness, ANGLES), strict=True)
+    return WIDTH * sp.Add(*(sp.Max(0, impulse_by_angle(momentum, pull)) for momentum, pull in panels))
 
 
 def definitions(_structure: Structure = PENDULUM) -> tuple[Definition, ...]:
-    """Named intermediates of the margins, in order."""
+    """Symbols and their expressions, each after those that it uses, for the margins."""
     closing = sp.Min(q.normal_velocity, 0)
     return (
         (CONTACT, contact_gap),
@@ -173,7 +181,7 @@ def definitions(_structure: Structure = PENDULUM) -> tuple[Definition, ...]:
 
 
 def functions(_structure: Structure = PENDULUM) -> Functions:
-    """The margins."""
+    """The function of the margins."""
     doc = (
         "Margins of the pendulum certificate (lever arm at mid-gap): film < 0 and recoil < 0 exclude "
         "separation, with St impulse added unless outward < pull; rebound, beneath: of a gap and speed."

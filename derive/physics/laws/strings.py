@@ -10,41 +10,43 @@ from .base import Law, LawFunction
 from .references import DOUBLETS
 
 r = sp.Symbol("r", positive=True)  # distance between the centres
-offset_squared = sp.Symbol("offset_squared", nonnegative=True)  # (d/a)^2, with d the horizontal swing of either sphere
+offset_squared = sp.Symbol("offset_squared", nonnegative=True)  # (d/a)^2, d: horizontal displacement of either sphere
 
 
 def half_angles(expression: sp.Expr) -> sp.Expr:
     """The expression in terms of sin(beta/2) and cos(beta/2)."""
-    half = beta / 2
-    return expression.subs({sp.sin(beta): 2 * sp.sin(half) * sp.cos(half), sp.cos(beta): 1 - 2 * sp.sin(half) ** 2})
+    half_beta = beta / 2
+    by_half = {sp.sin(beta): 2 * sp.sin(half_beta) * sp.cos(half_beta), sp.cos(beta): 1 - 2 * sp.sin(half_beta) ** 2}
+    return expression.subs(by_half)
 
 
 @cache
 def swing_squared() -> sp.Expr:
-    """d^2, with d the horizontal displacement of either sphere: half the change of the separation vector.
+    """d^2, with d the horizontal displacement of either sphere from rest: half the change of the separation vector.
 
-    Written in r - 4a and sin(beta/2), because r^2 + 16 a^2 - 8 a r cos(beta) cancels at small swings.
+    It is 4a along the first axis at rest and (r, beta) in polar coordinates now. Written in r - 4a and
+    sin(beta/2), because r^2 + 16 a^2 - 8 a r cos(beta) loses digits by cancellation at small displacements.
     """
     now = sp.Matrix([r * sp.cos(beta), r * sp.sin(beta)])
     rest = sp.Matrix([4 * a, 0])
-    half = (now - rest) / 2
-    sound = (r - 4 * a) ** 2 / 4 + 4 * a * r * sp.sin(beta / 2) ** 2
+    displacement = (now - rest) / 2
+    cancellation_free = (r - 4 * a) ** 2 / 4 + 4 * a * r * sp.sin(beta / 2) ** 2
     half_angle = sp.cos(beta), 1 - 2 * sp.sin(beta / 2) ** 2
-    if sp.expand(without_sines(half.dot(half), beta).subs(*half_angle) - sound) != 0:
+    if sp.expand(without_sines(displacement.dot(displacement), beta).subs(*half_angle) - cancellation_free) != 0:
         raise ArithmeticError("the swing is not what its cancellation-free form says")
-    return sound
+    return cancellation_free
 
 
 @cache
 def height(small_angle: bool) -> sp.Expr:
-    """Height over a gained by a pendulum of length l/a = string_ratio displaced horizontally by d."""
+    """Height, in units of a, gained by a pendulum of length l/a = string_ratio displaced horizontally by d."""
     exact = string_ratio - sp.sqrt(string_ratio**2 - offset_squared)
     return exact.series(offset_squared, 0, 2).removeO() if small_angle else exact
 
 
 @cache
 def rise(small_angle: bool) -> sp.Expr:
-    """`height` rationalised, without cancellation at small swings."""
+    """`height` rationalised, without cancellation at small displacements."""
     if small_angle:
         return height(True)
     conjugate = string_ratio + sp.sqrt(string_ratio**2 - offset_squared)

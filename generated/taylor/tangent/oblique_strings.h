@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 6ce305c15b59230d4b04284e190e678e35f3ea94c216971d5cc1cf1e7934f57f */
+ * Equations sha256 a933f2528ebb17e1a2228f6326257f84129b30ea10ddcdd4021c41c807ec0779 */
 
 /* Tangent of oblique_strings.h: derivatives of the states by the groups.
  *

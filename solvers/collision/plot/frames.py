@@ -27,7 +27,7 @@ class Frame:
         angle: angle of the line of centres, counter-clockwise from initial contact.
         turned: angle by which the first sphere has turned.
         radius: radius of the first sphere.
-        partner: radius of the second sphere; infinite for a wall.
+        partner: radius of the second sphere; infinite for a wall, 0 if it is that of the first.
         partner_turned: angle by which the second has turned.
         slid: distance by which a wall has moved past the sphere's centre.
         share: distance of the first from the centre of mass, as a part of the distance between the centres.
@@ -42,7 +42,7 @@ class Frame:
     radius: float
     relative: Vector | None = None
     free: bool = False
-    partner: float = 0.0  # as the first, unless given
+    partner: float = 0.0
     partner_turned: float | None = None
     slid: float = 0.0
     share: float = 0.5
@@ -82,9 +82,9 @@ class Frame:
 
 
 def frames(collision: Outcome) -> list[Frame]:
-    """Return frames equally spaced in time from initial contact on, and for a separated pair one after rupture."""
+    """Return frames equally spaced in time, from initial contact on; for a separated pair one after rupture too."""
     trajectory = _Trajectory.of(collision)
-    still = np.ptp(trajectory.rotation) < math.radians(20) and np.ptp(trajectory.gap) < 0.2 * trajectory.first.radius
+    still = np.ptp(trajectory.rotation) < math.radians(20) and np.ptp(trajectory.gap) < 0.2 * trajectory.contact.radius
     instants = np.linspace(0.0, trajectory.time[-1], 3 if still else _MOVING + (collision.outcome == "stick"))
     result = [trajectory.at(instant) for instant in (instants if trajectory.time[-1] > 0 else [0.0])]
     result[0] = replace(result[0], relative=trajectory.approach)
@@ -94,7 +94,7 @@ def frames(collision: Outcome) -> list[Frame]:
 
 
 def sampled(collision: Outcome, instants: Sequence[float]) -> list[Frame]:
-    """Return frames at the given instants, s since initial contact; motion is straight before it and after rupture.
+    """Return frames at these instants, s since initial contact; motion is straight before it and after rupture.
 
     A stick has no instants after its end.
     """
@@ -118,11 +118,11 @@ class _Trajectory:
     rotation: np.ndarray
     turned: tuple[np.ndarray, np.ndarray]  # angles of the two spheres
     slid: np.ndarray  # distance moved along a wall
-    first: Frame  # at initial contact
+    contact: Frame  # at initial contact
     approach: Vector  # relative velocity at initial contact
     parting: tuple[float, float]  # normal and transverse relative velocity at the end
-    first_spins: tuple[float, float]
-    spins: tuple[float, float]  # at the end
+    impact_spins: tuple[float, float]
+    final_spins: tuple[float, float]
 
     @classmethod
     def of(cls, collision: Outcome) -> _Trajectory:
@@ -133,22 +133,23 @@ class _Trajectory:
         rate, spin = np.asarray(data["rotation_rate"]), np.asarray(data["spin"])
         other = np.asarray(data["spin_partner"]) if "spin_partner" in data else spin
         turned = orientation(time, rotation, rate, spin), orientation(time, rotation, rate, other)
-        first = _first(collision.scene, float(gap[0]))
+        contact = _at_contact(collision.scene, float(gap[0]))
         sideways = collision.speed * math.tan(collision.angle)
-        approach = (-collision.speed, sideways * (1.0 if first.wall else first.distance / (first.distance - gap[0])))
+        lever = 1.0 if contact.wall else contact.distance / (contact.distance - gap[0])
+        approach = -collision.speed, sideways * lever
         sliding = np.asarray(data.get("sliding_velocity", np.zeros(time.size)))
-        across = float(sliding[-1]) if first.wall else float(rate[-1]) * (first.distance - gap[0] + gap[-1])
+        across = float(sliding[-1]) if contact.wall else float(rate[-1]) * (contact.distance - gap[0] + gap[-1])
         parting = float(data["normal_velocity"][-1]), across
         material = collision.scene.material
-        begun = material["impact_spin"], material.get("impact_partner_spin", 0.0)
-        spins = float(spin[-1]), float(other[-1])
-        return cls(time, gap, rotation, turned, _integral(time, sliding), first, approach, parting, begun, spins)
+        spins = (material["impact_spin"], material.get("impact_partner_spin", 0.0)), (float(spin[-1]), float(other[-1]))
+        return cls(time, gap, rotation, turned, _integral(time, sliding), contact, approach, parting, *spins)
 
     def at(self, instant: float) -> Frame:
-        known = (self.gap, self.rotation, *self.turned, self.slid)
-        gap, rotation, turned, other, slid = (float(np.interp(instant, self.time, values)) for values in known)
+        """The frame at an instant of the trajectory, interpolated linearly."""
+        columns = (self.gap, self.rotation, *self.turned, self.slid)
+        gap, rotation, turned, other, slid = (float(np.interp(instant, self.time, values)) for values in columns)
         return replace(
-            self.first, time=float(instant), gap=gap, angle=rotation, turned=turned, partner_turned=other, slid=slid
+            self.contact, time=float(instant), gap=gap, angle=rotation, turned=turned, partner_turned=other, slid=slid
         )
 
     @property
@@ -156,13 +157,13 @@ class _Trajectory:
         return self.at(float(self.time[-1]))
 
     def before(self, instant: float) -> Frame:
-        """The pair on straight lines, before initial contact."""
+        """The pair on straight lines before initial contact; `instant` is negative, s since contact."""
         first = self.at(0.0)
         x, y = first.distance + self.approach[0] * instant, self.approach[1] * instant * (not first.wall)
         gap = math.hypot(x, y) - (first.distance - first.gap)
         return replace(
-            first, time=float(instant), gap=gap, angle=math.atan2(y, x), turned=self.first_spins[0] * instant,
-            partner_turned=self.first_spins[1] * instant, slid=self.approach[1] * instant * first.wall,
+            first, time=float(instant), gap=gap, angle=math.atan2(y, x), turned=self.impact_spins[0] * instant,
+            partner_turned=self.impact_spins[1] * instant, slid=self.approach[1] * instant * first.wall,
             relative=self.approach, free=True,
         )  # fmt: skip
 
@@ -173,14 +174,15 @@ class _Trajectory:
         along, side = (math.cos(last.angle), math.sin(last.angle)), (-math.sin(last.angle), math.cos(last.angle))
         relative = (normal_velocity * along[0] + across * side[0], normal_velocity * along[1] + across * side[1])
         gap, angle = math.hypot(x, y) - (last.distance - last.gap), last.angle + math.atan2(y, x)
-        turned, other = last.turned + self.spins[0] * wait, (last.partner_turned or 0.0) + self.spins[1] * wait
+        first, second = self.final_spins
+        turned, other = last.turned + first * wait, (last.partner_turned or 0.0) + second * wait
         return replace(
             last, time=last.time + wait, gap=gap, angle=angle, turned=turned, partner_turned=other,
             slid=last.slid + across * wait * last.wall, relative=relative, free=True,
         )  # fmt: skip
 
 
-def _first(scene: Scene, gap: float) -> Frame:
+def _at_contact(scene: Scene, gap: float) -> Frame:
     """The pair at initial contact."""
     radius = 2 * scene.particles.reduced_radius
     if scene.wall:
@@ -190,7 +192,7 @@ def _first(scene: Scene, gap: float) -> Frame:
 
 
 def _wait(last: Frame, normal_velocity: float, across: float) -> float:
-    """Time after rupture of the last frame, s: |(r + u t, r omega t)| = goal, u >= 0 at rupture."""
+    """Time t from rupture to the last frame, s: |(r + u t, v t)| = `goal`, where v = `across`, zero with a wall."""
     across *= not last.wall
     speed = math.hypot(normal_velocity, across)
     goal = last.distance + _APART * last.radius
@@ -199,7 +201,7 @@ def _wait(last: Frame, normal_velocity: float, across: float) -> float:
 
 
 def orientation(time: np.ndarray, rotation: np.ndarray, rotation_rate: np.ndarray, spin: np.ndarray) -> np.ndarray:
-    """Return the angle each sphere has turned, int xi dt, rad: the doublet's angle plus the integral of the slip.
+    """Return the angle by which a sphere has turned, int xi dt, rad: the doublet's angle plus the integral of the slip.
 
     The angle of the doublet comes from the integrator; only the slip xi - omega, which decays quickly, is integrated by
     the trapezoidal rule.

@@ -1,4 +1,4 @@
-"""One case of the stress test: computation by all engines, and comparison of the results."""
+"""One case of the stress test, computed by all engines, whose results are compared."""
 
 import math
 import re
@@ -30,7 +30,7 @@ from .verdict import FAST, RTOL, Case, Issue, Result, Verdict, physical_reason
 SHARE = 1e3  # assumed bound of an engine's error in units of rtol, times the conditioning
 FLOOR = 1e-12  # assumed bound of rounding errors, times the conditioning
 OPEN = 1e-5  # largest residual, relative to the ledger's largest term
-DRIFT = 1e-6
+DRIFT = 1e-6  # largest relative drift of the angular momentum
 PATIENCE = 0.5  # s of CPU time for a scipy method
 _STEP = 1e-6  # relative step in St for the conditioning
 _AUDIT = 100  # phases and intervals for which a certified stick is continued
@@ -39,7 +39,7 @@ _PARTICULAR = re.compile(r" = .* is (?=above|below)| \(.*")  # value and source 
 
 
 class LocatedTrajectories:
-    """Trajectories of one case, which several engines and the audit use: located once, as location is deterministic."""
+    """Trajectories of one case, located once for the engines and the audit that use them: location is deterministic."""
 
     def __init__(self) -> None:
         self._known: dict[Any, tuple[EventLocator, ComputationError | None, float]] = {}
@@ -98,7 +98,7 @@ def _spins_of(scene: Scene) -> tuple[str, ...]:
 
 
 def _surface_speeds(scene: Scene, *spins: float | None) -> tuple[float, ...]:
-    """Spins times radii over the initial relative speed; 0 for one that a stick or a head-on collision has not."""
+    """Spins times radii over the initial relative speed; 0 for one that a stick or head-on collision lacks."""
     speed, angle = scene.need_impact()
     radius, impact_spins = 2 * scene.particles.reduced_radius, (scene.impact.spin, scene.impact.partner_spin)
     radii = radius, radius * (scene.radius_ratio or 1.0)
@@ -115,7 +115,7 @@ def fast_kernel(scene: Scene) -> Variant:
 
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Result:
-    """Result as by `collide` with its ledger; located once for both engines, with the cost charged to each."""
+    """Result as by `collide` with its ledger. Events are located once for both engines, which are both charged."""
     spared = _LOCATED.spared
     one = by_casadi(scene, _dimensionless(scene), rtol, plugin, True, False, _LOCATED.find)
     more: dict[str, float] = {}
@@ -193,7 +193,7 @@ def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
                 text = f"e_n and spins {reference.numbers} by {first}, {each.numbers} by {name}"
             else:
                 continue
-            issues.append(Issue(kind, (first, name), text, _beside(case, engines, first, name)))
+            issues.append(Issue(kind, (first, name), text, _change_nearby(case, engines, first, name)))
     for name, each in there.items():
         issues += _each(name, each, case)
     if first is not None and there[first].certified:
@@ -236,27 +236,27 @@ def _conditioning(run: Run, scene: Scene, here: Result) -> float:
     return largest
 
 
-def _beside(case: Case, engines: dict[str, Run], first: str, name: str) -> str:
-    """Explanation of a disagreement: a change of outcome within the error bound of either engine; else empty.
+def _change_nearby(case: Case, engines: dict[str, Run], first: str, name: str) -> str:
+    """Explanation of a disagreement: a change so close that an engine's error may cross it; else empty.
 
-    Both engines are run again within that error in St, then at a tolerance a thousand times smaller.
+    A change of outcome, or a jump of e_n or of a spin. Each engine is run again at St and at St (1 +- SHARE RTOL).
     """
     reach = SHARE * RTOL
-    for who in (first, name):
+    for who in dict.fromkeys((first, name)):
         values = [_timed(engines[who], _at(case.scene, factor), RTOL) for factor in (1 - reach, 1.0, 1 + reach)]
         outcomes = {each.outcome for each in values if not each.failure}
         if len(outcomes) > 1:
             return f"a change of outcome lies within {reach:.0e} of St (seen by {who})"
         ends = [each for each in values if not each.failure]
         if ends and max(each.apart(ends[0]) for each in ends) > 1e-3:
-            return f"e_n jumps within {reach:.0e} of St (seen by {who})"
+            return f"e_n or a spin jumps within {reach:.0e} of St (seen by {who})"
     return ""
 
 
 def _each(name: str, each: Result, case: Case) -> list[Issue]:
     """Issues of one engine: a ledger that does not close, a drift of L, or the wrong outcome beside a boundary.
 
-    Beside a boundary the outcome is expected only at a distance larger than the engine's error.
+    Beside a boundary, the outcome is compared only at distances larger than the engine's error.
     """
     issues = []
     if case.distance is not None and case.distance > SHARE * RTOL and each.outcome != case.expected:
@@ -271,7 +271,7 @@ def _each(name: str, each: Result, case: Case) -> list[Issue]:
 
 
 class Audit(NoCertificate):
-    """A locator without certificates, which integrates until no event is left or for a long time."""
+    """In place of a certificate: decides only when no event is left, or after a long time."""
 
     def __init__(self) -> None:
         self._phase: Phase | None = None
@@ -301,4 +301,4 @@ def _audited(case: Case, engines: dict[str, Run], first: str) -> list[Issue]:
     if not path.separated:
         return []
     text = f"certified by {first}, but continued it ends as {path.outcome}"
-    return [Issue("certificate", (first,), text, "" if proved else _beside(case, engines, first, first))]
+    return [Issue("certificate", (first,), text, "" if proved else _change_nearby(case, engines, first, first))]

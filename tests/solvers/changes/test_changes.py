@@ -8,7 +8,7 @@ from wetdoublet.solvers import ComputationError, Scene, boundary, boundary_sensi
 from wetdoublet.solvers.changes.brackets import Brackets, bisect, enclose, locate
 from wetdoublet.solvers.changes.experiment import Experiment, Rows
 from wetdoublet.solvers.changes.lines import Lines
-from wetdoublet.solvers.changes.roots import root, sample
+from wetdoublet.solvers.changes.roots import evaluate, root
 from wetdoublet.solvers.changes.slopes import outcomes_along, slopes, slopes_by_differences
 
 ENTRIES = ("liquid.viscosity", "liquid.film_thickness")
@@ -100,7 +100,7 @@ def test_roots_need_no_values(known: float) -> None:
         value = math.log(stokes / 0.3) + 0.4 * math.log(stokes / 0.3) ** 2
         return value >= 0, value if abs(value) >= known else None
 
-    assert root(function, sample(function, 0.1), sample(function, 1.0)) == pytest.approx(0.3, rel=2e-9)
+    assert root(function, evaluate(function, 0.1), evaluate(function, 1.0)) == pytest.approx(0.3, rel=2e-9)
 
 
 def rows(scene: Scene, viscosities: list[float], values: list[float]) -> Experiment:

@@ -12,7 +12,7 @@ from matplotlib.mathtext import MathTextParser
 from wetdoublet.solvers import collide_many
 from wetdoublet.solvers.commands.cli import cli
 from wetdoublet.solvers.errors import InputError
-from wetdoublet.solvers.formatting.document import Table, page
+from wetdoublet.solvers.formatting.document import Table, html_page
 from wetdoublet.solvers.formatting.document import report as written
 from wetdoublet.solvers.host.files import write_all_in
 from wetdoublet.solvers.paper import PARTS, factors, fig1, fig3, fig4a, fig4b, report, table1
@@ -195,7 +195,7 @@ def test_page_is_whole(made):
 
 def test_page_is_made_for_a_phone():
     """Under the viewport's width each cell of a table carries the name of its column, which then stands before it."""
-    text = page("A part", [Table("numbers", ("what", "how & why"), [("St", "1.4")])])
+    text = html_page("A part", [Table("numbers", ("what", "how & why"), [("St", "1.4")])])
     assert 'name="viewport"' in text
     assert "max-width: 640px" in text
     assert '<td data-label="what">St</td><td data-label="how &amp; why">1.4</td>' in text
