@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError, shown
 from . import user_model as custom
 from .contact import AT_ANY_SPEED, ENTRIES, gap_at_any_speed, never_touching
-from .quantities import Ways, film, partner_mass, partner_radius, quantities, sphere
+from .quantities import Ways, initial_gap, partner_mass, partner_radius, quantities, sphere
 from .schema import (
     ALTERNATIVES,
     BRIDGE_LAWS,
@@ -131,7 +131,7 @@ def check_ways(entries: Mapping[str, Any], values: Mapping[str, Any]) -> None:
         raise InputError(
             its, None, f"{FIELDS[its].accepts}, or 0 um for a dry wall", f"missing while {coating} is given"
         )
-    if coating in entries and not 0 < film(values) < math.inf:
+    if coating in entries and not 0 < initial_gap(values) < math.inf:
         raise InputError(
             coating, entries[coating], "a coating on one of the two, and a film of some length", "makes no film"
         )
@@ -167,7 +167,7 @@ def table(kind: type[Table], values: Mapping[str, Any], ways: Ways) -> Table | N
     """Return the table with its entries; None for an absent table that is optional."""
     entries = table_of(kind, values)
     if kind is Liquid:
-        entries["film_thickness"] = film(values)
+        entries["film_thickness"] = initial_gap(values)
     if kind is Bridge and entries and ways.volume != "relative":
         entries["volume"] = _relative_volume(values, ways)
     return None if not entries and kind in (Attraction, Bridge, Pendulum) else kind.of(entries)

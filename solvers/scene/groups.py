@@ -10,7 +10,7 @@ import numpy as np
 
 from ...generated import scaling
 from ..host import emitted
-from .quantities import Ways, normal_speed, quantities, shared
+from .quantities import Ways, normal_speed, over_equal, quantities
 from .schema import MEETING, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 from .user_model import Package, fields
@@ -90,12 +90,12 @@ class System:
     @property
     def reduced_radius(self) -> float:
         """The pair's a = R_1 R_2/(R_1 + R_2) in m; R_1 with a wall."""
-        return float(self.particles.reduced_radius * shared(self.radius_ratio))
+        return float(self.particles.reduced_radius * over_equal(self.radius_ratio))
 
     @property
     def reduced_mass(self) -> float:
         """The pair's m = M_1 M_2/(M_1 + M_2) in kg; M_1 with a wall."""
-        return float(self.particles.reduced_mass * shared(self.mass_ratio))
+        return float(self.particles.reduced_mass * over_equal(self.mass_ratio))
 
     # ---- lengths, and the impact as Stokes number and as speed
 

@@ -65,13 +65,13 @@ def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
         result.setdefault("contact_tangential_restitution", 0.0)
     result |= sphere(entries)
     if "liquid.coating_thickness" in entries:
-        result["film_thickness"] = film(entries)
+        result["film_thickness"] = initial_gap(entries)
     radius_ratio, mass_ratio = _ratios(result, entries, ways.wall)
     if not ways.wall:
         result |= {"radius_ratio": radius_ratio, "mass_ratio": mass_ratio}
     radius = 2 * result["reduced_radius"]
-    result["reduced_radius"] = result["reduced_radius"] * shared(radius_ratio)
-    result["reduced_mass"] = result["reduced_mass"] * shared(mass_ratio)
+    result["reduced_radius"] = result["reduced_radius"] * over_equal(radius_ratio)
+    result["reduced_mass"] = result["reduced_mass"] * over_equal(mass_ratio)
     if ways.volume == "coating":
         result["volume"] = _from_coating(entries, radius, radius_ratio) / _cube(2 * result["reduced_radius"])
     elif ways.volume == "absolute":
@@ -85,7 +85,7 @@ def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
 
 
 def sphere(entries: Mapping[str, Any]) -> dict[str, Any]:
-    """Half the radius (m) and half the mass (kg) of the first sphere, from radius, mass or density."""
+    """`reduced_radius` and `reduced_mass` of two equal spheres: half the radius (m) and mass (kg) of the first."""
     result = {
         FIELDS[name].quantity: FIELDS[name].factor * value
         for name, value in entries.items()
@@ -96,8 +96,8 @@ def sphere(entries: Mapping[str, Any]) -> dict[str, Any]:
     return result
 
 
-def film(entries: Mapping[str, Any]) -> Any:
-    """The gap at initial contact, m: as it is given, or both coatings; by default a partner is coated alike."""
+def initial_gap(entries: Mapping[str, Any]) -> Any:
+    """The gap at initial contact, m: as given, or the sum of both coatings; by default both are equally thick."""
     if "liquid.film_thickness" in entries:
         return entries["liquid.film_thickness"]
     coating = entries["liquid.coating_thickness"]
@@ -105,7 +105,7 @@ def film(entries: Mapping[str, Any]) -> Any:
 
 
 def partner_radius(entries: Mapping[str, Any]) -> Any:
-    """Radius of the other sphere, m; None for a wall, or without a partner."""
+    """Radius of the other sphere, m; None for a wall, and for equal spheres, which have no such entry."""
     for name in ("partner.radius", "partner.diameter"):
         if name in entries:
             return FIELDS[name].factor * entries[name]
@@ -113,7 +113,7 @@ def partner_radius(entries: Mapping[str, Any]) -> Any:
 
 
 def partner_mass(entries: Mapping[str, Any]) -> Any:
-    """Mass of the other sphere, kg; None for a wall."""
+    """Mass of the other sphere, kg; None for a wall, and for equal spheres, which have no such entry."""
     if "partner.density" in entries:
         return _mass(partner_radius(entries), entries["partner.density"])
     return entries.get("partner.mass")
@@ -126,8 +126,8 @@ def normal_speed(relative: Any, angle: Any) -> Any:
     return relative * (angle.cos() if hasattr(angle, "cos") else np.cos(angle))
 
 
-def shared(ratio: Any) -> Any:
-    """A reduced quantity of a pair relative to two equal spheres: exactly 1 for ratio 1; 2 for a wall (ratio None)."""
+def over_equal(ratio: Any) -> Any:
+    """A reduced quantity of a pair over that of two equal spheres: exactly 1 for ratio 1; 2 for a wall (ratio None)."""
     return 2.0 if ratio is None else 2 * ratio / (1 + ratio)
 
 

@@ -16,7 +16,7 @@ from ..host.arguments import check_names
 from ..host.thread_caches import own_cache
 from ..scene.contact import GAPS
 from ..scene.groups import Formula, formulas
-from ..scene.quantities import Ways, film, normal_speed, quantities
+from ..scene.quantities import Ways, initial_gap, normal_speed, quantities
 from ..scene.scene import Scene
 from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS, SPINS
 
@@ -97,7 +97,7 @@ def _scale_of_zero(name: str, values: Mapping[str, SX], ways: Ways) -> SX:
     unit = FIELDS[name].unit if name in FIELDS else None
     if unit == "rad/s":  # of a surface that moves at 1 m/s
         return SX(1 / quantities(values, ways)["reduced_radius"])
-    return film(values) if unit == "m" else SX(1)
+    return initial_gap(values) if unit == "m" else SX(1)
 
 
 @dataclass(frozen=True)
