@@ -26,7 +26,7 @@ _REACH = 0.26  # St at the right edge
 _NO_BRIDGE = "without a bridge there is no centrifugal number"
 _AROUND = 1.35  # factor in St; nearly a factor of two in Ce
 _TAIL = 1.15  # end of the lines of constant Ce, relative to our St*
-_AT = math.radians(45)  # angle at which our Ce* is read
+_OURS_AT = math.radians(45)  # angle at which our Ce* is read
 _FIRST = math.radians(0.5)  # the lowest oblique line without a bridge
 
 
@@ -38,27 +38,27 @@ def make(cache: BoundaryCache, folder: Path) -> Part:
     [dry_head_on], [head_on] = cache.many([Job(dry, (0.0,)), Job(scene, (0.0,))])
     cache.say("fig. 4a: variants")
     critical = cache.detail.critical
-    moved = _moved(cache)  # traces all variants together
+    variants = _variants_table(cache)  # traces all variants together
     criticals = [centrifugal(line) for line in cache.lines(scene, critical)]
-    ours = centrifugal(cache.lines(scene, (_AT,))[0])
+    critical_centrifugal = centrifugal(cache.lines(scene, (_OURS_AT,))[0])
     stokes = sticks_to(head_on)
     with sheet(folder / "fig4a.png", 7.6) as figure:
         axes = figure.add_subplot()
         regimes.draw(axes, whole)
-        _critical_lines(axes, scene, ours, _TAIL * stokes)
+        _lines_and_labels(axes, scene, critical_centrifugal, _TAIL * stokes)
         _dry(axes, dry_oblique, sticks_to(dry_head_on))
     sides = {dry_oblique.background}.union(*((curve.before, curve.after) for curve in dry_oblique.curves))
     only_head_on = "stick" not in sides and "stick" in outcomes(dry_head_on)
     caption = (
-        f"Fig. 4a: regime map without strings. Black: traced boundaries. Blue: Ce = {number(ours)}, the S/SRS boundary "
-        f"at {degrees(_AT)}; orange, dashed: the paper's Ce* = {PRINTED['centrifugal'].text} and St* = "
-        f"{PRINTED['stokes_4'].text}. Inset: without capillary force, where only θ₀ = 0 sticks (arrow)."
+        f"Fig. 4a: regime map without strings. Black: traced boundaries. Blue: Ce = {number(critical_centrifugal)}, "
+        f"the S/SRS boundary at {degrees(_OURS_AT)}; orange, dashed: the paper's Ce* = {PRINTED['centrifugal'].text} "
+        f"and St* = {PRINTED['stokes_4'].text}. Inset: without capillary force, where only θ₀ = 0 sticks (arrow)."
     )
     return Part(
         "Fig. 4a: regime map of granules",
-        comparisons=_compared(cache, scene, dry, stokes, ours, criticals, only_head_on),
+        comparisons=_compared(cache, scene, dry, stokes, critical_centrifugal, criticals, only_head_on),
         pictures=(Picture("fig4a.png", caption, COLUMN),),
-        tables=(moved,),
+        tables=(variants,),
         scenes=(BRIDGED, DRY),
     )
 
@@ -90,7 +90,7 @@ def _compared(
     scene: Scene,
     dry: Scene,
     stokes: float,
-    ours: float,
+    critical_centrifugal: float,
     criticals: Sequence[float],
     only_head_on: bool,
 ) -> tuple[Comparison, ...]:
@@ -111,9 +111,9 @@ def _compared(
         ),
         Comparison(
             "centrifugal",
-            ours,
+            critical_centrifugal,
             described(scene),
-            f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {ours_over_angles}. With the "
+            f"at {degrees(_OURS_AT)}; the paper has one number for all angles. Ours: {ours_over_angles}. With the "
             f"leading-order lever arm of the tangential force, which the paper may have used: {leading}",
         ),
         Comparison(
@@ -130,7 +130,7 @@ def _spread(angles: Sequence[float], values: Sequence[float]) -> str:
     return ", ".join(f"{number(value)} at {degrees(angle)}" for angle, value in zip(angles, values))
 
 
-def _moved(cache: BoundaryCache) -> Table:
+def _variants_table(cache: BoundaryCache) -> Table:
     critical = cache.detail.critical
     scenes = {name: variant(BRIDGED, changes) for name, changes in BRIDGE_VARIANTS.items()}
     head_on = cache.many([Job(scene, (0.0,)) for scene in scenes.values()])
@@ -145,21 +145,22 @@ def _moved(cache: BoundaryCache) -> Table:
     return Table("Granules: St* and Ce* under the variants", head, rows)
 
 
-def _critical_lines(axes: Axes, scene: Scene, ours: float, end: float) -> None:
+def _lines_and_labels(axes: Axes, scene: Scene, critical_centrifugal: float, largest_stokes: float) -> None:
+    """Draw our Ce* up to St = `largest_stokes`, the paper's Ce* and St*, the letters of the regions, and the axes."""
     angles = np.radians(np.linspace(1, 89.9, 600))
     per_square = np.array([per_stokes_squared(scene, angle) for angle in angles.tolist()])
-    far = np.sqrt(ours / per_square) < end
-    angles, per_square = angles[far], per_square[far]
-    paper, edge = PRINTED["centrifugal"], PRINTED["stokes_4"]
+    inside = np.sqrt(critical_centrifugal / per_square) < largest_stokes
+    angles, per_square = angles[inside], per_square[inside]
+    printed_ce, printed_st = PRINTED["centrifugal"], PRINTED["stokes_4"]
     up = np.degrees(angles)
-    axes.plot(np.sqrt(ours / per_square), up, color=BLUE, linewidth=2.6, alpha=0.55, zorder=2.5)
-    axes.plot(np.sqrt(paper.value / per_square), up, color=ORANGE, linestyle=(0, (4, 2)), linewidth=1.1, zorder=4)
-    axes.axvline(edge.value, color=ORANGE, linestyle=(0, (4, 2)), linewidth=1.1, zorder=4)
+    axes.plot(np.sqrt(critical_centrifugal / per_square), up, color=BLUE, linewidth=2.6, alpha=0.55, zorder=2.5)
+    axes.plot(np.sqrt(printed_ce.value / per_square), up, color=ORANGE, linestyle=(0, (4, 2)), linewidth=1.1, zorder=4)
+    axes.axvline(printed_st.value, color=ORANGE, linestyle=(0, (4, 2)), linewidth=1.1, zorder=4)
     style: Any = {"textcoords": "offset points", "color": ORANGE, "fontsize": 7.5, "ha": "right"}
     style |= {"path_effects": [halo()]}
-    axes.annotate(f"paper:\n$St_n^*$ = {edge.text}", (edge.value, 4), (-3, 0), **style)
-    at = math.sqrt(paper.value / per_stokes_squared(scene, math.radians(33)))
-    axes.annotate(f"paper:\n$Ce^*$ = {paper.text}", (at, 33), (-14, 0), va="center", **style)
+    axes.annotate(f"paper:\n$St_n^*$ = {printed_st.text}", (printed_st.value, 4), (-3, 0), **style)
+    stokes_at_label = math.sqrt(printed_ce.value / per_stokes_squared(scene, math.radians(33)))
+    axes.annotate(f"paper:\n$Ce^*$ = {printed_ce.text}", (stokes_at_label, 33), (-14, 0), va="center", **style)
     for x, y, letters in ((0.03, 18, "S"), (0.075, 62, "SRS"), (0.17, 70, "B")):
         axes.text(x, y, letters, fontsize=13, ha="center", va="center", path_effects=[halo()])
     axes.set(xlim=(0, _REACH), ylim=(0, 90), yticks=range(0, 91, 15), xlabel=STOKES, ylabel=ANGLE)
