@@ -17,13 +17,13 @@ from ..vocabulary import quantities as q
 from .base import SIZES, Check, Evidence, check, checks, vanishing
 
 _ALONE = Structure(oblique=True, bridge=False, strings=False)
-_COVERED = (_ALONE, replace(_ALONE, partner="pair"))
+_STRUCTURES = (_ALONE, replace(_ALONE, partner="pair"))
 _MIDGAP = {"arm": LAWS["arm"]["midgap"]}
 _LOG = sp.Symbol("log_factor", positive=True)
 
 
-def _plain(expression: sp.Expr) -> sp.Expr:
-    """With the lever arm at mid-gap, inside the edge of the shear, its logarithm a symbol."""
+def _sheared_at_midgap(expression: sp.Expr) -> sp.Expr:
+    """The expression with the lever arm at mid-gap, the shear acting (flag 1), and `_LOG` for its logarithm."""
     result = filled(expression, _MIDGAP).subs(SHEAR, 1)
     calls = {n: _LOG for n in result.atoms(sp.Function) if is_slot_call(n) and n.func.__name__.startswith("shear")}
     return result.xreplace(calls)
@@ -33,45 +33,49 @@ def _spins(structure: Structure) -> list[sp.Symbol]:
     return [q.spin, q.partner_spin] if structure.partner else [q.spin]
 
 
-def _rotating(model: Model) -> sp.Expr:
+def _rotation_energy(model: Model) -> sp.Expr:
+    """E_rot: the kinetic energy without that of the normal velocity."""
     return model.expanded(model["energies"]["kinetic"], SIZES) - q.normal_velocity**2 / 2
 
 
 def _by_slip(structure: Structure, model: Model) -> dict[sp.Symbol, sp.Expr]:
-    """The rotation by the slips, for L = 0."""
-    turning, spins, named = sp.Symbol("turning", real=True), _spins(structure), spin_down.slips(structure)
+    """J and the spins in terms of the slips, for L = 0."""
+    orbital_rate, spins, slips = sp.Symbol("orbital_rate", real=True), _spins(structure), spin_down.slips(structure)
     here = model.expanded(DISTANCE, SIZES)
-    state = {q.orbital_momentum: here**2 * turning, **{s: turning - slip for s, slip in zip(spins, named, strict=True)}}
+    state = {
+        q.orbital_momentum: here**2 * orbital_rate,
+        **{s: orbital_rate - slip for s, slip in zip(spins, slips, strict=True)},
+    }
     momentum = model.expanded(model["angular_momentum"]["angular_momentum"], SIZES).subs(state)
-    (value,) = sp.solve(sp.expand(momentum), turning)
-    return {s: sp.cancel(each.subs(turning, value)) for s, each in state.items()}
+    (value,) = sp.solve(sp.expand(momentum), orbital_rate)
+    return {s: sp.cancel(each.subs(orbital_rate, value)) for s, each in state.items()}
 
 
 @check("spin-down: slips decay", "ds/dt = -A s; dE_rot/dt by shear = -s N A s, N A positive definite")
 def slips_decay() -> Evidence:
     """A is that of the emitted equations; N A is symmetric and positive definite, with E_rot = s N s/2 for L = 0.
 
-    And the shear takes s N A s from E_rot, so at least twice its smallest eigenvalue times E_rot.
+    The shear takes s N A s per time from E_rot: at least twice the smallest eigenvalue of A, times E_rot.
     """
     positive = True
-    for structure in _COVERED:
-        model, named = derive(structure), spin_down.slips(structure)
+    for structure in _STRUCTURES:
+        model, slips = derive(structure), spin_down.slips(structure)
         here = model.expanded(DISTANCE, SIZES)
         matrix = spin_down.decay(structure, DISTANCE, DISTANCE, _LOG).subs(DISTANCE, here)
-        rates = {state: _plain(rate) for state, rate in model.by_state("right_hand_side", SIZES).items()}
-        moved = {s: q.orbital_momentum / here**2 - each for s, each in zip(named, _spins(structure), strict=True)}
+        rates = {state: _sheared_at_midgap(rate) for state, rate in model.by_state("right_hand_side", SIZES).items()}
+        slip_of = {s: q.orbital_momentum / here**2 - each for s, each in zip(slips, _spins(structure), strict=True)}
         for row, each in enumerate(_spins(structure)):
-            expected = -sum(matrix[row, k] * moved[s] for k, s in enumerate(named))
+            expected = -sum(matrix[row, k] * slip_of[s] for k, s in enumerate(slips))
             yield rates[q.orbital_momentum] / here**2 - rates[each] - expected
         by_slip = _by_slip(structure, model)
-        energy = sp.cancel(_rotating(model).subs(by_slip, simultaneous=True))
-        weight = sp.hessian(energy, named)
+        energy = sp.cancel(_rotation_energy(model).subs(by_slip, simultaneous=True))
+        weight = sp.hessian(energy, slips)
         product = (weight * matrix).applyfunc(sp.cancel)
         yield product[0, -1] - product[-1, 0]
-        taken = _plain(model.expanded(model["energy_rates"]["tangential_lubrication"], SIZES))
-        vector = sp.Matrix(named)
-        yield sp.cancel(taken.subs(by_slip, simultaneous=True) - (vector.T * product * vector)[0, 0])
-        minors = [product[:k, :k].det() / q.obliquity ** (2 * k) for k in range(1, len(named) + 1)]
+        dissipated = _sheared_at_midgap(model.expanded(model["energy_rates"]["tangential_lubrication"], SIZES))
+        vector = sp.Matrix(slips)
+        yield sp.cancel(dissipated.subs(by_slip, simultaneous=True) - (vector.T * product * vector)[0, 0])
+        minors = [product[:k, :k].det() / q.obliquity ** (2 * k) for k in range(1, len(slips) + 1)]
         positive &= all(_is_positive(minor) for minor in minors)
     yield positive, "N A is not positive definite"
 
@@ -90,7 +94,7 @@ def mobility_is_monotonic() -> Evidence:
     F^(1/2) K F^(1/2) grow with K.
     """
     ok = True
-    for structure in _COVERED:
+    for structure in _STRUCTURES:
         matrix = spin_down.decay(structure, spin_down.NEAR, spin_down.FAR, _LOG)
         line = (matrix.subs(spin_down.NEAR, 0) * spin_down.FAR).applyfunc(sp.cancel)
         turn = ((matrix - line / spin_down.FAR) / spin_down.NEAR).applyfunc(sp.cancel)
@@ -114,14 +118,14 @@ def mobility_is_monotonic() -> Evidence:
 def rotation_falls() -> Evidence:
     """dE_rot/dt = -C u - D_t, du/dt = C - film: E_rot falls opening, and with C <= 2 E_rot/r, E_rot r^2 closing."""
     squares = True
-    for structure in _COVERED:
+    for structure in _STRUCTURES:
         model = derive(structure)
         rates = model.by_state("right_hand_side", SIZES)
-        energy, here = _rotating(model), model.expanded(DISTANCE, SIZES)
+        energy, here = _rotation_energy(model), model.expanded(DISTANCE, SIZES)
         thrown = -model.expanded(model["inward_force"]["inward_force"], SIZES)
         change = sp.Add(*(energy.diff(state) * rate for state, rate in rates.items() if state != q.normal_velocity))
-        taken = model.expanded(model["energy_rates"]["tangential_lubrication"], SIZES)
-        yield change + thrown * q.normal_velocity + taken
+        dissipated = model.expanded(model["energy_rates"]["tangential_lubrication"], SIZES)
+        yield change + thrown * q.normal_velocity + dissipated
         film = FILM * q.normal_velocity * slot_call("film", "resistance", q.gap) / q.stokes
         yield rates[q.normal_velocity] - thrown + film
         orbital = energy.subs(dict.fromkeys(_spins(structure), 0))
@@ -149,7 +153,7 @@ def film_takes() -> tuple[Check, ...]:
 @check("spin-down: beyond the shear", "dJ/dt = 0 without shear, du/dt = -film with J = 0")
 def apart_from_shear() -> Evidence:
     """Without shear J is constant, and without J there is no centrifugal force: the gap moves head-on."""
-    for structure in _COVERED:
+    for structure in _STRUCTURES:
         rates = derive(structure).by_state("right_hand_side", SIZES)
         film = FILM * q.normal_velocity * slot_call("film", "resistance", q.gap) / q.stokes
         yield from (
@@ -161,7 +165,7 @@ def apart_from_shear() -> Evidence:
 @check("spin-down: as emitted", "stays = St max(u, -e_dry u) + St impulse - (S(x) - S(d))")
 def as_emitted() -> Evidence:
     """The emitted margins are these bounds."""
-    for structure in (*_COVERED, replace(_ALONE, reduced=True)):
+    for structure in (*_STRUCTURES, replace(_ALONE, reduced=True)):
         model = derive(structure)
         named, bounds = dict(model.definitions), dict(spin_down.definitions(structure))
         yield from [named[symbol] - value for symbol, value in bounds.items()]
