@@ -1,4 +1,4 @@
-"""C headers of the laws: constants, recurrences and values of each function, and the work of a force in closed form.
+"""C headers of the laws: constants, recurrences and values of each function; antiderivatives of forces and resistances.
 
 A structure calls a law through its slot (`bridge_force_next`), so every law of a slot fits every structure.
 """
@@ -37,17 +37,17 @@ def law_header(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
         elif each.for_proof:
             name = f"{law.slot}_{each.name}"
             lines += [f"#define {name.upper()} 1", *_plain(name, each)]
-        elif each.name != "potential":  # for the work of the force
+        elif each.name != "potential":  # serves `_closed_integral` only
             lines += _function(law, each, moves(each.arguments, groups))
     return "\n".join(lines).rstrip() + "\n"
 
 
 def _plain(name: str, each: LawFunction) -> list[str]:
-    """A C function of a law that is constant along a trajectory, or that only a stick certificate calls."""
+    """A C function of values, without series: constant along a trajectory, or called by a stick certificate only."""
     text = Text(lambda symbol: symbol.name)
-    kept, used = needed([each.result], each.definitions)
+    intermediates, used = needed([each.result], each.definitions)
     body = [f"(void){argument.name};" for argument in each.arguments if argument not in used]
-    body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
+    body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in intermediates]
     arguments = ", ".join(f"vec {argument.name}" for argument in each.arguments) or "void"
     head = f"static inline vec {name}({arguments})"
     return documented(each.doc, head, [*body, f"return {text.vector(each.result)};"])
@@ -55,30 +55,30 @@ def _plain(name: str, each: LawFunction) -> list[str]:
 
 def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str]:
     moving = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if moved)
-    still = tuple(argument for argument in each.arguments if argument not in moving)
+    fixed = tuple(argument for argument in each.arguments if argument not in moving)
     name = f"{law.slot}_{each.name}"
-    kept, _ = needed([each.result], each.definitions)
+    intermediates, _ = needed([each.result], each.definitions)
     if not moving:
         return _plain(name, each)
     if (law.slot, each.name) in COMPARED:
-        return _clearance(name, each, kept, moving, still)
-    program, result = cheapest(each.result, kept, moving)
-    constants = Constants({argument: f"c->{argument.name}" for argument in still})
+        return _clearance(name, each, intermediates, moving, fixed)
+    program, result = cheapest(each.result, intermediates, moving)
+    constants = Constants({argument: f"c->{argument.name}" for argument in fixed})
     lines = _recurrences(name, each.doc, program, result, constants, moving)
     if each.falls:
         lines += [f"#define {name.upper()}_FALLS 1 /* never increases with its first argument */", ""]
-    work = _work(law, each, kept, moving, constants)
-    if work is not None:
-        lines += work_lines(name, work, constants, moving[0])
+    integral = _closed_integral(law, each, intermediates, moving, constants)
+    if integral is not None:
+        lines += work_lines(name, integral, constants, moving[0])
     # later lines may hoist more constants, so the struct is written last
-    return [*_constants(name, constants, still), *lines]
+    return [*_constants(name, constants, fixed), *lines]
 
 
-def _constants(name: str, constants: Constants, still: tuple[sp.Symbol, ...]) -> list[str]:
-    names = [*(argument.name for argument in still), *constants.prepared]
+def _constants(name: str, constants: Constants, fixed: tuple[sp.Symbol, ...]) -> list[str]:
+    names = [*(argument.name for argument in fixed), *constants.prepared]
     fields = f"vec {', '.join(names or ['none'])};"  # C has no empty structures
-    arguments = "".join(f", vec {argument.name}" for argument in still)
-    body = [f"c->{argument.name} = {argument.name};" for argument in still]
+    arguments = "".join(f", vec {argument.name}" for argument in fixed)
+    body = [f"c->{argument.name} = {argument.name};" for argument in fixed]
     body += constants.assignments()
     head = f"static inline void {name}_prepare({name}_constants *c{arguments})"
     struct_line = f"typedef struct {{ {fields} }} {name}_constants;"
@@ -115,33 +115,36 @@ def _recurrences(
     ]
 
 
-def _work(
-    law: Law, each: LawFunction, kept: list[Definition], moving: tuple[sp.Symbol, ...], constants: Constants
+def _closed_integral(
+    law: Law, each: LawFunction, intermediates: list[Definition], moving: tuple[sp.Symbol, ...], constants: Constants
 ) -> sp.Expr | None:
-    """The antiderivative of a force, from the law's potential or by rules; None where there is none."""
+    """Antiderivative of a force (its work) or of the film's resistance (momentum taken), in closed form.
+
+    It is the law's potential or follows by rules, else None; constants that it needs are added to `constants`.
+    """
     if each.name not in ("force", "resistance") or len(moving) != 1:
         return None
     for other in law.functions:
         if (other.name, other.arguments) == ("potential", each.arguments):
-            known = other(*other.arguments)
-            if sp.simplify(known.diff(moving[0]) - each(*each.arguments)) == 0:
-                return known
+            potential = other(*other.arguments)
+            if sp.simplify(potential.diff(moving[0]) - each(*each.arguments)) == 0:
+                return potential
     force, change = each.result, {moving[0]}  # what changes with the gap, directly or by another intermediate
-    for symbol, value in kept:
+    for symbol, value in intermediates:
         if value.free_symbols & change:
             change.add(symbol)
         else:
             constants.define(symbol, value)
-    for symbol, value in reversed(kept):
+    for symbol, value in reversed(intermediates):
         if symbol in change:
             force = force.subs(symbol, value)
     return antiderivative(force, moving[0])
 
 
-def work_lines(name: str, work: sp.Expr, constants: Constants, moving: sp.Symbol) -> list[str]:
-    """A C function of the antiderivative of a force."""
+def work_lines(name: str, integral: sp.Expr, constants: Constants, moving: sp.Symbol) -> list[str]:
+    """The C function of an antiderivative, and the macro that says it exists."""
     program = Program((moving,))
-    result = program.series(work, "work")
+    result = program.series(integral, "work")
     recurrences = Recurrences(program, constants, lambda series: series)
     head = f"static inline vec {name}_work(const {name}_constants *c, vec {moving.name})"
     body = ["(void)c;", *recurrences.values([result]), f"return {result};"]
@@ -149,21 +152,25 @@ def work_lines(name: str, work: sp.Expr, constants: Constants, moving: sp.Symbol
 
 
 def _clearance(
-    name: str, each: LawFunction, kept: list[Definition], moving: tuple[sp.Symbol, ...], still: tuple[sp.Symbol, ...]
+    name: str,
+    each: LawFunction,
+    intermediates: list[Definition],
+    moving: tuple[sp.Symbol, ...],
+    fixed: tuple[sp.Symbol, ...],
 ) -> list[str]:
     """`limit - value` times the positive denominator of the value: same sign, without division along a trajectory."""
     result = each.result
-    for symbol, value in reversed(kept):
+    for symbol, value in reversed(intermediates):
         result = result.subs(symbol, value)
     over, under = sp.fraction(sp.together(result))
     positive = bool(under.is_positive)
     clearance = LIMIT * under - over if positive else LIMIT - result
     clearance = sp.collect(sp.expand(clearance), moving[-1])  # approach*(gap^2 - 1) vanishes exactly at the film's rim
     program, series = cheapest(clearance, (), moving)
-    constants = Constants({argument: f"c->{argument.name}" for argument in (*still, LIMIT)})
+    constants = Constants({argument: f"c->{argument.name}" for argument in (*fixed, LIMIT)})
     doc = f"Limit minus value{', times the positive denominator' if positive else ''}: the sign of the event function."
     lines = _recurrences(f"{name}_clearance", doc, program, series, constants, moving)
-    return [*_constants(f"{name}_clearance", constants, (*still, LIMIT)), *lines]
+    return [*_constants(f"{name}_clearance", constants, (*fixed, LIMIT)), *lines]
 
 
 def antiderivative(force: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
@@ -179,25 +186,25 @@ def antiderivative(force: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
 
 
 def _of_term(term: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
-    still, moving = term.as_independent(variable, as_Add=False)
+    constant, moving = term.as_independent(variable, as_Add=False)
     if moving == 1:
-        return still * variable
+        return constant * variable
     if moving.is_Pow and moving.base == variable and moving.exp != -1 and not moving.exp.has(variable):
-        return still * variable ** (moving.exp + 1) / (moving.exp + 1)
+        return constant * variable ** (moving.exp + 1) / (moving.exp + 1)
     if moving == 1 / variable:
-        return still * sp.log(variable)
+        return constant * sp.log(variable)
     if moving == variable:
-        return still * variable**2 / 2
+        return constant * variable**2 / 2
     if isinstance(moving, sp.exp):
         slope = moving.args[0].diff(variable)
-        return None if slope.has(variable) or slope == 0 else still * moving / slope
-    return _gap_over_root(still, moving, variable)
+        return None if slope.has(variable) or slope == 0 else constant * moving / slope
+    return _gap_over_root(constant, moving, variable)
 
 
-def _gap_over_root(still: sp.Expr, moving: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
+def _gap_over_root(constant: sp.Expr, moving: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
     """The rule h/sqrt(q) -> 2 sqrt(q)/(q'/h), for q' proportional to h."""
     roots = [part for part in sp.Mul.make_args(moving) if part.is_Pow and part.exp == -sp.Rational(1, 2)]
     if len(roots) != 1 or sp.simplify(moving * sp.sqrt(roots[0].base)) != variable:
         return None
     share = sp.simplify(roots[0].base.diff(variable) / variable)
-    return None if share.has(variable) else still * 2 * sp.sqrt(roots[0].base) / share
+    return None if share.has(variable) else constant * 2 * sp.sqrt(roots[0].base) / share
