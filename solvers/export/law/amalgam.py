@@ -22,12 +22,12 @@ class Source:
 
     Arguments:
         prefix: of what depends on its structure, such as "plane".
-        made: texts of the files that are not in the runtime's folder.
+        generated_files: texts of the generated files, by name; the others are in the runtime's folder.
         roots: files whose functions are called from elsewhere; the rest is included by them.
     """
 
     prefix: str
-    made: Mapping[str, str]
+    generated_files: Mapping[str, str]
     roots: tuple[str, ...]
 
 
@@ -91,8 +91,8 @@ def _includes(parts: Sequence[Item]) -> list[str]:
 
 def digests(sources: Iterable[Source]) -> list[str]:
     """The digests of the equations that the kernels' texts are emitted from."""
-    result = {digest[2] for source in sources for text in source.made.values() for digest in _EMITTED.finditer(text)}
-    return sorted(result)
+    texts = (text for source in sources for text in source.generated_files.values())
+    return sorted({digest[2] for text in texts for digest in _EMITTED.finditer(text)})
 
 
 def _parsed(source: Source) -> _Kernel:
@@ -103,8 +103,8 @@ def _parsed(source: Source) -> _Kernel:
         if name in seen:
             return
         seen.add(name)
-        path = OWN / name
-        text = source.made[name] if name in source.made else (path if path.exists() else RUNTIME / name).read_text()
+        path = OWN / name if (OWN / name).exists() else RUNTIME / name
+        text = source.generated_files[name] if name in source.generated_files else path.read_text()
         for other in included(text):
             put(other)
         text = re.sub(r'^#include "[^"]+"\n', "", text, flags=re.MULTILINE)

@@ -27,7 +27,7 @@ _SHOWN = {
     "final_spin": "c->final_spin = {}*rate;",
     "final_spin_partner": "c->final_partner_spin = {}*rate;",
 }
-"""Outputs of a structure, and where they go."""
+"""C line that stores each output of a structure; {} is its value."""
 
 
 @dataclass(frozen=True)
@@ -44,14 +44,14 @@ class Kernel:
         return self.variant.choice
 
     @cached_property
-    def made(self) -> dict[str, str]:
-        """Texts of its files that are not in the runtime's folder, by name."""
+    def generated_files(self) -> dict[str, str]:
+        """Texts of the generated files that its source includes, by name; InputError if the model has no Taylor kernel."""
         emitted = headers(self.choice)
         if emitted is None:
             accepted = "a model that has one: laws with recurrences, and few events (docs/reference/models.md)"
             raise InputError("--to", "c", accepted, "cannot be written for this model, which has no Taylor kernel")
         texts = files(self.variant, emitted)
-        # how many lanes there are is decided by the compiler, and numpy has no part in it
+        # the C compiler decides on the lanes (`texts._LANES`), not this machine
         texts["settings.h"] = re.sub(r"^#define LANES .*\n", "", texts["settings.h"], flags=re.MULTILINE)
         return texts | {"in_si.h": self._in_si()}
 
@@ -70,7 +70,7 @@ class Kernel:
 
     def source(self, roots: tuple[str, ...]) -> Source:
         """The kernel before it is merged with others."""
-        return Source(self.prefix, self.made, roots)
+        return Source(self.prefix, self.generated_files, roots)
 
     def _in_si(self) -> str:
         lines = self._places() if self.prefix == SPACE else [*self._columns(), *self._show()]
@@ -82,7 +82,7 @@ class Kernel:
                 '#include "block.h"',
                 '#include "state.h"',
                 "",
-                "/* Most steps of a collision, or of an interrupted one in a call. */",
+                "/* Largest number of steps of a collision, or of one call for a collision that is interrupted. */",
                 f"enum {{ MOST_STEPS_TAKEN = {STEPS_IN_SPACE if self.prefix == SPACE else STEPS} }};",
                 "",
                 *lines,

@@ -146,7 +146,7 @@ def test_the_exported_law_has_the_same_budget() -> None:
     """Each kernel of the law is given the steps of the settings, fewer in space, where a step takes longer."""
     for own in kernels(Scene.load("granulation"), 1e-9):
         steps = STEPS_IN_SPACE if own.prefix == SPACE else STEPS
-        assert f"MOST_STEPS_TAKEN = {steps} " in own.made["in_si.h"]
+        assert f"MOST_STEPS_TAKEN = {steps} " in own.generated_files["in_si.h"]
 
 
 def test_both_engines_share_the_budget() -> None:
