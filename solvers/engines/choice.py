@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 
 from ..scene.scene import Scene
 from .settings import CASADI_ENGINES, ENGINES
-from .taylor.build import supported
+from .taylor.build import kernel_supports
 
 
 def collision_engine(scene: Scene, requested: str | None = None) -> str:
@@ -18,7 +18,7 @@ def collision_engine(scene: Scene, requested: str | None = None) -> str:
     """
     if requested not in (None, "taylor"):
         return requested
-    return _kernel_or_rosenbrock(supported(scene))
+    return _kernel_or_rosenbrock(kernel_supports(scene))
 
 
 def casadi_gradient_engine(requested: str | None = None) -> str:
@@ -39,12 +39,12 @@ def gradient_engine(scene: Scene, of: Sequence[str], known: Collection[str], obl
 
 def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:
     """True if the kernel differentiates a scene's collisions: oblique ones, head-on ones or both."""
-    return supported(scene, oblique, gradients=True)
+    return kernel_supports(scene, oblique, gradients=True)
 
 
 def available_engines(scene: Scene) -> tuple[str, ...]:
     """The engines that can collide a scene here."""
-    return ENGINES if supported(scene) else CASADI_ENGINES
+    return ENGINES if kernel_supports(scene) else CASADI_ENGINES
 
 
 def _kernel_or_rosenbrock(kernel: bool) -> str:

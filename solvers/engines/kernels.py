@@ -11,7 +11,7 @@ from ..host.compiler import compiler
 from ..host.user_cache import folder, why_unwritable
 from ..scene.scene import Scene
 from .settings import RTOL, check_rtol
-from .taylor.build import compile_all, is_compiled, size_of, supported
+from .taylor.build import compile_all, is_compiled, kernel_supports, size_of
 from .taylor.call import variant_for_many
 from .taylor.orders import order_backward, order_for
 from .taylor.record import variant_to_record
@@ -85,7 +85,7 @@ def compile_kernels(
     check_flag(derivatives, "derivatives")
     wanted: dict[Variant, tuple[Scene, bool, list[str]]] = {}
     for scene in loaded:
-        if not supported(scene):
+        if not kernel_supports(scene):
             if compiler() is None:
                 raise ComputationError("there is no C compiler", advice="install one; the other engines answer without")
             message = "a law of this scene has no Taylor series: the other engines answer"

@@ -21,20 +21,23 @@ from .orders import ORDERS
 from .shipped import is_shipped, shipped
 from .source import Variant, emitted_headers, flags, source, stem
 
-_PATIENCE = 1.0  # s of compilation without a remark
+_PATIENCE = 1.0  # s that a compilation may last before a remark
 
 
-def supported(scene: Scene, obliquities: Collection[bool] = (True, False), gradients: bool = False) -> bool:
-    """True if the kernel can integrate a scene here: its laws have recurrences, and it is shipped or can be compiled.
+def kernel_supports(scene: Scene, obliquities: Collection[bool] = (True, False), gradients: bool = False) -> bool:
+    """True if the kernel can integrate a scene here.
+
+    Its laws have recurrences (and derivatives), and its kernel of the lowest order is shipped or there is a compiler.
 
     Arguments:
         obliquities: True for oblique and False for head-on collisions, which have kernels of their own.
         gradients: with derivatives.
     """
-    choices = [select_model(scene, oblique, fold=not gradients) for oblique in obliquities]
-    if not all(headers(each) and (tangents(each) if gradients else True) for each in choices):
+    keys = [select_model(scene, oblique, fold=not gradients) for oblique in obliquities]
+    if not all(headers(each) and (tangents(each) if gradients else True) for each in keys):
         return False
-    variants = (Variant(each, ORDERS[0][1], gradients=gradients) for each in choices)
+    variants = (Variant(each, ORDERS[0][1], gradients=gradients) for each in keys)
+    # the lowest order stands for all: the others may need a compiler
     return all(is_shipped(each) for each in variants) or compiler() is not None
 
 

@@ -6,7 +6,7 @@ time, and a neighbouring one little. With these two no decade of the tolerance c
 """
 
 ORDERS = ((3e-10, 9), (0.0, 11))
-"""Least tolerance, and the order of the series from there on; descending."""
+"""Tolerance, and the order of the series for it and looser ones; descending."""
 LEAST, LARGEST = 8, 16
 """Orders that the runtime can be compiled for."""
 

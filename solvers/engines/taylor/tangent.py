@@ -12,7 +12,7 @@ from ...scene.contact import ENTRIES, TIE
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS
-from .build import kernel, supported
+from .build import kernel, kernel_supports
 from .call import Impacts, task
 from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
 from .orders import order_backward, order_for
@@ -74,7 +74,7 @@ def run_tangent(
     order = order or (order_backward if backward else order_for)(min(rtol, LOOSEST))
     scene = impacts.scene
     variant = variant_of(scene, oblique, order, rotation, backward, fold)
-    library = kernel(variant) if supported(scene, (oblique,), gradients=True) else None
+    library = kernel(variant) if kernel_supports(scene, (oblique,), gradients=True) else None
     if library is None:
         return None
     if backward:

@@ -14,7 +14,7 @@ from wetdoublet.solvers import (
     gradients_many,
     sensitivities,
 )
-from wetdoublet.solvers.engines.taylor.build import supported
+from wetdoublet.solvers.engines.taylor.build import kernel_supports
 from wetdoublet.solvers.model.model import select_model
 
 from ...helpers.reference import collide
@@ -233,7 +233,7 @@ def test_no_derivative_at_the_switch_between_sliding_and_sticking() -> None:
     assert refused == 1
 
 
-@pytest.mark.skipif(not supported(Scene.load("granulation")), reason="no C compiler")
+@pytest.mark.skipif(not kernel_supports(Scene.load("granulation")), reason="no C compiler")
 @pytest.mark.parametrize("kind", ["wall", pytest.param("pair", marks=pytest.mark.slow)])
 def test_the_kernel_has_the_same_friction(kind: str) -> None:
     """Outcomes, restitution and spins of random collisions, sliding and sticking, chattering and resting among them."""
@@ -252,7 +252,7 @@ def test_the_kernel_has_the_same_friction(kind: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not supported(Scene.load("granulation")), reason="no C compiler")
+@pytest.mark.skipif(not kernel_supports(Scene.load("granulation")), reason="no C compiler")
 @pytest.mark.parametrize("kind", ["equal", "wall"])
 def test_the_kernel_differentiates_through_friction(kind: str) -> None:
     """Forward for few parameters, backward for all of them, as CasADi does for the first few collisions."""

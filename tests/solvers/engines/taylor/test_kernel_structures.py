@@ -100,7 +100,7 @@ ALONE: list[tuple[str, dict[str, Any]]] = [
 @pytest.mark.parametrize(("preset", "changes"), ALONE, ids=[f"{p} {' '.join(c)}".strip() for p, c in ALONE])
 def test_every_kind_is_known(preset: str, changes: dict[str, Any]):
     """Every preset and every kind of change has its headers, none of which failed to be emitted."""
-    assert library.supported(Scene.load(preset).with_entries(changes))
+    assert library.kernel_supports(Scene.load(preset).with_entries(changes))
 
 
 MODEL = '''"""A liquid that thins, and a bridge that is cut off."""
