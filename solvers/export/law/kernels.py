@@ -45,7 +45,7 @@ class Kernel:
 
     @cached_property
     def generated_files(self) -> dict[str, str]:
-        """Texts of the generated files that its source includes, by name; InputError if the model has no Taylor kernel."""
+        """Texts of the generated files that its source includes, by name; InputError without a Taylor kernel."""
         emitted = headers(self.choice)
         if emitted is None:
             accepted = "a model that has one: laws with recurrences, and few events (docs/reference/models.md)"
