@@ -23,33 +23,33 @@ class FilmCertificate(Certificate):
         if phase.resting:
             return True
         if phase.motion != CLOSING:
-            return self.held(gap, normal_velocity)
+            return self.stops_opening(gap, normal_velocity)
         # closing: the film must stop the motion before solid contact and before the glass pressure is reached
         grid = self.approach(gap, FILM_DEPTHS)
-        speed = self.slowed(-normal_velocity, grid)
+        speed = self.closing_speed(-normal_velocity, grid)
         if not is_stopped(speed[-1], self.margin):
             return False
         # between two depths the speed falls and the pressure per speed rises, so their end values bound the pressure
-        return self.clear(grid[PARTS::PARTS], np.maximum(speed[:-1:PARTS], 0.0))
+        return self.stays_liquid(grid[PARTS::PARTS], np.maximum(speed[:-1:PARTS], 0.0))
 
     def approach(self, gap: float, depths: int) -> np.ndarray:
         """Gaps from `gap` to contact in geometric progression, PARTS for each depth."""
         deepest = max(self.contact, gap * LEAST_DEPTH)
         return np.geomspace(gap, deepest, depths * PARTS + 1)
 
-    def held(self, gap: float, normal_velocity: float) -> bool:
-        """True if the film stops an opening doublet: u decreases by the integral up to x0 unless it cavitates."""
+    def stops_opening(self, gap: float, normal_velocity: float) -> bool:
+        """True if the film stops an opening doublet: up to x0, u falls by the film's integral; not if it cavitates."""
         if normal_velocity == 0.0:
             return True  # at rest it stays at rest
         loss = 0.0 if self.model.cavitates else self._momentum_loss(np.linspace(gap, 1.0, 65))[-1]
         return bool(is_stopped(normal_velocity - loss, self.margin))
 
-    def slowed(self, speed: float, grid: np.ndarray) -> np.ndarray:
+    def closing_speed(self, speed: float, grid: np.ndarray) -> np.ndarray:
         """Closing speed along decreasing gaps (losses are negative there); negative beyond the stop."""
-        slowed: np.ndarray = speed + self._momentum_loss(grid)
-        return slowed
+        speeds: np.ndarray = speed + self._momentum_loss(grid)
+        return speeds
 
-    def clear(self, gaps: np.ndarray, speeds: np.ndarray) -> bool:
+    def stays_liquid(self, gaps: np.ndarray, speeds: np.ndarray) -> bool:
         """True if the glass pressure is not reached at these gaps and closing speeds."""
         beside = np.zeros((len(self.model.state) - 2, gaps.size))  # the tangential states, zero
         clearance = np.asarray(_glass(self.model)(np.vstack([gaps, -speeds, beside]), self.p).full())

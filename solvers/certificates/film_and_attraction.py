@@ -17,11 +17,11 @@ _WEAK = 1e-3  # in units of m v0^2; the error of a level is at most 3e-5, at the
 class FilmAndAttractionCertificate(EnergyCertificate):
     """Certificate for film and attractions, head-on or with a wall: by energy, or by the film that stops the approach.
 
-    An attraction too weak for the energy certificate still confines a pair that the film has stopped. If the closing
-    speed is w under the film alone, it is at most w + g with the attraction, where g^2/2 is the work from x = x0 on:
-    where v = w + g, v >= g, so v grows no faster than w + g. If w vanishes before solid contact and w + g does not
-    reach the glass pressure, the solids meet at a speed of at most g, and with e_dry <= 1 the rebound does not reach
-    x0.
+    An attraction too weak for the energy certificate still confines a pair that the film has stopped. At each gap, let
+    v be the closing speed, w the one that the film alone would leave, and g^2/2 the work of the attraction from x0 to
+    there. Then v <= w + g: where the two are equal, v >= g, and the attraction adds no more to v than to g. If w
+    vanishes before solid contact and w + g does not reach the glass pressure, the solids meet at a speed of at most g,
+    and with e_dry <= 1 the rebound does not reach x0.
     """
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
@@ -30,39 +30,41 @@ class FilmAndAttractionCertificate(EnergyCertificate):
 
     def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
         by_energy = super().sticks(y, phase, maxima)
-        return by_energy or (not phase.resting and self._weak(y) and self._stopped(y, phase))
+        return by_energy or (not phase.resting and self._too_weak_for_energy(y) and self._stopped(y, phase))
 
-    def _weak(self, y: np.ndarray) -> bool:
+    def _too_weak_for_energy(self, y: np.ndarray) -> bool:
         """True if the barriers beyond x0 are too low for the energy to decide; saves the quadrature otherwise."""
         touch = self.model.values("effective_potential", np.array([1.0, *y[1:]]), self.p)["energy"]
         return all(barrier.height - touch < _WEAK for barrier in self.barriers(y))
 
     def _stopped(self, y: np.ndarray, phase: Phase) -> bool:
+        """True if the film stops the motion, and attraction adds too little speed to reach the glass pressure."""
         film, gap, normal_velocity = self._film, float(y[0]), float(y[1])
         if gap > 1:
             return False
         closing = phase.motion == CLOSING
         grid = film.approach(gap if closing else 1.0, ATTRACTED_FILM_DEPTHS)  # an opening pair may reach x0 and return
         if closing:
-            speed = film.slowed(-normal_velocity, grid)
+            speed = film.closing_speed(-normal_velocity, grid)
             if not is_stopped(speed[-1], film.margin):
                 return False
-        elif film.held(gap, normal_velocity):
+        elif film.stops_opening(gap, normal_velocity):
             speed = np.zeros(grid.size)
         else:
             return False
-        above, below = self._fallen(np.geomspace(1.0, gap, 65) if closing else np.ones(2)), self._fallen(grid)
-        if not self._pulls(above, below):
+        work_before = self._attraction_work(np.geomspace(1.0, gap, 65) if closing else np.ones(2))
+        work_ahead = self._attraction_work(grid)
+        if not self._pulls(work_before, work_ahead):
             return False
-        fallen = np.sqrt(2 * (above[-1] + below[PARTS::PARTS]))
-        return film.clear(grid[PARTS::PARTS], np.maximum(speed[:-1:PARTS], 0.0) + fallen)
+        gained = np.sqrt(2 * (work_before[-1] + work_ahead[PARTS::PARTS]))
+        return film.stays_liquid(grid[PARTS::PARTS], np.maximum(speed[:-1:PARTS], 0.0) + gained)
 
     @staticmethod
     def _pulls(*works: np.ndarray) -> bool:
         """True if the works never decrease; a user's law may be repulsive."""
         return all(bool(np.all(np.diff(work) >= 0)) for work in works)
 
-    def _fallen(self, grid: np.ndarray) -> np.ndarray:
+    def _attraction_work(self, grid: np.ndarray) -> np.ndarray:
         """Cumulative work of the attraction from the first gap on, from the potential at zero angular momentum."""
         still = np.zeros(len(self.model.state))
         works: np.ndarray = np.concatenate([[0.0], np.cumsum(-panels(lambda gaps: self._slope(gaps, still), grid))])
