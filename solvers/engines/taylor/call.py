@@ -49,6 +49,7 @@ class Impacts:
 
 
 RunKernel = Callable[[Impacts, np.ndarray], None]
+"""A kernel as a function that computes impacts into an array of answers (zeros of ANSWER)."""
 
 
 def variant(
@@ -74,13 +75,13 @@ def run_kernel(
     """An array of ANSWER, one per collision; None if no kernel is available.
 
     Arguments:
-        rotation: also the angle turned.
+        rotation: also compute the angle through which the line of centres turns.
         budget: number of steps after which a collision is handed over.
         jumps: what the slow manifold may replace: 0 nothing, 1 what follows the turn (times are not needed), 2 the
             approach as well (nor is the smallest gap).
     """
-    answers, turns = np.zeros(impacts.angle.size, ANSWER), impacts.oblique
-    for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns))):
+    answers, oblique_ones = np.zeros(impacts.angle.size, ANSWER), impacts.oblique
+    for oblique, which in ((True, np.flatnonzero(oblique_ones)), (False, np.flatnonzero(~oblique_ones))):
         if which.size == 0:
             continue
         library = kernel(variant_for_many(impacts.scene, oblique, rtol, rotation, fold=not impacts.others))
@@ -111,10 +112,11 @@ def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
 
 
 def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, answers: np.ndarray, jumps: int = 0) -> Task:
-    """The task of a kernel for impacts that fit it.
+    """The task of a kernel for impacts all oblique or all head-on, as the kernel is.
 
     Arguments:
         answers: array for the answers, zeros of ANSWER.
+        budget, jumps: as for `run_kernel`.
     """
     one = Task(library, impacts.angle.size, min(rtol, LOOSEST), budget)
     one.number("jumps", jumps)
@@ -131,7 +133,7 @@ def _column(values: np.ndarray | float) -> np.ndarray | float:
 
 
 def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int, jumps: int = 0) -> RunKernel:
-    """A kernel as a function of impacts that fit it and of an array for the answers (zeros of ANSWER)."""
+    """The kernel as a function, for impacts all oblique or all head-on, as it is; other arguments as for `run_kernel`."""
 
     def run(impacts: Impacts, answers: np.ndarray) -> None:
         task(library, impacts, rtol, budget, answers, jumps).run()
