@@ -102,8 +102,8 @@ def collision_averages(
     kept = checked_journal(journal)
     warn(loaded)
     if kept is not None:
-        kept.under(request.identity())
-    with nullcontext() if kept is None else kept.held():
+        kept.set_request(request.identity())
+    with nullcontext() if kept is None else kept.locked():
         columns = _computed(request, kept, progress)
     return dataset(loaded, request.axes, columns, request.attributes(), request.wrt)
 

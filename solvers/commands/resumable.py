@@ -21,7 +21,7 @@ def resumable(file: Path | None, unit: str, stored: bool = False) -> Iterator[tu
     journal = None if file is None else beside(file)
     created = journal is not None and not journal.path.exists()
     try:
-        with journal.held("-o", file) if journal else nullcontext(), Bar(unit) as progress:
+        with journal.locked("-o", file) if journal else nullcontext(), Bar(unit) as progress:
             yield journal, progress
     except (KeyboardInterrupt, OSError) as error:
         count = 0 if journal is None else journal.count()  # of the file: progress may lag

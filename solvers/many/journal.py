@@ -41,25 +41,26 @@ class Journal:
 
     Arguments:
         path: the file; it need not exist yet.
-        request: everything that the results depend on, as JSON values; None if `under` sets it later.
+        request: everything that the results depend on, as JSON values; None if `set_request` sets it later.
     """
 
     def __init__(self, path: Path, request: Mapping[str, Any] | None = None) -> None:
         self.path = path
         self.key = b""
-        self._held: int | None = None
+        self._descriptor: int | None = None
         if request is not None:
-            self.under(request)
+            self.set_request(request)
 
-    def under(self, request: Mapping[str, Any]) -> None:
+    def set_request(self, request: Mapping[str, Any]) -> None:
         """Set the request whose blocks this journal reads and adds."""
         self.key = hashlib.sha256(json.dumps(request, sort_keys=True).encode()).hexdigest()[:32].encode()
 
     @contextmanager
-    def held(self, label: str = "journal", file: Path | None = None) -> Iterator[None]:
-        """Lock the journal, and the file that it serves, for this run; an empty journal is removed at the end.
+    def locked(self, label: str = "journal", file: Path | None = None) -> Iterator[None]:
+        """Lock the journal for this run, and so keep other runs off the file that it serves.
 
-        The lock is on the journal's file, so the operating system releases it when this process ends.
+        The lock is on the journal's file, so the operating system releases it when this process ends. There is none
+        on file systems without locks. If this object holds it already, nothing happens. An empty journal is removed.
 
         Arguments:
             label: option or argument that names the file.
@@ -68,18 +69,18 @@ class Journal:
         Raises:
             InputError: another run holds the lock, or the journal cannot be written.
         """
-        if self._held is not None:  # already locked by the caller
+        if self._descriptor is not None:  # by the caller, through this object
             yield
             return
         named = str(file or self.path)
         if bounded.exists(self.path) and not bounded.is_file(self.path):
-            raise InputError("journal", str(self.path), "a file", "is none")
+            raise InputError(label, str(self.path), "a file", "is none")
         try:
-            self._held = self._locked()
+            self._descriptor = self._open_locked()
         except (OSError, ValueError) as error:
             accepted, reason = "a file in a folder that can be written to", getattr(error, "strerror", None) or error
             raise InputError(label, named, accepted, f"cannot be kept ({reason})") from None
-        if self._held is None:
+        if self._descriptor is None:
             accepted = "a file of its own for each run, or this one when that has ended"
             raise InputError(label, named, accepted, "is being written by another run")
         try:
@@ -87,10 +88,10 @@ class Journal:
         finally:
             if self.path.is_file() and self.path.stat().st_size == 0:
                 self.path.unlink(missing_ok=True)
-            os.close(self._held)
-            self._held = None
+            os.close(self._descriptor)
+            self._descriptor = None
 
-    def _locked(self) -> int | None:
+    def _open_locked(self) -> int | None:
         """The journal's file, open and locked; None if it is locked by another run."""
         from filelock import lock_descriptor  # slow import
 
@@ -110,17 +111,17 @@ class Journal:
 
     def read(self) -> list[tuple[np.ndarray, Block]]:
         """The finished blocks of this request."""
-        return [_block(record) for record in self._own() if "columns" in record]
+        return [_block(record) for record in self._of_this_request() if "columns" in record]
 
     def chunks(self) -> list[int]:
         """The finished chunks of this request whose results are stored elsewhere."""
-        return [record["chunk"] for record in self._own() if "chunk" in record]
+        return [record["chunk"] for record in self._of_this_request() if "chunk" in record]
 
     def count(self) -> int:
         """Number of finished collisions of this request."""
-        return sum(map(_collisions, self._own()))
+        return sum(map(_collisions, self._of_this_request()))
 
-    def _own(self) -> Iterator[dict[str, Any]]:
+    def _of_this_request(self) -> Iterator[dict[str, Any]]:
         return (record for key, record in self._records() if key == self.key and record is not None)
 
     def others(self) -> tuple[int, int]:

@@ -150,8 +150,8 @@ def regime_map(
     if file is not None:
         return into_store(grid, file, client, progress, blocks)
     if blocks is not None:
-        blocks.under(grid.identity())
-    with nullcontext() if blocks is None else blocks.held():
+        blocks.set_request(grid.identity())
+    with nullcontext() if blocks is None else blocks.locked():
         return into_memory(grid, client, blocks, progress, slow)
 
 

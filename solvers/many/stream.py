@@ -136,11 +136,11 @@ def into_store(
     """
     kept, cut = journal or beside(path), _cut(scan)
     sizes = [math.prod(one.stop - one.start for one in at) for at in cut]
-    with _chunkwise(scan, client, cut) as (digits, blocks), kept.held("store", path):
+    with _chunkwise(scan, client, cut) as (digits, blocks), kept.locked("store", path):
         identity = {**scan.identity(), "arithmetic": dict(digits)}
         store = Store(path, hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest())
         token = store.open(scan, scan.part(cut[0]).dataset(empty(sizes[0], scan.of)))
-        kept.under({**identity, "store": token})  # what another folder held is not in this one
+        kept.set_request({**identity, "store": token})  # what another folder held is not in this one
         done = {k for k in kept.chunks() if store.holds(cut[k])}
 
         def report() -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from wetdoublet.solvers import InputError, Scene, regime_map
-from wetdoublet.solvers.many.journal import Journal
+from wetdoublet.solvers.many.journal import Journal, beside
 from wetdoublet.solvers.many.results import empty
 
 from ...helpers.command import finished, run
@@ -108,6 +108,14 @@ def test_a_journal_is_one_run_s_at_a_time(tmp_path):
 
     regime_map("granulation", stokes=[0.1, 0.2], angle=1.0, journal=path, progress=meanwhile)
     regime_map("granulation", stokes=0.1, angle=1.0, journal=path)
+
+
+def test_a_folder_in_place_of_a_journal_is_refused_by_the_option(tmp_path):
+    """The message names the option that the journal's file follows from, and the folder."""
+    journal = beside(tmp_path / "map.nc")
+    journal.path.mkdir()
+    with pytest.raises(InputError, match=r"^-o: .*map\.nc\.partial"), journal.locked("-o"):
+        pass
 
 
 @pytest.mark.parametrize("name", ["no/such/a.partial", "", "a\0b", "."])
