@@ -133,7 +133,7 @@ def _column(values: np.ndarray | float) -> np.ndarray | float:
 
 
 def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int, jumps: int = 0) -> RunKernel:
-    """The kernel as a function, for impacts all oblique or all head-on, as it is; other arguments as for `run_kernel`."""
+    """The kernel as a function of impacts all oblique or all head-on, as it is; other arguments as of `run_kernel`."""
 
     def run(impacts: Impacts, answers: np.ndarray) -> None:
         task(library, impacts, rtol, budget, answers, jumps).run()
