@@ -44,11 +44,11 @@ def _settled(expression: sp.Expr) -> sp.Expr:
 
 
 def _midgap() -> sp.Expr:
-    return orbital.midgap(_FAR, _P**2, _Q**2)
+    return orbital.midgap_slip_energy(_FAR, _P**2, _Q**2)
 
 
 def _surface() -> sp.Expr:
-    return orbital.surface(_FAR, _P**2, _Q**2, orbital.rigid_share(_P**2, _Q**2))
+    return orbital.surface_slip_energy(_FAR, _P**2, _Q**2, orbital.rigid_share(_P**2, _Q**2))
 
 
 def _change(lever: str, energy: sp.Expr) -> sp.Expr:
@@ -69,7 +69,7 @@ def midgap_takes() -> Check:
 @checks
 def midgap_ends() -> Check:
     """Beyond the edge of the shear: the same exchange, zero once omega = xi at the edge, and positive before."""
-    within = orbital.midgap_within(_FAR, _EDGE, _P**2, _Q**2)
+    within = orbital.transferable_within_edge(_FAR, _EDGE, _P**2, _Q**2)
     left = [_change("midgap", within) - _change("midgap", _midgap()), within.subs(_P, _EDGE * _Q)]
     # on the way to the edge J grows while xi > J/e^2, and each step transfers xi - J/d^2
     to_spin = 1 / orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
@@ -94,8 +94,8 @@ def transferable_bounds() -> tuple[Check, ...]:
     momentum, turning = sp.symbols("momentum turning", real=True)
     rigid = orbital.rigid_momentum(_FAR, momentum, turning)
     energy = (momentum - rigid) ** 2 * (1 / _FAR**2 + 1 / inertia) / 2
-    left = [energy - orbital.midgap(_FAR, momentum, turning)]  # for every sign: no square roots
-    margin = momentum**2 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + orbital.midgap(_FAR, momentum, turning)
+    left = [energy - orbital.midgap_slip_energy(_FAR, momentum, turning)]  # for every sign: no square roots
+    margin = momentum**2 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + orbital.midgap_slip_energy(_FAR, momentum, turning)
     rate = orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
     change = margin.diff(turning) - rate * margin.diff(momentum)
     ratio = _settled(change / (momentum / _NEAR**2 - turning))
@@ -138,7 +138,7 @@ def surface_takes() -> Check:
     ok = no_negative(top * signed) and no_negative(bottom * signed)
     rate = sp.fraction(_settled(_change("surface", _surface()) * _NEAR))
     quadratic = sp.degree(rate[0], _NEAR) == 2 and not rate[1].has(_NEAR)
-    figure = f"-dJ/dxi = {orbital.lag()} a r; d - rho <= {_REACH} a"
+    figure = f"-dJ/dxi = {orbital.surface_exchange()} a r; d - rho <= {_REACH} a"
     return Check("exchange takes, surface", "d(margin)/dxi has the sign of -(omega - xi)", ok and quadratic, figure)
 
 
@@ -153,7 +153,9 @@ def as_emitted() -> Evidence:
         yield emitted["slip"] - (orbital_momentum / here**2 - turning)
         yield emitted["orbital_energy"] - unit * orbital_momentum**2 / (2 * here**2)
         rigid = sp.cancel(orbital.rigid_momentum(here, orbital_momentum, turning))
-        yield _clamped(emitted["midgap"] / unit) - _clamped(orbital.midgap_of(here, orbital_momentum, rigid))
+        yield _clamped(emitted["midgap"] / unit) - _clamped(orbital.clamped_slip_energy(here, orbital_momentum, rigid))
         if "surface" in emitted:
-            energy = orbital.surface(here, orbital_momentum, turning, orbital.rigid_share(orbital_momentum, turning))
+            energy = orbital.surface_slip_energy(
+                here, orbital_momentum, turning, orbital.rigid_share(orbital_momentum, turning)
+            )
             yield emitted["surface"] - unit * energy

@@ -1,23 +1,23 @@
 """Orbital-momentum certificate: conditions that exclude that a doublet reaches a given gap, with their derivation.
 
-Per unit mass, with r = d a the centre distance at that gap, J = r^2 omega the orbital momentum, W the potential of the
-attractions:
+Per unit mass, with r the centre distance now and d the one at that gap, J = r^2 omega the orbital momentum, W the
+potential of the attractions (in the functions below distances are over a):
 
-1. To reach the gap with the present J requires G = u^2/2 + W(x) - W(gap) + (J^2/2)(1/r(x)^2 - 1/r^2) >= 0. Film and
-   solids only reduce u^2, and as |J| decreases, J^2/r(x)^2 decreases by more than J^2/r^2. So G never grows while F_t
+1. To reach the gap with the present J requires G = u^2/2 + W(x) - W(gap) + (J^2/2)(1/r^2 - 1/d^2) >= 0. Film and
+   solids only reduce u^2, and as |J| decreases, J^2/r^2 decreases by more than J^2/d^2. So G never grows while F_t
    reduces |J|, for any lever arm. (Strings also reduce J, and their pull only grows.)
 2. |J| may grow where the spins are faster than the line of centres, in the sense of J. F_t exchanges momenta at a fixed
-   ratio, dJ = -(32/5) a^2 (d/2 lever) dxi. Let the slip energy be the energy that this exchange, at the distance d, can
+   ratio, dJ = -(32/5) a^2 (r/2 lever) dxi. Let the slip energy be the energy that this exchange, at the distance d, can
    still transfer from the rotation: zero if omega = xi at d, never negative. G + slip energy never grows, at whatever
    distance the exchange happens (proved in `checks`).
 3. Lever arm at mid-gap: L is conserved, and J tends to J_r(x), which has the sign of L and is largest, J_d, at d. Let
-   L >= 0, which a reflection permits. While J > J_d, or J < 0, |J| decreases and G does not grow; between 0 and J_d
-   G + slip energy does not. So what can still be transferred is the slip energy of J, or of the nearer of 0 and J_d if
-   J is not between them (`transferable`): none from above J_d, and from J < 0 that of J = 0. If the sum of G and this
-   is negative, d is excluded, for any signs of J, xi and L; with L = 0 G alone is tested.
+   L >= 0 without loss of generality (mirror image). While J > J_d, or J < 0, |J| decreases and G does not grow; between
+   0 and J_d G + slip energy does not. So what can still be transferred is the slip energy of J, or of the nearer of 0
+   and J_d if J is not between them (`transferable`): none from above J_d, and from J < 0 that of J = 0. If the sum of G
+   and this is negative, d is excluded, for any signs of J, xi and L; with L = 0 G alone is tested.
 4. If no shear acts beyond a distance e < d, J stops growing at J_e, where omega = xi at e, and the slip energy that
    remains at d in that state is never transferred: it is subtracted in 3. If J is beyond J_e, nothing is transferred
-   (`midgap_within`).
+   (`transferable_within_edge`).
 5. Lever arm at the surface: the exchange conserves sqrt(J) + (8/5) sqrt(xi) a along states of rigid rotation, which
    replaces L, where J and xi have one sign, positive after a reflection. The slip energy counts where xi > omega at d.
 
@@ -35,7 +35,7 @@ from ..intermediates import SLIP
 from .attraction import admits  # noqa: F401 -- it covers what the attraction certificate covers
 from .pendulum import Functions
 
-RIGID = sp.Symbol("rigid_share", nonnegative=True)  # 1/(rho/a + lag), with omega = xi at the distance rho
+RIGID = sp.Symbol("rigid_share", nonnegative=True)  # 1/(rho/a + surface_exchange), with omega = xi at the distance rho
 UNIT = sp.Symbol("rotation_energy_unit", positive=True)  # m a^2 Omega^2 over m v0^2
 
 
@@ -50,12 +50,12 @@ def exchanged(distance: sp.Expr, lever: sp.Expr) -> sp.Expr:
     return spheres_inertia() * distance / (2 * lever)
 
 
-def lag() -> sp.Expr:
+def surface_exchange() -> sp.Expr:
     """-dJ/dxi over the distance, for the lever arm at the surface."""
     return exchanged(sp.Integer(1), sp.Integer(2))
 
 
-def midgap(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
+def midgap_slip_energy(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
     """Slip energy over m a^2 Omega^2 for the lever arm at mid-gap: kinetic energy above that of rigid rotation.
 
     The exchange conserves L = J + (32/5) a^2 xi and nothing else.
@@ -71,40 +71,40 @@ def rigid_momentum(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp
 
 def transferable(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
     """Slip energy of the present J, or of the nearer of 0 and J_d if J is not between them (lever arm at mid-gap)."""
-    return midgap_of(distance, momentum, rigid_momentum(distance, momentum, turning))
+    return clamped_slip_energy(distance, momentum, rigid_momentum(distance, momentum, turning))
 
 
-def midgap_of(distance: sp.Expr, momentum: sp.Expr, rigid: sp.Expr) -> sp.Expr:
+def clamped_slip_energy(distance: sp.Expr, momentum: sp.Expr, rigid: sp.Expr) -> sp.Expr:
     """`transferable` for J_d, which stands for L."""
     within = sp.Max(sp.Min(momentum, sp.Max(rigid, 0)), sp.Min(rigid, 0))
     return (within - rigid) ** 2 * (1 / distance**2 + 1 / spheres_inertia()) / 2
 
 
-def midgap_within(distance: sp.Expr, edge: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
+def transferable_within_edge(distance: sp.Expr, edge: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
     """Slip energy that a shear ending at the distance `edge` can transfer, while omega < xi there."""
     rigid = rigid_momentum(edge, momentum, turning)
-    return midgap(distance, momentum, turning) - midgap(distance, rigid, rigid / edge**2)
+    return midgap_slip_energy(distance, momentum, turning) - midgap_slip_energy(distance, rigid, rigid / edge**2)
 
 
 def _potential(share: sp.Expr) -> sp.Expr:
-    """Antiderivative of rho/(rho + lag)^5, in share = 1/(rho + lag)."""
-    return -(share**3) / 3 + lag() * share**4 / 4
+    """Antiderivative of rho/(rho + s)^5, in share = 1/(rho + s), with s = `surface_exchange()`."""
+    return -(share**3) / 3 + surface_exchange() * share**4 / 4
 
 
 def rigid_share(momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
-    """1/(rho + lag) over 1/a, with rho^2 = J/xi."""
-    return sp.sqrt(turning) / (sp.sqrt(momentum) + lag() * sp.sqrt(turning))
+    """1/(rho + s) over 1/a, with rho^2 = J/xi and s = `surface_exchange()`."""
+    return sp.sqrt(turning) / (sp.sqrt(momentum) + surface_exchange() * sp.sqrt(turning))
 
 
-def surface(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr, share: sp.Expr) -> sp.Expr:
+def surface_slip_energy(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr, share: sp.Expr) -> sp.Expr:
     """Slip energy over m a^2 Omega^2 for the lever arm at the surface.
 
     It is J^2/(2 d^2) minus what remains of it once omega = xi at d.
     """
-    conserved = (sp.sqrt(momentum) + lag() * sp.sqrt(turning)) ** 4
-    there = 1 / (distance + lag())
+    conserved = (sp.sqrt(momentum) + surface_exchange() * sp.sqrt(turning)) ** 4
+    there = 1 / (distance + surface_exchange())
     return momentum**2 / (2 * distance**2) - conserved * (
-        distance**2 * there**4 / 2 + 2 * lag() * (_potential(share) - _potential(there))
+        distance**2 * there**4 / 2 + 2 * surface_exchange() * (_potential(share) - _potential(there))
     )
 
 
@@ -115,9 +115,9 @@ def definitions(structure: Structure) -> tuple[Definition, ...]:
 
 
 def functions(structure: Structure) -> Functions:
-    """The margins at the state's gap.
+    """The function `orbital_margins` of a state, evaluated at gaps ahead of the doublet.
 
-    For `midgap` it is what can be transferred; for `surface` it is where xi > omega >= 0, which a reflection permits.
+    `midgap` is the energy that can be transferred; so is `surface` where xi > omega >= 0, which a reflection permits.
     """
     doc = (
         "Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the "
@@ -129,5 +129,5 @@ def functions(structure: Structure) -> Functions:
         "midgap": UNIT * transferable(DISTANCE, orbital_momentum, spin),
     }
     if not structure.reduced:
-        result["surface"] = UNIT * surface(DISTANCE, orbital_momentum, spin, RIGID)
+        result["surface"] = UNIT * surface_slip_energy(DISTANCE, orbital_momentum, spin, RIGID)
     yield "orbital_margins", doc, result
