@@ -127,7 +127,10 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, answe
 
 
 def _column(values: np.ndarray | float) -> np.ndarray | float:
-    return values if isinstance(values, float) else np.ascontiguousarray(values, dtype=float).reshape(-1)
+    if isinstance(values, float):
+        return values
+    column = np.ascontiguousarray(values, dtype=float).reshape(-1)
+    return column.item() if column.size == 1 else column
 
 
 def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int, jumps: int = 0) -> RunKernel:
