@@ -9,7 +9,6 @@ from ..host.arguments import check_flag
 from ..model.dimensionless import nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
-from .by_casadi import by_casadi
 from .by_kernel import collision
 from .result import Collision
 
@@ -67,6 +66,8 @@ def collide(
     dimensionless = nondimensionalise(loaded, v0, theta0)
     warn(loaded)
     if requested not in (None, "taylor"):
+        from .by_casadi import by_casadi
+
         return by_casadi(loaded, dimensionless, rtol, requested, ledger, trajectory, until=last)
     result = collision(loaded, dimensionless, rtol, ledger, trajectory)
     if isinstance(result, Collision):
@@ -75,5 +76,7 @@ def collide(
         result, steps = "the Taylor kernel does not follow a stick beyond its proof", None
     else:
         steps = casadi_steps(rtol, after_kernel=True)
+    from .by_casadi import by_casadi
+
     other = by_casadi(loaded, dimensionless, rtol, "rosenbrock", ledger, trajectory, until=last, steps=steps)
     return replace(other, engine_reason=result)
