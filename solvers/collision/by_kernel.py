@@ -13,8 +13,6 @@ from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, Steps, run_recorded
 from ..model.dimensionless import DimensionlessGroups
 from ..model.model import load, select_model
-from ..model.phases import Phase
-from ..model.rebound import rebounded
 from ..scene.scene import Scene
 from .assemble import assembled
 from .outcome import KERNEL_TERMS, Energy, absent_terms
@@ -109,6 +107,7 @@ def _drift(scene: Scene, n: DimensionlessGroups, books: Mapping[str, float]) -> 
 
 def _trajectory(scene: Scene, n: DimensionlessGroups, rtol: float, recorded: Recorded, full: bool) -> xarray.Dataset:
     from ..engines.casadi.trajectory import attributes, dataset  # imports xarray
+    from ..model.rebound import rebounded
 
     assert recorded.steps is not None
     model = load(select_model(scene, n.oblique, full=full, fold=True))
@@ -127,6 +126,7 @@ def _stretches(steps: Steps, states: int) -> Iterator[Stretch]:
         states: number of series that are states of the model; the angle turned may follow them.
     """
     from ..engines.casadi.trajectory import Stretch
+    from ..model.phases import Phase
 
     rows, turned = steps.rows, steps.turned
     firsts = np.flatnonzero(np.diff(rows["phase"], prepend=-1)) if rows.size else np.zeros(0, int)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -106,6 +105,8 @@ def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
         for first in firsts:
             run(first)
     else:
+        from concurrent.futures import ThreadPoolExecutor  # slow import
+
         with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
             list(pool.map(run, firsts))
 
