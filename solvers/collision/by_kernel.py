@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -13,8 +13,6 @@ from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, Steps, run_recorded
 from ..model.dimensionless import DimensionlessGroups
 from ..model.model import load, select_model
-from ..model.phases import Phase
-from ..model.rebound import rebounded
 from ..scene.scene import Scene
 from .assemble import assembled
 from .outcome import KERNEL_TERMS, Energy, absent_terms
@@ -56,14 +54,14 @@ def collision(
     recorded = run_recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
     if recorded is None:
         return Undecided("no Taylor kernel can be compiled for this scene here")  # a remark has said why
-    answer, books = recorded.answers[0], None if recorded.ledger is None else recorded.ledger[0]
-    steps = int(answer["steps"])
+    answer, books = _row(recorded.answers), None if recorded.ledger is None else _row(recorded.ledger)
+    steps = answer["steps"]
     if answer["status"] > LAST_ANSWER:
-        chatters = steps + int(answer["events"]) * CALL * ROSENBROCK > STEPS
+        chatters = steps + answer["events"] * CALL * ROSENBROCK > STEPS
         status = Status(answer["status"]).name.lower().replace("_", " ")
         return Undecided(f"the Taylor kernel gave up: {status}", STEPS - CHATTER_STEPS if chatters else steps)
     energy = None if books is None else _energy(scene, n, books)
-    separated = bool(answer["outcome"])
+    separated = answer["outcome"] > 0
     if energy is not None and separated and energy.is_open(rtol):
         return Undecided("the Taylor kernel gave up: its energy ledger is open", steps)  # so the trajectory is wrong
     names, words = load(select_model(scene, n.oblique, fold=True)).names("outputs"), words_of(scene)
@@ -74,11 +72,11 @@ def collision(
         reversal=KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None,
         certified=bool(answer["certified"]),
         outputs=dict(zip(names, answer["shown"].tolist())) if separated else {},
-        rotation=float(answer["turned"]),
-        time=float(answer["time"]),
-        smallest_gap=float(answer["smallest_gap"]),
-        slip=float(answer["slip"]),
-        events=[(words[int(each["kind"])], float(each["time"])) for each in recorded.events[0, : answer["events"]]],
+        rotation=answer["turned"],
+        time=answer["time"],
+        smallest_gap=answer["smallest_gap"],
+        slip=answer["slip"],
+        events=[(words[int(kind)], time) for kind, time in recorded.events[0, : answer["events"]].tolist()],
         engine="taylor",
         steps=steps,
         rtol=rtol,
@@ -88,22 +86,28 @@ def collision(
     )
 
 
-def _energy(scene: Scene, n: DimensionlessGroups, books: np.void) -> Energy:
-    terms = {name: float(books[field]) * n.energy for name, field in KERNEL_TERMS.items()}
-    terms |= {"own_events": float(books["own_events"]) * n.energy} if "own_events" in (books.dtype.names or ()) else {}
+def _row(rows: np.ndarray) -> dict[str, Any]:
+    """The only row of a structured array, as Python's numbers (arithmetic with numpy's scalars is slow)."""
+    return dict(zip(rows.dtype.names or (), rows[0].tolist(), strict=True))
+
+
+def _energy(scene: Scene, n: DimensionlessGroups, books: Mapping[str, float]) -> Energy:
+    terms = {name: books[field] * n.energy for name, field in KERNEL_TERMS.items()}
+    terms |= {"own_events": books["own_events"] * n.energy} if "own_events" in books else {}
     absent = absent_terms(scene) | (set() if n.oblique else {"dry_friction"})
     return Energy(**{"strings": 0.0} | {name: value for name, value in terms.items() if name not in absent})
 
 
-def _drift(scene: Scene, n: DimensionlessGroups, books: np.void) -> float | None:
+def _drift(scene: Scene, n: DimensionlessGroups, books: Mapping[str, float]) -> float | None:
     """|L/L(0) - 1| at the end; None with strings or a wall, which exert a torque; 0 head-on."""
     if scene.pendulum is not None or (scene.wall and n.oblique):
         return None
-    return abs(float(books["momentum"]) - 1.0) if n.oblique else 0.0
+    return abs(books["momentum"] - 1.0) if n.oblique else 0.0
 
 
 def _trajectory(scene: Scene, n: DimensionlessGroups, rtol: float, recorded: Recorded, full: bool) -> xarray.Dataset:
     from ..engines.casadi.trajectory import attributes, dataset  # imports xarray
+    from ..model.rebound import rebounded
 
     assert recorded.steps is not None
     model = load(select_model(scene, n.oblique, full=full, fold=True))
@@ -122,6 +126,7 @@ def _stretches(steps: Steps, states: int) -> Iterator[Stretch]:
         states: number of series that are states of the model; the angle turned may follow them.
     """
     from ..engines.casadi.trajectory import Stretch
+    from ..model.phases import Phase
 
     rows, turned = steps.rows, steps.turned
     firsts = np.flatnonzero(np.diff(rows["phase"], prepend=-1)) if rows.size else np.zeros(0, int)

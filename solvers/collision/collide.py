@@ -9,7 +9,6 @@ from ..host.arguments import check_flag
 from ..model.dimensionless import nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
-from .by_casadi import by_casadi
 from .by_kernel import Undecided, collision
 from .result import Collision
 
@@ -67,12 +66,16 @@ def collide(
     dimensionless = nondimensionalise(loaded, v0, theta0)
     warn(loaded)
     if requested not in (None, "taylor"):
+        from .by_casadi import by_casadi
+
         return by_casadi(loaded, dimensionless, rtol, requested, ledger, trajectory, until=last)
     result = collision(loaded, dimensionless, rtol, ledger, trajectory)
     if isinstance(result, Collision):
         if last is None or result.outcome != STICK:
             return result
         result = Undecided("the Taylor kernel does not follow a stick beyond its proof")
+    from .by_casadi import by_casadi
+
     budget = Budget(casadi_steps(rtol, spent=result.spent))
     other = by_casadi(loaded, dimensionless, rtol, "rosenbrock", ledger, trajectory, until=last, budget=budget)
     return replace(other, engine_reason=result.reason)

@@ -5,9 +5,7 @@ deleted. Nothing is deleted on systems where folders cannot be locked.
 """
 
 import os
-import shutil
 import stat
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -23,7 +21,10 @@ def held_folder(folder: Path, prefix: str) -> Iterator[Path]:
     Raises:
         OSError: it cannot be made.
     """
-    from filelock import lock_descriptor  # slow import
+    import shutil
+    import tempfile
+
+    from filelock import lock_descriptor  # slow imports
 
     for _ in range(_TRIES):
         path = Path(tempfile.mkdtemp(prefix=prefix, dir=folder))
@@ -44,6 +45,8 @@ def held_folder(folder: Path, prefix: str) -> Iterator[Path]:
 
 def temporary() -> list[Path]:
     """Folders for temporary files, the system's default first."""
+    import tempfile
+
     folders = []
     with suppress(OSError):
         folders.append(Path(tempfile.gettempdir()))
@@ -68,6 +71,8 @@ def sweep(folder: Path, prefix: str) -> None:
 
 
 def _remove_stale(path: Path) -> None:
+    import shutil
+
     from filelock import lock_descriptor
 
     descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)

@@ -14,7 +14,6 @@ import errno
 import hashlib
 import itertools
 import os
-import shutil
 import stat
 import threading
 from collections.abc import Callable, Iterator
@@ -136,6 +135,8 @@ def room() -> Iterator[Path]:
     Raises:
         OSError: no folder has the space.
     """
+    import shutil  # slow import
+
     with ExitStack() as stack:
         for place, prefix in ((folder(), _MAKING), *((root, TEMPORARY) for root in temporary())):
             with suppress(OSError):

@@ -19,7 +19,7 @@ def generalised_centrifugal(scene: Scene, n: DimensionlessGroups) -> float | Non
     free = chosen.structure.replace("_strings", "")  # strings pull inward but are not a cohesive force
     model = load(ModelKey(free, tuple(law for law in chosen.laws if law[0] != "strings"), chosen.package))
     p = model.group_values(n.groups)
-    still = np.array([1.0, 0.0, *model.start(p)[2:]])
+    still = np.array([1.0, 0.0, *(model.start(p)[2:] if len(model.state) > 2 else ())])
     inward = model.values("inward_force", still, p)["inward_force"]
     force = inward * n.energy / n.length
     if not force > 0:

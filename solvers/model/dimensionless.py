@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from ..errors import ComputationError, InputError
 from ..scene.contact import GAPS
@@ -31,7 +32,7 @@ class DimensionlessGroups:
     capillary: float | None
     reynolds: float | None
 
-    @property
+    @cached_property
     def oblique(self) -> bool:
         """True if something moves sideways: the impact has an angle, or a sphere spins."""
         return any(self.groups.get(name, 0.0) != 0 for name in FIRST_RATES)
@@ -111,7 +112,7 @@ def nondimensionalise(scene: Scene, speed: float, angle: float) -> Dimensionless
         groups |= {name: values[name] for name in scene.package.plain}
     groups |= dict.fromkeys(GAPS.values(), 0.0)
     for name, formula in formulas(scene).items():
-        if all(argument in values for argument in formula[1]):
+        if all(map(values.__contains__, formula[1])):
             groups[name] = values[name] = _finite(name, formula, values)
     x0 = scene.liquid.film_thickness
     scales = {name: _finite(name, formula, values) for name, formula in _SCALES.items()}

@@ -309,7 +309,8 @@ class Scene(System):
         unchanged = {name for name, _ in entries} - read.keys()
         si = tuple((name, values[name]) for name, _ in entries)
         result = object.__new__(type(self))
-        result.__dict__.update({name: value for name, value in self.__dict__.items() if name != "_written"})
+        result.__dict__.update(self.__dict__)
+        result.__dict__.pop("_written", None)
         result.__dict__.update(
             given=entries,
             comments=tuple((name, text) for name, text in self.comments if name in unchanged),

@@ -11,7 +11,7 @@ import json
 import math
 import re
 from decimal import Context, Decimal
-from functools import cache
+from functools import cache, lru_cache
 from tokenize import TokenError
 from typing import TYPE_CHECKING, Any
 
@@ -197,6 +197,7 @@ def factor(unit: str, si: str | None, field: str, accepted: str, value: object) 
     return _pint_factor("dimensionless" if plain else unit, si or "dimensionless", value, field, accepted)
 
 
+@lru_cache(maxsize=256)
 def spelling(unit: str) -> str:
     """Return the canonical spelling of a unit (`Pa·s`, `Pa*s` -> `Pa s`; `µm` -> `um`)."""
     for letter, ours in _LETTERS:

@@ -146,7 +146,7 @@ def _in_planes(pairs: Pairs, motion: Planes, rtol: float, threads: int, ledger: 
     quantities = dict(si_values(scene, None, None)) | others | {"speed": impacts.speed, "angle": angle}
     rate = rate_scales(scene, quantities)
     oblique = impacts.oblique
-    ends.slip[~oblique] = np.nan
+    ends.slip[:] = np.where(oblique, np.abs(ends.slip), np.nan)  # a ratio of lengths, as in space
     shown = {name: answers["shown"][:, k] for k, name in enumerate(load(select_model(scene, True)).names("outputs"))}
     moved = {name: np.where(oblique, values * rate, 0.0) for name, values in shown.items() if name.startswith("final")}
     moved.setdefault("final_spin_partner", moved["final_spin"])

@@ -4,7 +4,6 @@ import ctypes
 import threading
 import time
 from collections.abc import Callable, Collection
-from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 
 from ...host.compiler import CannotCompile, compiler, key, stop
@@ -104,6 +103,8 @@ def compile_all(
     Returns:
         The seconds that each took; None for one that cannot be compiled.
     """
+    from concurrent.futures import ThreadPoolExecutor  # slow import
+
     threads: list[int] = []
 
     def compiled_here(variant: Variant) -> float | None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -107,6 +106,8 @@ def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
         for first in firsts:
             run(first)
     else:
+        from concurrent.futures import ThreadPoolExecutor  # slow import
+
         with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
             list(pool.map(run, firsts))
 
@@ -129,7 +130,10 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, answe
 
 
 def _column(values: np.ndarray | float) -> np.ndarray | float:
-    return values if isinstance(values, float) else np.ascontiguousarray(values, dtype=float).reshape(-1)
+    if isinstance(values, float):
+        return values
+    column = np.ascontiguousarray(values, dtype=float).reshape(-1)
+    return column.item() if column.size == 1 else column
 
 
 def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int, jumps: int = 0) -> RunKernel:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 RUNTIME = Path(__file__).resolve().parent / "runtime"
-_LINE = re.compile(r'^(?:#pragma once\n|#include "([^"]+)"\n)', re.MULTILINE)
+_LINE = re.compile(r'#(?<![^\n]#)(?:pragma once\n|include "([^"]+)"\n)')  # a search for "#" is faster than for lines
 
 
 def included(text: str) -> list[str]:

@@ -130,27 +130,26 @@ class Task:
     def columns(self, columns: list[np.ndarray | float]) -> None:
         """Quantities in SI in the order of `quantity_names`, each an array of one per collision or a common number."""
         common = np.array([column if isinstance(column, float) else 0.0 for column in columns])
-        self._held.append(common)
-        table = np.zeros(len(columns), BUFFER)
-        table["at"] = common.ctypes.data + common.itemsize * np.arange(len(columns))
-        table["bytes"] = common.itemsize
-        for row, column in zip(table, columns, strict=True):
-            if not isinstance(column, float):
-                self._hold(row, column)
-        self.buffer("quantities", table)
+        first, size = self._hold(common)[0], common.itemsize
+        rows = [
+            (first + size * k, size) if isinstance(column, float) else self._hold(column)
+            for k, column in enumerate(columns)
+        ]
+        self.buffer("quantities", np.array(rows, BUFFER))
 
     def buffer(self, name: str, array: np.ndarray) -> None:
         """Set the buffer of that name, for input or output."""
-        self._hold(self._task[name], array)
+        self._task[name] = self._hold(array)
 
     def number(self, name: str, value: int) -> None:
         """Set a number of the task."""
         self._task[name] = value
 
-    def _hold(self, place: np.void | np.ndarray, array: np.ndarray) -> None:
+    def _hold(self, array: np.ndarray) -> tuple[int, int]:
+        """Address and size in bytes of an array, which is kept alive."""
         assert array.flags.c_contiguous
         self._held.append(array)
-        place["at"], place["bytes"] = array.ctypes.data, array.nbytes
+        return array.ctypes.data, array.nbytes
 
     def run(self) -> int:
         """Run the task; returns the number of steps, if they are counted.

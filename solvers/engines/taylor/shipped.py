@@ -5,9 +5,7 @@ that is damaged, or of other equations than the package's, is never loaded. As a
 package's build runs it.
 """
 
-import argparse
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -104,6 +102,8 @@ def _compilation(variant: Variant, instructions: InstructionSet) -> tuple[str, t
 
 def _compile(folder: Path, sets: list[InstructionSet], structure: str | None, only_values: bool) -> None:
     """Compile the shipped kernels, all or some of them, into a folder, and remove others from it."""
+    from concurrent.futures import ThreadPoolExecutor  # slow import
+
     folder.mkdir(parents=True, exist_ok=True)
     chosen = [each for each in variants() if structure in (None, each.choice.structure)]
     chosen = [each for each in chosen if not (only_values and each.gradients)]
@@ -121,6 +121,8 @@ def _compile(folder: Path, sets: list[InstructionSet], structure: str | None, on
 
 
 if __name__ == "__main__":
+    import argparse  # slow import
+
     known = {each.name: each for family in SETS.values() for each in family}
     parser = argparse.ArgumentParser(description="Compile the kernels that come with the package.")
     parser.add_argument("folder", type=Path)

@@ -21,7 +21,7 @@ FLAGS = ("-O2", "-funroll-loops", "-fno-math-errno", "-ffp-contract=fast", "-fPI
 RECORD_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
 _ONCE = "#pragma once"
 # What only kernels of models with declared events contain is taken out of the others' text, and so out of their digest.
-_OWN_EVENTS = re.compile(r"^#if OWN_EVENTS\n.*?^#endif /\* OWN_EVENTS \*/\n", re.MULTILINE | re.DOTALL)
+_OWN_EVENTS = re.compile(r"#if OWN_EVENTS\n.*?^#endif /\* OWN_EVENTS \*/\n", re.MULTILINE | re.DOTALL)
 
 
 @dataclass(frozen=True)

@@ -43,14 +43,18 @@ class Kernel:
         """The key of its model."""
         return self.variant.choice
 
-    @cached_property
-    def generated_files(self) -> dict[str, str]:
-        """Texts of the generated files that its source includes, by name; InputError without a Taylor kernel."""
+    @property
+    def _headers(self) -> tuple[str, ...]:
         emitted = headers(self.choice)
         if emitted is None:
             accepted = "a model that has one: laws with recurrences, and few events (docs/reference/models.md)"
             raise InputError("--to", "c", accepted, "cannot be written for this model, which has no Taylor kernel")
-        texts = files(self.variant, emitted)
+        return emitted
+
+    @cached_property
+    def generated_files(self) -> dict[str, str]:
+        """Texts of the generated files that its source includes, by name; InputError without a Taylor kernel."""
+        texts = files(self.variant, self._headers)
         # the C compiler decides on the lanes (`texts._LANES`), not this machine
         texts["settings.h"] = re.sub(r"^#define LANES .*\n", "", texts["settings.h"], flags=re.MULTILINE)
         return texts | {"in_si.h": self._in_si()}
@@ -63,7 +67,7 @@ class Kernel:
     @property
     def quantities(self) -> tuple[str, ...]:
         """Names of the quantities in SI that it takes, in order."""
-        names = re.search(r"const char quantity_names\[\] =(.*?);", "\n".join(headers(self.choice) or ()), re.DOTALL)
+        names = re.search(r"const char quantity_names\[\] =(.*?);", "\n".join(self._headers), re.DOTALL)
         if names is None:
             raise CheckFailed("a kernel without quantities")
         return tuple(re.findall(r'"(\w+) ?"', names[1]))

@@ -59,7 +59,7 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
 
     Raises:
         InputError: a law of the scene has no recurrence.
-        ComputationError: no compiler is found for the test vectors.
+        ComputationError: no engine can compute the test vectors.
     """
     name = law_name(scene)
     law_kernels = kernels(scene, rtol)

@@ -1,9 +1,11 @@
 """The exported law: it builds everywhere, is our kernel to the last digits, refuses bad input, and shares nothing."""
 
 import math
+import os
 import re
 import shutil
 import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -70,6 +72,29 @@ def test_builds_and_checks(compiler: str, pendulum: Path, tmp_path: Path):
     assert done.returncode == 0
     subprocess.run(["make", "-s", "clean"], cwd=folder, check=True)
     assert {each.name for each in folder.iterdir()} == {each.name for each in pendulum.iterdir()}
+
+
+@NEED
+@pytest.mark.parametrize("scene", ["pendulum", pytest.param("granulation", marks=pytest.mark.slow)])
+def test_is_exported_without_a_compiler(scene: str, tmp_path: Path):
+    """Test vectors then come from CasADi; the law, compiled elsewhere, reproduces them, those of pairs in space too."""
+    without = os.environ | {"CC": "", "WETDOUBLET_NO_COMPILER": "1", "WETDOUBLET_CACHE": str(tmp_path / "cache")}
+    command = [sys.executable, "-m", "wetdoublet.solvers", "export", scene, "--to", "c", "--out", str(tmp_path / "law")]
+    subprocess.run(command, env=without, check=True)
+    assert not list((tmp_path / "cache").glob("*.so"))
+    done = subprocess.run(
+        ["make", "-s", "check", "CC=gcc", "CFLAGS=-O1"],
+        cwd=tmp_path / "law",
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout
+    impacts, *pairs = re.findall(r"^0 of (\d+)", done.stdout, re.MULTILINE)
+    assert int(impacts) >= 50
+    assert len(pairs) == (scene == "granulation")
+    rows = re.findall(r"^ +\{0, (\d), ", (tmp_path / "law" / "vectors.h").read_text(), re.MULTILINE)
+    assert {*rows[: int(impacts)]} == {"0", "1", "2"}
 
 
 @pytest.mark.parametrize("standard", ["c++11", "c++20"])

@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 import wetdoublet as wd
 from wetdoublet import solvers
+from wetdoublet.solvers.engines.taylor.build import kernel_supports
 
 ROOT = Path(__file__).resolve().parents[3]
 BUILD = """
@@ -33,11 +34,16 @@ wd.colide("granulation")
 """
 
 
-def loaded(program: str) -> set[str]:
-    """The packages that a program has loaded at its end."""
-    tail = "import json, sys; print(json.dumps(sorted({name.split('.')[0] for name in sys.modules})))"
+def modules(program: str) -> set[str]:
+    """The modules that a program has loaded at its end."""
+    tail = "import json, sys; print(json.dumps(sorted(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", f"{program}\n{tail}"], capture_output=True, text=True, check=True)
     return set(json.loads(done.stdout))
+
+
+def loaded(program: str) -> set[str]:
+    """The packages that a program has loaded at its end."""
+    return {name.split(".")[0] for name in modules(program)}
 
 
 def test_dir_is_the_public_names() -> None:
@@ -70,6 +76,19 @@ def test_public_names_load_nothing_heavy() -> None:
     """All public names together load neither sympy, xarray, matplotlib, pint, Dask nor Zarr."""
     packages = loaded("import wetdoublet\nfor name in wetdoublet.__all__: getattr(wetdoublet, name)")
     assert not packages & {"sympy", "xarray", "matplotlib", "pint", "dask", "distributed", "zarr"}
+
+
+@pytest.mark.skipif(not kernel_supports(wd.Scene.load("granulation")), reason="no C compiler")
+def test_a_first_collision_loads_what_it_computes_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No package but numpy and casadi, no engine that does not answer; with a kernel, no temporary files."""
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
+    program = "import wetdoublet as wd\nwd.collide('granulation', stokes=0.3, angle=0.5)"
+    heavy = {"sympy", "xarray", "matplotlib", "pint", "scipy", "h5py", "click", "tqdm", "loky", "argparse"}
+    engine = {"wetdoublet.solvers.engines.casadi.locate", "wetdoublet.solvers.certificates"}
+    assert not modules(program) & (heavy | engine)
+    third_party = loaded(program) - loaded("import casadi") - set(sys.stdlib_module_names)
+    assert third_party == {"wetdoublet"}
+    assert not loaded(program) & {"logging", "tempfile"}
 
 
 def test_type_checkers_see_every_public_name() -> None:

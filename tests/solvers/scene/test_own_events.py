@@ -19,6 +19,7 @@ from wetdoublet.solvers import (
 from wetdoublet.solvers.boundaries.on_map import map_curves
 from wetdoublet.solvers.engines.taylor import source as text
 from wetdoublet.solvers.engines.taylor.call import variant
+from wetdoublet.solvers.export.law.texts import texts as law_texts
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
 
@@ -225,3 +226,9 @@ def test_commands_tell_of_declared_events(snaps: Path, tmp_path: Path):
     page = (tmp_path / "granulation.md").read_text()
     assert "| snap | moving, opening, beyond the film | ends: separated | the bridge is stretched too fast |" in page
     assert "before the event snap" in page
+
+
+def test_a_law_of_too_many_events_is_not_exported(snaps):
+    """The events are more than the kernel has room for, and the error says that the model has none."""
+    with pytest.raises(InputError, match="few events"):
+        law_texts(scene(snaps))

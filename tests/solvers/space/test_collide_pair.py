@@ -170,7 +170,7 @@ def test_in_a_plane_it_is_the_planar_collision(scene):
     velocities[:, 1] = sideways[:, None] * across - speed[:, None] * normal
     both = spins.T[:, :, None] * out
     found = values(collide_pair(scene, normal, velocities, both, rtol=1e-11, engine="taylor"))
-    of = ["tangential_restitution", "contact_time", "final_spin", "final_spin_partner", "certified"]
+    of = ["slip_restitution", "tangential_restitution", "contact_time", "final_spin", "final_spin_partner", "certified"]
     planar = collide_many(
         scene, speed=speed, angle=angle, vary={"impact.spin": spins[0], "impact.partner_spin": spins[1]}, of=of,
         rtol=1e-11, engine="taylor",
@@ -180,6 +180,9 @@ def test_in_a_plane_it_is_the_planar_collision(scene):
     assert parted.sum() > 10
     assert found["restitution"][parted] == pytest.approx(planar.restitution.values[parted], rel=_FEW)
     assert found["time"][parted] == pytest.approx(planar.contact_time.values[parted], rel=_FEW)
+    slip = planar.slip_restitution.values[parted]  # has a sign, where a ratio of lengths has none
+    assert slip.min() < 0
+    assert found["slip_restitution"][parted] == pytest.approx(np.abs(slip), rel=1e-7)
     for k, name in enumerate(("final_spin", "final_spin_partner")):
         assert found["spins"][parted, k] @ out == pytest.approx(planar[name].values[parted], rel=1e-7, abs=1e-3)
     assert np.abs(found["normal"][parted] @ out).max() < 1e-12

@@ -23,7 +23,7 @@ static ending out_of_plane(const bodies *b, const arrival *a, const plane *p, co
     made.normal = plus(times(cos(found->rotation), a->normal), sin(found->rotation), cross(axis, a->normal));
     if (found->outcome == LAW_STICK)
         return made;
-    made.slip = found->slip_restitution;
+    made.slip = fabs(found->slip_restitution); /* a ratio of lengths */
     made.turning = times(found->final_rotation_rate, axis);
     for (int k = 0; k < 2; k++) {
         made.spin[k] = plus(a->spin[k], -p->spin[k], p->axis);
