@@ -148,7 +148,7 @@ def work_lines(name: str, integral: sp.Expr, constants: Constants, moving: sp.Sy
     recurrences = Recurrences(program, constants, lambda series: series)
     head = f"static inline vec {name}_work(const {name}_constants *c, vec {moving.name})"
     body = ["(void)c;", *recurrences.values([result]), f"return {result};"]
-    return [f"#define {name.upper()}_WORK 1", *documented("Antiderivative: the work in closed form.", head, body)]
+    return [f"#define {name.upper()}_WORK 1", *documented("Antiderivative, in closed form.", head, body)]
 
 
 def _clearance(

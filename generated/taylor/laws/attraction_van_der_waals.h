@@ -39,7 +39,7 @@ static inline vec attraction_force_value(const attraction_force_constants *c, ve
 #define ATTRACTION_FORCE_FALLS 1 /* never increases with its first argument */
 
 #define ATTRACTION_FORCE_WORK 1
-/* Antiderivative: the work in closed form. */
+/* Antiderivative, in closed form. */
 static inline vec attraction_force_work(const attraction_force_constants *c, vec gap)
 {
     (void)c;

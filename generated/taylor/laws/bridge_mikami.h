@@ -47,7 +47,7 @@ static inline vec bridge_force_value(const bridge_force_constants *c, vec gap_ov
 #define BRIDGE_FORCE_FALLS 1 /* never increases with its first argument */
 
 #define BRIDGE_FORCE_WORK 1
-/* Antiderivative: the work in closed form. */
+/* Antiderivative, in closed form. */
 static inline vec bridge_force_work(const bridge_force_constants *c, vec gap_over_radius)
 {
     (void)c;

@@ -37,7 +37,7 @@ static inline vec film_resistance_value(const film_resistance_constants *c, vec 
 #define FILM_RESISTANCE_FALLS 1 /* never increases with its first argument */
 
 #define FILM_RESISTANCE_WORK 1
-/* Antiderivative: the work in closed form. */
+/* Antiderivative, in closed form. */
 static inline vec film_resistance_work(const film_resistance_constants *c, vec gap)
 {
     (void)c;
