@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a933f2528ebb17e1a2228f6326257f84129b30ea10ddcdd4021c41c807ec0779
+# Equations sha256 c73516aa86a0d111a7b9d578a6b5f3620f7e623513003abb5a32c8b6d599c64b
 """Oblique doublet with pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -49,7 +49,7 @@ FUNCTIONS = (
     "pendulum_margins", "approach_step",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "a933f2528ebb17e1a2228f6326257f84129b30ea10ddcdd4021c41c807ec0779"
+DIGEST = "c73516aa86a0d111a7b9d578a6b5f3620f7e623513003abb5a32c8b6d599c64b"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -280,7 +280,7 @@ def pendulum_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]
         weight*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2)
     )
     scaled_momentum = largest_momentum*obliquity
-    loss_by_cosine = 640*farthest**2*nearest**3*weighing/(aspect*(5*farthest**2 + 32))
+    decrease_by_cosine = 640*farthest**2*nearest**3*weighing/(aspect*(5*farthest**2 + 32))
     final_half_sine = sqrt(fmax(0, fmin(1, outward/(8*weighing) - aspect*contact/8)))
     width = fmax(0, final_half_sine**3*(pi - 2) + 2*final_half_sine - rotation)/8
     angle_0 = rotation
@@ -291,14 +291,14 @@ def pendulum_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]
     angle_5 = rotation + 5*width
     angle_6 = rotation + 6*width
     angle_7 = rotation + 7*width
-    scaled_momentum_0 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_0))))
-    scaled_momentum_1 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_1))))
-    scaled_momentum_2 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_2))))
-    scaled_momentum_3 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_3))))
-    scaled_momentum_4 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_4))))
-    scaled_momentum_5 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_5))))
-    scaled_momentum_6 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_6))))
-    scaled_momentum_7 = sqrt(fmax(0, scaled_momentum**2 - loss_by_cosine*(cos(rotation) - cos(angle_7))))
+    scaled_momentum_0 = sqrt(fmax(0, scaled_momentum**2 - decrease_by_cosine*(cos(rotation) - cos(angle_0))))
+    scaled_momentum_1 = sqrt(fmax(0, scaled_momentum**2 - decrease_by_cosine*(cos(rotation) - cos(angle_1))))
+    scaled_momentum_2 = sqrt(fmax(0, scaled_momentum**2 - decrease_by_cosine*(cos(rotation) - cos(angle_2))))
+    scaled_momentum_3 = sqrt(fmax(0, scaled_momentum**2 - decrease_by_cosine*(cos(rotation) - cos(angle_3))))
+    scaled_momentum_4 = sqrt(fmax(0, scaled_momentum**2 - decrease_by_cosine*(cos(rotation) - cos(angle_4))))
+    scaled_momentum_5 = sqrt(fmax(0, scaled_momentum**2 - decrease_by_cosine*(cos(rotation) - cos(angle_5))))
+    scaled_momentum_6 = sqrt(fmax(0, scaled_momentum**2 - decrease_by_cosine*(cos(rotation) - cos(angle_6))))
+    scaled_momentum_7 = sqrt(fmax(0, scaled_momentum**2 - decrease_by_cosine*(cos(rotation) - cos(angle_7))))
     return {
         "outward": outward,
         "pull": pull,

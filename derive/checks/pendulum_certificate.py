@@ -225,7 +225,7 @@ def strings_take() -> Check:
 def torque_is_least_in_contact() -> Check:
     """r^3 S_t grows with the gap and the stiffness, which grows with the swing: least in contact, at the first angle.
 
-    With J dD/dbeta >= S sin(beta), J^2 falls by `loss_by_cosine` (cos(beta_0) - cos(beta)) at least.
+    With J dD/dbeta >= S sin(beta), J^2 falls by `decrease_by_cosine` (cos(beta_0) - cos(beta)) at least.
     """
     (stiffness,) = slot_calls(torque := pendulum.torque_at(q.gap, q.beta))
     bare = sp.simplify(torque / pendulum.turning_at(sp.Integer(1), _HERE) / stiffness / sp.sin(q.beta))
@@ -234,7 +234,7 @@ def torque_is_least_in_contact() -> Check:
     swing = weighing.args[1].subs(q.beta, 2 * sp.asin(_RISE))
     in_contact = bare.subs(q.gap, contact_gap) * weighing.subs(named) * q.obliquity**2
     bound = 2 * _share(pendulum.FARTHEST) * in_contact.subs(4 + q.aspect * contact_gap, pendulum.NEAREST)
-    rest = vanishing("", "", [_model().expanded(pendulum.LOSS_BY_COSINE) - _model().expanded(bound)])
+    rest = vanishing("", "", [_model().expanded(pendulum.DECREASE_BY_COSINE) - _model().expanded(bound)])
     ok = rest.ok and all(map(positive, (bare, sp.together(bare.diff(q.gap)), sp.expand(swing.diff(_RISE)))))
     return Check("least torque", "J^2 <= J_max^2 - 2 s r^3 S (cos(beta_0) - cos(beta))", ok, f"r^3 S_t ~ {bare}")
 
@@ -278,7 +278,7 @@ def impulse_as_emitted() -> Evidence:
     total = sp.Integer(0)
     for k, (angle, later) in enumerate(zip(pendulum.ANGLES, pendulum.SCALED_MOMENTA, strict=True)):
         yield named[angle] - q.beta - k * pendulum.WIDTH
-        fall = pendulum.LOSS_BY_COSINE * (sp.cos(q.beta) - sp.cos(angle))
+        fall = pendulum.DECREASE_BY_COSINE * (sp.cos(q.beta) - sp.cos(angle))
         yield named[later] ** 2 - sp.Max(0, pendulum.SCALED_MOMENTUM**2 - fall)
         pull = pendulum.WEIGHING * (q.aspect * contact_gap + 4 * (1 - sp.cos(angle)))
         result = _integrand(later / q.obliquity, pendulum.NEAREST)

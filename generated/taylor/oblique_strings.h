@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 a933f2528ebb17e1a2228f6326257f84129b30ea10ddcdd4021c41c807ec0779 */
+ * Equations sha256 c73516aa86a0d111a7b9d578a6b5f3620f7e623513003abb5a32c8b6d599c64b */
 
 /* Oblique doublet with pendulum strings.
  *
@@ -393,7 +393,7 @@ static inline void pendulum_impulse(const constants *c, const vec *y, vec *impul
         0.25*(c->aspect*c->aspect)*(c->contact*c->contact) + 4.0*(c->aspect*c->contact +
         4.0)*(vec_sin(0.5*y[ROTATION])*vec_sin(0.5*y[ROTATION])));
     vec scaled_momentum = largest_momentum*c->obliquity;
-    vec loss_by_cosine =
+    vec decrease_by_cosine =
         640.0*(c->farthest*c->farthest)*(c->nearest*c->nearest*c->nearest)*weighing/(c->aspect*(5.0*(c->farthest*c->farthest)
         + 32.0));
     vec final_half_sine = vec_sqrt(vec_larger(splat(0.0), vec_smaller(splat(1.0), 0.125*outward/weighing -
@@ -410,21 +410,21 @@ static inline void pendulum_impulse(const constants *c, const vec *y, vec *impul
     vec angle_6 = y[ROTATION] + 6.0*width;
     vec angle_7 = y[ROTATION] + 7.0*width;
     vec scaled_momentum_0 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
-        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_0))));
+        decrease_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_0))));
     vec scaled_momentum_1 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
-        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_1))));
+        decrease_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_1))));
     vec scaled_momentum_2 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
-        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_2))));
+        decrease_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_2))));
     vec scaled_momentum_3 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
-        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_3))));
+        decrease_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_3))));
     vec scaled_momentum_4 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
-        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_4))));
+        decrease_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_4))));
     vec scaled_momentum_5 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
-        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_5))));
+        decrease_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_5))));
     vec scaled_momentum_6 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
-        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_6))));
+        decrease_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_6))));
     vec scaled_momentum_7 = vec_sqrt(vec_larger(splat(0.0), (scaled_momentum*scaled_momentum) -
-        loss_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_7))));
+        decrease_by_cosine*(vec_cos(y[ROTATION]) - vec_cos(angle_7))));
     *impulse = width*(vec_larger(splat(0.0), 0.25*(c->aspect*(scaled_momentum_0*scaled_momentum_0) -
         16.0*(c->nearest*c->nearest*c->nearest)*weighing*(c->aspect*c->contact + 4.0 -
         4.0*vec_cos(angle_0)))/(c->aspect*c->nearest*scaled_momentum_0)) + vec_larger(splat(0.0),

@@ -51,11 +51,11 @@ PANELS = 8
 # outward: centrifugal force at J_max in contact; pull: normal string force there, at the present angle
 # weighing: weight times the strings' stiffness, now
 # scaled_momentum: J_max times the obliquity; with a number, its bound at the start of that panel
-# loss_by_cosine: decrease of the square of scaled_momentum over that of cos(beta)
+# decrease_by_cosine: decrease of the square of scaled_momentum over that of cos(beta)
 # final_half_sine: sin(beta/2) where the outward force vanishes
 # width: of a panel, rad; angle: beta at the start of each
-OUTWARD, PULL, WEIGHING, SCALED_MOMENTUM, LOSS_BY_COSINE, FINAL_HALF_SINE, WIDTH = sp.symbols(
-    "outward pull weighing scaled_momentum loss_by_cosine final_half_sine width", nonnegative=True
+OUTWARD, PULL, WEIGHING, SCALED_MOMENTUM, DECREASE_BY_COSINE, FINAL_HALF_SINE, WIDTH = sp.symbols(
+    "outward pull weighing scaled_momentum decrease_by_cosine final_half_sine width", nonnegative=True
 )
 ANGLES = sp.symbols(f"angle_:{PANELS}", nonnegative=True)
 SCALED_MOMENTA = sp.symbols(f"scaled_momentum_:{PANELS}", nonnegative=True)
@@ -120,7 +120,7 @@ def impulse_by_angle(scaled_momentum: sp.Expr, pull: sp.Expr) -> sp.Expr:
     return sp.factor(result).subs(PULL, pull)  # a single quotient: -infinity, and no NaN, at the end of the rotation
 
 
-def loss_by_cosine() -> sp.Expr:
+def decrease_by_cosine() -> sp.Expr:
     """Decrease of the squared `scaled_momentum` over that of cos(beta), with the stiffness of the present angle."""
     torque = torque_at(CONTACT, q.beta).subs(sp.sin(q.beta), 1) / _stiffness() / q.weight * WEIGHING
     per_angle = torque * q.obliquity**2 / turning_at(sp.Integer(1), NEAREST)
@@ -143,14 +143,14 @@ def impulse_definitions() -> tuple[Definition, ...]:
     """Symbols of `impulse` and their expressions, each after those that it uses; the first are margins too."""
     final_angle = 2 * FINAL_HALF_SINE + (sp.pi - 2) * FINAL_HALF_SINE**3  # arcsin z <= z + (pi/2 - 1) z^3
     level = (OUTWARD / WEIGHING - _pull_by_stiffness(sp.Integer(0)) / WEIGHING) / 8  # sin(beta/2)^2 where it vanishes
-    falls = (LOSS_BY_COSINE * (sp.cos(q.beta) - sp.cos(angle)) for angle in ANGLES)
+    falls = (DECREASE_BY_COSINE * (sp.cos(q.beta) - sp.cos(angle)) for angle in ANGLES)
     momenta = (sp.sqrt(sp.Max(0, SCALED_MOMENTUM**2 - fall)) for fall in falls)
     return (
         (OUTWARD, outward_at(LARGEST_MOMENTUM, NEAREST)),
         (PULL, pull_at(CONTACT, q.beta)),
         (WEIGHING, q.weight * _stiffness()),
         (SCALED_MOMENTUM, LARGEST_MOMENTUM * q.obliquity),
-        (LOSS_BY_COSINE, loss_by_cosine()),
+        (DECREASE_BY_COSINE, decrease_by_cosine()),
         (FINAL_HALF_SINE, sp.sqrt(sp.Max(0, sp.Min(1, level)))),
         (WIDTH, sp.Max(0, final_angle - q.beta) / PANELS),
         *((angle, q.beta + k * WIDTH) for k, angle in enumerate(ANGLES)),

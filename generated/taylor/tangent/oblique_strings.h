@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 a933f2528ebb17e1a2228f6326257f84129b30ea10ddcdd4021c41c807ec0779 */
+ * Equations sha256 c73516aa86a0d111a7b9d578a6b5f3620f7e623513003abb5a32c8b6d599c64b */
 
 /* Tangent of oblique_strings.h: derivatives of the states by the groups.
  *
