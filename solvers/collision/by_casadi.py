@@ -47,7 +47,8 @@ def by_casadi(
 
     Both tolerances are tightened while the engine misses a located event, that is while its error exceeds the distance
     to a boundary; one that was tightened for a grazing start is loosened where the engine cannot meet it. Where no
-    tolerance helps within the steps of the budget, the trajectory of the event location is the result.
+    tolerance helps within the steps of the budget, the trajectory of the event location is the result: computed anew
+    with the steps of another budget, of which it needs no more than before.
 
     Arguments:
         find: locates the sequence of events; the same for both engines.
@@ -57,8 +58,12 @@ def by_casadi(
         budget: of all these integrations; None for that of `settings`.
     """
     budget = budget or Budget(casadi_steps(rtol))
+    again = find
     if find is locate:
-        find = partial(locate, until=0.0 if until is None else until / n.time, budget=budget)
+        find, again = (
+            partial(locate, until=0.0 if until is None else until / n.time, budget=each)
+            for each in (budget, Budget(budget.most))
+        )
     replay = partial(_replay, budget=budget) if replay is _replay else replay
     small, choice = (select_model(scene, n.oblique, full, fold=True) for full in (False, ledger or trajectory))
     model, used = load(choice), rtol
@@ -74,11 +79,10 @@ def by_casadi(
                 replayed = replay(path, plugin, tolerance, flow, model.start(p))
                 continue
             except Stopped as stopped:
-                if not stopped.missed and (looser := tolerance.loosened(used)):
+                if not (stopped.missed or budget.is_spent) and (looser := tolerance.loosened(used)):
                     continue
                 if stopped.missed and used > _TIGHTEST:
                     used, looser, path = used * 1e-2 if used > 200 * _TIGHTEST else _TIGHTEST, None, None
-                    budget.kept = budget.kept or budget.spent
                     continue
                 failure = ComputationError(
                     f"{plugin} {stopped.why}",
@@ -91,9 +95,8 @@ def by_casadi(
                 if used == rtol:
                     raise
                 failure = error
-            budget.kept = 0
             try:
-                path, used = find(model, n.groups, rtol, flow.extras), rtol
+                path, used = again(model, n.groups, rtol, flow.extras), rtol
             except ComputationError:
                 raise failure from None
             replayed, plugin = as_located(path, choice), "rosenbrock"

@@ -42,17 +42,17 @@ class Budget:
 
     most: int
     spent: int = 0
-    kept: int = 0  # for a last resort
 
     @property
     def is_spent(self) -> bool:
-        return self.most - self.kept - self.spent < CALL
+        """True if no call is left."""
+        return self.most - self.spent < CALL
 
     @property
     def call(self) -> int:
         """Most steps of the next call; one of few numbers, as each needs an integrator of its own."""
         steps = CALL
-        while steps * CALLS <= self.most - self.kept - self.spent:
+        while steps * CALLS <= self.most - self.spent:
             steps *= CALLS
         return steps
 

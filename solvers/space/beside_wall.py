@@ -130,7 +130,7 @@ def beside_wall(
         getattr(ends, name)[:] = getattr(slides, name)
     for part in parts[1:]:  # of one that has spent its steps the others are not known
         lost = (ends.outcome != FAILED) & (part.outcome == FAILED)
-        ends.outcome[lost], ends.reason[lost] = FAILED, part.reason[lost]
+        ends.outcome[lost], ends.certified[lost], ends.reason[lost] = FAILED, False, part.reason[lost]
     thickness = float(pairs.scene.material["film_thickness"])
     ends.time[:] = slides.time * thickness / speed
     ends.gap[:] = slides.gap * thickness

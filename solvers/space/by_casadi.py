@@ -163,12 +163,13 @@ def _integrated(
             path = EventLocator(load(small), n.groups, tolerance, EXTRAS, budget=budget).run()
             return path, replay(path, plugin, tolerance_for(tolerance, plugin, n.groups), flow, start, budget)
         except ComputationError:
+            if tolerance == rtol:
+                raise
             break
         except Stopped as failure:
             if not (failure.missed and tolerance > _TIGHTEST):
                 break
             tolerance = max(tolerance * 1e-2, _TIGHTEST)
-            budget.kept = budget.kept or budget.spent
-    budget.kept = 0
-    path = EventLocator(model, n.groups, tolerance, extras, budget=budget).run()
+    again = budget if plugin == "rosenbrock" else Budget(budget.most)
+    path = EventLocator(model, n.groups, rtol, extras, budget=again).run()
     return path, as_located(path, model.choice)

@@ -312,11 +312,11 @@ class EventLocator:
                 stop = self._refined(find, stop, stop.event, level)
             return self._overshot(find, stop, level)
         except IntegrationFailed as error:
+            if self.budget.spent - spent >= most:  # an integrator whose steps are used up fails, too
+                raise self._undecided() from None
             if looser := self.tolerance.loosened(self.rtol):
                 self.tolerance = looser
                 return self._advance(stretch, level)
-            if self.budget.spent - spent >= most:  # an integrator whose steps are used up fails, too
-                raise self._undecided() from None
             raise self._error(f"integration failed ({error})", "try --rtol 1e-8, or a less extreme impact") from None
 
     def _overshot(self, find: Locator, stop: EventHit, level: float) -> EventHit:
