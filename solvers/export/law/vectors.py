@@ -49,7 +49,7 @@ class Vector:
 
 
 def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
-    """At least fifty impacts, with all outcomes that occur among eight times as many (twice without a C compiler).
+    """Fifty impacts where there are as many, with all outcomes that occur among eight times as many (twice without a C compiler).
 
     Those next to a boundary are left out: their results depend on the tolerance.
     """
@@ -60,6 +60,8 @@ def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
         result += _computed(one_kernel, impacts)
     by_outcome = {outcome: [one for one in result if one.codes[0] == outcome] for outcome in range(3)}
     present = [group for group in by_outcome.values() if group]
+    if not present:
+        raise ComputationError("no impact could be computed for the test vectors, or all are beside a boundary")
     share = -(-_WANTED // len(present))
     chosen = [one for group in present for one in group[:share]]
     return chosen + [one for one in result if one not in chosen][: max(0, _WANTED - len(chosen))]
