@@ -49,7 +49,7 @@ class Vector:
 
 
 def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
-    """Fifty impacts where there are as many, with all outcomes that occur among eight times as many (twice without a C compiler).
+    """Fifty impacts, or fewer, with all outcomes among eight times as many candidates (twice without a C compiler).
 
     Those next to a boundary are left out: their results depend on the tolerance.
     """
