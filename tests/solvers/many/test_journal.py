@@ -1,5 +1,7 @@
 """Interrupted maps: what is finished is kept on disk, and only what is missing is computed again."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -110,9 +112,10 @@ def test_a_journal_is_one_run_s_at_a_time(tmp_path):
     regime_map("granulation", stokes=0.1, angle=1.0, journal=path)
 
 
-def test_a_folder_in_place_of_a_journal_is_refused_by_the_option(tmp_path):
+def test_a_folder_in_place_of_a_journal_is_refused_by_the_option(tmp_path, monkeypatch):
     """The message names the option that the journal's file follows from, and the folder."""
-    journal = beside(tmp_path / "map.nc")
+    monkeypatch.chdir(tmp_path)  # a long path is shortened in messages
+    journal = beside(Path("map.nc"))
     journal.path.mkdir()
     with pytest.raises(InputError, match=r"^-o: .*map\.nc\.partial"), journal.locked("-o"):
         pass
