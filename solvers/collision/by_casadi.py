@@ -11,8 +11,7 @@ import numpy as np
 
 from ..engines.casadi.integrators import Tolerance, tolerance_for
 from ..engines.casadi.locate import EventSequence, locate
-from ..engines.casadi.replay import Replay, Stopped, as_located
-from ..engines.casadi.replay import replay as _replay
+from ..engines.casadi.replay import Replay, Stopped, as_located, replay
 from ..engines.settings import Budget, casadi_steps
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups
@@ -37,9 +36,9 @@ def by_casadi(
     plugin: str,
     ledger: bool,
     trajectory: bool,
-    find: Callable[[Model, dict[str, float], float, tuple[str, ...]], EventSequence] = locate,
+    find: Callable[..., EventSequence] = locate,
     control: Callable[[float, str, dict[str, float]], Tolerance] = tolerance_for,
-    replay: Callable[..., Replay] = _replay,
+    replay: Callable[..., Replay] = replay,
     until: float | None = None,
     budget: Budget | None = None,
 ) -> Collision:
@@ -58,13 +57,8 @@ def by_casadi(
         budget: of all these integrations; None for that of `settings`.
     """
     budget = budget or Budget(casadi_steps(rtol))
-    again = find
-    if find is locate:
-        find, again = (
-            partial(locate, until=0.0 if until is None else until / n.time, budget=each)
-            for each in (budget, Budget(budget.most))
-        )
-    replay = partial(_replay, budget=budget) if replay is _replay else replay
+    if until is not None:
+        find = partial(find, until=until / n.time)
     small, choice = (select_model(scene, n.oblique, full, fold=True) for full in (False, ledger or trajectory))
     model, used = load(choice), rtol
     flow, p = Flow(choice, Region(1, 1, False), _quadratures(model, ledger)), model.group_values(n.groups)
@@ -75,8 +69,8 @@ def by_casadi(
         while replayed is None:
             tolerance = looser or control(used, plugin, n.groups)
             try:
-                path = path or find(load(small), n.groups, used, ())
-                replayed = replay(path, plugin, tolerance, flow, model.start(p))
+                path = path or find(load(small), n.groups, used, (), budget=budget)
+                replayed = replay(path, plugin, tolerance, flow, model.start(p), budget)
                 continue
             except Stopped as stopped:
                 if not (stopped.missed or budget.is_spent) and (looser := tolerance.loosened(used)):
@@ -96,7 +90,7 @@ def by_casadi(
                     raise
                 failure = error
             try:
-                path, used = again(model, n.groups, rtol, flow.extras), rtol
+                path, used = find(model, n.groups, rtol, flow.extras, budget=Budget(budget.most)), rtol
             except ComputationError:
                 raise failure from None
             replayed, plugin = as_located(path, choice), "rosenbrock"

@@ -44,11 +44,15 @@ def _one(request: Batch, k: int, machine_code: bool) -> dict[str, Any]:
     located = plugin == "rosenbrock" and not ledger and "steps" not in request.of
     budget = Budget(casadi_steps(request.rtol, spent=KERNEL_STEPS if request.engine == "taylor" else 0))
 
-    def find(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
+    def find(
+        model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...], budget: Budget
+    ) -> EventSequence:
         turns = located and "rotation" in request.of and model.has("turning_rate") and not model.strings
         return locate(model, groups, rtol, ("rotation",) if turns else extras, located and machine_code, 0.0, budget)
 
-    def kept(path: EventSequence, plugin: str, tolerance: Tolerance, flow: Flow, start: np.ndarray) -> Replay:
+    def kept(
+        path: EventSequence, plugin: str, tolerance: Tolerance, flow: Flow, start: np.ndarray, budget: Budget
+    ) -> Replay:
         if not located:
             return replay(path, plugin, tolerance, flow, start, budget)
         replayed = as_located(path, flow.choice)

@@ -171,7 +171,8 @@ class EventLocator:
         self._follow()
         if not path.separated and path.steps[-1].event is None and path.time < self.until:
             proved, path.decided, self.deadline = path.certified, path.time, self.until
-            self.proof, self.watch, self.budget.spent = NoCertificate(), replace(self.watch, certificate=None), 0
+            self.proof, self.watch = NoCertificate(), replace(self.watch, certificate=None)
+            self.budget = Budget(self.budget.most)
             self._follow()
             if path.separated:
                 word = "proved" if proved else "decided, not proved,"

@@ -49,8 +49,10 @@ class LocatedTrajectories:
         """Clear the cache for a new case."""
         self._known.clear()
 
-    def find(self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
-        """The located trajectory, as `locate` returns it."""
+    def find(
+        self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...], **_: object
+    ) -> EventSequence:
+        """The located trajectory, as `locate` returns it with a budget of its own."""
         return self.locator(model, groups, rtol, extras).path
 
     def locator(

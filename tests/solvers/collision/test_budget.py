@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, collide, collide_pair
+from wetdoublet.solvers import ComputationError, Scene, collide, collide_many, collide_pair
 from wetdoublet.solvers.collision.by_casadi import by_casadi
 from wetdoublet.solvers.engines.casadi.integrators import Locator, Plain
 from wetdoublet.solvers.engines.choice import available_engines
@@ -179,3 +179,11 @@ def test_a_replay_without_steps_loses_no_outcome(rebounds: Scene, engine: str) -
     found = collide(scene, engine=engine)
     assert (found.outcome, found.certified) == ("stick", True)
     assert len(found.events) > 300
+
+
+def test_a_batch_loses_no_outcome_for_what_else_it_shows(rebounds: Scene) -> None:
+    """With a term of the ledger the trajectory has to be replayed; the outcome is that of the location."""
+    found = collide_many(
+        rebounds.with_entries({"impact.stokes": 2.81}), engine="rosenbrock", of=("restitution", "energy.capillary")
+    )
+    assert found.outcome.values.tolist() == [0]

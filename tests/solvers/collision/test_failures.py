@@ -73,14 +73,16 @@ def soon(rtol: float, engine: str, groups: Mapping[str, float]) -> Tolerance:
     return replace(tolerance_for(rtol, engine, groups), steps=3)
 
 
-def lost(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
+def lost(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...], **_: Any) -> EventSequence:
     """A trajectory whose locators give up so soon."""
     trajectory = EventLocator(model, groups, rtol, extras)
     trajectory.tolerance = replace(trajectory.tolerance, steps=3)
     return trajectory.run()
 
 
-def found_alone(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> EventSequence:
+def found_alone(
+    model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...], **_: Any
+) -> EventSequence:
     """One whose locators do so where they carry something along, as where they are the last resort."""
     return (lost if extras else locate)(model, groups, rtol, extras)
 
@@ -141,7 +143,7 @@ def test_nothing_extra_is_integrated() -> None:
     n = nondimensionalise(scene, *scene.need_impact())
     flows: list[Flow] = []
 
-    def seen(path: EventSequence, plugin: str, tolerance: Tolerance, flow: Flow, start: np.ndarray) -> Replay:
+    def seen(path: EventSequence, plugin: str, tolerance: Tolerance, flow: Flow, start: np.ndarray, *_: Any) -> Replay:
         flows.append(flow)
         return replay(path, plugin, tolerance, flow, start)
 

@@ -289,7 +289,7 @@ def test_no_tolerance_is_tried_twice() -> None:
     """Where an engine never meets its events: 100 times tighter down to 1e-13, then the trajectory that is located."""
     asked: list[tuple[float, bool]] = []
 
-    def find(model: Any, groups: dict[str, float], rtol: float, extras: tuple[str, ...]) -> Any:
+    def find(model: Any, groups: dict[str, float], rtol: float, extras: tuple[str, ...], **_: Any) -> Any:
         asked.append((rtol, bool(extras)))
         return locate(model, groups, rtol, extras)
 
