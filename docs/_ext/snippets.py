@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[2]
 MADE = ("_build", "_emitted", "auto_gallery", "api", "laws")
 SET_UP = re.compile(
     r"^\s*(python3 -m venv|source |test -d|\.venv/bin/pip|pip install|"
-    r"(\.venv/bin/)?python -m (pip|pytest|sphinx|tests))"
+    r"(\.venv/bin/)?python -m (pip|pytest|sphinx|tests)|asv )"
 )
 """What sets up an environment, or measures for minutes, is run by the integration script or by hand."""
 LONG = re.compile(r"wetdoublet (reproduce|bench|verify|boundary \S+ --angle 0:85 )|--stress|--compare|:10000 ")
