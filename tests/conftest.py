@@ -1,6 +1,7 @@
 """Settings, and shared data: the public reference collisions and boundaries, copied into the repository."""
 
 import os
+import signal
 from typing import Any
 
 import pytest
@@ -11,6 +12,9 @@ from .helpers.data import BOUNDARIES, COLLISIONS
 # Some 250 kernels are compiled with little optimization: the same results but for rounding. What users get is compiled
 # by `test_kernel.py`, which integrates every reference collision.
 os.environ.setdefault("WETDOUBLET_CFLAGS", "-O1 -fno-unroll-loops -fno-expensive-optimizations -fno-tree-pre -fno-gcse")
+
+# a shell starts what runs in the background with Ctrl-C ignored, and processes inherit that
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # no test depends on how fast the machine is
 settings.register_profile("unhurried", deadline=None, suppress_health_check=[HealthCheck.too_slow])

@@ -45,7 +45,8 @@ def plain(value: float | None, unit: str = "") -> str:
     if value is None:
         return "-"
     text = f"{value:.4g}"
-    return f"{float(text):.0f} {unit}".rstrip() if 1e4 <= abs(value) < 1e7 else f"{text} {unit}".rstrip()
+    rounded = float(text)
+    return f"{rounded:.0f} {unit}".rstrip() if 1e4 <= abs(rounded) < 1e7 else f"{text} {unit}".rstrip()
 
 
 def degrees(value: float | None) -> str:

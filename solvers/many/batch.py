@@ -19,7 +19,7 @@ from ..model.validity import NEEDS
 from ..scene.held import HOLDS, held_quantity, held_text, impact_quantity, impact_value
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, Field, unknown_entry
+from ..scene.schema import FIELDS, LEAST_ANGLE, MEETING, SPEEDS, SPINS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
 from .results import MAPPED, VALIDITY
@@ -131,6 +131,7 @@ def batch(
 ) -> Batch:
     """A Batch of checked columns of one length, by dotted name; arguments as of `Batch`."""
     angle, stokes = columns.pop("impact.angle"), columns.pop("impact.stokes", None)
+    angle = np.where(angle < LEAST_ANGLE, 0.0, angle)
     relative = columns.pop("impact.relative_speed", None)
     speed = columns.pop("impact.speed", None) if relative is None else normal_speed(relative, angle)
     vary = {name: column for name, column in columns.items() if column.dtype.kind == "f"}

@@ -16,7 +16,7 @@ from . import scenefile
 from .groups import System
 from .held import adjusted_impact, held_quantity, impact_quantity
 from .quantities import SHADOW, Ways, coating_fraction
-from .schema import FIELDS, SPEEDS, TABLES, Field, Raw
+from .schema import FIELDS, LEAST_ANGLE, SPEEDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Pendulum
 from .user_model import Package, fields
 from .user_model_source import open_package
@@ -322,14 +322,14 @@ class Scene(System):
         return result
 
     def need_impact(self) -> tuple[float, float]:
-        """Return (normal speed in m/s, angle in rad); InputError if the scene does not give both."""
+        """Return (normal speed in m/s, angle in rad or 0 below LEAST_ANGLE); InputError if the scene lacks one."""
         if self.speed is None and self.impact.relative_speed is None:
             accepted = 'stokes = 0.03 or speed = "0.54 m/s" in [impact], or --stokes, --speed, --relative-speed'
             raise InputError("impact.stokes", None, accepted)
         if self.angle is None:
             raise InputError("impact.angle", None, 'angle = "60 deg" in [impact], or --angle "60 deg"')
         assert self.speed is not None  # a relative speed has its normal component, now that there is an angle
-        return self.speed, self.angle
+        return self.speed, self.angle if self.angle >= LEAST_ANGLE else 0.0
 
 
 @lru_cache(maxsize=32)

@@ -42,6 +42,7 @@ FRACTION = Range("from 0 to 1", 0.0, 1.0, low_open=False, high_open=False)
 POISSON = Range("> -1 and <= 0.5", -1.0, 0.5, high_open=False)
 ANY = Range("of either sign")
 IMPACT_ANGLE = Range(">= 0 deg and < 90 deg", 0.0, math.pi / 2, low_open=False)
+LEAST_ANGLE = 1e-200  # rad; an impact at a smaller one is head-on: its rotation rate may underflow
 WETTING_ANGLE = Range("from 0 deg to 90 deg", 0.0, math.pi / 2, low_open=False, high_open=False)
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
-from wetdoublet.solvers import Scene
+from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.errors import ComputationError
 
 from ...helpers.reference import collide
@@ -204,3 +204,13 @@ def test_small_angles_join_head_on() -> None:
     assert (head_on.tangential_restitution, head_on.rotation, head_on.centrifugal) == (None, 0.0, 0.0)
     assert nearly.tangential_restitution is not None
     assert np.isfinite(nearly.tangential_restitution)
+
+
+@pytest.mark.parametrize("angle", [5e-324, 1e-300])
+def test_an_angle_whose_rotation_rate_underflows_is_head_on(angle: float) -> None:
+    """At the smallest positive numbers, too, alone and in a batch."""
+    alone = [collide("granulation", stokes=stokes, angle=angle) for stokes in (0.01, 3.0)]
+    batch = collide_many("granulation", stokes=[0.01, 3.0], angle=angle)
+    head_on = collide_many("granulation", stokes=[0.01, 3.0], angle=0.0)
+    assert [one.restitution for one in alone] == pytest.approx(head_on.restitution.values, rel=1e-9)
+    assert batch.restitution.values.tolist() == head_on.restitution.values.tolist()

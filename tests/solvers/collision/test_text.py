@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.collision.outcome import Event
-from wetdoublet.solvers.collision.text import name_of, prefix, quantity, table
+from wetdoublet.solvers.collision.text import name_of, plain, prefix, quantity, table
 
 from ...helpers.reference import collide
 
@@ -204,3 +204,9 @@ def test_spins_before_and_after(collisions):
     assert "200000 rad/s" in lines[first] and "-50000 rad/s" in lines[first + 1]
     assert lines[first + 1].endswith("its partner") and lines[last + 1].endswith("its partner")
     assert "initial spin" not in table(collisions["head-on"])
+
+
+@pytest.mark.parametrize(("value", "text"), [(9999.6, "10000 m"), (9999.4, "9999 m"), (9999999.0, "1e+07 m")])
+def test_numbers_are_rounded_before_their_form_is_chosen(value: float, text: str) -> None:
+    """No exponent below 1e7, for a number that four digits round up to 10000 either."""
+    assert plain(value, "m") == text
