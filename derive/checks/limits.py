@@ -71,7 +71,7 @@ def mirror() -> Evidence:
 
 
 _EQUAL = Structure(oblique=True, bridge=True, strings=False)
-_COVERED = tuple(
+_WITH_A_POTENTIAL = tuple(
     replace(_EQUAL, bridge=not attraction, attraction=attraction, partner=partner)
     for attraction in (False, True)
     for partner in (_EQUAL.partner, "pair")
@@ -79,18 +79,18 @@ _COVERED = tuple(
 
 
 @check("floating", "beyond the shear: dJ/dt = 0, du/dt = -inward(x, J) - drag(x) u/St")
-def floating_doublets() -> Evidence:
+def without_shear_energy_only_falls() -> Evidence:
     """Without shear J is constant, and what remains of the motion is a fixed potential and a drag proportional to u.
 
-    So u^2/2 and the work against the inward force, of gap and J alone, only decrease.
+    So u^2/2 plus the potential of the inward force, which depends on the gap and J alone, only decreases.
     """
-    laws_of_gap = True
-    for structure in _COVERED:
+    of_gap_and_J = True
+    for structure in _WITH_A_POTENTIAL:
         model = derive(structure)
         rates = {state: rate.subs(SHEAR, 0) for state, rate in model.by_state("right_hand_side", SIZES).items()}
         inward = model.expanded(model["inward_force"]["inward_force"], SIZES)
         drag = -(rates[q.normal_velocity] + inward)
         yield from (rates[q.gap] - q.normal_velocity, rates[q.orbital_momentum], drag.subs(FILM, 0))
         yield from ((drag / (FILM * q.normal_velocity)).diff(q.normal_velocity), drag.diff(q.stokes) * q.stokes + drag)
-        laws_of_gap &= not inward.free_symbols & (set(model.states) - {q.gap, q.orbital_momentum})
-    yield laws_of_gap, "inward depends on another state"
+        of_gap_and_J &= not inward.free_symbols & (set(model.states) - {q.gap, q.orbital_momentum})
+    yield of_gap_and_J, "inward depends on another state"

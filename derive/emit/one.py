@@ -78,7 +78,7 @@ def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: 
     groups = {group.symbol for group in user_model.groups}
     law = next((each for each in user_model.laws if (each.slot, each.name) == (slot, name)), None)
     if law is None:
-        law, beside = _wide(LAWS[slot][name], user_model)
+        law, beside = _with_ignored_arguments(LAWS[slot][name], user_model)
         groups |= beside
     return _or_error(lambda: header(law, groups), f"law {slot} {name}: ")
 
@@ -90,19 +90,17 @@ def user_automaton_texts(source: str, model: str) -> tuple[str, str]:
     return automaton_header(provenance(), rows, meanings), effects_header(provenance(), rows)
 
 
-def _wide(law: Law, model: UserModel) -> tuple[Law, set[sp.Symbol]]:
-    """A law of the library that ignores a model's additional arguments, and the constant ones among these."""
-    still: set[sp.Symbol] = set()
+def _with_ignored_arguments(law: Law, model: UserModel) -> tuple[Law, set[sp.Symbol]]:
+    """A library law that takes and ignores a model's additional arguments; those of them that stay constant."""
+    constant_extras: set[sp.Symbol] = set()
+    varying = {normal_velocity, *(event.mark for event in model.events)}
     functions = []
     for each in law.functions:
-        passed = model.extra.get(f"{law.slot}.{each.name}", ())
-        marks = {event.mark for event in model.events}
-        unused = tuple(sp.Symbol(f"{UNUSED}{symbol.name}", real=True) for symbol in passed)
-        still |= {
-            dummy for dummy, symbol in zip(unused, passed, strict=True) if symbol not in {normal_velocity, *marks}
-        }
+        extra = model.extra.get(f"{law.slot}.{each.name}", ())
+        unused = tuple(sp.Symbol(f"{UNUSED}{symbol.name}", real=True) for symbol in extra)
+        constant_extras |= {dummy for dummy, symbol in zip(unused, extra, strict=True) if symbol not in varying}
         functions.append(replace(each, arguments=(*each.arguments, *unused)))
-    return replace(law, functions=tuple(functions)), still
+    return replace(law, functions=tuple(functions)), constant_extras
 
 
 def _or_error(text: Callable[[], str], where: str = "") -> str:

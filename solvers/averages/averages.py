@@ -128,9 +128,9 @@ class _Request:
     def symmetric(self) -> bool:
         """True if an exchange of the two spheres changes no result."""
         spins = self.scene.impact.spin, self.scene.impact.partner_spin
-        same = spins[1] is None or spins[0] == spins[1]
+        equal_spins = spins[1] is None or spins[0] == spins[1]
         of_one_sphere = any(name in _OF_ONE or name.startswith("partner.") for name in self.wrt)
-        return len(self.shape) == 2 and self.scene.partner is None and same and not of_one_sphere
+        return len(self.shape) == 2 and self.scene.partner is None and equal_spins and not of_one_sphere
 
     def scene_of(self, index: tuple[int, ...]) -> Scene:
         """The scene of a pair; InputError if it is impossible."""

@@ -117,7 +117,7 @@ class Plane:
                 where = np.flatnonzero(sound)
                 outcome[where] = np.where(answers["status"] <= LAST_ANSWER, answers["outcome"], -1)
                 reversal[where] = answers["reversal"]
-        left = np.flatnonzero(outcome < 0) if not self.kernel else _middles(outcome < 0)[:most]
+        left = np.flatnonzero(outcome < 0) if not self.kernel else _middles_of_long_runs(outcome < 0)[:most]
         if left.size:
             outcome[left] = run(request.part(left), True)["outcome"]
         return outcome, reversal
@@ -153,8 +153,8 @@ class Plane:
         )
 
 
-def _middles(unknown: np.ndarray) -> np.ndarray:
-    """The middle of each long run of unknown points; a run of all points counts as long."""
+def _middles_of_long_runs(unknown: np.ndarray) -> np.ndarray:
+    """The middle of each long run of unknown points; of fewer points than a long run has, a run of all counts."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], unknown, [False]]).astype(int)))
     runs = edges.reshape(-1, 2)
     long = runs[runs[:, 1] - runs[:, 0] >= min(_RUN, unknown.size)]

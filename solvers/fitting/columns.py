@@ -37,15 +37,15 @@ def columns_of(source: Any, label: str) -> tuple[list[Column], list[int]]:
             if name in source.coords and np.array_equal(source[name].values, np.arange(source.sizes[name])):
                 del units[str(name)]  # it numbers the rows
         cells = {str(name): frame[name].tolist() for name in frame.columns if str(name) in units}
-        return _named(cells, label, {name: unit for name, unit in units.items() if isinstance(unit, str)})
+        return _columns(cells, label, {name: unit for name, unit in units.items() if isinstance(unit, str)})
     if isinstance(source, Mapping):
-        return _named({str(name): _listed(each, f"{label}, column {name}") for name, each in source.items()}, label)
+        return _columns({str(name): _listed(each, f"{label}, column {name}") for name, each in source.items()}, label)
     if hasattr(source, "columns") and hasattr(source, "iloc"):  # pandas
         if not source.columns.is_unique:
             name = source.columns[source.columns.duplicated()][0]
             raise InputError(f"{label}, header", str(name), "each column once", "is given twice")
         known = source.astype(object).where(source.notna(), None)  # pandas has several kinds of missing cells
-        return _named({str(name): known[name].tolist() for name in known.columns}, label)
+        return _columns({str(name): known[name].tolist() for name in known.columns}, label)
     if isinstance(source, (str, Path)):
         return _from_csv(source, label)
     accepted = "a CSV file, a DataFrame, a Dataset, or a mapping of columns"
@@ -59,10 +59,10 @@ def _listed(values: Any, label: str) -> list[Any]:
     raise InputError(label, values, "a list or a 1-D array", "is not a column")
 
 
-def _named(
+def _columns(
     cells: Mapping[str, list[Any]], label: str, units: Mapping[str, str] | None = None
 ) -> tuple[list[Column], list[int]]:
-    """Columns of cells; the units of their names are those of `units`, where it has them."""
+    """Columns of cells; `units` overrides the unit in brackets behind a name."""
     lengths = {name: len(values) for name, values in cells.items()}
     if len(set(lengths.values())) > 1:
         name, length = max(lengths.items(), key=lambda item: item[1])

@@ -39,7 +39,7 @@ class Limit:
     least: float = -math.inf
     most: float = math.inf
 
-    def passed(self, number: Any) -> Any:
+    def exceeded(self, number: Any) -> Any:
         """Where the number lies outside."""
         above = np.greater(number, self.most + abs(self.most) * _ROUNDING if math.isfinite(self.most) else self.most)
         below = np.less(number, self.least - abs(self.least) * _ROUNDING if math.isfinite(self.least) else self.least)
@@ -229,7 +229,7 @@ def sentences(scene: Scene, speed: float, angle: float, outcome: str, results: M
     result = []
     for limit in LIMITS:
         number = float(limit.number(scene, values))
-        if limit.passed(number):
+        if limit.exceeded(number):
             result.append(limit.says(number))
     return [*result, *remarks(scene)]
 
@@ -244,14 +244,14 @@ def sentences_of_many(scene: Scene, values: Values) -> list[str]:
     with np.errstate(all="ignore"):
         for limit in LIMITS:
             numbers = np.atleast_1d(np.asarray(limit.number(scene, values), float))
-            outside = numbers[limit.passed(numbers)]
+            outside = numbers[limit.exceeded(numbers)]
             if outside.size:
                 result.append(limit.says(float(outside.max() if math.isfinite(limit.most) else outside.min())))
     return [*result, *remarks(scene)]
 
 
 def flags(scene: Scene, values: Values, size: int) -> np.ndarray:
-    """A bit for each of `FLAGS` that a collision has passed, for arrays of quantities and results of one size.
+    """A bit for each of `FLAGS` that a collision has exceeded, for arrays of quantities and results of one size.
 
     Arguments:
         scene: has the partner, the bridge and the laws; its numbers are those of `values`.
@@ -259,9 +259,9 @@ def flags(scene: Scene, values: Values, size: int) -> np.ndarray:
     bits = np.zeros(size, dtype=np.int16)
     with np.errstate(all="ignore"):
         for bit, limit in enumerate(LIMITS):
-            bits |= np.where(limit.passed(limit.number(scene, values)), 1 << bit, 0).astype(np.int16)
+            bits |= np.where(limit.exceeded(limit.number(scene, values)), 1 << bit, 0).astype(np.int16)
         for limit in _law_limits(scene):
-            outside = limit.passed(limit.number(scene, values))
+            outside = limit.exceeded(limit.number(scene, values))
             bits |= np.where(outside, 1 << FLAGS.index(LAW_RANGE), 0).astype(np.int16)
     return bits
 
@@ -276,7 +276,7 @@ def flag_attributes() -> dict[str, Any]:
 
 
 def counted(mask: np.ndarray) -> list[tuple[str, int]]:
-    """How many collisions have passed each limit, in words: those that any has."""
+    """How many collisions exceed each limit, in words: those that any has."""
     counts = [int(np.count_nonzero(mask & (1 << bit))) for bit in range(len(FLAGS))]
     return [(_WORDS.get(flag, flag), count) for flag, count in zip(FLAGS, counts, strict=True) if count]
 
@@ -303,7 +303,7 @@ def remarks(scene: Scene) -> tuple[str, ...]:
     """What of the scene lies outside the range its laws were made for, a sentence each."""
     values = si_values(scene, None, None)
     numbers = [(limit, float(limit.number(scene, values))) for limit in _law_limits(scene)]
-    return tuple(limit.says(number) for limit, number in numbers if limit.passed(number))
+    return tuple(limit.says(number) for limit, number in numbers if limit.exceeded(number))
 
 
 def _law_limits(scene: Scene) -> list[Limit]:

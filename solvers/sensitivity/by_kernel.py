@@ -167,7 +167,7 @@ class _Scales:
     """SI scales of results: values and logarithmic derivatives.
 
     Arguments:
-        falls: -d ln(normal speed)/d ln(angle) at fixed relative speed; None where the normal speed is held.
+        angle_slope: -d ln(normal speed)/d ln(angle) at fixed relative speed; None where the normal speed is held.
     """
 
     def __init__(
@@ -176,19 +176,19 @@ class _Scales:
         impacts: Impacts,
         slopes: Mapping[str, np.ndarray],
         wrt: tuple[str, ...],
-        falls: np.ndarray | None,
+        angle_slope: np.ndarray | None,
     ) -> None:
         speed, angle = impacts.speed, impacts.angle
-        angle_bit = ANGLE if angle[0] > 0 else 0.0
-        n = nondimensionalise(scene, SPEED, angle_bit)
-        pace = speed / SPEED
+        reference_angle = ANGLE if angle[0] > 0 else 0.0
+        n = nondimensionalise(scene, SPEED, reference_angle)
+        speed_ratio = speed / SPEED
         rates = rate_scales(scene, {**scene.material, "speed": speed, "angle": angle})
-        self._values = {"length": n.length * pace**0, "time": n.time / pace, "rate": rates}
-        first = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
-        self._relative = {name: np.tile(slopes[name] / first[name], (speed.size, 1)) for name in first}
-        if falls is not None and "impact.angle" in wrt:
+        self._values = {"length": np.full_like(speed, n.length), "time": n.time / speed_ratio, "rate": rates}
+        reference = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
+        self._relative = {name: np.tile(slopes[name] / reference[name], (speed.size, 1)) for name in reference}
+        if angle_slope is not None and "impact.angle" in wrt:
             k = wrt.index("impact.angle")
-            self._relative["time"][:, k], self._relative["rate"][:, k] = falls, -falls
+            self._relative["time"][:, k], self._relative["rate"][:, k] = angle_slope, -angle_slope
 
     def of(self, name: str) -> tuple[np.ndarray, np.ndarray]:
         """The scale (collisions,) and the derivatives of its logarithm (collisions, parameters)."""

@@ -97,7 +97,7 @@ def pair_gradients(
             reason[k] = refused[k]
             continue
         try:
-            outcome[k], results = _one(request, pairs.part(np.array([k])), rtol)
+            outcome[k], results = _of_one_pair(request, pairs.part(np.array([k])), rtol)
         except WetDoubletError as error:
             reason[k] = str(error)
             continue
@@ -151,7 +151,7 @@ class _Request:
         return cls(scene, entries, tuple(labels), (*entries, *labels.values()))
 
 
-def _one(request: _Request, pair: Pairs, rtol: float) -> tuple[int, tuple[np.ndarray, np.ndarray] | None]:
+def _of_one_pair(request: _Request, pair: Pairs, rtol: float) -> tuple[int, tuple[np.ndarray, np.ndarray] | None]:
     """Outcome of one pair; its results and their derivatives (results, parameters), None if it sticks.
 
     Raises:
@@ -167,17 +167,17 @@ def _one(request: _Request, pair: Pairs, rtol: float) -> tuple[int, tuple[np.nda
     mapping = parameter_map(kind, (*request.entries, "impact.speed"), names)
     reference = references(scene, kind, v0, 0.0)
     by_theta, units = (each.full() for each in mapping.slopes(reference))
-    g = np.append(mapping.values(reference).full().ravel()[: len(names) + 1], v0)  # and the film's thickness, v0
+    g = np.append(mapping.values(reference).full().ravel()[: len(names) + 1], v0)  # quantities, film thickness, v0
     n, axes = _scaled(pair)
     scale = n.groups["obliquity"]
-    # columns of order one: entries in theta, inputs over what is typical of each
+    # columns of order one: entries by their parameters theta, components over a typical size of each
     count = len(request.entries)
     typical = np.concatenate([np.ones(3), np.full(6, v0), np.full(6, v0 / float(scene.material["reduced_radius"]))])
-    sizes = np.append(units.ravel()[:count], typical[list(request.components)])
-    dx = np.zeros((x.size, sizes.size))
-    dx[list(request.components), range(count, sizes.size)] = typical[list(request.components)]
+    column_scales = np.append(units.ravel()[:count], typical[list(request.components)])
+    dx = np.zeros((x.size, column_scales.size))
+    dx[list(request.components), range(count, column_scales.size)] = typical[list(request.components)]
     by_speed = d_speed @ dx
-    dg = np.zeros((g.size, sizes.size))
+    dg = np.zeros((g.size, column_scales.size))
     dg[:-1, :count] = by_theta[: len(names) + 1, :count]
     dg[:-1] += by_theta[: len(names) + 1, count:] / v0 * by_speed
     dg[-1:] = by_speed
@@ -205,8 +205,8 @@ def _one(request: _Request, pair: Pairs, rtol: float) -> tuple[int, tuple[np.nda
             f"rosenbrock could not differentiate the trajectory ({failure})", advice="try another rtol"
         ) from None
     value, *slopes = (each.full() for each in maps.results(end, p, g, x, axes, scale))
-    moved = slopes[0] @ (by_p @ dp) + slopes[1] @ dp + slopes[2] @ dg + slopes[3] @ dx
-    return outcome, (value.ravel(), moved / sizes)
+    derivatives = slopes[0] @ (by_p @ dp) + slopes[1] @ dp + slopes[2] @ dg + slopes[3] @ dx
+    return outcome, (value.ravel(), derivatives / column_scales)
 
 
 def _scaled(pair: Pairs) -> tuple[DimensionlessGroups, np.ndarray]:

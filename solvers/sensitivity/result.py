@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..scene.scene import Scene
     from .boundaries import BoundarySensitivities
 
-_OF_A_STICK = (
+_STICK_NOTES = (
     "a stick: its restitution is 0, and nothing else of it is defined, up to the boundary of sticking;",
     "that boundary and its sensitivities: `wetdoublet boundary SCENE --wrt NAMES`, or .boundary() in Python",
 )
@@ -143,8 +143,8 @@ class Sensitivities:
             "elasticity": (("quantity", "parameter"), array(self.elasticity)),
         }
         if self.hessian is not None:
-            bent = np.stack([array(rows) for rows in self.hessian.values()])
-            variables["hessian"] = (("quantity", "parameter", "with_respect_to"), bent)
+            hessian = np.stack([array(rows) for rows in self.hessian.values()])
+            variables["hessian"] = (("quantity", "parameter", "with_respect_to"), hessian)
         coordinates: dict[str, Any] = {
             "quantity": list(self.value),
             "parameter": list(self.parameters),
@@ -179,12 +179,12 @@ class Sensitivities:
         notes += [f"scene {self.scene.held}"] if self.scene.held else []
         rows = [row.values() for row in self.elasticity.values()]
         if any(value == 0 for row in rows for value in row):
-            notes.append("none: it has no influence here")
+            notes.append("none: the parameter has no influence here")
         if any(self._rounded(y, p) for y in names for p in self.parameters):
-            notes.append("~0: what rounding leaves of contributions that cancel")
+            notes.append("~0: contributions cancel but for rounding")
         notes += [f"nearest: {self.near}"] if self.near else []
-        notes += [*_OF_A_STICK] if self.outcome == STICK else []
-        return "\n\n".join([*blocks, *self._bent(), "\n".join(notes)])
+        notes += [*_STICK_NOTES] if self.outcome == STICK else []
+        return "\n\n".join([*blocks, *self._second_derivatives(), "\n".join(notes)])
 
     def _block(self, names: list[str]) -> str:
         largest = {p: max((abs(self.elasticity[y][p] or 0.0) for y in names), default=0.0) for p in self.parameters}
@@ -197,7 +197,7 @@ class Sensitivities:
         title = "elasticities d ln y/d ln p (* dy/dp where y or p is zero)"
         return "\n".join([*_aligned([head, units], widths), "", title, *_aligned(rows, widths)])
 
-    def _bent(self) -> list[str]:
+    def _second_derivatives(self) -> list[str]:
         """Tables of second derivatives, one per quantity, and of the Hessian times a vector, if requested."""
         names, tables = self.parameters, []
         for y, rows in (self.hessian or {}).items():
@@ -235,7 +235,7 @@ class Sensitivities:
         rows = [[p, *(self._cell(y, p) for y in self.value)] for p in self.parameters]
         title = f"{name_of(self.scene)}, {self.outcome}: elasticities d ln y/d ln p"
         near = [f"nearest: {self.near}"] if self.near else []
-        stick = [" ".join(_OF_A_STICK)] if self.outcome == STICK else []
+        stick = [" ".join(_STICK_NOTES)] if self.outcome == STICK else []
         return view(title, rows, head, ["* dy/dp where y or p is zero", *near, *stick])
 
     def plot(self, path: str | Path | None = None) -> Any:

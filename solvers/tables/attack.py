@@ -22,8 +22,8 @@ WITHIN = 1e-6  # relative distance of the impact at which the kernel has to agre
 _STEPS = WITHIN * np.array([1e-3, 1e-2, 0.03, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0])
 _BLOCK = 1 << 16
 _SURE = 0.3  # of the error: answers that are off by less are not held against collisions beside them
-_LOST = 1000  # wrong answers after which the rest need not be asked
-_KEPT = 40  # failures kept
+_GIVE_UP_AFTER = 1000  # wrong answers after which the rest need not be asked
+_MOST_FAILURES = 40  # failures kept
 _SHARES = np.linspace(0, 1, 17)
 
 
@@ -73,7 +73,7 @@ def attack(
         at = queries(data, min(_BLOCK, count - result.queries), random)
         answers = read(data, *at)
         labels, values = run(at)
-        wrong = _distance(answers.outcome, answers.values, known.of(labels), values)
+        wrong = _error(answers.outcome, answers.values, known.of(labels), values)
         doubtful = np.flatnonzero(~(wrong <= _SURE * error))
         result.direct += at.shape[1] - doubtful.size
         for first in range(0, doubtful.size, _BLOCK // 32):
@@ -83,7 +83,7 @@ def attack(
         _enter(result, data, at, wrong, error, answers.outcome, known.of(labels))
         result.queries += at.shape[1]
         tell(result.queries)
-        if result.failed > _LOST:
+        if result.failed > _GIVE_UP_AFTER:
             break
     return result
 
@@ -102,16 +102,16 @@ def _enter(
         attack.largest, attack.at = float(wrong[row]), tuple(impact(row).tolist())
     failed = np.flatnonzero(~(wrong <= error))
     attack.failed += failed.size
-    for k in failed[: max(0, _KEPT - len(attack.failures))].tolist():
+    for k in failed[: max(0, _MOST_FAILURES - len(attack.failures))].tolist():
         names = [OUTCOMES[one] if one >= 0 else "no answer" for one in (int(answers[k]), int(right[k]))]
         text = f"off by {wrong[k]:.2g}" if names[0] == names[1] else f"{names[0]}, where collisions give {names[1]}"
         attack.failures.append((impact(k), text))
 
 
-def _distance(outcome: np.ndarray, values: np.ndarray, right: np.ndarray, exact: np.ndarray) -> np.ndarray:
-    """Largest error of each answer, over magnitudes above 1; infinite for another outcome."""
+def _error(outcome: np.ndarray, values: np.ndarray, right: np.ndarray, exact: np.ndarray) -> np.ndarray:
+    """Largest error of each answer over its results, relative for magnitudes above 1; infinite for another outcome."""
     error = np.abs(values - exact) / np.maximum(1.0, np.abs(exact))
-    error = np.where(np.isnan(exact), 0.0, error)  # undefined: of a stick, or head-on, where the table has the limit
+    error = np.where(np.isnan(exact), 0.0, error)  # no value to compare with: a stick, or head-on
     error = error.max(axis=-1, initial=0.0)
     return np.where((outcome == right) & ~np.isnan(error), error, np.inf)
 
@@ -132,11 +132,11 @@ def _beside(
         labels, exact = run(moved.reshape(3, -1))
         labels, exact = labels.reshape(some.size, -1), exact.reshape(some.size, steps.size, -1)
         outcomes, answers = outcome[some, None], values[some, None, :]
-        best[some] = np.fmin(best[some], _distance(outcomes, answers, known.of(labels), exact).min(axis=1))
+        best[some] = np.fmin(best[some], _error(outcomes, answers, known.of(labels), exact).min(axis=1))
         joined = labels[:, 1:] == labels[:, :-1]
         for share in _SHARES[1:-1]:
             between = (1 - share) * exact[:, :-1] + share * exact[:, 1:]
-            error = np.where(joined, _distance(outcomes, answers, known.of(labels[:, 1:]), between), np.inf)
+            error = np.where(joined, _error(outcomes, answers, known.of(labels[:, 1:]), between), np.inf)
             best[some] = np.fmin(best[some], error.min(axis=1))
     return best
 

@@ -219,7 +219,7 @@ class Recurrences:
     Arguments:
         where: C text of a series that the program does not compute itself.
         local: for each of its own series, whether it is a local variable instead of a member of `s`.
-        passing: series used in sums only, stored at PASSING(k) for coefficient k.
+        passing: series whose coefficients are needed for the next sums only, stored at PASSING(k) for coefficient k.
     """
 
     def __init__(

@@ -67,9 +67,9 @@ def run_tangent(
     Arguments:
         moved: quantities to differentiate by; None: all.
         order: of the series; None: that of the tolerance.
-        backward: of the restitution alone, taken back along the trajectory: for the price of one direction.
-            Trajectories of more than some hundred steps are handed over.
-        fold: no quantity varies, so that a partner equal to the sphere stays so.
+        backward: of the restitution alone, by the adjoint, at about the cost of one direction.
+            Trajectories of more than some hundred steps are left to other engines.
+        fold: treat a pair of equal spheres as such; False where a quantity of one sphere alone varies.
     """
     order = order or (order_backward if backward else order_for)(min(rtol, LOOSEST))
     scene = impacts.scene

@@ -57,7 +57,7 @@ class Kernel:
         texts = files(self.variant, self._headers)
         # the C compiler decides on the lanes (`texts._LANES`), not this machine
         texts["settings.h"] = re.sub(r"^#define LANES .*\n", "", texts["settings.h"], flags=re.MULTILINE)
-        return texts | {"in_si.h": self._in_si()}
+        return texts | {"in_si.h": self._header_in_si()}
 
     @property
     def material(self) -> tuple[str, ...]:
@@ -76,7 +76,7 @@ class Kernel:
         """The kernel before it is merged with others."""
         return Source(self.prefix, self.generated_files, roots)
 
-    def _in_si(self) -> str:
+    def _header_in_si(self) -> str:
         lines = self._places() if self.prefix == SPACE else [*self._columns(), *self._show()]
         return "\n".join(
             [
@@ -86,7 +86,7 @@ class Kernel:
                 '#include "block.h"',
                 '#include "state.h"',
                 "",
-                "/* Largest number of steps of a collision, or of one call for a collision that is interrupted. */",
+                "/* Step limit of a collision, or of one call where a collision may be resumed. */",
                 f"enum {{ MOST_STEPS_TAKEN = {STEPS_IN_SPACE if self.prefix == SPACE else STEPS} }};",
                 "",
                 *lines,
