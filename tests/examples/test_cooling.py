@@ -86,6 +86,7 @@ def test_constant_restitution_cools_by_haffs_law(cooling, tmp_path: Path) -> Non
     )
 
 
+@pytest.mark.slow
 def test_a_wet_gas_keeps_its_momentum_and_loses_energy(cooling, tmp_path: Path) -> None:
     """Exported, compiled and run small: all three outcomes occur, and a doublet is no single sphere any more."""
     os.environ.setdefault("CC", shlex.join(compiler().command))

@@ -112,6 +112,7 @@ def test_the_probability_moves_with_the_boundary() -> None:
     )
 
 
+@pytest.mark.slow
 def test_derivatives_are_those_of_differences() -> None:
     """Of every mean of a gas, within the estimated errors and those of the differences."""
     entry = "liquid.viscosity"

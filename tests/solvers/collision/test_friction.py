@@ -116,6 +116,7 @@ def assert_the_kernel_agrees(expected: Collision, scene: Scene, **impact: Any) -
     assert found.restitution == pytest.approx(expected.restitution, rel=1e-7)
 
 
+@pytest.mark.slow
 def test_a_resting_doublet_on_strings_rolls_and_slides() -> None:
     """Both modes are met, by two integrators at the same times, and the ledger closes over them."""
     entries = {
@@ -133,6 +134,7 @@ def test_a_resting_doublet_on_strings_rolls_and_slides() -> None:
     assert_the_kernel_agrees(both[0], scene, stokes=20.0, angle="1 deg")
 
 
+@pytest.mark.slow
 def test_a_spinning_doublet_that_slides_at_rest_is_released() -> None:
     """Friction turns spin into rotation until the centrifugal force opens the gap; energy and L are kept account of."""
     entries = {
@@ -163,6 +165,7 @@ def test_where_chatter_is_cut_off_changes_no_more_than_the_tolerance(engine: str
     assert coarse.final_spin == pytest.approx(fine.final_spin, rel=1e-7)
 
 
+@pytest.mark.slow
 def test_a_doublet_that_rolls_at_rest_while_its_spins_equalise_sticks() -> None:
     """No force of release or of rolling changes there: signs of rounding in their slopes are no events."""
     entries = {
@@ -308,6 +311,7 @@ def test_a_doublet_at_rest_that_only_friction_turns_sticks_at_once(engine: str) 
     assert [event.kind for event in found.events] == ["glass", "rests"]
 
 
+@pytest.mark.slow
 def test_a_slide_that_begins_with_no_slip_is_followed() -> None:
     """Rounding of a slip that is zero ends no slide: one event, few steps, and the end is Rosenbrock's."""
     scene = Scene.from_dict(

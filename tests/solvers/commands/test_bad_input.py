@@ -341,6 +341,7 @@ def test_angles_are_degrees_on_the_command_line():
     assert speeds == entry_range(FIELDS["impact.speed"], "0.1 m/s:5:20", "--speed") and speeds[-1] == 5.0
 
 
+@pytest.mark.slow
 def test_a_home_that_cannot_be_written(tmp_path):
     """Matplotlib then works from a temporary folder, and standard error stays clean."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("XDG_", "MPL"))}

@@ -21,6 +21,7 @@ print(collide_many(scene, **impacts).engine, regime_map(scene, **impacts).engine
 
 
 @pytest.mark.skipif(compiler() is None, reason="no C compiler")
+@pytest.mark.slow
 def test_what_is_compiled_answers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """All kernels of a scene are compiled; a later process takes them for one collision, a batch and a map."""
     monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / "cache"))

@@ -101,6 +101,7 @@ def test_output_says_which_speed(name: str, scene: Path, tmp_path: Path) -> None
         check_picture(picture)
 
 
+@pytest.mark.slow
 def test_a_design_shows_the_speed_of_its_window(scene: Path) -> None:
     """Table, picture, JSON and CSV have the same relative speeds, at 60 deg twice the normal ones, and name them."""
     file, picture = scene.parent / "design.csv", scene.parent / "design.svg"

@@ -97,6 +97,7 @@ def test_the_command_shows_terms_and_what_they_do():
     assert ce[1] < ce[0]
 
 
+@pytest.mark.slow
 def test_folders_of_other_versions_are_compared(tmp_path: Path):
     """Two folders that `generate` made, one of them by other equations: the term is shown, nothing is computed."""
     for name in ("old", "new"):

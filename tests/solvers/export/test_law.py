@@ -57,6 +57,7 @@ def random_impacts(law: Law, count: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.slow
 def test_builds_and_checks(compiler: str, pendulum: Path, tmp_path: Path):
     """As strict C99 and as C++, in plain doubles and in lanes, without a warning; the test vectors agree."""
     if compiler not in FOUND:
@@ -99,6 +100,7 @@ def test_is_exported_without_a_compiler(scene: str, tmp_path: Path):
 
 @pytest.mark.parametrize("standard", ["c++11", "c++20"])
 @pytest.mark.parametrize("compiler", COMPILERS.values())
+@pytest.mark.slow
 def test_spheres_that_spin_are_cpp_in_lanes(compiler: str, standard: str, granulation: Path):
     """A law with a bridge and spins is C++ in vector lanes as well, to either compiler and by either standard."""
     if shutil.which(compiler) is None:
@@ -227,6 +229,7 @@ def test_no_name_of_a_scene_is_one_within_the_law(pendulum: Path, granulation: P
 
 
 @NEED
+@pytest.mark.slow
 def test_under_the_sanitizers(pendulum: Path, tmp_path: Path):
     """The test vectors, side by side in two lanes, read and write nothing they should not, and nothing is undefined."""
     flags = ["-std=c99", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-DPENDULUM_LANES=2"]

@@ -99,6 +99,7 @@ def test_a_sphere_and_a_wall_are_those_of_collide_pair(walled: Law):
     agree(walled, WALL, 60)
 
 
+@pytest.mark.slow
 def test_spheres_that_rub_are_those_of_collide_pair(tmp_path: Path):
     """With Coulomb friction at every rebound, which changes the spins across the plane of approach as well."""
     rough = {"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5}
@@ -233,6 +234,7 @@ def test_particles_are_moved_in_place(law: Law):
     assert both.tobytes() == before.tobytes()
 
 
+@pytest.mark.slow
 def test_in_cpp_and_plain_doubles(folder: Path, tmp_path: Path):
     """The folder's own check, as C++ without vector registers, agrees with the pairs computed when it was exported."""
     sources = [str(folder / "check.c"), str(folder / "granulation.c")]

@@ -60,6 +60,7 @@ def test_gradient_vanishes_at_the_estimates(pendulum):
     assert abs(gradient[VISCOSITY] * 14) < 2.0  # of a curvature of some thousand
 
 
+@pytest.mark.slow
 def test_what_it_writes(pendulum, tmp_path):
     """The scene that is written has the estimates, the intervals as comments; the report names every entry."""
     found, _ = pendulum
@@ -72,6 +73,7 @@ def test_what_it_writes(pendulum, tmp_path):
     assert all(name in files[0].read_text() for name in found.estimates)
 
 
+@pytest.mark.slow
 def test_drawn_profiles_cross_the_ends_of_the_intervals(pendulum):
     """In the picture the profile of the likelihood is 1.92 below its maximum where the interval ends."""
     found, _ = pendulum
@@ -245,6 +247,7 @@ def test_one_stick_bounds_and_does_not_identify():
     assert prior.estimates[VISCOSITY].verdict == IDENTIFIED
 
 
+@pytest.mark.slow
 def test_a_profile_that_flattens_just_below_its_drop_is_open():
     """Elastic rebounds of thin liquid tell no lower end: from 1e-2 of the estimate on, its profile stays below 1.92."""
     seen = {

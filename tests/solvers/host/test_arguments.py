@@ -132,6 +132,7 @@ def test_a_scene_of_wrong_parts(method):
         assert "\n" not in line and len(line) < 1500
 
 
+@pytest.mark.slow
 def test_quantities_are_converted(registry):
     """Values that carry a unit, pint's or xarray's, are read in it, wherever numbers are taken."""
     speed, angle = registry.Quantity(54, "cm/s"), registry.Quantity(60, "deg")

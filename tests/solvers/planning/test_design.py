@@ -75,6 +75,7 @@ def test_another_entry_is_not_left_open() -> None:
     assert both.information[0, 0, 0] > 0.8 * alone.information[0, 0, 0]
 
 
+@pytest.mark.slow
 def test_what_impacts_tell_in_combination_only_is_open() -> None:
     """Without a criterion of rebound beside roughness, viscosity and film make one group; a prior on one parts them."""
     scene = Scene.from_toml(POLYMER)
@@ -87,6 +88,7 @@ def test_what_impacts_tell_in_combination_only_is_open() -> None:
     assert None not in (closed.expected[FREE[0]].low, closed.expected[FREE[0]].high)
 
 
+@pytest.mark.slow
 def test_a_design_beats_random_ones(found: Design) -> None:
     """The determinant of its information is larger than that of any of 20 random designs in the window."""
     scene = Scene.load("granulation")

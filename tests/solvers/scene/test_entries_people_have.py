@@ -111,6 +111,7 @@ VARIED = {  # scenes, and their entries whose derivatives are looked at
 
 
 @pytest.mark.parametrize(("beside", "volume"), VARIED)
+@pytest.mark.slow
 def test_each_entry_varies_alone(beside, volume):
     """Derivatives by an entry are central differences of scenes, and of batches, that differ in it alone."""
     said = scene(PEOPLE, BESIDE[beside][0], {"bridge.volume": volume})
