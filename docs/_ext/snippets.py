@@ -15,7 +15,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -25,8 +24,8 @@ SET_UP = re.compile(
     r"(\.venv/bin/)?python -m (pip|pytest|sphinx|tests)|asv )"
 )
 """What sets up an environment, or measures for minutes, is run by the integration script or by hand."""
-LONG = re.compile(r"wetdoublet (reproduce|bench|verify|boundary \S+ --angle 0:85 )|--stress|--compare|:10000 ")
-"""Commands that take tens of seconds: `tests/test_docs.py` holds their options, tests of their own what they do."""
+LONG = re.compile(r"wetdoublet (reproduce|bench|verify|boundary \S+ --angle 0:85 )|--stress|--compare|:10000 |--error 1e-")
+"""Commands that take tens of seconds, tables among them: `tests/test_docs.py` holds their options, tests of their own what they do."""
 
 
 def pages() -> list[Path]:
@@ -102,11 +101,9 @@ def _one(page: Path, line: str, folder: str, environment: dict[str, str]) -> lis
 
 
 def main() -> None:
-    """Run all pages, two at a time."""
+    """Run all pages."""
     chosen = [Path(name).resolve() for name in sys.argv[1:]] or pages()
-    with ThreadPoolExecutor(2) as pool:
-        failures = [line for found in pool.map(run, chosen) for line in found]
-    sys.exit("\n".join(failures) or 0)
+    sys.exit("\n".join(line for page in chosen for line in run(page)) or 0)
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ random = np.random.default_rng(1)
 walkers = start + 0.05 * random.standard_normal((10, 1)) * [1, -2] + 0.01 * random.standard_normal((10, 2))
 sampler = emcee.EnsembleSampler(len(walkers), len(names), log_density)
 sampler.random_state = np.random.RandomState(1).get_state()
-sampler.run_mcmc(walkers, 150)
+sampler.run_mcmc(walkers, 100)
 
 samples = arviz.from_emcee(sampler, var_names=["ln x0", "ln p_gt"])
 print(arviz.summary(samples, kind="stats"))
