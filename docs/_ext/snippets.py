@@ -24,8 +24,10 @@ SET_UP = re.compile(
     r"(\.venv/bin/)?python -m (pip|pytest|sphinx|tests)|asv )"
 )
 """What sets up an environment, or measures for minutes, is run by the integration script or by hand."""
-LONG = re.compile(r"wetdoublet (reproduce|bench|verify|boundary \S+ --angle 0:85 )|--stress|--compare|:10000 |--error 1e-")
-"""Commands that take tens of seconds, tables among them: `tests/test_docs.py` holds their options, tests of their own what they do."""
+LONG = re.compile(
+    r"wetdoublet (reproduce|bench|verify|boundary \S+ --angle 0:85 )|--stress|--compare|:10000 |--error 1e-"
+)
+"""Commands that take tens of seconds: `tests/test_docs.py` holds their options, tests of their own what they do."""
 
 
 def pages() -> list[Path]:
