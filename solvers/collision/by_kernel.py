@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOMES, Status
-from ..engines.settings import CALL, CHATTER_STEPS, KERNEL_STEPS, ROSENBROCK, STEPS
+from ..engines.settings import KERNEL_STEPS, spent_by_kernel
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, Steps, run_recorded
 from ..model.dimensionless import DimensionlessGroups
@@ -57,9 +57,8 @@ def collision(
     answer, books = _row(recorded.answers), None if recorded.ledger is None else _row(recorded.ledger)
     steps = answer["steps"]
     if answer["status"] > LAST_ANSWER:
-        chatters = steps + answer["events"] * CALL * ROSENBROCK > STEPS
         status = Status(answer["status"]).name.lower().replace("_", " ")
-        return Undecided(f"the Taylor kernel gave up: {status}", STEPS - CHATTER_STEPS if chatters else steps)
+        return Undecided(f"the Taylor kernel gave up: {status}", spent_by_kernel(steps, answer["events"]))
     energy = None if books is None else _energy(scene, n, books)
     separated = answer["outcome"] > 0
     if energy is not None and separated and energy.is_open(rtol):

@@ -36,6 +36,12 @@ def casadi_steps(rtol: float, space: bool = False, spent: int = 0) -> int:
     return round(most * max(1.0, float((RTOL / rtol) ** (1 / 5))))
 
 
+def spent_by_kernel(steps: int, events: int) -> int:
+    """Steps of a collision that count as spent once the kernel has given it up: most, where CasADi cannot follow it."""
+    chatters = steps + events * CALL * ROSENBROCK > STEPS
+    return STEPS - CHATTER_STEPS if chatters else steps
+
+
 @dataclass
 class Budget:
     """Steps of CasADi's Rosenbrock that a collision has, shared by all integrations that it takes."""

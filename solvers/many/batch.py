@@ -38,6 +38,7 @@ class Batch:
         texts: columns of entries that are choices; the batch is split by them before it is computed (`by_text`).
         engines: the engine for each combination of these choices.
         partial: the kernel may have computed other parts of the same request.
+        spent: steps that the kernel has spent on each collision; None: none.
     """
 
     scene: Scene
@@ -51,6 +52,7 @@ class Batch:
     texts: dict[str, np.ndarray] = field(default_factory=dict)
     engines: Mapping[tuple[str, ...], str] = field(default_factory=dict)
     partial: bool = False
+    spent: np.ndarray | None = None
 
     @property
     def size(self) -> int:
@@ -79,6 +81,7 @@ class Batch:
             angle=self.angle[which],
             vary={name: values[which] for name, values in self.vary.items()},
             texts={name: values[which] for name, values in self.texts.items()},
+            spent=None if self.spent is None else self.spent[which],
         )
 
     def by_text(self) -> Iterator[tuple[np.ndarray, Batch | InputError]]:

@@ -10,7 +10,7 @@ from ..collision.by_casadi import by_casadi
 from ..engines.casadi.integrators import Tolerance
 from ..engines.casadi.locate import EventSequence, locate
 from ..engines.casadi.replay import Replay, as_located, replay
-from ..engines.settings import KERNEL_STEPS, Budget, casadi_steps
+from ..engines.settings import Budget, casadi_steps
 from ..errors import WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import Model
@@ -42,7 +42,7 @@ def _one(request: Batch, k: int, machine_code: bool) -> dict[str, Any]:
     plugin = "cvodes" if request.engine == "cvodes" else "rosenbrock"
     ledger = any(name in LEDGER for name in request.of)
     located = plugin == "rosenbrock" and not ledger and "steps" not in request.of
-    budget = Budget(casadi_steps(request.rtol, spent=KERNEL_STEPS if request.engine == "taylor" else 0))
+    budget = Budget(casadi_steps(request.rtol, spent=0 if request.spent is None else int(request.spent[k])))
 
     def find(
         model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...], budget: Budget

@@ -5,6 +5,7 @@ worker processes. A collision that fails is marked with its reason and the rest 
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -62,7 +63,11 @@ def complete(
 def _compute(request: Batch, which: np.ndarray, finished: Finished, slow: Slow | None, cores: int) -> None:
     size, alone = _BLOCK, FEW
     if request.engine == "taylor":
-        left = collide_by_kernel(request, which, cores if which.size > FEW else 1, finished)
+        left, spent = collide_by_kernel(request, which, cores if which.size > FEW else 1, finished)
+        if spent is not None and left.size:
+            steps = np.zeros(request.size, int)
+            steps[left] = spent
+            request = replace(request, spent=steps)
         if 0 < left.size < which.size:
             if slow is not None:
                 slow(left.size)

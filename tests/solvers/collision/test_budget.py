@@ -82,6 +82,17 @@ def test_kernel_and_rosenbrock_share_the_steps(counted: Counted) -> None:
     assert 0 < kernel + ROSENBROCK * counted.total <= STEPS
 
 
+def test_a_batch_has_the_steps_of_one(counted: Counted) -> None:
+    """Rosenbrock gets as many after the kernel, so that both decide the same."""
+    scene = Scene.from_dict(CHATTERS)
+    with pytest.raises(ComputationError) as alone:
+        collide(scene)
+    single, counted.rosenbrock = counted.total, 0
+    many = collide_many(scene)
+    assert counted.total == single
+    assert many.reason.values.tolist() == [str(alone.value)]
+
+
 @pytest.mark.parametrize("engine", ["rosenbrock", "cvodes"])
 @pytest.mark.parametrize("most", [30, 100, 300, 700, 2_000, 5_000])
 @pytest.mark.parametrize("distance", [1e-3, 1e-12])
