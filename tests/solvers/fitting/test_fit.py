@@ -30,12 +30,19 @@ def pendulum():
     first = Scene.load("pendulum")
     true = first.with_entries({VISCOSITY: "14 Pa s"})
     data = drawn(true, plan(true, 25, (0.5, 4.0)), 3)
-    return fit(first, data, [VISCOSITY, ROUGHNESS]), data
+    steps = []
+    found = fit(first, data, [VISCOSITY, ROUGHNESS], progress=lambda *step: steps.append(step))
+    return found, data, steps
+
+
+def test_steps_are_counted_to_the_last(pendulum):
+    """Four searches for a maximum and four ends of intervals, beginning with none."""
+    assert pendulum[2] == [(done, 8) for done in range(9)]
 
 
 def test_estimates_verdicts_and_intervals(pendulum):
     """The interval of what the data tell holds the truth; a roughness behind the glass criterion is bounded above."""
-    found, _ = pendulum
+    found, *_ = pendulum
     viscosity, roughness = found.estimates[VISCOSITY], found.estimates[ROUGHNESS]
     assert viscosity.verdict == IDENTIFIED
     assert viscosity.low < 14 < viscosity.high
@@ -45,7 +52,7 @@ def test_estimates_verdicts_and_intervals(pendulum):
 
 def test_ends_lie_where_the_likelihood_has_dropped(pendulum):
     """At an end of the interval the likelihood of the other entries' best values is 1.92 below the maximum."""
-    found, data = pendulum
+    found, data, _ = pendulum
     density = log_likelihood(found.scene, data, [VISCOSITY, ROUGHNESS])
     best = {name: each.value for name, each in found.estimates.items()}
     top = density(best)[0]
@@ -55,7 +62,7 @@ def test_ends_lie_where_the_likelihood_has_dropped(pendulum):
 
 def test_gradient_vanishes_at_the_estimates(pendulum):
     """The estimates are where the log-likelihood is stationary."""
-    found, _ = pendulum
+    found, *_ = pendulum
     _, gradient = found.log_density({name: each.value for name, each in found.estimates.items()})
     assert abs(gradient[VISCOSITY] * 14) < 2.0  # of a curvature of some thousand
 
@@ -63,7 +70,7 @@ def test_gradient_vanishes_at_the_estimates(pendulum):
 @pytest.mark.slow
 def test_what_it_writes(pendulum, tmp_path):
     """The scene that is written has the estimates, the intervals as comments; the report names every entry."""
-    found, _ = pendulum
+    found, *_ = pendulum
     found.write(tmp_path / "fitted.toml")
     again = Scene.load(tmp_path / "fitted.toml")
     assert again.entries[VISCOSITY] == pytest.approx(found.estimates[VISCOSITY].value, rel=1e-5)
@@ -76,7 +83,7 @@ def test_what_it_writes(pendulum, tmp_path):
 @pytest.mark.slow
 def test_drawn_profiles_cross_the_ends_of_the_intervals(pendulum):
     """In the picture the profile of the likelihood is 1.92 below its maximum where the interval ends."""
-    found, _ = pendulum
+    found, *_ = pendulum
     (axes,) = [each for each in found.plot().axes if each.get_xlabel() == "viscosity (Pa s)"]
     x, y = axes.lines[0].get_data()
     estimate = found.estimates[VISCOSITY]

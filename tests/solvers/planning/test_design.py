@@ -30,9 +30,18 @@ film_thickness = "200 um"
 """
 
 
+reported: list[tuple[int, int]] = []
+
+
 @pytest.fixture(scope="module")
 def found() -> Design:
-    return design("granulation", FREE, OVER, 6)
+    return design("granulation", FREE, OVER, 6, progress=lambda *step: reported.append(step))
+
+
+@pytest.mark.usefixtures("found")
+def test_stages_are_counted_to_the_last() -> None:
+    """Each is reported once, beginning with none."""
+    assert reported == [(done, 6) for done in range(7)]
 
 
 def regression(points: np.ndarray) -> np.ndarray:
