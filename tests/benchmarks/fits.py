@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
+from dataclasses import asdict
 
 import numpy as np
 from wetdoublet.generated.automaton import OUTCOMES
@@ -54,11 +55,11 @@ def experiment(seed: int) -> dict[str, object]:
     told["seconds"], told["wall"] = time.process_time() - start, time.perf_counter() - wall
     told["quadrature"] = found.quadrature
     told["remarks"] = found.remarks
-    told["estimates"] = {name: each.to_dict() for name, each in found.estimates.items()}
+    told["estimates"] = {name: asdict(each) for name, each in found.estimates.items()}
     told["below"] = float(found.objective.value(found.best) - found.objective.value(_inner(found, truth)))
     try:
         expected = fit(preset, drawn(scene, plan, None), free)
-        told["expected"] = {name: each.to_dict() for name, each in expected.estimates.items()}
+        told["expected"] = {name: asdict(each) for name, each in expected.estimates.items()}
     except ComputationError as error:
         told["expected"] = str(error)
     return told
