@@ -183,7 +183,7 @@ static int collide(int i, int j)
     for (int k = 0; k < 3; k++) /* the image next to it */
         both[1]->p.position[k] = both[0]->p.position[k] + image(both[1]->p.position[k] - both[0]->p.position[k]);
     after.time = 0.0;
-    int status = granulation_collide_particles(&material, &both[0]->p, &both[1]->p, 1e-8, &after);
+    int status = granulation_collide_particles(&material, &both[0]->p, &both[1]->p, 1e-6, 1e-8, &after);
     if (status >= GRANULATION_BAD_RTOL) {
         fprintf(stderr, "a collision is refused: %s\n", granulation_message(status));
         exit(1);

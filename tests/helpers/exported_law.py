@@ -145,12 +145,12 @@ class Law:
         assert failed == np.count_nonzero(found["status"])
         return found
 
-    def collide_particles(self, particles: np.ndarray, rtol: float = 1e-9) -> np.ndarray:
+    def collide_particles(self, particles: np.ndarray, tolerance: float = 1e-9, rtol: float = 1e-9) -> np.ndarray:
         """The result of two particles (rows of their type), which are moved in place."""
         found, material = np.zeros(1, self.dtype("pair_after")), self.material()
         first, second = (ctypes.c_void_p(particles[k : k + 1].ctypes.data) for k in range(2))
         function = getattr(self._library, f"{self.name}_collide_particles")
-        rest = ctypes.c_double(rtol), ctypes.c_void_p(found.ctypes.data)
+        rest = ctypes.c_double(tolerance), ctypes.c_double(rtol), ctypes.c_void_p(found.ctypes.data)
         assert function(ctypes.c_void_p(material.ctypes.data), first, second, *rest) == found["status"][0]
         return found
 

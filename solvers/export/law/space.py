@@ -42,6 +42,8 @@ RESULTS = (
     Result(151, "NOT_A_NUMBER", "a velocity or a spin is not finite"),
     Result(152, "NOT_APPROACHING", "the particles do not approach along the normal"),
     Result(153, "OUT_OF_RANGE", "velocities and spins are too large, too small, or too far from each other"),
+    Result(154, "NOT_IN_CONTACT", "the particles are not at contact distance within `tolerance`, or pass each other"),
+    Result(155, "BAD_TOLERANCE", "tolerance must be a number from 0"),
 )
 """Statuses of pairs."""
 Members = tuple[tuple[str, str, tuple[int, ...], str], ...]
@@ -88,7 +90,7 @@ def declarations(scene: Scene) -> list[str]:
         "",
         *comment(_in_place(scene)),
         "int law_collide_particles(",
-        "    const law_material *material, law_particle *first, law_particle *second, double rtol,",
+        "    const law_material *material, law_particle *first, law_particle *second, double tolerance, double rtol,",
         "    law_pair_after *after);",
     ]
     return [*lines, ""]
@@ -124,9 +126,11 @@ def _in_place(scene: Scene) -> str:
         else "Their centre of mass moves on meanwhile."
     )
     return (
-        "Moves two particles in place, from initial contact to the end of their collision, which is after->time later. "
-        f"{moved} The normal is that of their positions. Returns after->status; without an answer the particles stay "
-        "as they are."
+        "Moves two particles in place to the end of their collision, which is after->time later. A pair that is found "
+        "late, or early, by at most `tolerance` of law_contact_distance (1e-6, say), is first moved along its straight "
+        "paths to that distance, which changes no momentum and no energy; after->time is from the call on, so that a "
+        f"late pair's is shorter, and a late stick's negative. {moved} Returns after->status; without an answer the "
+        "particles stay as they are."
     )
 
 

@@ -234,6 +234,46 @@ def test_particles_are_moved_in_place(law: Law):
     assert both.tobytes() == before.tobytes()
 
 
+def test_a_pair_found_late_is_brought_back_to_contact(law: Law):
+    """The same end as of the pair at contact, at the same moment; momentum and angular momentum as found."""
+    bodies = Bodies.of(OWN)
+    mass, inertia = np.array(bodies.mass)[:, None], np.array(bodies.inertia)[:, None]
+    normal, velocities, spins = arrivals(OWN, 12, seed=7)
+    distance = law.contact_distance()
+    for k in range(12):
+        both = np.zeros(2, law.dtype("particle"))
+        both["position"][1], both["velocity"], both["spin"] = distance * normal[k], velocities[k], spins[k]
+        late = both.copy()
+        way = np.linalg.norm(velocities[k, 1] - velocities[k, 0])
+        delay = (-1) ** k * 1e-3 * distance / way  # also early
+        late["position"] += delay * late["velocity"]
+        turning = np.sum(mass * np.cross(late["position"], late["velocity"]) + inertia * late["spin"], axis=0)
+        in_time, found = law.collide_particles(both)[0], law.collide_particles(late, tolerance=2e-3)[0]
+        assert found["outcome"] == in_time["outcome"]
+        assert found["time"] == pytest.approx(in_time["time"] - delay, rel=1e-6, abs=1e-12)
+        for name, scale in (("position", distance), ("velocity", way), ("spin", way / distance)):
+            assert late[name] == pytest.approx(both[name], abs=1e-6 * scale)
+        after = np.sum(mass * np.cross(late["position"], late["velocity"]) + inertia * late["spin"], axis=0)
+        assert after == pytest.approx(turning, abs=1e-9 * np.abs(turning).max())
+
+
+def test_a_pair_that_is_not_in_contact_stays(law: Law):
+    """Too far, too near, or on paths that pass each other: refused, with the tolerance that is asked for."""
+    distance = law.contact_distance()
+    cases = (
+        (1e-9, 0.1, [0, 0, -1.0], "NOT_IN_CONTACT"), (0.5, 0.1, [0, 0, -1.0], "NOT_IN_CONTACT"),
+        (100.0, 0.1, [0, 0, -1.0], "NOT_IN_CONTACT"), (1.01, 0.02, [0, 1.0, -0.1], "NOT_IN_CONTACT"),
+        (1.01, np.nan, [0, 0, -1.0], "BAD_TOLERANCE"), (1.0, -1e-9, [0, 0, -1.0], "BAD_TOLERANCE"),
+    )  # fmt: skip
+    for share, tolerance, velocity, status in cases:
+        both = np.zeros(2, law.dtype("particle"))
+        both["position"][1, 2], both["velocity"][1] = share * distance, velocity
+        before = both.copy()
+        found = law.collide_particles(both, tolerance=tolerance)[0]
+        assert found["status"] == law.number(status)
+        assert both.tobytes() == before.tobytes()
+
+
 @pytest.mark.slow
 def test_in_cpp_and_plain_doubles(folder: Path, tmp_path: Path):
     """The folder's own check, as C++ without vector registers, agrees with the pairs computed when it was exported."""

@@ -25,29 +25,58 @@ static void move_sphere(const law_pair_after *after, law_particle *first, law_pa
     put_vector(first->position, plus(way, -1.0, apart));
 }
 
-int law_collide_particles(
-    const law_material *material, law_particle *first, law_particle *second, double rtol, law_pair_after *after)
+/* Moves two approaching particles along their straight paths to where their films touch. Returns the time that this takes,
+ * negative for a pair that is found late; NaN where they do not get there. */
+static double brought_together(const bodies *b, law_particle *first, law_particle *second)
 {
-    law_particle *both[2];
+    double distance = b->contact + b->film;
+    vector3 apart = plus(vector_of(second->position), -1.0, vector_of(first->position));
+    vector3 moving = plus(vector_of(second->velocity), -1.0, vector_of(first->velocity));
+    if (b->wall)
+        moving = times(dot(moving, apart)/dot(apart, apart), apart);
+    double closing = -dot(apart, moving), beyond = dot(apart, apart) - distance*distance;
+    if (!(closing > 0.0))
+        return 0.0; /* is refused as not approaching */
+    double time = beyond/(closing + sqrt(closing*closing - dot(moving, moving)*beyond));
+    put_vector(first->position, plus(vector_of(first->position), time, vector_of(first->velocity)));
+    apart = b->wall ? times(distance/length(apart), apart) : plus(apart, time, moving);
+    put_vector(second->position, plus(vector_of(first->position), 1.0, apart));
+    return time;
+}
+
+int law_collide_particles(const law_material *material, law_particle *first, law_particle *second, double tolerance,
+                          double rtol, law_pair_after *after)
+{
+    law_particle both[2];
     law_pair pair;
-    both[0] = first;
-    both[1] = second;
-    put_vector(pair.normal, plus(vector_of(second->position), -1.0, vector_of(first->position)));
+    bodies b = bodies_of(material);
+    double distance = b.contact + b.film;
+    double off = fabs(length(plus(vector_of(second->position), -1.0, vector_of(first->position))) - distance);
+    both[0] = *first;
+    both[1] = *second;
+    double time = brought_together(&b, both, both + 1);
+    if (!(tolerance >= 0.0) || off > tolerance*distance || isnan(time)) {
+        refuse(tolerance >= 0.0 ? LAW_NOT_IN_CONTACT : LAW_BAD_TOLERANCE, after);
+        return after->status;
+    }
+    put_vector(pair.normal, plus(vector_of(both[1].position), -1.0, vector_of(both[0].position)));
     for (int k = 0; k < 2; k++) {
-        memcpy(pair.velocities[k], both[k]->velocity, sizeof pair.velocities[k]);
-        memcpy(pair.spins[k], both[k]->spin, sizeof pair.spins[k]);
+        memcpy(pair.velocities[k], both[k].velocity, sizeof pair.velocities[k]);
+        memcpy(pair.spins[k], both[k].spin, sizeof pair.spins[k]);
     }
     if (law_collide_pair(material, &pair, rtol, after) != LAW_OK)
         return after->status;
-    bodies b = bodies_of(material);
     if (b.wall)
-        move_sphere(after, first, second);
+        move_sphere(after, both, both + 1);
     else
-        move_spheres(&b, after, first, second);
+        move_spheres(&b, after, both, both + 1);
     for (int k = 0; k < (b.wall ? 1 : 2); k++) {
-        memcpy(both[k]->velocity, after->velocities[k], sizeof both[k]->velocity);
-        memcpy(both[k]->spin, after->spins[k], sizeof both[k]->spin);
+        memcpy(both[k].velocity, after->velocities[k], sizeof both[k].velocity);
+        memcpy(both[k].spin, after->spins[k], sizeof both[k].spin);
     }
+    *first = both[0];
+    *second = both[1];
+    after->time += time;
     return LAW_OK;
 }
 
