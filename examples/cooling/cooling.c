@@ -183,18 +183,21 @@ static int collide(int i, int j)
     for (int k = 0; k < 3; k++) /* the image next to it */
         both[1]->p.position[k] = both[0]->p.position[k] + image(both[1]->p.position[k] - both[0]->p.position[k]);
     after.time = 0.0;
-    int status = granulation_collide_particles(&material, &both[0]->p, &both[1]->p, 1e-6, 1e-8, &after);
+    /* whom others have passed while it was in contact may be found within them: any distance is taken back to contact */
+    int status = granulation_collide_particles(&material, &both[0]->p, &both[1]->p, 1.0, 1e-8, &after);
     if (status >= GRANULATION_BAD_RTOL) {
         fprintf(stderr, "a collision is refused: %s\n", granulation_message(status));
         exit(1);
     }
     int separated = status == GRANULATION_OK && after.outcome != GRANULATION_STICK;
     for (int b = 0; b < 2; b++) {
+        both[b]->time = now + (separated ? after.time : 0.0);
+        if (both[b]->time < now)
+            fly(both[b]);
         for (int k = 0; k < 3; k++)
             both[b]->p.position[k] -= box*floor(both[b]->p.position[k]/box);
         both[b]->outcome = separated ? after.outcome : GRANULATION_STICK;
         both[b]->stuck = !separated;
-        both[b]->time = now + (separated ? after.time : 0.0);
         both[b]->flown++;
         leave(b ? j : i);
         if (separated)
