@@ -1,10 +1,12 @@
 """The result of one collision: immutable; prints as a table, converts to the JSON object, draws a figure."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
 from .outcome import Outcome
+
+_ENDS = 20  # events that `repr` shows at each end of a longer list
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,6 +19,14 @@ class Collision(Outcome):
         >>> one.outcome, one.reversal, [event.kind for event in one.events]
         ('bounce', 'glass', ['glass', 'rupture'])
     """
+
+    def __repr__(self) -> str:
+        names = [each.name for each in fields(self) if each.repr and each.name != "events"]
+        shown = {name: repr(getattr(self, name)) for name in names}
+        first, last = (", ".join(map(repr, part)) for part in (self.events[:_ENDS], self.events[-_ENDS:]))
+        hidden = len(self.events) - 2 * _ENDS
+        shown["events"] = f"({first}, ... {hidden} more ..., {last})" if hidden > 0 else repr(self.events)
+        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in shown.items())})"
 
     def __str__(self) -> str:
         from .text import table

@@ -210,3 +210,15 @@ def test_spins_before_and_after(collisions):
 def test_numbers_are_rounded_before_their_form_is_chosen(value: float, text: str) -> None:
     """No exponent below 1e7, for a number that four digits round up to 10000 either."""
     assert plain(value, "m") == text
+
+
+def test_repr_of_many_events_is_cut_in_the_middle(collisions):
+    one = next(iter(collisions.values()))
+    few, many = (replace(one, events=tuple(Event("rough", 1e-6 * k) for k in range(count))) for count in (40, 100_000))
+    assert repr(few).count("kind='rough'") == 40
+    text = repr(many)
+    assert text.count("kind='rough'") == 40
+    assert "... 99960 more ..." in text
+    assert repr(many.events[0]) in text
+    assert repr(many.events[-1]) in text
+    assert len(many.to_dict()["events"]) == 100_000
