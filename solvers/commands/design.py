@@ -10,7 +10,6 @@ from ..errors import InputError
 from ..host import files
 from ..scene.schema import FIELDS
 from . import options, texts
-from .bar import Bar
 from .signature import as_command, passed
 
 
@@ -78,8 +77,7 @@ def command(
         n=n, target=target, data=data, prior=prior or None, draws=draws, speed_sd=speed_sd, angle_sd=angle_sd,
         restitution_sd=restitution_sd, rtol=rtol,
     )  # fmt: skip
-    with Bar("stages") as progress:
-        plan = design(request.scene(), free, over, **chosen, progress=progress)
+    plan = design(request.scene(), free, over, **chosen)
     if output.file is not None and output.file.suffix == ".csv":
         files.write(output.file, plan.to_csv())
         output = options.Output(output.as_json, output.picture)

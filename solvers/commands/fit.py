@@ -11,7 +11,6 @@ import click
 from ..errors import InputError
 from ..host.outputs import check_file
 from . import options
-from .bar import Bar
 from .signature import as_command, passed
 
 
@@ -56,8 +55,7 @@ def command(
     scene = request.scene(remark=True)
     choices = None if over is None else check_choices(scene, over)
     chosen = passed(prior=prior or None, rtol=rtol)
-    with Bar("steps") as progress:
-        fitted = fit(scene, data, free, **chosen, progress=progress)
+    fitted = fit(scene, data, free, **chosen)
     text, record = str(fitted), fitted.to_dict()
     if choices is not None:
         comparison = compare_models(scene, data, free, over=choices, **chosen)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,13 +11,12 @@ from scipy.stats import chi2
 
 from ...generated.automaton import OUTCOMES, STICK
 from ..engines.settings import check_rtol
-from ..host.counted import Counted
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .free_entries import IDENTIFIED, NOT_AT_ALL, FreeEntries, combinations, free_entries, in_unit
 from .likelihood import Evaluation, Likelihood
 from .measurements import UNKNOWN, Measurements, read_data
-from .optimise import Objective, Optimum, optimise, searches, whitening
+from .optimise import Objective, Optimum, optimise, whitening
 from .profiles import End, intervals, judged
 from .result import CONTRADICTED, Estimate, Fit, RowDiagnostics
 from .scatter import Resolution
@@ -39,7 +38,6 @@ def fit(
     rtol: float = RTOL,
     starts: int = 16,
     seed: int = 0,
-    progress: Callable[[int, int], None] | None = None,
 ) -> Fit:
     """Estimate entries of a scene from measured impacts.
 
@@ -52,7 +50,6 @@ def fit(
         rtol: relative tolerance of the collisions.
         starts: quasi-random points from which the best are followed, beside the scene's own values.
         seed: of these points.
-        progress: called with the numbers of finished and of all steps: searches for maxima, ends of intervals.
 
     Returns:
         Fit: estimates, 95 % profile-likelihood intervals and verdicts; what each row says of them.
@@ -75,8 +72,7 @@ def fit(
     entries = free_entries(first, free, table, prior, rtol)
     warn(first)
     likelihood = Likelihood(first, entries.names, table, rtol)
-    count = Counted(progress, searches(starts) + 2 * entries.size)
-    best, ends = intervals(likelihood, entries, optimise(likelihood, entries, starts, seed, count), count)
+    best, ends = intervals(likelihood, entries, optimise(likelihood, entries, starts, seed))
     return _result(first, table, likelihood, entries, best, ends)
 
 

@@ -1,6 +1,6 @@
 """`design()`: where the next impacts should be to learn most about entries of a scene."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -15,12 +15,11 @@ from ..fitting.fit import RTOL, fit
 from ..fitting.free_entries import FreeEntries, free_entries
 from ..fitting.measurements import Measurements, read_data
 from ..host.arguments import check_name, check_whole
-from ..host.counted import Counted
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .information import information, reliable_information
 from .result import Design
-from .search import STAGES, Criterion, search
+from .search import Criterion, search
 from .window import Scatter, Window, check_over
 
 _SPACING = 20  # candidates to begin with, to either side
@@ -44,7 +43,6 @@ def design(
     restitution_sd: float | str | None = None,
     rtol: float = RTOL,
     seed: int = 0,
-    progress: Callable[[int, int], None] | None = None,
 ) -> Design:
     """Choose the impacts from whose outcomes and restitutions `fit` will learn most.
 
@@ -65,7 +63,6 @@ def design(
         restitution_sd: standard deviation of the measured restitution; "none" if only outcomes are recorded.
         rtol: relative tolerance of the collisions.
         seed: of the quasi-random values.
-        progress: called with the numbers of finished and of all stages of the search.
 
     Returns:
         Design: the impacts, what they will tell, and how they compare with an even grid.
@@ -105,13 +102,13 @@ def design(
         np.maximum(most, np.einsum("mcii->mci", result).max(axis=(0, 1)), out=most)
         return np.stack(result)
 
-    count = Counted(progress, STAGES)
     first = window.candidates(_SPACING, rtol)
     # the range of the search keeps the matrices from being singular; nothing is known beyond it
     known = np.broadcast_to(before + entries.vague, (len(ensemble), *before.shape))
     criterion = Criterion(None) if single is None else Criterion(entries.names.index(single), _OTHERS)
-    quick, exact = partial(evaluate, exact=False), partial(evaluate, exact=True)
-    choice = search(quick, known, criterion, size, first, 1 / (_SPACING - 1), exact, count.step)
+    choice = search(
+        partial(evaluate, exact=False), known, criterion, size, first, 1 / (_SPACING - 1), partial(evaluate, exact=True)
+    )
     for name, information_of_one in zip(entries.names, most, strict=True):
         if single in (None, name) and information_of_one < _NOTHING:
             accepted = "entries that outcome or restitution depend on in this window"
