@@ -10,6 +10,7 @@ from ..errors import InputError
 from ..host import files
 from ..scene.schema import FIELDS
 from . import options, texts
+from .bar import Bar
 from .signature import as_command, passed
 
 
@@ -77,7 +78,9 @@ def command(
         n=n, target=target, data=data, prior=prior or None, draws=draws, speed_sd=speed_sd, angle_sd=angle_sd,
         restitution_sd=restitution_sd, rtol=rtol,
     )  # fmt: skip
-    plan = design(request.scene(), free, over, **chosen)
+    cheaper = "fewer draws take less" if draws else "a smaller window or fewer impacts take less"
+    with Bar("impacts", cheaper, factor=3.0) as progress:
+        plan = design(request.scene(), free, over, progress=progress, **chosen)
     if output.file is not None and output.file.suffix == ".csv":
         files.write(output.file, plan.to_csv())
         output = options.Output(output.as_json, output.picture)

@@ -11,6 +11,7 @@ import click
 from ..errors import InputError
 from ..host.outputs import check_file
 from . import options
+from .bar import Bar
 from .signature import as_command, passed
 
 
@@ -55,7 +56,8 @@ def command(
     scene = request.scene(remark=True)
     choices = None if over is None else check_choices(scene, over)
     chosen = passed(prior=prior or None, rtol=rtol)
-    fitted = fit(scene, data, free, **chosen)
+    with Bar("evaluations", "fewer free entries or rows take less", factor=3.0) as progress:
+        fitted = fit(scene, data, free, progress=progress, **chosen)
     text, record = str(fitted), fitted.to_dict()
     if choices is not None:
         comparison = compare_models(scene, data, free, over=choices, **chosen)
