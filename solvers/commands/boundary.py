@@ -54,7 +54,8 @@ def command(
     search = passed(stokes=stokes, rtol=rtol)
     if plane is not None:
         name, across = plane
-        with Bar("lines", "lines alone, --angle LO:HI:N, take less" if name == _ANGLE.name else "", at_least=True) as progress:
+        cheaper = "lines alone, --angle LO:HI:N, take less" if name == _ANGLE.name else ""
+        with Bar("lines", cheaper, at_least=True) as progress:
             curves = atlas(scene, over=name, span=across, progress=progress, **search)
         output.show(curves)
         if curves.unsettled:

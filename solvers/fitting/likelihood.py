@@ -185,8 +185,8 @@ class Likelihood:
             )
             missing = log > rows[rare]
             rows[rare[missing]], scores[rare[missing]] = log[missing], slope[missing]
-        share = float(factors.mean()) * resolution.lines * resolution.nodes / _USUAL
-        self.tell((_FIXED + (1 - _FIXED) * share) * (1.0 if resolution.approximate else _EXACT))
+        relative = float(factors.mean()) * resolution.lines * resolution.nodes / _USUAL
+        self.tell((_FIXED + (1 - _FIXED) * relative) * (1.0 if resolution.approximate else _EXACT))
         limited, factor = limit(rows)
         mean, spread = {}, {}
         for name, (share, first, second) in moments.items():

@@ -32,8 +32,9 @@ def forecast(
     if left < _WORTH:
         return None
     bounds = f" ({duration(left / factor)} to {duration(left * factor)})" if factor > 1 else ""
-    about = "about " if factor > 1 else ""
-    line = f"{'at least' if at_least else 'about'} {duration(left)} more{bounds}: {done - before} of {about}{total - before} {unit} in {seconds:.1f} s"
+    word, about = "at least" if at_least else "about", "about " if factor > 1 else ""
+    sample = f"{done - before} of {about}{total - before} {unit} in {seconds:.1f} s"
+    line = f"{word} {duration(left)} more{bounds}: {sample}"
     return line + (f"; {cheaper}" if cheaper else "")
 
 

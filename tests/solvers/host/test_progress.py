@@ -4,7 +4,6 @@ import json
 
 import numpy as np
 import pytest
-
 from wetdoublet.solvers import collide_many, collision_averages, design, fit, table
 from wetdoublet.solvers.commands.bar import Bar
 from wetdoublet.solvers.commands.cli import main
@@ -34,6 +33,8 @@ def counted(clock, counts, **options):
 
 
 class TestForecast:
+    """The sentence, from counts and seconds."""
+
     def test_the_rest_takes_as_long_per_item_as_the_sample(self):
         assert forecast(10, 50, 4.0, "impacts") == "about 16 s more: 10 of 50 impacts in 4.0 s"
 
@@ -60,6 +61,8 @@ class TestForecast:
 
 
 class TestBar:
+    """What a bar writes, by a clock of the test."""
+
     def test_the_forecast_is_written_once_and_to_standard_error_alone(self, capsys):
         counted(Clock(), [0, 10, 20, 30])
         out, err = capsys.readouterr()
@@ -72,6 +75,8 @@ class TestBar:
 
 
 class TestEstimated:
+    """Counts whose total is an estimate."""
+
     @pytest.mark.parametrize("expected", [3, 100])
     def test_done_rises_to_a_total_that_is_reached_at_the_end(self, expected):
         calls = []
