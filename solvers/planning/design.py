@@ -26,8 +26,8 @@ from .window import Scatter, Window, check_over
 _SPACING = 20  # candidates to begin with, to either side
 _MOST, _MOST_DRAWS = 1000, 256
 _AT_ONCE = 64  # impacts that are evaluated together
-_EXACT = 5  # cost of an impact's exact information, relative to the usual one
-_MORE, _PER_IMPACT = 600, 200  # usual cost of the refinement, and of each distinct impact (measured)
+_EXACT = 5  # assumed cost of an impact's exact information, relative to the usual one
+_MORE, _PER_IMPACT = 600, 200  # assumed cost of the refinement, and of each distinct impact; rather too large
 _OTHERS = 0.1  # weight of all entries beside the one that matters
 _NOTHING = 1e-9  # information of an impact on an entry, in the variable of the search, that is none
 
