@@ -52,7 +52,7 @@ def command(
     from .resumable import resumable
 
     chosen = passed(speeds=speeds, radii=radii, films=films, tolerance=tolerance, rtol=rtol, wrt=wrt)
-    with resumable(output, "pairs") as (journal, progress):
+    with resumable(output, "pairs", cheaper="a larger --tolerance or fewer --radii take less") as (journal, progress):
         data = collision_averages(scene, progress=progress, journal=journal, **chosen)
         if output is not None and journal is not None:
             if output.suffix.lower() == ".csv":

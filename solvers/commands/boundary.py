@@ -54,7 +54,8 @@ def command(
     search = passed(stokes=stokes, rtol=rtol)
     if plane is not None:
         name, across = plane
-        with Bar("lines") as progress:
+        cheaper = "lines alone, --angle LO:HI:N, take less" if name == _ANGLE.name else ""
+        with Bar("lines", cheaper, at_least=True) as progress:
             curves = atlas(scene, over=name, span=across, progress=progress, **search)
         output.show(curves)
         if curves.unsettled:
@@ -70,7 +71,7 @@ def command(
         from ..sensitivity.boundaries import boundary_sensitivities, check_boundary_wrt
 
         names = check_boundary_wrt(scene, None if wrt == ["all"] else wrt)
-    with Bar("angles") as progress:
+    with Bar("angles", "fewer angles take less", at_least=wrt is not None) as progress:
         lines = boundary(scene, angle=angles, progress=lambda k: progress(k, len(angles)), **search)
     if names is None:
         output.show(lines)

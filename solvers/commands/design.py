@@ -78,8 +78,9 @@ def command(
         n=n, target=target, data=data, prior=prior or None, draws=draws, speed_sd=speed_sd, angle_sd=angle_sd,
         restitution_sd=restitution_sd, rtol=rtol,
     )  # fmt: skip
-    with Bar("stages") as progress:
-        plan = design(request.scene(), free, over, **chosen, progress=progress)
+    cheaper = "fewer draws take less" if draws else "a smaller window or fewer impacts take less"
+    with Bar("impacts", cheaper, factor=3.0) as progress:
+        plan = design(request.scene(), free, over, progress=progress, **chosen)
     if output.file is not None and output.file.suffix == ".csv":
         files.write(output.file, plan.to_csv())
         output = options.Output(output.as_json, output.picture)

@@ -56,8 +56,8 @@ def command(
     scene = request.scene(remark=True)
     choices = None if over is None else check_choices(scene, over)
     chosen = passed(prior=prior or None, rtol=rtol)
-    with Bar("steps") as progress:
-        fitted = fit(scene, data, free, **chosen, progress=progress)
+    with Bar("evaluations", "fewer free entries or rows take less", factor=3.0) as progress:
+        fitted = fit(scene, data, free, progress=progress, **chosen)
     text, record = str(fitted), fitted.to_dict()
     if choices is not None:
         comparison = compare_models(scene, data, free, over=choices, **chosen)

@@ -16,6 +16,7 @@ from . import options, texts
 from .signature import as_command, passed
 
 _SUFFIX = ".zarr"
+_CHEAPER = "fewer cells or a looser --rtol take less, and a table of `wetdoublet table` answers faster"
 
 
 def _file(path: str) -> Path:
@@ -87,7 +88,7 @@ def command(
 
     checked_vary(scene, varied, "--vary")
     with (
-        resumable(output, "collisions", stored) as (journal, progress),
+        resumable(output, "collisions", stored, _CHEAPER) as (journal, progress),
         connected(scheduler, "--scheduler") if scheduler is not None else nullcontext() as client,
     ):
         data = regime_map(

@@ -11,17 +11,20 @@ from .bar import Bar
 
 
 @contextmanager
-def resumable(file: Path | None, unit: str, stored: bool = False) -> Iterator[tuple[Journal | None, Bar]]:
+def resumable(
+    file: Path | None, unit: str, stored: bool = False, cheaper: str = ""
+) -> Iterator[tuple[Journal | None, Bar]]:
     """The journal beside the file, locked, and a progress bar; after an interrupt finished work stays in the journal.
 
     Arguments:
         unit: name of what is counted.
         stored: the file is a Zarr store, which is kept with its journal.
+        cheaper: what a forecast names as the cheaper way.
     """
     journal = None if file is None else beside(file)
     created = journal is not None and not journal.path.exists()
     try:
-        with journal.locked("-o", file) if journal else nullcontext(), Bar(unit) as progress:
+        with journal.locked("-o", file) if journal else nullcontext(), Bar(unit, cheaper) as progress:
             yield journal, progress
     except (KeyboardInterrupt, OSError) as error:
         count = 0 if journal is None else journal.count()  # of the file: progress may lag

@@ -59,8 +59,8 @@ def command(
     scene = request.scene()
     if output is None:
         raise InputError("-o", None, "a file to write, ending in " + ", ".join(_SUFFIXES))
-    with Bar("steps") as progress:
-        law = table(scene, over=ranges, progress=progress.step, **passed(error=error, of=of, rtol=rtol, attack=attack))
+    with Bar("queries", "fewer are asked by --attack") as progress:
+        law = table(scene, over=ranges, progress=progress, **passed(error=error, of=of, rtol=rtol, attack=attack))
     law.save(output)
     if plot is not None:
         law.plot(plot)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,13 +11,14 @@ from scipy.stats import chi2
 
 from ...generated.automaton import OUTCOMES, STICK
 from ..engines.settings import check_rtol
-from ..host.counted import Counted
+from ..host.arguments import check_function
+from ..host.progress import Estimated, Progress
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .free_entries import IDENTIFIED, NOT_AT_ALL, FreeEntries, combinations, free_entries, in_unit
 from .likelihood import Evaluation, Likelihood
 from .measurements import UNKNOWN, Measurements, read_data
-from .optimise import Objective, Optimum, optimise, searches, whitening
+from .optimise import Objective, Optimum, optimise, whitening
 from .profiles import End, intervals, judged
 from .result import CONTRADICTED, Estimate, Fit, RowDiagnostics
 from .scatter import Resolution
@@ -27,6 +28,7 @@ RTOL = 1e-8
 _ONE_OUTCOME = "Such data can only bound an entry; within the bounds no value is better than another."
 _UNLIKELY = 1e-3  # probability of residuals as large below which they are remarked on
 _UNDECIDED = 1e-3  # probability of impacts without an outcome that is remarked on
+_EVALUATIONS, _PER_PAIR = 20, 22  # usual number of evaluations, and more for each pair of free entries (measured)
 _COARSE = 0.05  # error of the log-likelihood by quadrature that is remarked on
 
 
@@ -39,7 +41,7 @@ def fit(
     rtol: float = RTOL,
     starts: int = 16,
     seed: int = 0,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Fit:
     """Estimate entries of a scene from measured impacts.
 
@@ -52,7 +54,8 @@ def fit(
         rtol: relative tolerance of the collisions.
         starts: quasi-random points from which the best are followed, beside the scene's own values.
         seed: of these points.
-        progress: called with the numbers of finished and of all steps: searches for maxima, ends of intervals.
+        progress: called with (evaluations done, evaluations in all) of the likelihood, in units of the usual one; the
+            second is an estimate, which may grow, and is reached at the end.
 
     Returns:
         Fit: estimates, 95 % profile-likelihood intervals and verdicts; what each row says of them.
@@ -60,6 +63,7 @@ def fit(
     Raises:
         InputError: a wrong entry, or a bad cell, named by row and column.
         ComputationError: the scene's collisions are not differentiated by a compiled kernel.
+        KeyboardInterrupt: an interrupt; its message has the most likely values, once they are found.
 
     Example:
         >>> from wetdoublet.solvers import fit
@@ -71,13 +75,27 @@ def fit(
     """
     first = Scene.load(scene)
     rtol = check_rtol(rtol)
+    check_function(progress, "progress")
     table = read_data(data, first)
     entries = free_entries(first, free, table, prior, rtol)
     warn(first)
     likelihood = Likelihood(first, entries.names, table, rtol)
-    count = Counted(progress, searches(starts) + 2 * entries.size)
-    best, ends = intervals(likelihood, entries, optimise(likelihood, entries, starts, seed, count), count)
-    return _result(first, table, likelihood, entries, best, ends)
+    work, best = Estimated(progress, _EVALUATIONS + _PER_PAIR * entries.size**2), None
+    work.start()
+    likelihood.tell = work.add
+    try:
+        best = optimise(likelihood, entries, starts, seed)
+        best, ends = intervals(likelihood, entries, best)
+        result = _result(first, table, likelihood, entries, best, ends)
+    except KeyboardInterrupt as interrupt:
+        if best is None or str(interrupt):
+            raise
+        values = ", ".join(f"{name} = {in_unit(first, name, one)}" for name, one in entries.named(best.inner).items())
+        raise KeyboardInterrupt(f"interrupted: most likely are {values}; the intervals are not computed") from None
+    finally:
+        del likelihood.tell
+    work.finish()
+    return result
 
 
 def log_likelihood(

@@ -8,7 +8,7 @@ Derivatives are taken at a fixed interpolation variable: the points of a segment
 roots cancel.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,6 +31,8 @@ deviations) contradicts the model; from there its log-likelihood falls with the 
 
 _BEYOND = 6.0  # standard deviations of noise and angle beyond which a restitution is impossible
 _NAMED = 8  # rows in a message
+_USUAL = Resolution().lines * Resolution().nodes
+_FIXED, _EXACT = 0.3, 3.0  # cost of an evaluation that does not depend on its nodes; factor of exact derivatives
 _Terms = tuple[np.ndarray, np.ndarray, np.ndarray]  # rows, logarithms of positive terms, derivatives of these
 
 
@@ -66,7 +68,12 @@ class Likelihood:
     Arguments:
         scene, names, data: the scene, its free entries, and the rows.
         rtol: relative tolerance of the integrations.
+
+    Attributes:
+        tell: called after each evaluation with its cost, relative to one at the usual resolution.
     """
+
+    tell: Callable[[float], None] = staticmethod(lambda _cost: None)
 
     def __init__(self, scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float = RTOL) -> None:
         self.data, self.names = data, names
@@ -178,6 +185,8 @@ class Likelihood:
             )
             missing = log > rows[rare]
             rows[rare[missing]], scores[rare[missing]] = log[missing], slope[missing]
+        relative = float(factors.mean()) * resolution.lines * resolution.nodes / _USUAL
+        self.tell((_FIXED + (1 - _FIXED) * relative) * (1.0 if resolution.approximate else _EXACT))
         limited, factor = limit(rows)
         mean, spread = {}, {}
         for name, (share, first, second) in moments.items():

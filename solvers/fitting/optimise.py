@@ -15,7 +15,6 @@ from scipy.optimize import LinearConstraint, least_squares, minimize
 from scipy.stats import qmc
 
 from ..errors import ComputationError
-from ..host.counted import Counted
 from .free_entries import FreeEntries
 from .likelihood import Evaluation, Likelihood
 from .scatter import COARSE, Resolution
@@ -143,18 +142,8 @@ class Optimum:
     others: tuple[Optimum, ...] = ()
 
 
-def searches(starts: int) -> int:
-    """Number of searches for a maximum by `optimise`: one from each start that is followed, and the last."""
-    return min(starts + 1, _FOLLOWED) + 1
-
-
-def optimise(
-    likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, seed: int = 0, count: Counted | None = None
-) -> Optimum:
+def optimise(likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, seed: int = 0) -> Optimum:
     """The most likely of the maxima that several starts lead to; the lines of the likelihood are left turned for it.
-
-    Arguments:
-        count: counts the `searches`.
 
     Raises:
         ComputationError: no start has a likelihood.
@@ -166,8 +155,6 @@ def optimise(
         if np.isfinite(rough.value(start)):
             inner = rough_maximum(rough, start)
             climbs.append(Optimum(inner, rough.value(inner)))
-        if count is not None:
-            count.step()
     if not climbs:
         raise ComputationError("no start of the fit has a likelihood", advice="give the scene another first guess")
     climbs.sort(key=lambda each: -each.value)
@@ -176,8 +163,6 @@ def optimise(
         if each.value > climbs[0].value - _CLOSE and all(_apart(rough, each, other) for other in distinct):
             distinct.append(each)
     finished = [maximum_with_aiming(likelihood, free, each.inner) for each in distinct]
-    if count is not None:
-        count.step()
     best, *others = sorted(finished, key=lambda each: -each.value)
     if best is not finished[-1]:
         likelihood.aim(free.values(best.inner))  # its lines were last turned for another maximum

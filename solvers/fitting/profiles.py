@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import ComputationError
-from ..host.counted import Counted
 from .free_entries import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE, FreeEntries
 from .likelihood import Likelihood
 from .optimise import Objective, Optimum, maximum_with_aiming, rough_maximum, whitening
@@ -51,22 +50,17 @@ class End:
     wall: bool = False
 
 
-def intervals(
-    likelihood: Likelihood, free: FreeEntries, best: Optimum, count: Counted
-) -> tuple[Optimum, list[list[End]]]:
+def intervals(likelihood: Likelihood, free: FreeEntries, best: Optimum) -> tuple[Optimum, list[list[End]]]:
     """The maximum, and for each entry the ends of its interval below and above.
 
     A more likely point that is met on the way becomes the maximum.
-
-    Arguments:
-        count: counts the ends.
 
     Raises:
         ComputationError: such points are met again and again.
     """
     for _ in range(_RESTARTS):
         try:
-            return best, _ends(Objective(likelihood, free, Resolution()), best.inner, count)
+            return best, _ends(Objective(likelihood, free, Resolution()), best.inner)
         except _MoreLikely as point:
             again = maximum_with_aiming(likelihood, free, point.inner)
             best = Optimum(again.inner, again.value, best.others)
@@ -82,7 +76,7 @@ class _MoreLikely(Exception):
         self.inner = inner
 
 
-def _ends(objective: Objective, best: np.ndarray, count: Counted) -> list[list[End]]:
+def _ends(objective: Objective, best: np.ndarray) -> list[list[End]]:
     """The ends of all intervals; _MoreLikely if the maximum is none."""
     entries = range(objective.free.size)
     ends = [[_end(objective, best, k, sign) for sign in (-1.0, 1.0)] for k in entries]
@@ -90,7 +84,6 @@ def _ends(objective: Objective, best: np.ndarray, count: Counted) -> list[list[E
         for side in (0, 1):
             others = [each.inner for j, both in enumerate(ends) for each in both if j != k]
             ends[k][side] = _from_elsewhere(objective, best, k, ends[k][side], others)
-            count.step()
     for _ in range(_ROUNDS):  # a point evaluated on the way to one end may lie outside another
         moved = False
         for k in entries:

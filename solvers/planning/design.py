@@ -1,6 +1,6 @@
 """`design()`: where the next impacts should be to learn most about entries of a scene."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -14,17 +14,20 @@ from ..errors import InputError
 from ..fitting.fit import RTOL, fit
 from ..fitting.free_entries import FreeEntries, free_entries
 from ..fitting.measurements import Measurements, read_data
-from ..host.arguments import check_name, check_whole
-from ..host.counted import Counted
+from ..host.arguments import check_function, check_name, check_whole
+from ..host.progress import Estimated, Progress
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .information import information, reliable_information
 from .result import Design
-from .search import STAGES, Criterion, search
+from .search import Criterion, search
 from .window import Scatter, Window, check_over
 
 _SPACING = 20  # candidates to begin with, to either side
 _MOST, _MOST_DRAWS = 1000, 256
+_AT_ONCE = 64  # impacts that are evaluated together
+_EXACT = 5  # assumed cost of an impact's exact information, relative to the usual one
+_MORE, _PER_IMPACT = 600, 200  # assumed cost of the refinement, and of each distinct impact; rather too large
 _OTHERS = 0.1  # weight of all entries beside the one that matters
 _NOTHING = 1e-9  # information of an impact on an entry, in the variable of the search, that is none
 
@@ -44,7 +47,7 @@ def design(
     restitution_sd: float | str | None = None,
     rtol: float = RTOL,
     seed: int = 0,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Design:
     """Choose the impacts from whose outcomes and restitutions `fit` will learn most.
 
@@ -65,7 +68,8 @@ def design(
         restitution_sd: standard deviation of the measured restitution; "none" if only outcomes are recorded.
         rtol: relative tolerance of the collisions.
         seed: of the quasi-random values.
-        progress: called with the numbers of finished and of all stages of the search.
+        progress: called with (impacts evaluated, impacts in all), in units of one at the usual resolution; the second
+            is an estimate, which may grow, and is reached at the end. A fit of `data` before is not counted.
 
     Returns:
         Design: the impacts, what they will tell, and how they compare with an even grid.
@@ -81,6 +85,7 @@ def design(
         True
     """
     rtol = check_rtol(rtol)
+    check_function(progress, "progress")
     loaded = Scene.load(scene)
     key, speed, angle = check_over(over)
     size, draws = check_whole(n, "n", 1, _MOST), check_whole(draws, "draws", 0, _MOST_DRAWS)
@@ -96,29 +101,38 @@ def design(
     ensemble = _ensemble(entries, values, before, draws, seed)
     most = np.zeros(entries.size)  # information of an impact on each entry
 
+    first = window.candidates(_SPACING, rtol)
+    work = Estimated(progress, len(ensemble) * (len(first) + _MORE + _PER_IMPACT * min(size, entries.size + 2)))
+    work.start()
+
     def evaluate(points: np.ndarray, exact: bool) -> np.ndarray:
         """The information of impacts, in the variables of the search."""
-        compute, plan, result = reliable_information if exact else information, window.plan(points), []
+        compute, result = reliable_information if exact else information, []
+        parts = [window.plan(part) for part in np.array_split(points, -(-len(points) // _AT_ONCE))]
         for each in ensemble:
-            rates = entries.rates(each)
-            result.append(compute(scene_now, entries.names, each, plan, rtol).total * np.outer(rates, rates))
+            rates, totals = np.outer(entries.rates(each), entries.rates(each)), []
+            for plan in parts:
+                totals.append(compute(scene_now, entries.names, each, plan, rtol).total * rates)
+                work.add(plan.size * (_EXACT if exact else 1))
+            result.append(np.concatenate(totals))
         np.maximum(most, np.einsum("mcii->mci", result).max(axis=(0, 1)), out=most)
         return np.stack(result)
 
-    count = Counted(progress, STAGES)
-    first = window.candidates(_SPACING, rtol)
     # the range of the search keeps the matrices from being singular; nothing is known beyond it
     known = np.broadcast_to(before + entries.vague, (len(ensemble), *before.shape))
     criterion = Criterion(None) if single is None else Criterion(entries.names.index(single), _OTHERS)
-    quick, exact = partial(evaluate, exact=False), partial(evaluate, exact=True)
-    choice = search(quick, known, criterion, size, first, 1 / (_SPACING - 1), exact, count.step)
+    choice = search(
+        partial(evaluate, exact=False), known, criterion, size, first, 1 / (_SPACING - 1), partial(evaluate, exact=True)
+    )
     for name, information_of_one in zip(entries.names, most, strict=True):
         if single in (None, name) and information_of_one < _NOTHING:
             accepted = "entries that outcome or restitution depend on in this window"
             all_stick = set(window.outcomes(first, rtol).tolist()) == {OUTCOMES.index(STICK)}
             problem = "changes nothing that is observed in the window" + ", where all impacts stick" * all_stick
             raise InputError("free", name, accepted, problem)
-    return Design.of(window, entries, values, before, choice, single, size, rtol, len(ensemble), loaded)
+    planned = Design.of(window, entries, values, before, choice, single, size, rtol, len(ensemble), loaded)
+    work.finish()
+    return planned
 
 
 def _known(

@@ -14,7 +14,6 @@ Evaluate = Callable[[np.ndarray], np.ndarray]
 """From points in the unit square (points, 2) to information (draws, points, entries, entries)."""
 
 _LEVELS = 3  # of refinement of the candidates
-STAGES = _LEVELS + 3  # of the search: first choice, levels, choice by exact information, free impacts
 _PROMISING = 24  # candidates around which finer ones are tried, beside those of the design
 _ROUNDS = 30
 _TOP = 16  # candidates that are made exact at once
@@ -85,7 +84,7 @@ class Choice:
 
 def search(
     evaluate: Evaluate, before: np.ndarray, criterion: Criterion, size: int, first: np.ndarray, h: float,
-    exact: Evaluate | None = None, finished: Callable[[], None] = lambda: None,
+    exact: Evaluate | None = None,
 ) -> Choice:  # fmt: skip
     """The best impacts among candidates, refined.
 
@@ -96,27 +95,22 @@ def search(
         first: (candidates, 2), the candidates to begin with.
         h: their spacing; it is halved at every level.
         exact: `evaluate` with smaller errors, for impacts that are chosen: a candidate may be best by an error alone.
-        finished: called after each of the STAGES.
     """
     table = _Candidates(evaluate, exact or evaluate, criterion, before, first)
     moving = np.ptp(first, axis=0) > 0
     steps = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)]) * moving
     chosen = table.exchanged(table.greedy(size))
-    finished()
     for _ in range(_LEVELS):
         h /= 2
         around = np.unique(np.concatenate([chosen, np.argsort(-table.rate(chosen))[:_PROMISING]]))
         table.add((table.points[around][:, None] + h * steps).reshape(-1, 2))
         chosen = table.exchanged(chosen)
-        finished()
     chosen = table.settled(chosen)
-    finished()
     total, rate, bound = table.total(chosen), table.rate(chosen), None
     if table.is_exact[np.argmax(rate)]:
         bound = float(criterion.value(total)) + size * float(rate.max()) - float(rate[chosen].sum())
     distinct, counts = np.unique(chosen, return_counts=True)
     points, total = table.moved(distinct, counts, total, h * moving)
-    finished()
     points, counts, total = table.merged(points, counts, total, 3 * h)
     value = float(criterion.value(total))
     return Choice(points, counts, total, value, None if bound is None else max(bound, value), len(table.points))

@@ -64,7 +64,7 @@ def attack(
         third: dotted name of the third variable, if there is one.
         error: that the table states.
         seed: of the random numbers.
-        tell: called with the number of queries done.
+        tell: called with the number of queries of every block.
     """
     result, known = Attack(), Signatures()
     random = np.random.default_rng(seed)
@@ -82,7 +82,7 @@ def attack(
             wrong[part] = np.fmin(wrong[part], beside)
         _enter(result, data, at, wrong, error, answers.outcome, known.of(labels))
         result.queries += at.shape[1]
-        tell(result.queries)
+        tell(at.shape[1])
         if result.failed > _GIVE_UP_AFTER:
             break
     return result

@@ -41,14 +41,14 @@ class Builder:
         signatures: of the layouts.
         of: results.
         error: asked for.
-        tell: called with the number of panels done.
+        tell: called after every panel.
         orders: coefficients of a patch in angle and height.
     """
 
     signatures: Signatures
     of: tuple[str, ...]
     error: float
-    tell: Callable[[int], None]
+    tell: Callable[[], None]
     orders: tuple[int, int] = (14, 14)
     most: int = 4000
     shapes: Forest = field(init=False)
@@ -95,7 +95,7 @@ class Builder:
             for k, label in enumerate(panel.labels):
                 self.cells.append(self._cell(strip, k, label))
             previous = following
-            self.tell(len(self.maps))
+            self.tell()
         self.slices.append(part.high)
         self.first_panel.append(len(self.maps))
 

@@ -35,7 +35,7 @@ class Slicer:
     rtol: float
     of: tuple[str, ...]
     doubts: np.ndarray
-    tell: Callable[[str], None]
+    tell: Callable[[], None]
     signatures: Signatures = field(default_factory=Signatures)
     made: int = field(default=0, init=False)
     collisions: int = field(default=0, init=False)
@@ -54,7 +54,7 @@ class Slicer:
             layout = with_kinks(layout_of(plane, self.doubts[:, 1:]))
             self.failures += layout.failures
             self._layouts[at] = layout
-            self.tell(f"{len(self._layouts)} planes")
+            self.tell()
         return self._layouts[at]
 
     def fill(self, builder: Builder) -> None:

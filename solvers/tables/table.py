@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
@@ -14,6 +14,7 @@ from ..engines.choice import collision_engine
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function, check_mapping, check_names, check_whole
+from ..host.progress import Estimated, Progress
 from ..many.batch import ascending, checked_numbers, checked_span, checked_vary
 from ..model.validity import warn
 from ..scene.scene import Scene
@@ -136,7 +137,7 @@ def table(
     of: Sequence[str] = ("restitution", "tangential_restitution"),
     rtol: float = RTOL,
     attack: int = ATTACK,
-    progress: Callable[[str], None] | None = None,
+    progress: Progress | None = None,
 ) -> Table:
     """A table of the collision law of a scene, whose error was looked for.
 
@@ -148,7 +149,8 @@ def table(
         rtol: relative tolerance of the collisions.
         attack: number of queries that are held against collisions, random ones and ones beside boundaries. An answer
             holds if the kernel gives it at some impact within 1e-6 relative.
-        progress: called with what is being done, in words.
+        progress: called with (queries held against collisions, queries in all); with 0 while the series are made. A
+            second attempt adds its queries to both.
 
     Returns:
         Table.
@@ -168,24 +170,26 @@ def table(
     tolerance = _ERROR.number(error)
     kept, rtol = check_names(of, RESULTS, "of"), check_rtol(rtol)
     count = check_whole(attack, "attack", 1, 10**9)
-    tell = check_function(progress, "progress") or (lambda _said: None)
+    check_function(progress, "progress")
     _check_supported(loaded, ranges)
     warn(loaded)
-    return _made(loaded, ranges, tolerance, kept, rtol, count, tell)
+    work = Estimated(progress, count)
+    made = _made(loaded, ranges, tolerance, kept, rtol, count, work)
+    work.finish()
+    return made
 
 
 def _made(
-    scene: Scene, ranges: Range, error: float, of: tuple[str, ...], rtol: float, count: int, tell: Callable[[str], None]
+    scene: Scene, ranges: Range, error: float, of: tuple[str, ...], rtol: float, count: int, work: Estimated
 ) -> Table:
     doubts, tolerance = np.zeros((0, 3)), error
     for attempt in range(_ATTEMPTS):
-        slicer = Slicer(scene, ranges, rtol, of, doubts, tell)
-        builder = Builder(slicer.signatures, of, tolerance, lambda k: tell(f"{k} panels"))
+        work.start(count if attempt else 0)
+        slicer = Slicer(scene, ranges, rtol, of, doubts, work.start)
+        builder = Builder(slicer.signatures, of, tolerance, work.start)
         slicer.fill(builder)
         data = builder.data(*ranges.corners, ranges.logarithmic, np.float64 if error < _DOUBLE_BELOW else np.float32)
-        attack = attacked(
-            data, scene, ranges.third, of, error, rtol, count, attempt + 1, lambda k: tell(f"{k} queries")
-        )
+        attack = attacked(data, scene, ranges.third, of, error, rtol, count, attempt + 1, work.add)
         if not attack.failed:
             return Table(scene, of, ranges, error, attack, rtol, data)
         doubts = np.vstack([doubts, [place for place, _ in attack.failures]])

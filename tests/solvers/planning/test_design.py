@@ -39,9 +39,12 @@ def found() -> Design:
 
 
 @pytest.mark.usefixtures("found")
-def test_stages_are_counted_to_the_last() -> None:
-    """Each is reported once, beginning with none."""
-    assert reported == [(done, 6) for done in range(7)]
+def test_impacts_are_counted_to_the_last() -> None:
+    """The count begins with none, never falls, and ends at the total."""
+    done = [each for each, _ in reported]
+    assert done == sorted(done)
+    assert done[0] == 0
+    assert len(set(reported[-1])) == 1
 
 
 def regression(points: np.ndarray) -> np.ndarray:
