@@ -1,4 +1,4 @@
-"""A progress bar on standard error, shown only on a terminal, and a forecast, written there of all long work."""
+"""A progress bar on standard error and a forecast of long work, on a terminal only."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ class Bar:
 
     def __call__(self, done: int, total: int | None) -> None:
         self.total = total
-        self._tell_forecast(done, total)
         try:
             if not sys.stderr.isatty():
                 return
         except (ValueError, AttributeError):  # closed, or none
             return
+        self._tell_forecast(done, total)
         from tqdm import tqdm
 
         if self._shown is None:  # starts at the first count, because work of an earlier run would distort the speed
