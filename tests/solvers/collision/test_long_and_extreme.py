@@ -373,3 +373,25 @@ def test_strings_that_pull_a_million_times_faster_than_the_approach_keep_the_led
     lost, expected = ours.energy.normal_lubrication, other.energy.normal_lubrication
     assert lost == pytest.approx(expected, rel=1e-7) and lost > 1e10 * ours.energy.initial
     assert abs(ours.energy.residual) < 1e-9 * lost
+
+
+def test_a_spin_that_stays_zero_does_not_stop_a_creep() -> None:
+    """Implicit steps measure no error where a state is zero and does not change: 70,000 of them led nowhere."""
+    scene = Scene.from_dict(
+        {
+            "particles": {
+                "reduced_radius": 5.4567314190352894e-05, "reduced_mass": 1.0615083483106647e-08,
+                "roughness": 6.202658156670815e-07, "dry_restitution": 0.30736409654641805,
+                "youngs_modulus": 7419163955.700603, "poisson_ratio": 0.40134356186426184,
+            },
+            "partner": {"radius": 1.3455705211500345e-05, "mass": 6.575729332956459e-08},
+            "liquid": {
+                "viscosity": 6.182860522181882, "film_thickness": 4.108247651403465e-05,
+                "glass_transition_pressure": 64101457.42919423,
+            },
+            "model": {"glass": "film-corrected", "film": "infinite"},
+        }
+    )  # fmt: skip
+    creeping = np.geomspace(0.0025, 0.0032, 41)[37]
+    found = collide_many(scene, stokes=creeping * np.array([1.0, 1.0 + 1e-9]), angle=0.37038374872590746, of=("steps",))
+    assert found.steps.max() < 1000

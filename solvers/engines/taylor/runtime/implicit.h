@@ -26,6 +26,7 @@ enum { PATIENCE = 100, COLUMNS = 7, TRIES = 4000 };
 static const double WORTH = 25.0;      /* least number of Taylor steps replaced by one step, which costs five to ten */
 static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
 static const double FLOOR = 5e-14;     /* relative rounding error of a state, as amplified by extrapolation */
+static const double LEAST = 1e-300;    /* error allowed where a state is zero and stays so */
 #if SPACE
 static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn along is little beside what turns */
 static const double LEAST_VECTOR = 1e-3;     /* a smaller one counts as this, as in step.h */
@@ -184,7 +185,7 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
         d[state] = change[state] - table[COLUMNS - 2][state];
     }
     EACH_SIZE(state) {
-        vec size = size_of(l->y, 1, state), allowed = f->tolerance*size_of(change, 1, state) + FLOOR*size;
+        vec size = size_of(l->y, 1, state), allowed = f->tolerance*size_of(change, 1, state) + FLOOR*size + LEAST;
 #if SPACE
         if (state >= FIRST_VECTOR && state < MODEL_STATES)
             allowed += FLOOR_OF_VECTOR*(size + LEAST_VECTOR);
@@ -271,7 +272,7 @@ OUTLINE void crawl(queue *q)
         l.smallest = vec_min(l.smallest, l.y[GAP]);
         l.steps += splat_mask(COST);
         vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/(int)COLUMNS));
-        h *= choose(clear, vec_min(better, splat(4.0)), splat(0.25));
+        h *= choose(clear & (error == error), vec_min(better, splat(4.0)), splat(0.25));
         mask leaves = busy & (NOT(h > least_step) | (l.steps > splat_mask(q->budget)));
         EACH_OF(lane, bits(leaves)) {
             LANE(l.crept, lane) = LANE(taken, lane) ? 0 : -10*PATIENCE; /* without success: not again for a while */
