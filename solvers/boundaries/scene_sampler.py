@@ -131,15 +131,14 @@ class SceneSampler:
     def _finish(self, records: np.ndarray, angle: np.ndarray, stokes: np.ndarray, budget: int) -> None:
         """Run collisions of lines again that a part of the steps left undecided, with all steps.
 
-        Of each run of chatter along a line these are both ends, _ROW in the middle and one in _EVERY. Between the first
-        and the last that all steps leave undecided, others are left out, unless one there is decided.
+        Of each run of chatter along a line these are both ends and one in _EVERY. Between the first and the last that
+        all steps leave undecided only _ROW in the middle are added, unless one there is decided.
         """
         left, which = records["creeps"] | records["chatters"], np.flatnonzero(records["chatters"])
         chatter = np.split(which, 1 + np.flatnonzero((np.diff(which) > 1) | (np.diff(stokes[which]) < 0)))
         wanted = records["creeps"].copy()
         for part in chatter:
-            k = np.arange(part.size)
-            wanted[part] = (k % _EVERY == 0) | (k == part.size - 1) | (abs(k - part.size // 2) <= _ROW // 2)
+            wanted[part[::_EVERY]] = wanted[part[-1:]] = True
         while wanted.any():
             speed = stokes[wanted] / self.scene.stokes_per_speed
             again = sample_by_kernel(self.scene, speed, angle[wanted], self.rtol, budget=budget)
@@ -150,7 +149,8 @@ class SceneSampler:
             for part in chatter:
                 still = part[undecided[part] & ~left[part]]
                 if still.size and undecided[still[0] : still[-1]].all():
-                    wanted[still[0] : still[-1]] = False
+                    inside = part[(still[0] < part) & (part < still[-1])]
+                    wanted[inside[abs(inside - (still[0] + still[-1]) // 2) > _ROW // 2]] = False
         self.untried.update(zip(angle[left].tolist(), stokes[left].tolist(), strict=True))
 
     def _by_kernel(self, angle: np.ndarray, stokes: np.ndarray, first: bool) -> np.ndarray | None:

@@ -152,7 +152,7 @@ def _completed(samples: np.ndarray, grid: np.ndarray, sampler: SceneSampler, ang
     widest = int(np.argmax(np.diff(at)))
     low, high = float(np.exp(at[widest])), float(np.exp(at[widest + 1]))
     if high > low * math.exp(_HOLE * spacing):
-        inside = missing[(low <= missing) & (missing <= high)]
+        inside = missing[(low < missing) & (missing < high)]
         untried = sampler.untried & {(angle, each) for each in inside.tolist()}
         tried = f" ({inside.size - len(untried)} of {inside.size} tried to the end)" if untried else ""
         reason = sampler.reason(angle, low, high)
