@@ -131,13 +131,13 @@ class SceneSampler:
     def _finish(self, records: np.ndarray, angle: np.ndarray, stokes: np.ndarray, budget: int) -> None:
         """Run collisions of lines again that a part of the steps left undecided, with all steps.
 
-        Of each run of chatter along a line these are both ends and one in _EVERY. Between the first and the last that
-        all steps leave undecided only _ROW in the middle are added, unless one there is decided.
+        Of each run of them along a line these are both ends and one in _EVERY. Between the first and the last that
+        still chatter only _ROW in the middle are added, unless one there does not.
         """
-        left, which = records["creeps"] | records["chatters"], np.flatnonzero(records["chatters"])
-        chatter = np.split(which, 1 + np.flatnonzero((np.diff(which) > 1) | (np.diff(stokes[which]) < 0)))
-        wanted = records["creeps"].copy()
-        for part in chatter:
+        left = records["creeps"] | records["chatters"]
+        which, wanted = np.flatnonzero(left), np.zeros(left.size, dtype=bool)
+        parts = np.split(which, 1 + np.flatnonzero((np.diff(which) > 1) | (np.diff(stokes[which]) < 0)))
+        for part in parts:
             wanted[part[::_EVERY]] = wanted[part[-1:]] = True
         while wanted.any():
             speed = stokes[wanted] / self.scene.stokes_per_speed
@@ -145,12 +145,13 @@ class SceneSampler:
             assert again is not None  # the kernel is available
             records[wanted] = again
             left &= ~wanted
-            wanted, undecided = left.copy(), records["chatters"] & (records["outcome"] < 0)
-            for part in chatter:
-                still = part[undecided[part] & ~left[part]]
-                if still.size and undecided[still[0] : still[-1]].all():
+            wanted, chatters = left.copy(), ~left & records["chatters"] & (records["outcome"] < 0)
+            for part in parts:
+                still = part[chatters[part]]
+                if still.size and (left | chatters)[still[0] : still[-1]].all():
                     inside = part[(still[0] < part) & (part < still[-1])]
                     wanted[inside[abs(inside - (still[0] + still[-1]) // 2) > _ROW // 2]] = False
+        records["creeps"] &= ~left
         self.untried.update(zip(angle[left].tolist(), stokes[left].tolist(), strict=True))
 
     def _by_kernel(self, angle: np.ndarray, stokes: np.ndarray, first: bool) -> np.ndarray | None:
