@@ -117,24 +117,21 @@ def test_location_and_replay_share_the_steps(engine: str, most: int, distance: f
 
 def test_a_line_through_chatter_takes_a_quarter_of_the_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     """It is given up for a range in which collisions chatter, as few of them show; next to it they are decided."""
-    scene, spent = Scene.from_dict(CHATTERS), []
-
-    def counted_run(*given, **options):
-        recorded = run_recorded(*given, **options)
-        spent.append(recorded.answers["steps"].sum())
-        return recorded
-
+    scene, runs = Scene.from_dict(CHATTERS), []
     if "taylor" not in available_engines(scene):
         pytest.skip("no kernel can be compiled here")
-    monkeypatch.setattr("wetdoublet.solvers.boundaries.by_kernel.run_recorded", counted_run)
-    found = boundary(scene, angle=0.17)
-    told = re.match(
-        r"collisions between St (.*) and (.*) could not be computed \((.*) of (.*) tried", found.failures[0]
-    )
-    assert told is not None
-    low, high, tried, chatter = map(float, told.groups())
+
+    def recording(*given, **options):
+        runs.append(run_recorded(*given, **options))
+        return runs[-1]
+
+    monkeypatch.setattr("wetdoublet.solvers.boundaries.by_kernel.run_recorded", recording)
+    failure = boundary(scene, angle=0.17).failures[0]
+    [told] = re.findall(r"between St (.*) and (.*) could not be computed \((.*) of (.*) tried", failure)
+    low, high, tried, chatter = map(float, told)
     assert tried < chatter / 8
-    assert sum(spent) < (chatter + chatter / 2) * SAMPLE_BUDGET / 4  # sampled twice, the second time twice as densely
+    spent = sum(each.answers["steps"].sum() for each in runs)
+    assert spent < (chatter + chatter / 2) * SAMPLE_BUDGET / 4  # sampled twice, the second time twice as densely
     speed = np.append(np.geomspace(low * 1.02, high / 1.02, 15), high * 1.02) / scene.stokes_per_speed
     impacts = Impacts(scene, speed, np.full(speed.size, 0.17), {})
     recorded = run_recorded(impacts, True, 1e-11, trajectory=True, budget=SAMPLE_BUDGET, keep=False, fold=False)
