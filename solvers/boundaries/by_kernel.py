@@ -75,7 +75,7 @@ def sample_by_kernel(
         part["glass"] = recorded.peaks
         for name in ("reversal", "events", "time", "smallest_gap", "final_gap"):
             part[name] = answers[name]
-        if purpose == Purpose.WHOLE and not others:
+        if purpose == Purpose.WHOLE and not others and budget >= SAMPLE_BUDGET:  # earlier they are far from a limit
             _take_limits(part, impacts, answers, oblique, rtol, budget)
         result[which] = part
     return result
@@ -98,13 +98,12 @@ def _take_limits(
     part: np.ndarray, impacts: Impacts, answers: np.ndarray, oblique: bool, rtol: float, budget: int
 ) -> None:
     """Fill in the limit outcomes of doublets that entered and left their film until the step budget was exhausted."""
-    endless = np.flatnonzero(part["chatters"])
-    if not endless.size:
+    endless, choice = np.flatnonzero(part["chatters"]), select_model(impacts.scene, oblique, fold=False)
+    if not endless.size or choice.law("strings"):  # strings may transfer energy to the slip
         return
     stopped = impacts.part(endless)
     before = run_recorded(stopped, oblique, rtol, trajectory=True, budget=budget // _EARLIER, keep=False, events=False)
     assert before is not None  # the kernel is available
-    choice = select_model(impacts.scene, oblique, fold=False)
     held = limits(before.answers, answers[endless], impacts.scene, stopped.speed, stopped.angle, choice, rtol)
     for k, stays in zip(endless.tolist(), held, strict=True):
         if stays is not None:

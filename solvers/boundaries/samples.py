@@ -31,15 +31,14 @@ Sampler = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """Angles (rad), Stokes numbers -> SAMPLE, an element a collision."""
 
 
-def sampled(angles: np.ndarray, grid: np.ndarray, sampler: Sampler) -> list[np.ndarray]:
+def sampled(angles: np.ndarray, first: np.ndarray, sampler: Sampler) -> list[np.ndarray]:
     """Samples of each line, ascending in the Stokes number; failed collisions have outcome -1.
 
     Arguments:
         angles: angles of the lines, rad.
-        grid: initial Stokes numbers, ascending.
+        first: initial samples, a row for each line, ascending.
     """
-    samples = sampler(np.repeat(angles, grid.size), np.tile(grid, angles.size)).reshape(angles.size, grid.size)
-    lines = list(samples)
+    lines = list(first)
     unsettled = list(range(angles.size))
     for _ in range(_ROUNDS):
         more = {k: fresh for k in unsettled if (fresh := _between(lines[k])).size}

@@ -19,6 +19,8 @@ from .by_kernel import SAMPLE_BUDGET, sample_by_kernel
 from .samples import SAMPLE
 
 BY_KERNEL, BY_ROSENBROCK = 100, 10  # initial samples of a line per decade of the Stokes number
+_SHARE, _EVERY = 32, 16  # parts (1/n) of the steps for all first samples, and of their chatter that gets all steps
+_ROW = 33  # as many in a row fail a line, whatever collisions with a larger budget decide among them
 _MARGIN = 500  # most steps of a trajectory for a margin; one that creeps longer has none
 DEEP = 1e-3  # relative to the contact gap; an approach to this depth has reached solid contact
 _STICK, _ROTATE, _BOUNCE = map(OUTCOMES.index, (STICK, ROTATE, BOUNCE))
@@ -32,6 +34,7 @@ class SceneSampler:
         rtol: relative tolerance of the integrations.
         kernel: use the Taylor kernel; None: if it supports the scene.
         creeping: number of creeping collisions that the kernel left unfinished, by angle.
+        untried: angles and Stokes numbers of chatter that is left undecided after a part of the steps.
     """
 
     scene: Scene
@@ -40,6 +43,7 @@ class SceneSampler:
     collisions: int = field(default=0, init=False)
     reasons: dict[tuple[float, float], str] = field(default_factory=dict, init=False)
     creeping: Counter[float] = field(default_factory=Counter, init=False)
+    untried: set[tuple[float, float]] = field(default_factory=set, init=False)
 
     def __post_init__(self) -> None:
         """Determine once whether the kernel supports the scene."""
@@ -50,9 +54,13 @@ class SceneSampler:
         """Initial samples of a line per decade of the Stokes number."""
         return BY_KERNEL if self.kernel else BY_ROSENBROCK
 
-    def __call__(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        """An array of SAMPLE at angles (rad) and Stokes numbers; outcome -1 where a collision fails."""
-        samples = self._by_kernel(angle, stokes) if self.kernel else None
+    def __call__(self, angle: np.ndarray, stokes: np.ndarray, first: bool = False) -> np.ndarray:
+        """An array of SAMPLE at angles (rad) and Stokes numbers; outcome -1 where a collision fails.
+
+        Arguments:
+            first: these are the initial samples of lines, each ascending; spare steps where they show that it fails.
+        """
+        samples = self._by_kernel(angle, stokes, first) if self.kernel else None
         if samples is None:
             self.kernel = False
             samples = self.by_rosenbrock(angle, stokes)
@@ -110,16 +118,45 @@ class SceneSampler:
         reasons = (text for (at, stokes), text in self.reasons.items() if at == angle and low <= stokes <= high)
         return next(reasons, "no collision could be computed")
 
-    def _records(self, angle: np.ndarray, stokes: np.ndarray, budget: int) -> np.ndarray | None:
-        records = sample_by_kernel(self.scene, stokes / self.scene.stokes_per_speed, angle, self.rtol, budget=budget)
+    def _records(self, angle: np.ndarray, stokes: np.ndarray, budget: int, first: bool = False) -> np.ndarray | None:
+        steps, speed = budget // _SHARE if first else budget, stokes / self.scene.stokes_per_speed
+        records = sample_by_kernel(self.scene, speed, angle, self.rtol, budget=steps)
         if records is not None:
+            if first:
+                self._finish(records, angle, stokes, budget)
             self.collisions += int(np.count_nonzero(~records["at_touch"]))
             self.creeping.update(angle[records["creeps"]].tolist())
         return records
 
-    def _by_kernel(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray | None:
+    def _finish(self, records: np.ndarray, angle: np.ndarray, stokes: np.ndarray, budget: int) -> None:
+        """Run collisions of lines again that a part of the steps left undecided, with all steps.
+
+        Of each run of them along a line these are both ends and one in _EVERY. Between the first and the last that
+        still chatter only _ROW in the middle are added, unless one there does not.
+        """
+        left = records["creeps"] | records["chatters"]
+        which, wanted = np.flatnonzero(left), np.zeros(left.size, dtype=bool)
+        parts = np.split(which, 1 + np.flatnonzero((np.diff(which) > 1) | (np.diff(stokes[which]) < 0)))
+        for part in parts:
+            wanted[part[::_EVERY]] = wanted[part[-1:]] = True
+        while wanted.any():
+            speed = stokes[wanted] / self.scene.stokes_per_speed
+            again = sample_by_kernel(self.scene, speed, angle[wanted], self.rtol, budget=budget)
+            assert again is not None  # the kernel is available
+            records[wanted] = again
+            left &= ~wanted
+            wanted, chatters = left.copy(), ~left & records["chatters"] & (records["outcome"] < 0)
+            for part in parts:
+                still = part[chatters[part]]
+                if still.size and (left | chatters)[still[0] : still[-1]].all():
+                    inside = part[(still[0] < part) & (part < still[-1])]
+                    wanted[inside[abs(inside - (still[0] + still[-1]) // 2) > _ROW // 2]] = False
+        records["creeps"] &= ~left
+        self.untried.update(zip(angle[left].tolist(), stokes[left].tolist(), strict=True))
+
+    def _by_kernel(self, angle: np.ndarray, stokes: np.ndarray, first: bool) -> np.ndarray | None:
         """Samples by the kernel; sticks are continued until they fall back, None if the kernel does not run."""
-        records = self._records(angle, stokes, SAMPLE_BUDGET)
+        records = self._records(angle, stokes, SAMPLE_BUDGET, first)
         if records is None:
             return None
         samples, speed, outcome = blank(stokes), stokes / self.scene.stokes_per_speed, records["outcome"]

@@ -103,7 +103,8 @@ def _block(
     changes: list[tuple[Change, ...]] = [()] * angles.size
     failures = [""] * angles.size
     lines, complete, places, widths = [], [], [], []
-    for k, samples in enumerate(sampled(angles, grid, sampler)):
+    first = sampler(np.repeat(angles, grid.size), np.tile(grid, angles.size), first=True)
+    for k, samples in enumerate(sampled(angles, first.reshape(angles.size, grid.size), sampler)):
         angle = float(angles[k])
         if kernel is None and sampler.creeping[angle] > _CREEPING * grid.size:
             [changes[k]], [failures[k]] = _block(scene, angles[k : k + 1], span, rtol, finer, traced, False)
@@ -145,13 +146,17 @@ def _completed(samples: np.ndarray, grid: np.ndarray, sampler: SceneSampler, ang
         some = missing[np.unique(np.linspace(0, missing.size - 1, _SLOW).astype(int))]
         recomputed = blank(some)
         recomputed["outcome"] = sampler.outcomes(np.full(some.size, angle), some)["outcome"]
+        sampler.untried.difference_update((angle, each) for each in some.tolist())
         samples = merged(samples, recomputed)
         at = _spaced(samples, grid)
     widest = int(np.argmax(np.diff(at)))
     low, high = float(np.exp(at[widest])), float(np.exp(at[widest + 1]))
     if high > low * math.exp(_HOLE * spacing):
+        inside = missing[(low < missing) & (missing < high)]
+        untried = sampler.untried & {(angle, each) for each in inside.tolist()}
+        tried = f" ({inside.size - len(untried)} of {inside.size} tried to the end)" if untried else ""
         reason = sampler.reason(angle, low, high)
-        raise ComputationError(f"collisions between St {low:.4g} and {high:.4g} could not be computed: {reason}")
+        raise ComputationError(f"collisions between St {low:.4g} and {high:.4g} could not be computed{tried}: {reason}")
     return samples, high / low - 1
 
 

@@ -1,11 +1,14 @@
 """One budget of steps for all that a collision takes: kernel, location, replay, planar collisions beside a wall."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, collide, collide_many, collide_pair
+from wetdoublet.generated.automaton import LAST_ANSWER
+from wetdoublet.solvers import ComputationError, Scene, boundary, collide, collide_many, collide_pair
+from wetdoublet.solvers.boundaries.by_kernel import SAMPLE_BUDGET
 from wetdoublet.solvers.collision.by_casadi import by_casadi
 from wetdoublet.solvers.engines.casadi.integrators import Locator, Plain
 from wetdoublet.solvers.engines.choice import available_engines
@@ -110,6 +113,30 @@ def test_location_and_replay_share_the_steps(engine: str, most: int, distance: f
     assert decided or most < 5_000
     assert budget.spent <= most
     assert counted.total <= 2 * most  # a decided trajectory that cannot be replayed is located again
+
+
+def test_a_line_through_chatter_takes_a_quarter_of_the_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is given up for a range in which collisions chatter, as few of them show; next to it they are decided."""
+    scene, runs = Scene.from_dict(CHATTERS), []
+    if "taylor" not in available_engines(scene):
+        pytest.skip("no kernel can be compiled here")
+
+    def recording(*given, **options):
+        runs.append(run_recorded(*given, **options))
+        return runs[-1]
+
+    monkeypatch.setattr("wetdoublet.solvers.boundaries.by_kernel.run_recorded", recording)
+    failure = boundary(scene, angle=0.17).failures[0]
+    [told] = re.findall(r"between St (.*) and (.*) could not be computed \((.*) of (.*) tried", failure)
+    low, high, tried, chatter = map(float, told)
+    assert tried < chatter / 8
+    spent = sum(each.answers["steps"].sum() for each in runs)
+    assert spent < (chatter + chatter / 2) * SAMPLE_BUDGET / 4  # sampled twice, the second time twice as densely
+    speed = np.append(np.geomspace(low * 1.02, high / 1.02, 15), high * 1.02) / scene.stokes_per_speed
+    impacts = Impacts(scene, speed, np.full(speed.size, 0.17), {})
+    recorded = run_recorded(impacts, True, 1e-11, trajectory=True, budget=SAMPLE_BUDGET, keep=False, fold=False)
+    assert recorded is not None
+    assert (recorded.answers["status"] <= LAST_ANSWER).tolist() == [False] * 15 + [True]
 
 
 def test_a_chattering_trajectory_spends_no_more(counted: Counted) -> None:
