@@ -98,6 +98,8 @@ class Line:
         groups = self.numbers(stokes).groups
         contact = contact_gap(groups)
         pressure, smallest = approach(self.model, groups, self.rtol, self.machine_code)
+        if smallest <= 0:
+            raise ComputationError(f"without a rebound the gap closes to zero at St {stokes:.6g}")
         glass = math.log(pressure / groups["glass_number"]) if pressure > 0 else -math.inf
         return max(glass, math.log(contact / smallest) if contact > 0 else -math.inf)
 
