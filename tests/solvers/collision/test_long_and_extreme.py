@@ -395,3 +395,23 @@ def test_a_spin_that_stays_zero_does_not_stop_a_creep() -> None:
     creeping = np.geomspace(0.0025, 0.0032, 41)[37]
     found = collide_many(scene, stokes=creeping * np.array([1.0, 1.0 + 1e-9]), angle=0.37038374872590746, of=("steps",))
     assert found.steps.max() < 1000
+
+
+def test_a_film_alone_at_a_tiny_angle_has_its_ledger() -> None:
+    """A creep of 1e13 of its times: rounding of the momenta's exchange does not hold up the implicit steps."""
+    scene = Scene.from_dict(
+        {
+            "particles": {
+                "reduced_radius": 8.943655292652102e-05, "reduced_mass": 9.567300970252206e-08,
+                "roughness": 5.609211718580454e-09, "dry_restitution": 0.5814757704088492,
+                "youngs_modulus": 168544678897.12454, "poisson_ratio": 0.18911001352777418,
+            },
+            "liquid": {"viscosity": 1.7240318492921058, "film_thickness": 1.4092898991587152e-06},
+            "impact": {"stokes": 0.13219499687607913, "angle": 9.459265e-06},
+        }
+    )  # fmt: skip
+    found, plain = (collide(scene, engine=None, ledger=ledger) for ledger in (True, False))
+    assert found.engine == plain.engine == "taylor"
+    assert found.steps < KERNEL_STEPS / 4
+    assert found.restitution == pytest.approx(plain.restitution, rel=1e-7)
+    assert not found.energy.is_open(RTOL)

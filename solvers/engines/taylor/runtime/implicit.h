@@ -26,6 +26,7 @@ enum { PATIENCE = 100, COLUMNS = 7, TRIES = 4000 };
 static const double WORTH = 25.0;      /* least number of Taylor steps replaced by one step, which costs five to ten */
 static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
 static const double FLOOR = 5e-14;     /* relative rounding error of a state, as amplified by extrapolation */
+static const double FLOOR_OF_MOMENTUM = 1e-12; /* more: their stiff exchange is rounded in every part of a step */
 static const double LEAST = 1e-300;    /* error allowed where a state is zero and stays so */
 #if SPACE
 static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn along is little beside what turns */
@@ -190,6 +191,8 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
         if (state >= FIRST_VECTOR && state < MODEL_STATES)
             allowed += FLOOR_OF_VECTOR*(size + LEAST_VECTOR);
 #endif
+        if (state > NORMAL_VELOCITY && state < MODEL_STATES)
+            allowed += FLOOR_OF_MOMENTUM*size;
         if (state == GAP)
             carried = allowed/l->stride; /* an error of the normal velocity decays within a Taylor step */
         if (state == NORMAL_VELOCITY)
