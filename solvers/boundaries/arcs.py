@@ -37,7 +37,7 @@ def monotone(plane: Plane, arc: Arc) -> tuple[list[Arc], list[np.ndarray]]:
     if closed:  # start at a fold
         points = np.roll(points[:-1], -int(np.argmax(points[:-1, 0])), axis=0)
         points = np.vstack([points, points[:1]])
-    turns = _turns(points[:, 0])
+    turns = _reversals_of_x(points[:, 0])
     folds = {k: _fold(plane, points[k - 1 : k + 2], arc) for k in turns}
     places = dict(folds)
     if closed:
@@ -59,7 +59,7 @@ def _ascending(arc: Arc) -> Arc:
     return Arc(arc.points[kept], arc.right, arc.left)
 
 
-def _turns(x: np.ndarray) -> list[int]:
+def _reversals_of_x(x: np.ndarray) -> list[int]:
     """Indices at which x reverses by more than rounding."""
     turns, direction, extreme = [], 0, 0
     for k in range(1, x.size):

@@ -47,7 +47,10 @@ def check() -> None:
 
 @contextmanager
 def held() -> Iterator[None]:
-    """Delay the interrupt of a signal to the end, so that a process that is being started is not lost."""
+    """Delay KeyboardInterrupt to the end of the block, so that a process that is being started is not lost.
+
+    Within another such block, and outside the main thread, it does nothing.
+    """
     if threading.current_thread() is not threading.main_thread() or _SIGNALS.held:
         yield
         return

@@ -150,15 +150,15 @@ def _known(
 
 
 def _ensemble(entries: FreeEntries, values: np.ndarray, before: np.ndarray, draws: int, seed: int) -> list[np.ndarray]:
-    """Values for which the impacts are planned: the scene's, or quasi-random ones from what is known of them."""
+    """Values for which the impacts are planned: the scene's, or quasi-random ones where something is known of them."""
     if not draws:
         return [values]
-    known = np.diag(before) > 0
-    if not known.any():
+    informed = np.diag(before) > 0
+    if not informed.any():
         raise InputError("draws", draws, "priors or data, from which values are drawn", "has nothing to draw from")
     covariance = np.zeros_like(before)
-    covariance[np.ix_(known, known)] = np.linalg.pinv(before[np.ix_(known, known)])
-    spread, axes = np.linalg.eigh(covariance)
+    covariance[np.ix_(informed, informed)] = np.linalg.pinv(before[np.ix_(informed, informed)])
+    variances, axes = np.linalg.eigh(covariance)
     points = norm.ppf(qmc.Sobol(entries.size, seed=seed).random(draws) * (1 - 1e-9) + 5e-10)
-    inner = entries.inner(values) + points @ (axes * np.sqrt(np.maximum(spread, 0))).T
+    inner = entries.inner(values) + points @ (axes * np.sqrt(np.maximum(variances, 0))).T
     return [entries.values(each) for each in np.clip(inner, entries.low, entries.high)]

@@ -85,7 +85,7 @@ def check_entries(
 
 
 def check_replaced(entries: Mapping[str, Any], changes: Mapping[str, Any]) -> None:
-    """Raise InputError, with the remedy, for a change to an alternative of an entry that the scene has."""
+    """Raise InputError, with the remedy, for a change that sets one entry where the scene gives an equivalent one."""
     for ways in ALTERNATIVES:
         for name in (way for way in ways if way in changes):
             for other in (way for way in ways if way in entries and way not in changes):

@@ -164,7 +164,7 @@ class Program:
             kind = "exp" if isinstance(node, sp.exp) else "log"
             return self._add(kind, (inner,), name, f"{kind}_of_{inner}")
         if isinstance(node, (sp.sin, sp.cos)):
-            return self._circular(node, name)
+            return self._sine_or_cosine(node, name)
         if isinstance(node, (sp.sinh, sp.cosh, sp.tanh)):
             return self.series(node.rewrite(sp.exp), name)
         raise EmissionError(f"no Taylor recurrence for {type(node).__name__}: {node}")
@@ -240,7 +240,7 @@ class Program:
         inner = self.series(base)
         return self._add("power", (inner,), name, f"power_of_{inner}", (exponent,))
 
-    def _circular(self, node: sp.Expr, name: str | None) -> str:
+    def _sine_or_cosine(self, node: sp.Expr, name: str | None) -> str:
         angle = node.args[0]
         if isinstance(node, sp.sin) and sp.sin(angle / 2) in self._moving:  # sine and cosine share one operation
             return self.series(2 * sp.sin(angle / 2) * sp.cos(angle / 2), name)
