@@ -110,7 +110,18 @@ def _sizes(table: Law, name: str) -> str:
     numbers = {
         "RESULTS": len(table.of), "VARIABLES": len(table.variables), "SLICES": data.slices.size - 1, "MOST": most,
     }  # fmt: skip
-    return "\n".join(f"#define {_constants(name)}_{key} {value}" for key, value in numbers.items()) + "\n"
+    lines = [f"#define {_constants(name)}_{key} {value}" for key, value in numbers.items()]
+    return "\n".join([*lines, *_stokes_factor(table, name)]) + "\n"
+
+
+def _stokes_factor(table: Law, name: str) -> list[str]:
+    """The Stokes number per m/s; without the number where it depends on the third variable."""
+    third = table.range.third
+    scenes = [table.scene, *(table.scene.with_si({third: end}) for end in table.range.ends if third is not None)]
+    factors = [scene.stokes_per_speed for scene in scenes]
+    if not np.allclose(factors, factors[0], rtol=1e-12, atol=0.0):
+        return [f"/* The Stokes number per m/s of normal speed depends on {third}: see the formula above. */"]
+    return [f"#define {_constants(name)}_STOKES_PER_SPEED {factors[0]!r} /* s/m: times the normal approach speed */"]
 
 
 def _numbers(table: Law) -> dict[str, tuple[str, np.ndarray]]:
