@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Table, boundary, collide_many, gradients_many, table
+from wetdoublet.solvers import InputError, Scene, Table, boundary, collide_many, gradients_many, table
 from wetdoublet.solvers.tables.attack import attack
 
 from ...helpers.command import run
@@ -234,4 +234,9 @@ def test_the_command_writes_a_table_and_draws_it(tmp_path: Path) -> None:
     assert done.exit_code == 0, done.output
     assert "largest of 2000 queries" in done.output
     assert "Largest error found" in file.read_text()
+    factor = re.search(r"#define GRANULATION_TABLE_STOKES_PER_SPEED (\S+)", file.read_text())
+    assert factor is not None
+    scene = Scene.load("granulation")
+    mass, radius, viscosity = (scene.material[name] for name in ("reduced_mass", "reduced_radius", "viscosity"))
+    assert float(factor[1]) == pytest.approx(mass / (6 * math.pi * viscosity * radius**2), rel=1e-14)
     assert picture.stat().st_size > 10_000
