@@ -1,6 +1,5 @@
 """Configuration of the documentation: `python -m sphinx -W -b html docs docs/_build`."""
 
-import logging
 import os
 import sys
 from importlib.metadata import version as version_of
@@ -13,11 +12,6 @@ os.environ["PATH"] = str(Path(sys.executable).parent) + os.pathsep + os.environ[
 os.environ["WETDOUBLET_DOCS"] = str(HERE)  # and the data
 
 from gallery_pictures import WrittenPictures  # noqa: E402 -- found by the path that is set above
-from jupyter_client import KernelManager  # noqa: E402
-
-logging.basicConfig(level=logging.WARNING)  # before accessible-pygments, which furo needs, does so with INFO
-if os.name != "nt":
-    KernelManager.transport.default_value = "ipc"  # over TCP every notebook begins with a warning
 
 project = "wetdoublet"
 author = "The wetdoublet developers"
