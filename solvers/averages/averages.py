@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,6 +15,7 @@ from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_function, check_name, check_names
 from ..host.cores import usable_cores
+from ..host.progress import Progress
 from ..host.workers import in_workers
 from ..many.batch import checked_numbers
 from ..many.journal import Journal, checked_journal
@@ -40,7 +41,6 @@ _TOLERANCE = Field(
     "tolerance", "an error", "1e-6", Range("from 1e-9 to 1e-2", 1e-9, 1e-2, low_open=False, high_open=False)
 )
 _OF_ONE = ("particles.radius", "particles.density")  # entries of one sphere of a pair, as those of its partner
-Progress = Callable[[int, int], None]
 
 
 def collision_averages(

@@ -47,7 +47,7 @@ class Saddle:
 def saddle_of(probe: EventLocator, barrier: Barrier) -> Saddle | None:
     """The saddle at a barrier for the trajectory's angular momentum; None without a growing mode."""
     film = int(barrier.gap < 1 or not probe.model.edged)
-    # that of a growing gap: a doublet that escapes passes the saddle outwards
+    # cavitated: a doublet that escapes passes the saddle with a growing gap
     region = Region(film, shear=int(barrier.gap < probe.edge), resting=False, cavitated=probe.model.cavitates)
     return saddle_at(probe.model, barrier.gap, probe.y[: len(probe.model.state)], probe.p, region)
 

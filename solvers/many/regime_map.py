@@ -17,6 +17,7 @@ from ..errors import InputError
 from ..formatting.labelled import Column
 from ..host import files
 from ..host.arguments import check_function
+from ..host.progress import Progress
 from ..scene.groups import formulas
 from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
@@ -28,7 +29,7 @@ from .compute import Slow
 from .journal import Journal, checked_journal
 from .results import QUANTITIES, VALIDITY
 from .scan import LABELS, Scan
-from .stream import Progress, check_places, into_memory, into_store
+from .stream import check_places, into_memory, into_store
 
 if TYPE_CHECKING:
     import xarray

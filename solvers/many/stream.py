@@ -17,6 +17,7 @@ import numpy as np
 from ..engines.arithmetic import arithmetic
 from ..host.cores import usable_cores
 from ..host.interrupts import check
+from ..host.progress import Progress
 from .chunks import LARGEST, chunks
 from .cluster import Task, agreed, check_scheduler, computed, connected
 from .columns import validity
@@ -29,7 +30,6 @@ from .store import Store, check_store, opened
 if TYPE_CHECKING:
     import xarray
 
-Progress = Callable[[int, int], None]
 _Blocks = Callable[[list[int]], Iterator[tuple[int, Block]]]
 _NUMBERS = 1 << 19  # in the request of a chunk, 4 MB; Dask warns of much more
 

@@ -14,6 +14,7 @@ from ..collision.result import Collision
 from ..engines.choice import available_engines
 from ..errors import ComputationError
 from ..host.environment import one_core
+from ..host.progress import Progress
 from ..many.collide_many import collide_many
 from ..many.results import FAILED
 from ..scene.scene import Scene
@@ -27,7 +28,6 @@ _PASSES, _LONG = 10, 0.05  # most passes, and s after which no further one start
 _DEAR = 1.0  # s; after a slower batch, an engine gets no batches at smaller tolerances
 _GOLDEN = 0.6180339887498949
 
-Progress = Callable[[int, int], None]
 Result = TypeVar("Result")
 
 

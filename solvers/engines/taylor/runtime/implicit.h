@@ -26,12 +26,13 @@ enum { PATIENCE = 100, COLUMNS = 7, TRIES = 4000 };
 static const double WORTH = 25.0;      /* least number of Taylor steps replaced by one step, which costs five to ten */
 static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
 static const double FLOOR = 5e-14;     /* relative rounding error of a state, as amplified by extrapolation */
-static const double FLOOR_OF_MOMENTUM = 1e-12; /* more: their stiff exchange is rounded in every part of a step */
 static const double LEAST = 1e-300;    /* error allowed where a state is zero and stays so */
 #if SPACE
 static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn along is little beside what turns */
 static const double LEAST_VECTOR = 1e-3;     /* a smaller one counts as this, as in step.h */
 static const double MOST_TURNED = 1e9;       /* turns in a step */
+#else
+static const double FLOOR_OF_MOMENTUM = 1e-12; /* more: their stiff exchange is rounded in every part of a step */
 #endif
 enum { COST = SPACE ? 16 : 6 }; /* of a step, from the budget: about as long as so many Taylor steps */
 
@@ -190,9 +191,10 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
 #if SPACE
         if (state >= FIRST_VECTOR && state < MODEL_STATES)
             allowed += FLOOR_OF_VECTOR*(size + LEAST_VECTOR);
-#endif
+#else
         if (state > NORMAL_VELOCITY && state < MODEL_STATES)
             allowed += FLOOR_OF_MOMENTUM*size;
+#endif
         if (state == GAP)
             carried = allowed/l->stride; /* an error of the normal velocity decays within a Taylor step */
         if (state == NORMAL_VELOCITY)
