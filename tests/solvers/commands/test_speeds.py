@@ -79,6 +79,7 @@ def test_every_command_is_looked_at() -> None:
 
 
 @pytest.mark.parametrize("name", SHOWN)
+@pytest.mark.slow
 def test_output_says_which_speed(name: str, scene: Path, tmp_path: Path) -> None:
     """No table, JSON, CSV or picture of a command says `speed` alone, and none shows m/s without a name of it."""
     command = name.partition(" ")[0]
