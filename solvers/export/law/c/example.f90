@@ -15,7 +15,7 @@ program example
     impact%angle = 1
     impact%spin = 0
     impact%partner_spin = 0
-    status = law_collide(material, impact, 1.0e-9_c_double, found)
+    status = law_collide(material, impact, 1.0e-9_c_double, 0_c_int, found)
     print '(es12.4, i4, i4, f14.9)', impact%speed, status, found%outcome, found%restitution
   end do
 end program example
