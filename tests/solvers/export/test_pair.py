@@ -39,7 +39,8 @@ class Pairs:
     """The materials of pairs by the exported law in a folder."""
 
     def __init__(self, scene: Scene, folder: Path, *flags: str) -> None:
-        self.scene, self.law = scene, Law(scene, written(scene, folder), *flags)
+        self.folder = written(scene, folder)
+        self.scene, self.law = scene, Law(scene, self.folder, *flags)
         kind = self.law.dtype("pair_entries")
         fields = [(name, ctypes.c_double) for name in kind.names]
         function = self.law.function("default_pair_entries")
@@ -157,6 +158,19 @@ def test_sizes_that_a_structure_has_not_cannot_be_given(made: dict[str, Pairs], 
     assert "double partner_radius" not in header
 
 
+def test_the_pages_mixture_compiles_and_runs(made: dict[str, Pairs], tmp_path: Path):
+    """All pairs of three kinds of beads but the dry ones collide; of these the film is named."""
+    pairs("by coating", made, tmp_path / "law")
+    folder = made["by coating"].folder
+    [program] = [text for text in re.findall(r"```c\n(.*?)```", PAGE.read_text(), re.DOTALL) if "int main" in text]
+    (folder / "mixture.c").write_text(program)
+    command = "gcc -std=c99 -pedantic -Wall -Wextra -Werror -o mixture mixture.c glass_beads_water.c -lm"
+    subprocess.run(command.split(), cwd=folder, check=True)
+    said = subprocess.run(["./mixture"], cwd=folder, capture_output=True, text=True, check=True).stdout.splitlines()
+    assert [" outcome " in line for line in said] == [True] * 5 + [False]
+    assert said[-1] == "2 and 2: film_thickness must be > 0, m"
+
+
 @pytest.mark.slow
 def test_hostile_entries_under_the_sanitizers(tmp_path: Path):
     """Two bad numbers at a time: a status or a material of numbers, nothing undefined, and no warning of any kind."""
@@ -167,7 +181,7 @@ def test_hostile_entries_under_the_sanitizers(tmp_path: Path):
             "NAN" if math.isnan(x) else f"{'-' if x < 0 else ''}INFINITY" if math.isinf(x) else repr(x) for x in HOSTILE
         )
         (folder / "hostile.c").write_text(
-            HOSTILE_C.replace("law_", f"{law}_").replace("NAME", law).replace("NUMBERS", numbers)
+            HOSTILE_C.replace("law_", f"{law}_").replace("NAME", law).replace("VALUES", numbers)
         )
         warned = "-pedantic -Wall -Wextra -Wconversion -Wshadow -Werror".split()
         for compiler in (["gcc", "-std=c99"], ["g++", "-x", "c++", "-std=c++20"], ["gcc", "-std=c99", "-march=native"]):
@@ -197,17 +211,17 @@ HOSTILE_C = """\
 
 int main(void)
 {
-    static const double BAD[] = {NUMBERS};
-    enum { MEMBERS = sizeof(law_pair_entries)/sizeof(double), NUMBERS_IN_ALL = sizeof BAD/sizeof *BAD };
+    static const double BAD[] = {VALUES};
+    enum { MEMBERS = sizeof(law_pair_entries)/sizeof(double), COUNT = sizeof BAD/sizeof *BAD };
     int wrong = 0, tried = 0;
     union { law_pair_entries entries; double numbers[MEMBERS]; } pair;
     union { law_material material; double numbers[sizeof(law_material)/sizeof(double)]; } made;
     for (int i = 0; i < MEMBERS; i++)
         for (int j = 0; j <= i; j++)
-            for (int k = 0; k < NUMBERS_IN_ALL*NUMBERS_IN_ALL; k++) {
+            for (int k = 0; k < COUNT*COUNT; k++) {
                 pair.entries = law_default_pair_entries();
-                pair.numbers[i] = BAD[k/NUMBERS_IN_ALL];
-                pair.numbers[j] = BAD[k%NUMBERS_IN_ALL];
+                pair.numbers[i] = BAD[k/COUNT];
+                pair.numbers[j] = BAD[k%COUNT];
                 int status = law_material_of(&pair.entries, &made.material);
                 double sum = 0.0;
                 for (unsigned n = 0; n < sizeof made/sizeof(double); n++)
