@@ -116,9 +116,12 @@ class Law:
         assert status == found["status"][0]
         return found
 
-    def begin(self, impact: np.ndarray, rtol: float = 1e-9, budget: int = 0) -> np.ndarray:
+    def begin(
+        self, impact: np.ndarray, rtol: float = 1e-9, budget: int = 0, material: np.ndarray | None = None
+    ) -> np.ndarray:
         """A contact at its beginning, as a row of its type."""
-        contact, material = np.zeros(1, self.dtype("contact")), self.material()
+        contact = np.zeros(1, self.dtype("contact"))
+        material = self.material() if material is None else material
         function = self.function("begin")
         pointers = (ctypes.c_void_p(each.ctypes.data) for each in (material, np.ascontiguousarray(impact)))
         settings = ctypes.c_double(rtol), ctypes.c_int(budget)
@@ -153,9 +156,12 @@ class Law:
         assert failed == np.count_nonzero(found["status"])
         return found
 
-    def collide_particles(self, particles: np.ndarray, tolerance: float = 1e-9, rtol: float = 1e-9) -> np.ndarray:
+    def collide_particles(
+        self, particles: np.ndarray, tolerance: float = 1e-9, rtol: float = 1e-9, material: np.ndarray | None = None
+    ) -> np.ndarray:
         """The result of two particles (rows of their type), which are moved in place."""
-        found, material = np.zeros(1, self.dtype("pair_after")), self.material()
+        found = np.zeros(1, self.dtype("pair_after"))
+        material = self.material() if material is None else material
         first, second = (ctypes.c_void_p(particles[k : k + 1].ctypes.data) for k in range(2))
         function = self.function("collide_particles")
         rest = ctypes.c_double(tolerance), ctypes.c_double(rtol), ctypes.c_int(0), ctypes.c_void_p(found.ctypes.data)

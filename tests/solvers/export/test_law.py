@@ -166,17 +166,17 @@ def test_a_budget_ends_what_takes_longer(law: Law):
     velocities = np.zeros((100, 2, 3))
     velocities[:, 0] = draw.uniform(0.2, 2, (100, 1)) * [0.5, 0.0, 1.0]
     pairs = law.pairs([0, 0, 1], velocities, 2e4 * draw.normal(size=(100, 2, 3)))
-    for rows, collide in ((random_impacts(law, 200), law.collide), (pairs, law.collide_pairs)):
-        whole, shares = collide(rows), list[float]()
+    for rows, answers in ((random_impacts(law, 200), law.collide), (pairs, law.collide_pairs)):
+        whole, shares = answers(rows), list[float]()
         for budget in (1, 30, 100, longer):
-            found = collide(rows, budget=budget)
+            found = answers(rows, budget=budget)
             over = found["status"] == spent
             for name in whole.dtype.names or ():
                 np.testing.assert_array_equal(found[name][~over], whole[name][~over])
             assert np.all(found["outcome"][over] == law.number("UNDECIDED"))
             shares.append(over.mean())
         assert shares[0] > shares[1] > shares[2] > shares[3] == 0
-        assert np.all(collide(rows, budget=-1)["status"] == law.number("BAD_BUDGET"))
+        assert np.all(answers(rows, budget=-1)["status"] == law.number("BAD_BUDGET"))
     contact = law.begin(law.impacts(speed=1.0, angle=0.5), budget=1)
     assert law.advance(contact, 1.0) == spent
     assert contact["motion"][0] == law.number("LOST")

@@ -4,9 +4,7 @@ import ctypes
 import math
 import re
 import subprocess
-from itertools import product
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -183,7 +181,7 @@ def test_hostile_entries_under_the_sanitizers(tmp_path: Path):
         (folder / "hostile.c").write_text(
             HOSTILE_C.replace("law_", f"{law}_").replace("NAME", law).replace("VALUES", numbers)
         )
-        warned = "-pedantic -Wall -Wextra -Wconversion -Wshadow -Werror".split()
+        warned = ["-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror"]
         for compiler in (["gcc", "-std=c99"], ["g++", "-x", "c++", "-std=c++20"], ["gcc", "-std=c99", "-march=native"]):
             subprocess.run(
                 [*compiler, *warned, "-fsyntax-only", f"{law}.c", "hostile.c", "check.c"], cwd=folder, check=True
