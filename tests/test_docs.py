@@ -107,3 +107,13 @@ def test_the_synthetic_data_are_those_of_their_script():
         text = (folder / name).read_text(encoding="utf-8")
         assert text == make()
         assert text.startswith("# Synthetic")
+
+
+@pytest.mark.parametrize(("name", "arguments"), [("fit", ("SCENE", "DATA.csv")), ("verify", ())])
+def test_required_arguments_are_called_so(name, arguments, monkeypatch):
+    """On the commands page SCENE is required and [SCENE] optional, although click itself requires neither."""
+    monkeypatch.syspath_prepend(ROOT / "docs/_ext")
+    context = click.Context(cli.get_command(click.Context(cli), name))
+    lines = ["Optional argument" for each in context.command.params if isinstance(each, click.Argument)]
+    import_module("pages").required_arguments(context, lines)
+    assert lines == (["Required argument"] * len(arguments) or ["Optional argument"])

@@ -19,7 +19,7 @@ from ..host.pictures import plot
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.scene import Scene
-from .free_entries import FreeEntries, in_unit, interval, unit_shown
+from .free_entries import IDENTIFIED, FreeEntries, in_unit, interval, unit_shown
 from .likelihood import KNEE
 from .measurements import Measurements
 from .optimise import Objective
@@ -46,6 +46,13 @@ class Estimate:
     low: float | None
     high: float | None
     verdict: str
+
+    @property
+    def precision(self) -> str:
+        """Half the width of a closed interval relative to the value, as text; empty where there is none."""
+        if self.verdict != IDENTIFIED or self.low is None or self.high is None or not self.value:
+            return ""
+        return f"to {50 * (self.high - self.low) / abs(self.value):.2g} %"
 
 
 @dataclass(frozen=True)
@@ -132,9 +139,10 @@ class Fit:
     def table(self) -> tuple[list[str], list[list[str]]]:
         """Head and rows of the table of estimates."""
         rows = [
-            [name, in_unit(self.first, name, one.value), interval(self.first, name, one.low, one.high), one.verdict]
+            [name, in_unit(self.first, name, one.value), interval(self.first, name, one.low, one.high),
+             f"{one.verdict} {one.precision}".rstrip()]
             for name, one in self.estimates.items()
-        ]
+        ]  # fmt: skip
         return ["entry", "estimate", "95 % interval", "verdict"], rows
 
     def log_density(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
@@ -219,7 +227,7 @@ class Fit:
         except InputError:  # at the edge of what is possible
             scene = self._rounded(17)
         comments = dict(scene.comments) | {
-            name: f"fitted: 95 % {interval(self.first, name, each.low, each.high)}, {each.verdict}"
+            name: f"fitted: 95 % {interval(self.first, name, each.low, each.high)}, {each.verdict} {each.precision}".rstrip()
             for name, each in self.estimates.items()
         }
         return Scene(scene.name, scene.given, tuple(comments.items()), scene.package).to_toml()

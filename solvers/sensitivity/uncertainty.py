@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
-from ..errors import ComputationError, InputError
+from ..errors import ComputationError, InputError, install_extra
 from ..host.arguments import check_mapping, check_name, check_whole
 from ..host.pictures import register
 from ..many.batch import checked_numbers
@@ -221,7 +221,7 @@ def _normal(samples: int, count: int) -> np.ndarray:
     try:
         from scipy.stats import norm, qmc
     except ImportError:
-        raise ComputationError("sampling needs scipy", advice="pip install 'wetdoublet[global]'") from None
+        raise ComputationError("sampling needs scipy", advice=install_extra("global")) from None
     return np.asarray(norm.ppf(qmc.Sobol(count, seed=0).random(samples)))
 
 

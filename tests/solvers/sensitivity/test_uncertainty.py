@@ -168,7 +168,7 @@ def test_sobol_indices() -> None:
 def test_without_salib(monkeypatch: pytest.MonkeyPatch) -> None:
     """One line says what to install."""
     monkeypatch.setitem(sys.modules, "SALib.sample.sobol", None)
-    with pytest.raises(ComputationError, match=r"SALib; pip install 'wetdoublet\[global\]'"):
+    with pytest.raises(ComputationError, match=r"SALib; in the clone run pip install '\.\[global\]'"):
         sobol_indices(GRANULATION, {"impact.angle": ("60 deg", "66 deg")}, samples=2)
 
 
