@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from .boundaries.boundary import Atlas, Boundaries, atlas, boundary
     from .collision.collide import collide
     from .collision.result import Collision
+    from .critical.critical import critical
+    from .critical.result import Critical
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .fitting.compare import compare_models
@@ -40,6 +42,8 @@ _NAMES = {
     "boundaries.boundary": "Atlas Boundaries atlas boundary",
     "collision.collide": "collide",
     "collision.result": "Collision",
+    "critical.critical": "critical",
+    "critical.result": "Critical",
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
     "fitting.compare": "compare_models",
@@ -65,11 +69,11 @@ _NAMES = {
 _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()}
 
 __all__ = [
-    "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Design", "Fit",
-    "InputError", "ModelWarning", "Scene", "Sensitivities", "Table", "WetDoubletError", "atlas", "band", "boundary",
-    "boundary_sensitivities", "collide", "collide_many", "collide_pair", "collision_averages", "compare_models",
-    "compile_kernels", "design", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "regime_map",
-    "sensitivities", "sobol_indices", "table", "trajectory_sensitivities",
+    "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
+    "Design", "Fit", "InputError", "ModelWarning", "Scene", "Sensitivities", "Table", "WetDoubletError", "atlas", "band",
+    "boundary", "boundary_sensitivities", "collide", "collide_many", "collide_pair", "collision_averages", "compare_models",
+    "compile_kernels", "critical", "design", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot",
+    "regime_map", "sensitivities", "sobol_indices", "table", "trajectory_sensitivities",
 ]  # fmt: skip
 
 if not TYPE_CHECKING:  # so that type checkers know the names above and no others

@@ -226,10 +226,8 @@ class Fit:
             scene = self._rounded(6)
         except InputError:  # at the edge of what is possible
             scene = self._rounded(17)
-        comments = dict(scene.comments) | {
-            name: f"fitted: 95 % {interval(self.first, name, each.low, each.high)}, {each.verdict} {each.precision}".rstrip()
-            for name, each in self.estimates.items()
-        }
+        rows = self.table()[1]
+        comments = dict(scene.comments) | {name: f"fitted: 95 % {ends}, {verdict}" for name, _, ends, verdict in rows}
         return Scene(scene.name, scene.given, tuple(comments.items()), scene.package).to_toml()
 
     def _rounded(self, digits: int) -> Scene:

@@ -1,0 +1,174 @@
+"""`critical()`: the speed up to which impacts stick, and the speed from which on they bounce."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ...generated import scaling
+from ...generated.automaton import OUTCOMES, STICK
+from ..boundaries.boundary import boundary
+from ..changes.brackets import locate
+from ..changes.experiment import Rows
+from ..engines.settings import RTOL, check_rtol
+from ..errors import ComputationError, InputError
+from ..host.arguments import check_function, check_mapping, check_whole
+from ..many.batch import checked_numbers
+from ..many.collide_many import collide_many
+from ..scene.scene import Scene
+from ..scene.schema import SPEEDS
+from ..sensitivity.boundaries import check_boundary_wrt, moving
+from ..sensitivity.uncertainty import check_samples, deviations, normal_deviates, possible_values, value_of
+from .materials import Material, materials_of
+from .result import Critical, CriticalSpeed
+
+_BESIDE = 1e-6  # relative distance of the collisions that confirm a speed on both sides
+_NEAR, _FINE, _COARSE = 3.0, 100, 12  # factor about the speed within which draws are searched finely; samples a decade
+_WIDTH = 1e-5  # to which the speed of a draw is enclosed, relative
+_LEVELS = (0.025, 0.975)
+_STICK = OUTCOMES.index(STICK)
+
+
+def critical(
+    scene: Any,
+    *,
+    angle: Any = None,
+    uncertainty: Mapping[str, Any] | None = None,
+    wrt: Sequence[str] | str | None = None,
+    stokes: tuple[float, float] | None = None,
+    samples: int = 256,
+    rtol: float = RTOL,
+    progress: Callable[[int, int], None] | None = None,
+) -> Critical:
+    """The speed up to which impacts stick, for each angle and material.
+
+    The boundaries of all lines are traced over the range of Stokes numbers, and every change of outcome is checked by
+    collisions just below and just above it.
+
+    Arguments:
+        scene: a Scene, a path or a preset's name; or a table of materials: a CSV file, a DataFrame, or a mapping of
+            columns, which are entries by dotted name (see `materials_of`).
+        angle: impact angles in rad, a number or 1-D; default the scene's, or head-on.
+        uncertainty: standard deviations of entries by dotted name, as {"liquid.viscosity": "5 %"}; a table of materials
+            may have its own, as columns `liquid.viscosity_sd`.
+        wrt: parameters by which the relative speed is differentiated; "all" for those of the scene.
+        stokes: lowest and highest Stokes number of the search, as for `boundary`.
+        samples: draws of the uncertain entries, a power of two: independent normal distributions, truncated to values
+            that the entries may have.
+        rtol: relative tolerance of the integrations.
+        progress: called with (materials done, materials in all).
+
+    Returns:
+        Critical: a row for each material and angle.
+
+    Raises:
+        InputError: an invalid entry, name or number. A line that fails raises nothing; its row says why.
+
+    Example:
+        >>> import wetdoublet as wd
+        >>> one = wd.critical("granulation", angle="30 deg").rows[0]
+        >>> round(one.relative_speed, 3), one.to
+        (1.826, 'bounce')
+    """
+    rtol, samples = check_rtol(rtol), check_samples(check_whole(samples, "samples", 2, 2**16))
+    check_function(progress, "progress")
+    check_mapping({} if uncertainty is None else uncertainty, "uncertainty", "standard deviations by dotted name")
+    materials = materials_of(scene)
+    rows: list[CriticalSpeed] = []
+    for done, material in enumerate(materials, 1):
+        spread = {**material.uncertainty, **(uncertainty or {})}
+        rows += _of_material(material, angle, spread, wrt, stokes, samples, rtol)
+        if progress:
+            progress(done, len(materials))
+    return Critical(tuple(rows), materials[0].scene if len(materials) == 1 else None, rtol)
+
+
+def _of_material(
+    material: Material, angle: Any, uncertainty: Mapping[str, Any], wrt: Sequence[str] | str | None,
+    stokes: tuple[float, float] | None, samples: int, rtol: float,
+) -> list[CriticalSpeed]:  # fmt: skip
+    scene = material.scene
+    for name in [each for each in uncertainty if each in SPEEDS]:
+        raise InputError("uncertainty", name, "entries other than the speed", "is what is sought")
+    names = () if wrt is None else check_boundary_wrt(scene, None if wrt == "all" else wrt)
+    if uncertainty:
+        deviations(scene, uncertainty)
+    angles = checked_numbers("impact.angle", (scene.angle or 0.0) if angle is None else angle).reshape(-1)
+    traced = boundary(scene, angle=angles, stokes=stokes, rtol=rtol)
+    rows = []
+    for at, changes, failure in zip(traced.angles, traced.changes, traced.failures, strict=True):
+        row = CriticalSpeed(material.label, at, traced.window, 1 / scene.stokes_per_speed, reason=failure)
+        row = row if failure else _checked(scene, replace(row, changes=changes), rtol)
+        if row.change is not None and uncertainty:
+            row = _with_interval(scene, row, uncertainty, samples, rtol)
+        if row.change is not None and names:
+            found = moving(scene, at, row.change, names, rtol)
+            gradient, elasticity = (each.get("relative_speed", {}) for each in (found.gradient, found.elasticity))
+            remarks = (*row.remarks, f"no derivatives: {found.reason}") if found.reason else row.remarks
+            row = replace(row, gradient=gradient, elasticity=elasticity, remarks=remarks)
+        rows.append(row)
+    return rows
+
+
+def _checked(scene: Scene, row: CriticalSpeed, rtol: float) -> CriticalSpeed:
+    """The row with the outcomes at the ends of its range; collisions beside its changes must have their outcomes."""
+    places = np.array([one.stokes for one in row.changes])
+    thirds = np.diff(places, prepend=0.0, append=np.inf) / 3
+    below, above = (
+        places + side * np.minimum(_BESIDE * places, gap) for side, gap in ((-1, thirds[:-1]), (1, thirds[1:]))
+    )
+    stokes = np.concatenate([row.window[:1], below, above])
+    seen = collide_many(scene, stokes=stokes, angle=row.angle, rtol=rtol, of=("outcome",))
+    first, *outcome = [OUTCOMES[code] if code >= 0 else "" for code in seen.outcome.values]
+    for one, *beside in zip(row.changes, outcome[: places.size], outcome[places.size :], strict=True):
+        if beside != [one.before, one.after]:
+            reason = f"collisions beside St {one.stokes:.10g} do not confirm the change of outcome found there"
+            return replace(row, changes=(), reason=reason)
+    slowest = row.changes[0].before if row.changes else first
+    reason = "" if slowest else f"no collision could be computed at the slowest: {seen.reason.values[0]}"
+    return replace(row, slowest=slowest, reason=reason)
+
+
+def _with_interval(
+    scene: Scene, row: CriticalSpeed, uncertainty: Mapping[str, Any], samples: int, rtol: float
+) -> CriticalSpeed:
+    """The row with the 95 % interval of its relative speed: from draws of the entries, each located by collisions."""
+    at = scene.with_impact(angle=row.angle)
+    normal = normal_deviates(samples, len(uncertainty))
+    columns = {
+        name: possible_values(at.fields[name], value_of(at, name), sigma * normal[:, k])
+        for k, (name, sigma) in enumerate(deviations(at, uncertainty).items())
+    }
+    angle = np.abs(columns.pop("impact.angle", np.full(samples, row.angle)))
+    experiment = Rows(at, (), columns, samples, rtol).unchecked(np.zeros(0))
+    kept = np.flatnonzero(np.broadcast_to(experiment.possible, samples))
+    radius, mass, viscosity = (experiment.columns[name] for name in ("reduced_radius", "reduced_mass", "viscosity"))
+    per_speed = np.broadcast_to(scaling.stokes(radius, mass, viscosity, 1.0), samples)
+    centre, (low, high) = row.stokes, row.window
+    assert centre is not None
+
+    def labels(line: np.ndarray, stokes: np.ndarray) -> np.ndarray:
+        draw = kept[line]
+        outcome = experiment.outcomes(draw, stokes / per_speed[draw], angle[draw])
+        return np.where(outcome < 0, -1, outcome != _STICK)
+
+    near = max(low, centre / _NEAR), min(high, centre * _NEAR)
+    parts = ((low, near[0], _COARSE), (*near, _FINE), (near[1], high, _COARSE))
+    grids = [np.geomspace(a, b, 2 + int(each * np.log10(b / a))) for a, b, each in parts if b > a]
+    grid = np.unique(np.concatenate(grids))
+    try:
+        changes = locate(labels, np.tile(grid, (kept.size, 1)), lambda each: _WIDTH * each.low, unknown=-1)
+    except ComputationError as error:  # no compiled kernel
+        return replace(row, remarks=(*row.remarks, f"no interval: {error}"))
+    ends = np.where(changes.first == 0, np.inf, 0.0)  # of a draw that sticks throughout, and of one that never does
+    first = np.flatnonzero((changes.before == 0) & (np.append(-1, changes.line[:-1]) != changes.line))
+    ends[changes.line[first]] = changes.place[first]
+    speeds = ends / per_speed[kept] / np.cos(angle[kept])
+    below, above = (float(np.quantile(speeds, q, method=m)) for q, m in zip(_LEVELS, ("lower", "higher")))
+    lost = samples - kept.size
+    remarks = (f"{lost} of {samples} draws make no scene and are left out",) if lost else ()
+    interval = (below or None, above if np.isfinite(above) else None)
+    return replace(row, interval=interval, remarks=(*row.remarks, *remarks))
