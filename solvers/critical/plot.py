@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from ..formatting.style import INK, NOTE, picture
+from ..formatting.style import NOTE, picture
 
 if TYPE_CHECKING:
     from .result import Critical
@@ -17,28 +17,25 @@ def draw(found: Critical) -> Any:
     from matplotlib.figure import Figure
 
     labels = list(dict.fromkeys(one.label for one in found.rows))
-    by_angle = len(found.rows) > len(labels) or len(labels) == 1
+    by_material = len(labels) == len(found.rows) > 1
     figure = Figure(figsize=(6.4, 4.0), layout="constrained")
     axes = figure.subplots()
-    for label in labels if by_angle else [""]:
-        rows = [one for one in found.rows if not by_angle or one.label == label]
-        x = [math.degrees(one.angle) for one in rows] if by_angle else list(range(len(rows)))
+    for label in [""] if by_material else labels:
+        rows = [one for one in found.rows if by_material or one.label == label]
+        x = [float(k) if by_material else math.degrees(one.angle) for k, one in enumerate(rows)]
         y = [math.nan if one.relative_speed is None else one.relative_speed for one in rows]
-        style = "o-" if by_angle and len(labels) > 1 else "o"
-        (line,) = axes.plot(
-            x, y, style, label=label or None, **({} if len(labels) > 1 and by_angle else {"color": INK})
-        )
+        (line,) = axes.plot(x, y, "o" if by_material else "o-", label=label or None)
         for at, one in zip(x, rows, strict=True):
             if one.interval is not None and None not in one.interval:
                 axes.plot([at, at], one.interval, "-", color=line.get_color(), linewidth=3, alpha=0.4)
-            if one.bounces_above is not None and one.bounces_above != one.relative_speed:
+            if one.bounces_above not in (None, one.relative_speed):
                 axes.plot(at, one.bounces_above, "^", color=NOTE, markersize=4)
-    if not by_angle:
+    if by_material:
         axes.set_xticks(range(len(labels)), labels, rotation=30, ha="right")
-    axes.set_yscale("log")
-    axes.set_xlabel("impact angle (deg)" if by_angle else "")
-    axes.set_ylabel("relative speed (m/s)")
-    axes.set_title("sticks up to (o, with its 95 % interval); bounces above (^)", fontsize=9)
-    if by_angle and len(labels) > 1:
+    elif len(labels) > 1:
         axes.legend()
+    axes.set_yscale("log")
+    axes.set_xlabel("" if by_material else "impact angle (deg)")
+    axes.set_ylabel("relative speed (m/s)")
+    axes.set_title("sticks up to (circles, bars: 95 % interval); bounces above (triangles)", fontsize=9)
     return figure

@@ -27,11 +27,13 @@ SHOWN: dict[str, tuple[str, ...]] = {
     "map": GRID,
     "boundary": (*LINES, "--wrt", "liquid.viscosity"),
     "boundary --json": (*LINES, "--json"),
+    "critical": ("--angle", "55"),
+    "critical --json": ("--angle", "55", "--json"),
     "averages": ("--tolerance", "1e-2"),
     "fit": ("--free", "liquid.viscosity"),
     "table": ("--over", "stokes=0.2:0.21,angle=10:12", "--error", "1e-2", "--attack", "100"),
 }
-DRAWN = {"collide", "sensitivity", "sensitivity band", "map", "boundary", "fit", "table"}
+DRAWN = {"collide", "sensitivity", "sensitivity band", "map", "boundary", "critical", "fit", "table"}
 SILENT = {  # why the others show no speed
     "reproduce": "the paper's figures are over Stokes numbers and angles",
     "verify": "residuals of laws", "bench": "CPU times and errors", "export": "functions, whose headers name arguments",
