@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from .boundaries.boundary import Atlas, Boundaries, atlas, boundary
     from .collision.collide import collide
     from .collision.result import Collision
-    from .critical.critical import critical
-    from .critical.result import Critical
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .fitting.compare import compare_models
@@ -27,6 +25,8 @@ if TYPE_CHECKING:
     from .planning.result import Design
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
+    from .sensitivity.critical import critical
+    from .sensitivity.critical_result import Critical
     from .sensitivity.gradients_many import gradients_many
     from .sensitivity.pair_gradients import pair_gradients
     from .sensitivity.result import Sensitivities
@@ -42,8 +42,6 @@ _NAMES = {
     "boundaries.boundary": "Atlas Boundaries atlas boundary",
     "collision.collide": "collide",
     "collision.result": "Collision",
-    "critical.critical": "critical",
-    "critical.result": "Critical",
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
     "fitting.compare": "compare_models",
@@ -56,6 +54,8 @@ _NAMES = {
     "planning.result": "Design",
     "scene.scene": "Scene",
     "sensitivity.boundaries": "BoundarySensitivities boundary_sensitivities",
+    "sensitivity.critical": "critical",
+    "sensitivity.critical_result": "Critical",
     "sensitivity.gradients_many": "gradients_many",
     "sensitivity.pair_gradients": "pair_gradients",
     "sensitivity.result": "Sensitivities",

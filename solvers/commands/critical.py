@@ -44,8 +44,8 @@ def command(
         --wrt NAMES: Derivatives as well, in bridge.volume,liquid.viscosity, or all.
         --samples N: Draws of the uncertain entries, a power of two [256].
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
-    from ..critical.critical import critical
-    from ..critical.materials import materials_of
+    from ..sensitivity.critical import critical
+    from ..sensitivity.materials import materials_of
 
     angles = None if angle is None else texts.entry_range(_ANGLE, angle, "--angle", most=_MOST)
     source = request.source or ""

@@ -15,11 +15,11 @@ from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..changes.experiment import Rows, check_derivatives
 from ..errors import InputError, did_you_mean
 from ..scene import units
+from ..scene.columns import Column, columns_of
 from ..scene.held import NAMES
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
-from .columns import Column, columns_of
 
 UNKNOWN = -1
 """Code of an outcome that was not recorded."""

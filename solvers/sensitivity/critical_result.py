@@ -202,7 +202,7 @@ class Critical:
             path: file to write (.png, .pdf or .svg); None only draws.
         """
         from ..host.pictures import saved
-        from .plot import draw
+        from .critical_plot import draw
 
         return saved(lambda: draw(self), path)
 

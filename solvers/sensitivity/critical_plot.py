@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..formatting.style import NOTE, picture
 
-if TYPE_CHECKING:
-    from .result import Critical
-
 
 @picture
-def draw(found: Critical) -> Any:
+def draw(found: Any) -> Any:
     """Relative speed up to which impacts stick, over the angle; by material where each has one angle."""
     from matplotlib.figure import Figure
 

@@ -20,10 +20,10 @@ from ..many.batch import checked_numbers
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
-from ..sensitivity.boundaries import check_boundary_wrt, moving
-from ..sensitivity.uncertainty import check_samples, deviations, normal_deviates, possible_values, value_of
+from .boundaries import check_boundary_wrt, moving
+from .critical_result import Critical, CriticalSpeed
 from .materials import Material, materials_of
-from .result import Critical, CriticalSpeed
+from .uncertainty import check_samples, deviations, normal_deviates, possible_values, value_of
 
 _BESIDE = 1e-6  # relative distance of the collisions that confirm a speed on both sides
 _NEAR, _FINE, _COARSE = 3.0, 100, 12  # factor about the speed within which draws are searched finely; samples a decade
@@ -167,7 +167,8 @@ def _with_interval(
     first = np.flatnonzero((changes.before == 0) & (np.append(-1, changes.line[:-1]) != changes.line))
     ends[changes.line[first]] = changes.place[first]
     speeds = ends / per_speed[kept] / np.cos(angle[kept])
-    below, above = (float(np.quantile(speeds, q, method=m)) for q, m in zip(_LEVELS, ("lower", "higher")))
+    below, above = (float(np.quantile(speeds, _LEVELS[0], method="lower")),
+                    float(np.quantile(speeds, _LEVELS[1], method="higher")))  # fmt: skip
     lost = samples - kept.size
     remarks = (f"{lost} of {samples} draws make no scene and are left out",) if lost else ()
     interval = (below or None, above if np.isfinite(above) else None)

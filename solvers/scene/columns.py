@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..host import bounded
-from ..scene.schema import MEETING
+from .schema import MEETING
 
 _LARGEST = 20_000_000  # bytes of a file
 _MOST_ROWS = 100_000

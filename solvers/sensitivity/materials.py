@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, did_you_mean
-from ..fitting.columns import columns_of
+from ..scene.columns import columns_of
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS
 
