@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .fitting.compare import compare_models
+    from .fitting.examine import check_data
     from .fitting.fit import fit, log_likelihood
     from .fitting.result import Fit
     from .host.pictures import plot
@@ -45,6 +46,7 @@ _NAMES = {
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
     "fitting.compare": "compare_models",
+    "fitting.examine": "check_data",
     "fitting.fit": "fit log_likelihood",
     "fitting.result": "Fit",
     "host.pictures": "plot",
@@ -71,9 +73,10 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()
 __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
     "Design", "Fit", "InputError", "ModelWarning", "Scene", "Sensitivities", "Table", "WetDoubletError", "atlas",
-    "band", "boundary", "boundary_sensitivities", "collide", "collide_many", "collide_pair", "collision_averages",
-    "compare_models", "compile_kernels", "critical", "design", "fit", "gradients_many", "log_likelihood",
-    "pair_gradients", "plot", "regime_map", "sensitivities", "sobol_indices", "table", "trajectory_sensitivities",
+    "band", "boundary", "boundary_sensitivities", "check_data", "collide", "collide_many", "collide_pair",
+    "collision_averages", "compare_models", "compile_kernels", "critical", "design", "fit", "gradients_many",
+    "log_likelihood", "pair_gradients", "plot", "regime_map", "sensitivities", "sobol_indices", "table",
+    "trajectory_sensitivities",
 ]  # fmt: skip
 
 if not TYPE_CHECKING:  # so that type checkers know the names above and no others

@@ -29,11 +29,12 @@ if TYPE_CHECKING:
 
     from ..formatting.document import Block
 
+_WIDE = 4.0  # ratio of the ends of an interval from which it is told as a factor
 _PULLING = 12  # rows of the data in the report
 
 CONTRADICTED = (
-    "At least half of the impacts contradict the model: no entry is identified. The estimates are the least bad ones, "
-    "and the intervals say only which values are as bad."
+    "At least half of the impacts contradict the model: no entry is identified, and no intervals are computed. The "
+    "estimates are the least bad within a factor of 1000 of the scene's. `wetdoublet check` looks at the data."
 )
 """The first remark where `RowDiagnostics.contradicted`."""
 
@@ -49,9 +50,11 @@ class Estimate:
 
     @property
     def precision(self) -> str:
-        """Half the width of a closed interval relative to the value, as text; empty where there is none."""
+        """How well it is known, as text: half the width of the interval relative to the value, or a factor if wide."""
         if self.verdict != IDENTIFIED or self.low is None or self.high is None or not self.value:
             return ""
+        if self.low > 0 and self.high > _WIDE * self.low:
+            return f"within a factor of {(self.high / self.low) ** 0.5:.2g}"
         return f"to {50 * (self.high - self.low) / abs(self.value):.2g} %"
 
 

@@ -30,6 +30,7 @@ SHOWN: dict[str, tuple[str, ...]] = {
     "critical": ("--angle", "55"),
     "critical --json": ("--angle", "55", "--json"),
     "averages": ("--tolerance", "1e-2"),
+    "check": (),
     "fit": ("--free", "liquid.viscosity"),
     "table": ("--over", "stokes=0.2:0.21,angle=10:12", "--error", "1e-2", "--attack", "100"),
 }
@@ -85,7 +86,7 @@ def test_every_command_is_looked_at() -> None:
 def test_output_says_which_speed(name: str, scene: Path, tmp_path: Path) -> None:
     """No table, JSON, CSV or picture of a command says `speed` alone, and none shows m/s without a name of it."""
     command = name.partition(" ")[0]
-    words = [command, scene, *([scene.parent / "data.csv"] if command == "fit" else []), *SHOWN[name]]
+    words = [command, scene, *([scene.parent / "data.csv"] if command in ("fit", "check") else []), *SHOWN[name]]
     picture = tmp_path / "picture.svg"
     words += ["--plot", picture] if name in DRAWN else []
     file = tmp_path / ("law.nc" if command == "table" else "table.csv")

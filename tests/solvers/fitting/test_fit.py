@@ -274,7 +274,10 @@ def test_a_profile_that_flattens_just_below_its_drop_is_open():
     assert (estimate.low, estimate.verdict) == (None, ONE_SIDE)
 
 
-@pytest.mark.parametrize(("low", "high", "words"), [(0.8, 1.5, "to 35 %"), (0.99, 1.01, "to 1 %"), (None, 1.5, "")])
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [(0.8, 1.5, "to 35 %"), (0.99, 1.01, "to 1 %"), (0.1, 10.0, "within a factor of 10"), (None, 1.5, "")],
+)
 def test_an_identified_entry_says_how_well(low, high, words):
     """Beside the verdict stands half the interval relative to the estimate: wide intervals are closed, too."""
     verdict = IDENTIFIED if low else ONE_SIDE
