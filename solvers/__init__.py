@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .fitting.examine import check_data
     from .fitting.fit import fit, log_likelihood
     from .fitting.result import Fit
+    from .fitting.tracks import tracks
     from .host.pictures import plot
     from .many.collide_many import collide_many
     from .many.regime_map import regime_map
@@ -49,6 +50,7 @@ _NAMES = {
     "fitting.examine": "check_data",
     "fitting.fit": "fit log_likelihood",
     "fitting.result": "Fit",
+    "fitting.tracks": "tracks",
     "host.pictures": "plot",
     "many.collide_many": "collide_many",
     "many.regime_map": "regime_map",
@@ -75,7 +77,7 @@ __all__ = [
     "Design", "Fit", "InputError", "ModelWarning", "Scene", "Sensitivities", "Table", "WetDoubletError", "atlas",
     "band", "boundary", "boundary_sensitivities", "check_data", "collide", "collide_many", "collide_pair",
     "collision_averages", "compare_models", "compile_kernels", "critical", "design", "fit", "gradients_many",
-    "log_likelihood", "pair_gradients", "plot", "regime_map", "sensitivities", "sobol_indices", "table",
+    "log_likelihood", "pair_gradients", "plot", "regime_map", "sensitivities", "sobol_indices", "table", "tracks",
     "trajectory_sensitivities",
 ]  # fmt: skip
 

@@ -116,7 +116,7 @@ def _is_contradicted(likelihood: Likelihood, free: FreeEntries, best: Optimum) -
     """Whether even at the most likely values at least half of the impacts contradict the model."""
     evaluation = likelihood(free.values(best.inner))
     assert evaluation is not None  # the optimum is possible
-    return 2 * np.count_nonzero(evaluation.plain - likelihood.constant < -KNEE) >= likelihood.data.size
+    return bool(2 * np.count_nonzero(evaluation.plain - likelihood.constant < -KNEE) >= likelihood.data.size)
 
 
 def log_likelihood(
