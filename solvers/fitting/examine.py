@@ -175,8 +175,8 @@ def _units(scene: Scene, data: Measurements, share: float) -> list[Finding]:
         turned = np.minimum(math.pi / 2 - angle, STEEPEST)
         others.append(("angles of 90 deg less these", "Are they measured from the tangent?", speed, turned))
         other = speed / np.cos(angle) if data.relative else speed * np.cos(angle)
-        words = ("the magnitude of the relative velocity", "the normal component")[:: -1 if data.relative else 1]
-        others.append((f"these speeds as {words[0]}", f"Are they not {words[1]}?", other, angle))
+        either = ("the magnitude of the relative velocity", "the normal component")[:: -1 if data.relative else 1]
+        others.append((f"these speeds as {either[0]}", f"Are they not {either[1]}?", other, angle))
     found = [(_Predicted.of(scene, data, v, a).agreement, words, question) for words, question, v, a in others]
     best, words, question = max(found)
     if best < max(_GOOD, share + _BETTER):

@@ -228,7 +228,7 @@ def _line(time: np.ndarray, relative: np.ndarray, part: np.ndarray) -> tuple[np.
 
 def _meets(line: np.ndarray, distance: float) -> bool:
     start, velocity = line
-    return abs(start[0] * velocity[1] - start[1] * velocity[0]) < distance * np.linalg.norm(velocity)
+    return bool(abs(start[0] * velocity[1] - start[1] * velocity[0]) < distance * np.linalg.norm(velocity))
 
 
 def _state(line: np.ndarray, distance: float, side: int) -> tuple[float, float, float, float]:
