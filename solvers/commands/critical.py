@@ -11,7 +11,6 @@ from . import options, texts
 from .bar import Bar
 from .signature import as_command, passed
 
-_DEVIATION = 'NAME=VALUE, such as liquid.viscosity="5 %"'
 _ANGLE = FIELDS["impact.angle"]
 _MOST = 10_000  # angles
 
@@ -20,7 +19,7 @@ _MOST = 10_000  # angles
 def command(
     angle: str | None,
     stokes: Annotated[texts.Range | None, partial(texts.span, FIELDS["impact.stokes"])],
-    uncertainty: Annotated[dict[str, str], lambda typed: texts.typed(texts.assigned(_DEVIATION, typed))],
+    uncertainty: options.Uncertainty,
     wrt: list[str] | None,
     samples: int | None,
     request: options.EntriesRequest,
@@ -40,7 +39,6 @@ def command(
     Options:
         --angle RANGE: Impact angles (degrees): 40, or 20:65:10 [the scene's, or 0].
         --stokes LO:HI: Stokes numbers to search [1e-4:100, or more by the scene].
-        --uncertainty NAME=VALUE: A standard deviation, as liquid.viscosity="5 %" or impact.angle="1 deg"; repeatable.
         --wrt NAMES: Derivatives as well, in bridge.volume,liquid.viscosity, or all.
         --samples N: Draws of the uncertain entries, a power of two [256].
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example

@@ -78,21 +78,11 @@ class Checkup:
     def __str__(self) -> str:
         lines = [*self.notes, f"As the scene is, {self.agreement:.0%} of the impacts come out as observed.", ""]
         lines += [f"{one.kind}: {one.text}" for one in self.findings] or ["Nothing odd was found."]
-        told = [[name, str(count)] for name, count in self.telling.items() if count]
+        lines += ["", "Impacts that would differ visibly if an entry were half or twice as large (fractions: by 0.1)"]
+        lines += aligned([[name, str(count)] for name, count in self.telling.items() if count] or [[""]])
         untold = ", ".join(name for name, count in self.telling.items() if not count)
-        lines += [
-            "",
-            "Impacts that would differ visibly if an entry were half or twice as large (fractions: 0.1 less or more)",
-        ]
-        lines += aligned(told) if told else []
         lines += [f"none: {untold}. The data cannot tell these."] if untold else []
         return "\n".join(lines)
-
-    def _repr_html_(self) -> str:
-        from ..formatting.notebook import view
-
-        rows = [(one.kind, one.text) for one in self.findings] or [("", "nothing odd was found")]
-        return view(f"{self.data.size} impacts", rows, ("what", ""), self.notes)
 
 
 def check_data(data: Any, scene: Scene | str | Path) -> Checkup:

@@ -17,6 +17,9 @@ from ..scene.scene import Scene
 if TYPE_CHECKING:
     import pandas as pd
 
+_SPEEDS = ("relative_speed", "speed", "interval", "bounces_above", "sticks")
+_UNITS = dict.fromkeys(_SPEEDS, "m/s") | {"angle": "rad", "stokes": "1"}
+
 
 @dataclass(frozen=True)
 class CriticalSpeed:
@@ -107,10 +110,8 @@ class CriticalSpeed:
         if self.changes and self.bounces_above is None:
             found.append(f"no speed from which on all bounce, {searched}")
         if self.interval is not None and None in self.interval:
-            ends = [
-                text for end, text in zip(self.interval, ("not even the slowest stick", "all stick")) if end is None
-            ]
-            found.append(f"in more than 2.5 % of the draws {' or '.join(ends)} in the range, {searched}")
+            which = "all stick" if self.interval[1] is None else "not even the slowest stick"
+            found.append(f"in more than 2.5 % of the draws {which} in the range, {searched}")
         return [*found, *self.remarks]
 
     def to_dict(self) -> dict[str, Any]:
@@ -146,11 +147,7 @@ class Critical:
         """The JSON object of `wetdoublet critical --json`: the row itself if there is one, else `rows`."""
         rows = [each.to_dict() for each in self.rows]
         from_where = {} if self.scene is None else origin(self.scene)
-        units = dict.fromkeys(("relative_speed", "speed", "interval", "bounces_above", "sticks"), "m/s") | {
-            "angle": "rad",
-            "stokes": "1",
-        }
-        return (rows[0] if len(rows) == 1 else {"rows": rows}) | {"rtol": self.rtol, "units": units} | from_where
+        return (rows[0] if len(rows) == 1 else {"rows": rows}) | {"rtol": self.rtol, "units": _UNITS} | from_where
 
     def table(self) -> tuple[list[str], list[list[str]]]:
         """Head and rows of the table; a column without any cell is left out."""
@@ -166,28 +163,22 @@ class Critical:
 
     def __str__(self) -> str:
         head, rows = self.table()
+        where = [f"{one.label} {math.degrees(one.angle):.6g} deg".strip() for one in self.rows]
         lines = aligned([head, *rows])
-        for one in self.rows:
-            where = ", ".join(part for part in (one.label, f"{math.degrees(one.angle):.6g} deg") if part)
-            lines += [f"{where}: {sentence}" for sentence in one.sentences()]
+        lines += [f"{at}: {text}" for at, one in zip(where, self.rows, strict=True) for text in one.sentences()]
         names = dict.fromkeys(name for one in self.rows for name in one.gradient)
         if names:
-            shown = [[name, *(_slope(one, name) for one in self.rows)] for name in names]
-            heads = [f"{one.label} {math.degrees(one.angle):.6g} deg".strip() for one in self.rows]
             lines += ["", "d ln(relative speed)/d ln p (* its derivative, SI, where p is zero)"]
-            lines += aligned([["", *heads], *shown])
+            lines += aligned([["", *where], *([name, *(_slope(one, name) for one in self.rows)] for name in names)])
         return "\n".join(lines)
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each material and angle (rad); speeds in m/s."""
         from ..formatting.frames import frame
 
-        records = [one.to_dict() for one in self.rows]
-        columns = {name: [each[name] for each in records] for name in
-                   ("material", "angle", "relative_speed", "speed", "stokes", "to", "bounces_above")}  # fmt: skip
-        for k, name in enumerate(("low", "high")):
-            columns[name] = [each["interval"][k] if each["interval"] else None for each in records]
-        return frame(columns)
+        names = ("material", "angle", "relative_speed", "low", "high", "speed", "stokes", "to", "bounces_above")
+        records = [one.to_dict() | dict(zip(("low", "high"), one.interval or (None, None))) for one in self.rows]
+        return frame({name: [each[name] for each in records] for name in names})
 
     def _repr_html_(self) -> str:
         from ..formatting.notebook import view
