@@ -207,8 +207,8 @@ def _interval(interval: tuple[float | None, float | None] | None) -> str:
         return ""
     low, high = interval
     if low is None or high is None:
-        return "open" if low == high else f"below {high:.3g}" if low is None else f"above {low:.3g}"
-    return f"{low:.3g} to {high:.3g}"
+        return "open" if low == high else f"below {high:.4g}" if low is None else f"above {low:.4g}"
+    return f"{low:.4g} to {high:.4g}"
 
 
 def _slope(one: CriticalSpeed, name: str) -> str:
