@@ -17,7 +17,7 @@ ENTRIES = ["liquid.viscosity", "liquid.film_thickness", "particles.dry_restituti
 @pytest.mark.parametrize(("name", "of_thickness"), [("pendulum", 0.9), ("granulation", 0.1)])
 @pytest.mark.parametrize("angle", [45, 60, 70])
 def test_turning_doublets_forget_their_film(name: str, of_thickness: float, angle: int) -> None:
-    """Donahue et al., JFM 2012: viscosity and dry restitution matter little to e_n and rotation, thickness to the latter.
+    """Donahue et al., JFM 2012: viscosity and dry restitution matter little to e_n and rotation, thickness to rotation.
 
     Exponents along the strip of stick-rotate-separate, away from its ends, where the rotation grows without bound.
     """
@@ -40,10 +40,10 @@ def test_turning_doublets_forget_their_film(name: str, of_thickness: float, angl
 
 def test_softer_spheres_rebound_at_lower_stokes_numbers() -> None:
     """Davis et al., JFM 2002: St* falls as elasticity grows, weakly; e_n rises with St over St*."""
-    scene = PLANE.with_entries({"particles.poisson_ratio": 0.3, "particles.roughness": "0.05 um"})
     critical_numbers = []
     for modulus in (1e8, 1e9, 1e10, 1e11):
-        soft = scene.with_entries({"particles.youngs_modulus": modulus})
+        elastic = {"particles.youngs_modulus": modulus, "particles.poisson_ratio": 0.3}
+        soft = PLANE.with_entries({**elastic, "particles.roughness": "0.01 um"})
         [one] = critical(soft, angle=0.0).rows
         assert collide(soft, stokes=1.01 * one.stokes, angle=0.0).reversal == "elastic"
         critical_numbers.append(one.stokes)
@@ -78,7 +78,7 @@ def test_initial_spin_moves_the_tangential_restitution_alone() -> None:
 
 
 def test_viscosity_lowers_restitution_and_the_thickness_that_sticks() -> None:
-    """Antonyuk et al., Particuology 2009: with more viscosity e_n is lower, and a thinner layer suffices for a stick."""
+    """Antonyuk et al., Particuology 2009: more viscosity lowers e_n, and the thickness of the layer that holds."""
     viscosity = np.geomspace(0.02, 0.5, 12)
     varied = {"liquid.viscosity": viscosity}
     restitution = collide_many(PLANE, speed=2.0, angle=0.0, vary=varied).restitution.values
@@ -87,10 +87,9 @@ def test_viscosity_lowers_restitution_and_the_thickness_that_sticks() -> None:
     least = []
     for each in (10.0, 20.0, 40.0):
         layers = {"liquid.film_thickness": thickness}
-        outcome = collide_many(
-            PLANE.with_entries({"liquid.viscosity": each}), speed=2.0, angle=0.0, vary=layers
-        ).outcome
-        least.append(thickness[np.flatnonzero(outcome.values == 0)[0]])
+        scene = PLANE.with_entries({"liquid.viscosity": each})
+        outcome = collide_many(scene, speed=2.0, angle=0.0, vary=layers).outcome.values
+        least.append(thickness[np.flatnonzero(outcome == 0)[0]])
     assert least[0] > least[1] > least[2]
 
 
