@@ -115,5 +115,5 @@ def test_required_arguments_are_called_so(name, arguments, monkeypatch):
     monkeypatch.syspath_prepend(ROOT / "docs/_ext")
     context = click.Context(cli.get_command(click.Context(cli), name))
     lines = ["Optional argument" for each in context.command.params if isinstance(each, click.Argument)]
-    import_module("pages").required_arguments(context, lines)
+    import_module("pages").required_arguments(None, context, lines)
     assert lines == (["Required argument"] * len(arguments) or ["Optional argument"])

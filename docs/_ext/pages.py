@@ -37,7 +37,7 @@ def _events(text: str) -> str:
     return "\n".join(line for line in body.splitlines() if "automaton.svg" not in line)
 
 
-def required_arguments(context: Any, lines: list[str]) -> None:
+def required_arguments(_app: Any, context: Any, lines: list[str]) -> None:
     """Say of a command's arguments which are required: click is told of none, so that wrong options are named first."""
     names = iter(each.human_readable_name for each in context.command.params if each.param_type_name == "argument")
     for k, line in enumerate(lines):

@@ -54,6 +54,6 @@ def command(
     with Bar("materials", "fewer materials or angles take less") as progress:
         found = critical(materials, progress=progress, **chosen)
     output.show(found)
-    failed = [one for one in found.rows if one.reason]
+    failed = [one for one in found.rows if one.failed]
     if failed:
-        raise CheckFailed(f"{len(failed)} of {len(found.rows)} rows have no answer, first: {failed[0].reason}")
+        raise CheckFailed(f"{len(failed)} of {len(found.rows)} rows have no answer, first: {failed[0].sentences[0]}")

@@ -53,12 +53,6 @@ class Checkup:
         agreement: share of the impacts that come out as observed with the scene as it is.
         telling: entry -> number of impacts that would visibly differ if it were twice or half as large.
         notes: sentences on how the columns were read and what the data lack.
-
-    Example:
-        >>> from wetdoublet.solvers import check_data
-        >>> seen = {"speed": [300.0, 900.0, 3000.0], "angle": [0.0] * 3, "outcome": ["stick", "stick", "bounce"]}
-        >>> [one.kind for one in check_data(seen, "granulation").findings]
-        ['units']
     """
 
     data: Measurements
@@ -98,6 +92,12 @@ def check_data(data: Any, scene: Scene | str | Path) -> Checkup:
     Raises:
         InputError: a wrong column or a bad cell, named by row and column.
         ComputationError: no compiled kernel computes the scene's collisions.
+
+    Example:
+        >>> from wetdoublet.solvers import check_data
+        >>> seen = {"speed": [300.0, 900.0, 3000.0], "angle": [0.0] * 3, "outcome": ["stick", "stick", "bounce"]}
+        >>> [one.kind for one in check_data(seen, "granulation").findings]
+        ['units']
     """
     loaded = Scene.load(scene)
     table = read_data(data, loaded)

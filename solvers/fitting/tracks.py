@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -21,9 +21,6 @@ from ..formatting.markdown import aligned
 from ..scene import units
 from ..scene.columns import Column, columns_of
 from ..scene.scene import Scene
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 _MEASURED = ("restitution", "tangential_restitution", "contact_time", "rotation")
 _SIGNED = ("tangential_restitution", "rotation")
@@ -55,8 +52,9 @@ class Tracks:
 
     def _shown(self) -> tuple[list[str], list[list[str]]]:
         """Header and cells, angles in degrees."""
-        head = [f"{name} [{unit}]" if (unit := _unit(name)) else name for name in self.columns]
-        scale = {name: math.degrees(1) if _unit(name) == "deg" else 1.0 for name in self.columns}
+        unit = {name: _UNITS.get(name.removesuffix("_sd"), "") for name in self.columns}
+        head = [f"{name} [{unit[name]}]" if unit[name] else name for name in self.columns]
+        scale = {name: math.degrees(1) if unit[name] == "deg" else 1.0 for name in self.columns}
         rows = [
             [each if isinstance(each, str) else "" if math.isnan(each) else f"{scale[name] * each:.6g}"
              for name, each in zip(self.columns, row, strict=True)]
@@ -77,12 +75,6 @@ class Tracks:
             for name, values in self.columns.items()
         }
         return {"labels": list(self.labels), **columns, "noise": list(self.noise), "remarks": list(self.remarks)}
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each impact, SI."""
-        from ..formatting.frames import frame
-
-        return frame({"impact": self.labels, **self.columns})
 
     def __str__(self) -> str:
         head, rows = self._shown()
@@ -120,8 +112,8 @@ def tracks(
     Example:
         >>> import numpy as np
         >>> from wetdoublet.solvers import tracks
-        >>> k = np.arange(40)
-        >>> apart = np.where(k < 20, 230 - k, 191 + 0.5 * k)  # px: head-on, and back with half the speed
+        >>> k = np.arange(120)
+        >>> apart = np.where(k < 46, 300 - 2 * k, 162 + k)  # px: head-on, and back with half the speed
         >>> film = {"frame": k, "x1": 0 * k, "y1": 0 * k, "x2": apart, "y2": 0 * k}
         >>> found = tracks(film, "granulation", rate=1000, scale="1 um", noise=0.01)
         >>> round(found.columns["restitution"][0], 3)
@@ -184,7 +176,8 @@ def _impact(
     freedom = sum(2 * int(each.sum()) - 4 for each in (before, after) if each.any())
     sigma = noise or math.sqrt(sum(one[2] for one in lines) / freedom)
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
-    if not _meets(lines[0][0], touch):
+    start, velocity = lines[0][0]
+    if abs(start[0] * velocity[1] - start[1] * velocity[0]) >= touch * np.linalg.norm(velocity):
         raise InputError(f"tracks, {label}", None, "two centres that come within the film", "pass each other")
 
     def results(parameters: np.ndarray) -> np.ndarray:
@@ -195,7 +188,8 @@ def _impact(
         if not sticks:
             then, opening, along, until = _state(lines[1], apart, 1)
             turn = then - at - 2 * math.pi * round((then - at - (turned[last + 1] - turned[first - 1])) / (2 * math.pi))
-            found += [-opening / normal, along / sideways, until - since, turn * math.copysign(1, sideways)]
+            tangential = along / sideways if sideways else math.nan
+            found += [-opening / normal, tangential, until - since, turn * math.copysign(1, sideways)]
         return np.array(found)
 
     centre = np.array([*(each for one in lines for each in one[0].ravel()), 0.0])
@@ -207,7 +201,7 @@ def _impact(
     for name, value, error in zip(_NAMES, results(centre), sd):
         values |= {name: float(value), f"{name}_sd": float(error)}
     remark = ""
-    if values["angle"] < _SIDEWAYS * values["angle_sd"] and not sticks:
+    if values["angle"] <= _SIDEWAYS * values["angle_sd"] and not sticks:
         values |= dict.fromkeys((*_SIGNED, *(f"{name}_sd" for name in _SIGNED)), math.nan)
         remark = "head-on within its uncertainty, so that e_t and the sense of the rotation are not known"
     elif not sticks and np.abs(np.diff(turned[first - 1 : last + 2])).max() > _FASTEST:
@@ -224,11 +218,6 @@ def _line(time: np.ndarray, relative: np.ndarray, part: np.ndarray) -> tuple[np.
     design = np.stack([np.ones(int(part.sum())), time[part]], axis=1)
     solution = np.linalg.lstsq(design, relative[part], rcond=None)[0]
     return solution, np.linalg.inv(design.T @ design), float(((relative[part] - design @ solution) ** 2).sum())
-
-
-def _meets(line: np.ndarray, distance: float) -> bool:
-    start, velocity = line
-    return bool(abs(start[0] * velocity[1] - start[1] * velocity[0]) < distance * np.linalg.norm(velocity))
 
 
 def _state(line: np.ndarray, distance: float, side: int) -> tuple[float, float, float, float]:
@@ -263,7 +252,3 @@ def _numbers(column: Column, si: str, plain: float | None, option: str) -> np.nd
     except (TypeError, ValueError):
         raise InputError("tracks", column.name, "numbers in every row", "has a cell that is none") from None
     return factor * numbers
-
-
-def _unit(name: str) -> str:
-    return _UNITS.get(name.removesuffix("_sd"), "")

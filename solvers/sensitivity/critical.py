@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -9,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from ...generated import scaling
-from ...generated.automaton import OUTCOMES, STICK
+from ...generated.automaton import BOUNCE, OUTCOMES, STICK
 from ..boundaries.boundary import boundary
+from ..boundaries.changes import Change
 from ..changes.brackets import locate
 from ..changes.experiment import Rows
 from ..engines.settings import RTOL, check_rtol
@@ -71,7 +73,7 @@ def critical(
         >>> import wetdoublet as wd
         >>> one = wd.critical("granulation", angle="30 deg").rows[0]
         >>> round(one.relative_speed, 3), one.to
-        (1.826, 'bounce')
+        (1.795, 'stick-rotate-separate')
     """
     rtol, samples = check_rtol(rtol), check_samples(check_whole(samples, "samples", 2, 2**16))
     check_function(progress, "progress")
@@ -99,41 +101,63 @@ def _of_material(
     angles = checked_numbers("impact.angle", (scene.angle or 0.0) if angle is None else angle).reshape(-1)
     traced = boundary(scene, angle=angles, stokes=stokes, rtol=rtol)
     rows = []
-    for at, changes, failure in zip(traced.angles, traced.changes, traced.failures, strict=True):
-        row = CriticalSpeed(material.label, at, traced.window, 1 / scene.stokes_per_speed, reason=failure)
-        row = row if failure else _checked(scene, replace(row, changes=changes), rtol)
-        if row.change is not None and uncertainty:
-            row = _with_interval(scene, row, uncertainty, samples, rtol)
-        if row.change is not None and names:
-            found = moving(scene, at, row.change, names, rtol)
+    for k, (at, changes) in enumerate(zip(traced.angles, traced.changes, strict=True)):
+        row = CriticalSpeed(material.label, at, traced.window)
+        slowest, failure = ("", traced.failures[k]) if traced.failures[k] else _slowest(scene, row, changes, rtol)
+        if failure:
+            row = replace(row, sentences=(failure,), failed=True)
+        else:
+            row = _row(scene, row, changes, slowest, traced.range_text)
+        if row.stokes is not None and uncertainty:
+            row = _with_interval(scene, row, uncertainty, samples, rtol, traced.range_text)
+        if row.stokes is not None and names:
+            found = moving(scene, at, changes[0], names, rtol)
             gradient, elasticity = (each.get("relative_speed", {}) for each in (found.gradient, found.elasticity))
-            remarks = (*row.remarks, f"no derivatives: {found.reason}") if found.reason else row.remarks
-            row = replace(row, gradient=gradient, elasticity=elasticity, remarks=remarks)
+            said = (f"no derivatives: {found.reason}",) if found.reason else ()
+            row = replace(row, gradient=gradient, elasticity=elasticity, sentences=row.sentences + said)
         rows.append(row)
     return rows
 
 
-def _checked(scene: Scene, row: CriticalSpeed, rtol: float) -> CriticalSpeed:
-    """The row with the outcomes at the ends of its range; collisions beside its changes must have their outcomes."""
-    places = np.array([one.stokes for one in row.changes])
-    thirds = np.diff(places, prepend=0.0, append=np.inf) / 3
-    below, above = (
-        places + side * np.minimum(_BESIDE * places, gap) for side, gap in ((-1, thirds[:-1]), (1, thirds[1:]))
-    )
-    stokes = np.concatenate([row.window[:1], below, above])
+def _row(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], slowest: str, searched: str) -> CriticalSpeed:
+    """The row with what its changes of outcome mean."""
+    per_stokes = 1 / scene.stokes_per_speed / math.cos(row.angle)
+    outcomes = [slowest, *(one.after for one in changes)]
+    ends = [each * per_stokes for each in (row.searched[0], *(one.stokes for one in changes), row.searched[1])]
+    sticks = tuple((ends[k], ends[k + 1]) for k, outcome in enumerate(outcomes) if outcome == STICK)
+    above = ends[-2] if changes and outcomes[-1] == BOUNCE else None
+    row, said = replace(row, slowest=slowest, sticks=sticks, bounces_above=above), []
+    if not changes:
+        said = [f"no change in the range that was searched: {slowest} for all of {searched}"]
+    elif slowest == STICK:
+        speed = changes[0].stokes / scene.stokes_per_speed
+        row = replace(row, stokes=changes[0].stokes, speed=speed, relative_speed=ends[1], to=changes[0].after)
+    else:
+        said = [f"the slowest do not stick: {slowest} from the lower end of the range on, {searched}"]
+    if changes:
+        again = "again " if slowest == STICK else ""
+        said += [f"sticks {again}from {a:.4g} to {b:.4g} m/s (relative speed)" for a, b in sticks[bool(again) :]]
+        said += [] if above else [f"no speed from which on all bounce, {searched}"]
+    return replace(row, sentences=tuple(said))
+
+
+def _slowest(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], rtol: float) -> tuple[str, str]:
+    """The outcome at the lower end of the range; or why it is unknown, or which change collisions do not confirm."""
+    places = np.array([one.stokes for one in changes])
+    gaps = np.diff(places, prepend=0.0, append=np.inf) / 3
+    below, above = (np.minimum(_BESIDE * places, each) for each in (gaps[:-1], gaps[1:]))
+    stokes = np.concatenate([row.searched[:1], places - below, places + above])
     seen = collide_many(scene, stokes=stokes, angle=row.angle, rtol=rtol, of=("outcome",))
     first, *outcome = [OUTCOMES[code] if code >= 0 else "" for code in seen.outcome.values]
-    for one, *beside in zip(row.changes, outcome[: places.size], outcome[places.size :], strict=True):
+    for one, *beside in zip(changes, outcome[: places.size], outcome[places.size :], strict=True):
         if beside != [one.before, one.after]:
-            reason = f"collisions beside St {one.stokes:.10g} do not confirm the change of outcome found there"
-            return replace(row, changes=(), reason=reason)
-    slowest = row.changes[0].before if row.changes else first
-    reason = "" if slowest else f"no collision could be computed at the slowest: {seen.reason.values[0]}"
-    return replace(row, slowest=slowest, reason=reason)
+            return "", f"collisions beside St {one.stokes:.10g} do not confirm the change of outcome found there"
+    slowest = changes[0].before if changes else first
+    return slowest, "" if slowest else f"no collision could be computed at the slowest: {seen.reason.values[0]}"
 
 
 def _with_interval(
-    scene: Scene, row: CriticalSpeed, uncertainty: Mapping[str, Any], samples: int, rtol: float
+    scene: Scene, row: CriticalSpeed, uncertainty: Mapping[str, Any], samples: int, rtol: float, searched: str
 ) -> CriticalSpeed:
     """The row with the 95 % interval of its relative speed: from draws of the entries, each located by collisions."""
     at = scene.with_impact(angle=row.angle)
@@ -147,7 +171,7 @@ def _with_interval(
     kept = np.flatnonzero(np.broadcast_to(experiment.possible, samples))
     radius, mass, viscosity = (experiment.columns[name] for name in ("reduced_radius", "reduced_mass", "viscosity"))
     per_speed = np.broadcast_to(scaling.stokes(radius, mass, viscosity, 1.0), samples)
-    centre, (low, high) = row.stokes, row.window
+    centre, (low, high) = row.stokes, row.searched
     assert centre is not None
 
     def labels(line: np.ndarray, stokes: np.ndarray) -> np.ndarray:
@@ -162,14 +186,17 @@ def _with_interval(
     try:
         changes = locate(labels, np.tile(grid, (kept.size, 1)), lambda each: _WIDTH * each.low, unknown=-1)
     except ComputationError as error:  # no compiled kernel
-        return replace(row, remarks=(*row.remarks, f"no interval: {error}"))
+        return replace(row, sentences=(*row.sentences, f"no interval: {error}"))
     ends = np.where(changes.first == 0, np.inf, 0.0)  # of a draw that sticks throughout, and of one that never does
     first = np.flatnonzero((changes.before == 0) & (np.append(-1, changes.line[:-1]) != changes.line))
     ends[changes.line[first]] = changes.place[first]
     speeds = ends / per_speed[kept] / np.cos(angle[kept])
     below, above = (float(np.quantile(speeds, _LEVELS[0], method="lower")),
                     float(np.quantile(speeds, _LEVELS[1], method="higher")))  # fmt: skip
-    lost = samples - kept.size
-    remarks = (f"{lost} of {samples} draws make no scene and are left out",) if lost else ()
-    interval = (below or None, above if np.isfinite(above) else None)
-    return replace(row, interval=interval, remarks=(*row.remarks, *remarks))
+    interval, said = (below or None, above if np.isfinite(above) else None), list(row.sentences)
+    if None in interval:
+        which = "all stick" if interval[1] is None else "not even the slowest stick"
+        said.append(f"in more than 2.5 % of the draws {which} in the range, {searched}")
+    if lost := samples - kept.size:
+        said.append(f"{lost} of {samples} draws make no scene and are left out")
+    return replace(row, interval=interval, sentences=tuple(said))

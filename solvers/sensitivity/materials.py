@@ -29,9 +29,9 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
 
     Arguments:
         source: a Scene, a path or a preset's name; or a CSV file, a DataFrame or a mapping of columns. Columns are
-            entries by dotted name with their unit in brackets, as `particles.diameter [um]` (plain numbers are SI
-            where none is written); `NAME_sd` is the entry's standard deviation, with a unit or in %. A column `scene`
-            names the scene file or preset that a row changes. Other columns without a dot are the row's name.
+            entries by dotted name with their unit in brackets, as `particles.diameter [um]`; in Python plain numbers
+            are SI where none is written. `NAME_sd` is the entry's standard deviation, with a unit or in %. A column
+            `scene` names the scene file or preset that a row changes. Other columns without a dot are the row's name.
         changes: entries that all materials share, in place of the table's.
 
     Raises:
@@ -51,6 +51,9 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         if "." in name and name not in FIELDS:
             accepted = "entries of a scene by dotted name"
             raise InputError("materials, header", column.name, accepted, f"is unknown{did_you_mean(name, FIELDS)}")
+        if name in FIELDS and FIELDS[name].unit and column.unit is None and isinstance(source, (str, Path)):
+            accepted = f"the unit in brackets, such as {name} [{FIELDS[name].unit}]"
+            raise InputError("materials, header", column.name, accepted, "has no unit")
     found = []
     for k, line in enumerate(lines):
         cells = {column.name: _cell(column.unit, column.cells[k]) for column in columns}

@@ -67,12 +67,12 @@ def test_none_in_the_range_is_said_with_the_range() -> None:
     """All stick, or the slowest do not: no number, and a sentence with the Stokes numbers and speeds searched."""
     [one] = critical("pendulum", stokes=(1e-3, 0.1)).rows
     assert one.relative_speed is one.speed is one.stokes is one.to is None
-    assert "stick for all of St 0.001 to 0.1 (relative speed 0.0003734 to 0.03734 m/s)" in one.sentences()[0]
+    assert "stick for all of St 0.001 to 0.1 (normal speed 0.000264 to 0.0264 m/s)" in one.sentences[0]
     spinning = Scene.from_dict(FILM | {"impact": {"spin": "2000 rad/s"}})
     [fast] = critical(spinning, angle="30 deg").rows
     assert fast.relative_speed is None
     assert fast.slowest == "stick-rotate-separate"
-    assert "the slowest do not stick" in fast.sentences()[0]
+    assert "the slowest do not stick" in fast.sentences[0]
 
 
 def test_an_interval_may_be_open() -> None:
@@ -81,7 +81,7 @@ def test_an_interval_may_be_open() -> None:
     [one] = critical(scene, angle=0.0, stokes=(1.0, 6.3), uncertainty={"particles.roughness": "20 %"}).rows
     assert one.interval[0] < one.relative_speed
     assert one.interval[1] is None
-    assert "all stick in the range" in one.sentences()[0]
+    assert "all stick in the range" in one.sentences[0]
 
 
 TABLE = """size;particles.diameter [um];liquid.coating_thickness [um];liquid.viscosity [P];liquid.viscosity_sd [%];scene
