@@ -101,7 +101,7 @@ def check_data(data: Any, scene: Scene | str | Path) -> Checkup:
     """
     loaded = Scene.load(scene)
     table = read_data(data, loaded)
-    seen = _Predicted.of(loaded, table, table.normal_speed, table.angle)
+    seen = _predicted(_as_it_is(loaded, table), table)
     findings = tuple(examine(loaded, table))
     return Checkup(table, loaded, findings, seen.agreement, _telling(loaded, table, seen), tuple(_notes(table)))
 
@@ -113,9 +113,14 @@ def examine(scene: Scene, data: Measurements) -> list[Finding]:
         findings = []
     except InputError as error:
         findings = [Finding("energy", (), str(error))]
-    seen = _Predicted.of(scene, data, data.normal_speed, data.angle)
-    findings = [*_units(scene, data, seen.agreement), *findings, *_beyond(scene, data, seen)]
-    return [*findings, *_outliers(scene, data, seen), *_duplicates(data)]
+    experiment = _as_it_is(scene, data)
+    seen = _predicted(experiment, data)
+    findings = [*_units(experiment, data, seen.agreement), *findings, *_beyond(experiment, data, seen)]
+    return [*findings, *_outliers(experiment, data, seen), *_duplicates(data)]
+
+
+def _as_it_is(scene: Scene, data: Measurements) -> Experiment:
+    return rows_of(scene, (), data, RTOL).unchecked(np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -125,16 +130,6 @@ class _Predicted:
     data: Measurements
     outcome: np.ndarray
     restitution: np.ndarray
-
-    @classmethod
-    def of(cls, scene: Scene, data: Measurements, speed: np.ndarray, angle: np.ndarray) -> _Predicted:
-        return cls.by(rows_of(scene, (), data, RTOL).unchecked(np.zeros(0)), data, speed, angle)
-
-    @classmethod
-    def by(cls, experiment: Experiment, data: Measurements, speed: np.ndarray, angle: np.ndarray) -> _Predicted:
-        row = np.arange(data.size)
-        outcome = experiment.outcomes(row, speed, angle, kernel_only=True)
-        return cls(data, outcome, experiment.plain(("restitution",), row, speed, angle)[0])
 
     @property
     def misfit(self) -> np.ndarray:
@@ -149,7 +144,17 @@ class _Predicted:
         return float(np.mean(agrees & ~(np.abs(self.misfit) > _TOLERATED)))
 
 
-def _units(scene: Scene, data: Measurements, share: float) -> list[Finding]:
+def _predicted(
+    experiment: Experiment, data: Measurements, speed: np.ndarray | None = None, angle: np.ndarray | None = None
+) -> _Predicted:
+    """At the rows' own normal speeds and angles, or at others."""
+    row, speed = np.arange(data.size), data.normal_speed if speed is None else speed
+    angle = data.angle if angle is None else angle
+    outcome = experiment.outcomes(row, speed, angle, kernel_only=True)
+    return _Predicted(data, outcome, experiment.plain(("restitution",), row, speed, angle)[0])
+
+
+def _units(experiment: Experiment, data: Measurements, share: float) -> list[Finding]:
     """Whether the data agree with the scene much better in other units, or as another speed or angle."""
     speed, angle = data.normal_speed, data.angle
     if share >= _POOR:
@@ -167,7 +172,7 @@ def _units(scene: Scene, data: Measurements, share: float) -> list[Finding]:
         other = speed / np.cos(angle) if data.relative else speed * np.cos(angle)
         either = ("the magnitude of the relative velocity", "the normal component")[:: -1 if data.relative else 1]
         others.append((f"these speeds as {either[0]}", f"Are they not {either[1]}?", other, angle))
-    found = [(_Predicted.of(scene, data, v, a).agreement, words, question) for words, question, v, a in others]
+    found = [(_predicted(experiment, data, v, a).agreement, words, question) for words, question, v, a in others]
     best, words, question = max(found)
     if best < max(_GOOD, share + _BETTER):
         return []
@@ -177,7 +182,7 @@ def _units(scene: Scene, data: Measurements, share: float) -> list[Finding]:
     return [Finding("units", (), f"{text} Or are entries of the scene far off?")]
 
 
-def _beyond(scene: Scene, data: Measurements, seen: _Predicted) -> list[Finding]:
+def _beyond(experiment: Experiment, data: Measurements, seen: _Predicted) -> list[Finding]:
     """Restitutions that no speed gives at their angle, with the scene as it is."""
     if "restitution" not in data.observed:
         return []
@@ -186,9 +191,8 @@ def _beyond(scene: Scene, data: Measurements, seen: _Predicted) -> list[Finding]
     if not row.size:
         return []
     steeper = np.minimum(data.angle[row] + _WIDE * data.angle_sd[row], STEEPEST)
-    low, high = stokes_range(scene, {*data.angle[row].tolist()})
-    speed = np.geomspace(low, high, _SPEEDS) / scene.stokes_per_speed
-    experiment = rows_of(scene, (), data, RTOL).unchecked(np.zeros(0))
+    low, high = stokes_range(experiment.scene, {*data.angle[row].tolist()})
+    speed = np.geomspace(low, high, _SPEEDS) / experiment.scene.stokes_per_speed
     rows, speeds = np.repeat(np.tile(row, 2), _SPEEDS), np.tile(speed, 2 * row.size)
     angles = np.repeat(np.concatenate([data.angle[row], steeper]), _SPEEDS)
     found = experiment.plain(("restitution",), rows, speeds, angles)[0].reshape(2, row.size, _SPEEDS)
@@ -202,14 +206,14 @@ def _beyond(scene: Scene, data: Measurements, seen: _Predicted) -> list[Finding]
     return [_finding("restitution", data, row[wrong], text)]
 
 
-def _outliers(scene: Scene, data: Measurements, seen: _Predicted) -> list[Finding]:
+def _outliers(experiment: Experiment, data: Measurements, seen: _Predicted) -> list[Finding]:
     """Rows unlike their neighbours in speed and angle: an outcome between others alike, a restitution off the trend."""
     if data.size > _MOST:
         return []
     log_speed, findings = np.log(data.speed), []
     apart = log_speed - log_speed[:, None], data.angle - data.angle[:, None]
     near = (np.abs(apart[0]) < _NEAR_SPEED) & (np.abs(apart[1]) < _NEAR_ANGLE) & ~np.eye(data.size, dtype=bool)
-    odd, explained = [], _within_scatter(scene, data)
+    odd, explained = [], _within_scatter(experiment, data)
     for k in np.flatnonzero(data.outcome != UNKNOWN).tolist():
         around = np.flatnonzero(near[k] & (data.outcome != UNKNOWN))
         alike = np.unique(data.outcome[around])
@@ -240,13 +244,13 @@ def _outliers(scene: Scene, data: Measurements, seen: _Predicted) -> list[Findin
     return findings
 
 
-def _within_scatter(scene: Scene, data: Measurements) -> np.ndarray:
+def _within_scatter(experiment: Experiment, data: Measurements) -> np.ndarray:
     """Mask of the rows whose outcome the scene gives at the impact or within three deviations in speed and angle."""
     found = np.zeros(data.size, bool)
     for side, turn in ((0, 0), (_WIDE, 0), (-_WIDE, 0), (0, _WIDE), (0, -_WIDE), (2, 2), (2, -2), (-2, 2), (-2, -2)):
         angle = np.clip(data.angle + turn * data.angle_sd, 0, STEEPEST)
         speed = np.maximum(data.normal_speed * (1 + side * data.speed_sd / data.speed), 1e-3 * data.normal_speed)
-        found |= _Predicted.of(scene, data, speed, angle).outcome == data.outcome
+        found |= _predicted(experiment, data, speed, angle).outcome == data.outcome
     return found
 
 
@@ -272,7 +276,7 @@ def _telling(scene: Scene, data: Measurements, seen: _Predicted) -> dict[str, in
         for moved in (value - _PART, value + _PART) if bounded else (value / _FACTOR, value * _FACTOR):
             experiment = rows.at(np.array([moved])) if scene.fields[name].range.holds(moved) else None
             if experiment is not None:
-                other = _Predicted.by(experiment, data, data.normal_speed, data.angle)
+                other = _predicted(experiment, data)
                 differs |= (other.outcome != seen.outcome) & (other.outcome >= 0)
                 differs |= np.abs(np.nan_to_num(other.restitution - seen.restitution)) > noise
         counts[name] = int(np.count_nonzero(differs))
