@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, collide_many, critical, gradients_many
+from wetdoublet.solvers import Scene, boundary, collide, collide_many, critical, gradients_many
 
 PLANE = Scene.from_dict({
     "particles": {"diameter": "12 mm", "density": "7800 kg/m^3", "roughness": "1 um", "dry_restitution": 0.9},
@@ -22,8 +22,8 @@ def test_turning_doublets_forget_their_film(name: str, of_thickness: float, angl
     Exponents along the strip of stick-rotate-separate, away from its ends, where the rotation grows without bound.
     """
     scene = Scene.load(name)
-    [one] = critical(scene, angle=math.radians(angle)).rows
-    low, high = (change.stokes for change in one.changes[:2])
+    [line] = boundary(scene, angle=math.radians(angle)).changes
+    low, high = (change.stokes for change in line[:2])
     found = gradients_many(
         scene, stokes=np.linspace(low, high, 12)[2:-2], angle=f"{angle} deg", wrt=ENTRIES,
         of=["restitution", "rotation"],
