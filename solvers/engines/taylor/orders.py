@@ -5,7 +5,7 @@ time, and a neighbouring one little. With these two no decade of the tolerance c
 (`python -m tests.benchmarks.orders`, docs/engineering/kernel-figures.md).
 """
 
-ORDERS = ((3e-10, 9), (0.0, 11))
+ORDERS = ((3e-8, 9), (0.0, 11))
 """Tolerance, and the order of the series for it and looser ones; descending."""
 LEAST, LARGEST = 8, 16
 """Orders that the runtime can be compiled for."""
