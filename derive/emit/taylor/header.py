@@ -53,7 +53,7 @@ class Header:
         self.constants = Constants({group: f"c->{group.name}" for group in model.groups}, flags)
         self.calls: dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]] = {}
         rates = model["right_hand_side"].by_name
-        self.flow = Program.for_outputs(model.states, rates.values(), model.definitions)
+        self.flow = Program.for_outputs(model.states, rates.values(), model.definitions, whole_angles=True)
         self.rates = self._results(self.flow, "right_hand_side")
         self.turning: str | sp.Expr | None = None
         if "turning_rate" in model and not model.structure.strings:
