@@ -106,10 +106,15 @@ static void meet(line *l, law_history *s, law_force *found, int kind, int *rebou
     found->events |= LAW_REBOUNDS;
 }
 
-/* Spins and the line of centres under the torques of the film: the exact motion with constant coefficients. */
-static void shear(const bodies *b, double distance, const response *r, double time, vector3 *turning,
-                  vector3 spin[2], vector3 impulse[2])
+/* What rotates: the orbital momentum over the reduced mass, spins, and the torques' impulses on them so far. */
+typedef struct {
+    vector3 moment, spin[2], impulse[2];
+} whirl;
+
+/* A whirl under the torques of the film, at a gap: the exact motion with constant coefficients. */
+static void shear(const bodies *b, double gap, const response *r, double time, whirl *w)
 {
+    double distance = b->contact + gap;
     double orbital = 1.0/(b->reduced_mass*distance*distance), one = 1.0/b->inertia[0], other = 1.0/b->inertia[1];
     /* rates of both slips over the slips: the inverse inertia, with both spins on one line of centres, times torques */
     double a = (orbital + one)*r->own + orbital*r->mutual, d = orbital*r->mutual + (orbital + other)*r->partner;
@@ -119,16 +124,16 @@ static void shear(const bodies *b, double distance, const response *r, double ti
     double mean = 0.5*(slow + fast), by = root*time > 1e-6 ? 0.5*(slow - fast)/root : mean*time;
     vector3 slip[2], lost[2];
     for (int k = 0; k < 2; k++)
-        slip[k] = plus(*turning, -1.0, spin[k]);
+        slip[k] = plus(times(1.0/(distance*distance), w->moment), -1.0, w->spin[k]);
     lost[0] = plus(times(1.0 - mean + by*(a - half), slip[0]), by*p, slip[1]);
     lost[1] = plus(times(1.0 - mean + by*(d - half), slip[1]), by*q, slip[0]);
     double whole = orbital*(one + other) + one*other;
     for (int k = 0; k < 2; k++) {
         double mine = k ? orbital + one : orbital + other;
         vector3 given = times(1.0/whole, plus(times(mine, lost[k]), -orbital, lost[1 - k]));
-        impulse[k] = plus(impulse[k], 1.0, given);
-        spin[k] = plus(spin[k], b->inertia[k] > 0.0 ? 1.0/b->inertia[k] : 0.0, given);
-        *turning = plus(*turning, -orbital, given);
+        w->impulse[k] = plus(w->impulse[k], 1.0, given);
+        w->spin[k] = plus(w->spin[k], 1.0/b->inertia[k], given);
+        w->moment = plus(w->moment, -1.0/b->reduced_mass, given);
     }
 }
 
@@ -185,17 +190,15 @@ static void join(law_history *s, double gap, double speed)
 }
 
 /* The load of a substep: all else, and the centrifugal force in its middle. */
-static void press(line *l, const bodies *b, double distance, const response *r, double time, vector3 turning,
-                  const vector3 spin[2])
+static void press(line *l, const bodies *b, const response *r, double time, whirl w)
 {
-    vector3 spins[2] = {spin[0], spin[1]}, unused[2] = {spin[0], spin[1]};
-    shear(b, distance, r, 0.5*time, &turning, spins, unused);
-    l->load = l->others + l->mass*distance*dot(turning, turning);
+    double distance = b->contact + l->gap + 0.5*time*l->velocity;
+    shear(b, l->gap, r, 0.5*time, &w);
+    l->load = l->others + l->mass*dot(w.moment, w.moment)/(distance*distance*distance);
 }
 
 /* Follows the motion along the line for a time, and what rotates with it; returns the time of separation, or -1. */
-static double follow_line(line *l, const bodies *b, double distance, double time, law_history *s, vector3 *turning,
-                          vector3 spin[2], vector3 impulse[2], law_force *found)
+static double follow_line(line *l, const bodies *b, double time, law_history *s, whirl *w, law_force *found)
 {
     double left = time;
     int rebounds = 0;
@@ -211,29 +214,29 @@ static double follow_line(line *l, const bodies *b, double distance, double time
         else if (l->velocity < 0.0 && !(space_glass_clears(&l->h, l->gap, l->velocity) > 0.0))
             meet(l, s, found, LAW_GLASS, &rebounds);
         here = space_mean_response(&l->h, l->gap, l->gap, l->velocity);
-        press(l, b, distance, &here, 0.0, *turning, spin);
+        press(l, b, &here, 0.0, *w);
         if (l->gap <= l->h.contact && l->velocity == 0.0 && l->load <= here.attraction) {
-            shear(b, distance, &here, left, turning, spin, impulse); /* at rest in contact */
+            shear(b, l->gap, &here, left, w); /* at rest in contact */
             found->events |= LAW_RESTS;
             break;
         }
         double wide = fabs(way(l, &here, taken, &velocity))/(WIDEST*l->gap);
         taken = wide > 1.0 ? 0.8*taken/wide : taken;
-        for (press(l, b, distance, &here, taken, *turning, spin);
+        for (press(l, b, &here, taken, *w);
              !substep(l, taken, &gap, &velocity, &r)
              || (glass_may_come(l, gap, velocity) && fabs(gap - l->gap) > 1e-9*l->gap);
-             press(l, b, distance, &here, taken, *turning, spin))
+             press(l, b, &here, taken, *w))
             taken *= 0.5;
         double target = passed(l, gap);
         if (target != gap) {
             taken = time_to(l, target, taken, &r);
-            press(l, b, distance, &here, taken, *turning, spin);
+            press(l, b, &here, taken, *w);
             taken = time_to(l, target, 1.1*taken, &r);
             way(l, &r, taken, &velocity);
             gap = target;
         }
         l->work += r.attraction*(gap - l->gap);
-        shear(b, distance, &r, taken, turning, spin, impulse);
+        shear(b, 0.5*(l->gap + gap), &r, taken, w);
         if (l->gap < l->h.film && gap == l->h.film && velocity > 0.0)
             found->events |= LAW_LEAVES_FILM;
         l->gap = gap;
@@ -326,7 +329,7 @@ int law_contact_force(const law_material *material, const law_motion *given, dou
         unforced(found, check_material(material), NAN);
     if (found->status != LAW_OK)
         return found->status;
-    vector3 apart = vector_of(given->position), moving = vector_of(given->velocity), turning, spin[2], impulse[2];
+    vector3 apart = vector_of(given->position), moving = vector_of(given->velocity);
     double distance = length(apart), acts = dt;
     vector3 n = times(1.0/distance, apart);
     if (!s.joined) {
@@ -354,19 +357,25 @@ int law_contact_force(const law_material *material, const law_motion *given, dou
     l.gap = s.gap > l.h.contact ? s.gap : l.h.contact;
     l.velocity = opening(distance, before, sideways, start) - s.lead + l.others/l.mass*(dt - acts);
     l.work = 0.0;
-    turning = times(1.0/distance, cross(n, plus(moving, 0.5*acts/l.mass, load)));
+    whirl w, at_first;
+    w.moment = times(distance, cross(n, plus(moving, 0.5*acts/l.mass, load)));
     for (int k = 0; k < 2; k++) {
-        impulse[k] = times(0.0, n);
-        spin[k] = plus(vector_of(given->spins[k]), 0.5*acts/b.inertia[k], vector_of(given->torques[k]));
-        spin[k] = across(spin[k], n);
+        w.impulse[k] = times(0.0, n);
+        w.spin[k] = plus(vector_of(given->spins[k]), 0.5*acts/b.inertia[k], vector_of(given->torques[k]));
+        w.spin[k] = across(w.spin[k], n);
     }
-    double until = follow_line(&l, &b, distance, acts, &s, &turning, spin, impulse, found);
+    at_first = w;
+    double until = follow_line(&l, &b, acts, &s, &w, found);
     if (found->status != LAW_OK) {
         unforced(found, found->status, NAN);
         return found->status;
     }
-    turning = plus(turning, (dt - 0.5*acts)/(l.mass*distance), cross(n, load));
-    sideways = distance*length(turning);
+    double rubbed = 0.0; /* energy that the torques add to the host's motion, below zero */
+    for (int k = 0; k < 2; k++) {
+        vector3 slip = plus(plus(w.spin[k], 1.0, at_first.spin[k]), -1.0/(distance*distance), plus(w.moment, 1.0, at_first.moment));
+        rubbed += 0.5*dot(w.impulse[k], slip);
+    }
+    sideways = length(plus(times(1.0/distance, w.moment), (dt - 0.5*acts)/l.mass, cross(n, load)));
     double end = s.joined ? 0.5*dt : start + until, wanted = l.velocity, after;
     if (s.joined && fabs(lag) > SLACK*b.film && acts == dt)
         wanted -= RETURN*(lag - (lag > 0.0 ? SLACK : -SLACK)*b.film)/dt;
@@ -376,23 +385,23 @@ int law_contact_force(const law_material *material, const law_motion *given, dou
         double square = wanted*wanted + moment*moment*(1.0/(ends*ends) - 1.0/(there*there));
         after = held_velocity(distance, sqrt(fmax(square, 0.0)), sideways, end) + l.others/l.mass*(0.5*dt - end);
     }
-    after = afforded(l.mass, before, after, l.others/l.mass*dt, s.spare - l.work);
+    after = afforded(l.mass, before, after, l.others/l.mass*dt, s.spare - l.work - rubbed);
     double along = l.mass*(after - before) - l.others*dt;
-    s.spare = larger(s.spare - l.work - 0.5*along*(after + before), 0.0);
+    s.spare = larger(s.spare - l.work - rubbed - 0.5*along*(after + before), 0.0);
     s.gap = l.gap;
     s.time += s.joined ? acts : until;
     s.lead = s.joined ? opening(distance, after, sideways, 0.5*dt) - l.velocity : 0.0;
     vector3 force = times(along/dt, n);
-    force = plus(force, -1.0/(distance*dt), cross(plus(impulse[0], 1.0, impulse[1]), n));
+    force = plus(force, -1.0/(distance*dt), cross(plus(w.impulse[0], 1.0, w.impulse[1]), n));
     put_vector(found->force, force);
     for (int k = 0; k < 2; k++)
-        put_vector(found->torques[k], times(1.0/dt, impulse[k]));
+        put_vector(found->torques[k], times(1.0/dt, w.impulse[k]));
     found->gap = s.gap;
     if (!s.joined) {
         found->restitution = l.velocity/s.speed;
         found->outcome = s.rebound == LAW_NO_REBOUND ? LAW_STICK_ROTATE_SEPARATE : LAW_BOUNCE;
     }
-    if (!(largest(force) + largest(impulse[0]) + largest(impulse[1]) + s.spare < INFINITY)) {
+    if (!(largest(force) + largest(w.impulse[0]) + largest(w.impulse[1]) + s.spare < INFINITY)) {
         unforced(found, LAW_UNDECIDED_NOT_FINITE, NAN);
         return found->status;
     }
