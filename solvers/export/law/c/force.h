@@ -106,12 +106,15 @@ static void meet(line *l, law_history *s, law_force *found, int kind, int *rebou
     found->events |= LAW_REBOUNDS;
 }
 
-/* What rotates: the orbital momentum over the reduced mass, spins, and the torques' impulses on them so far. */
+/* What rotates, in axes that turn with the line of centres `n`: the orbital momentum over the reduced mass, spins across the
+ * line and along it, and the torques' impulses so far. */
 typedef struct {
-    vector3 moment, spin[2], impulse[2];
+    vector3 n, moment, spin[2], impulse[2];
+    double twist[2];
 } whirl;
 
-/* A whirl under the torques of the film, at a gap: the exact motion with constant coefficients. */
+/* A whirl under the torques of the film, at a gap: the exact motion with constant coefficients. Twist comes across the line
+ * as that turns away from it. */
 static void shear(const bodies *b, double gap, const response *r, double time, whirl *w)
 {
     double distance = b->contact + gap;
@@ -119,22 +122,45 @@ static void shear(const bodies *b, double gap, const response *r, double time, w
     /* rates of both slips over the slips: the inverse inertia, with both spins on one line of centres, times torques */
     double a = (orbital + one)*r->own + orbital*r->mutual, d = orbital*r->mutual + (orbital + other)*r->partner;
     double p = (orbital + one)*r->mutual + orbital*r->partner, q = orbital*r->own + (orbital + other)*r->mutual;
-    double half = 0.5*(a + d), root = sqrt(fmax(0.25*(a - d)*(a - d) + p*q, 0.0));
-    double slow = exp(-(half - root)*time), fast = exp(-(half + root)*time);
-    double mean = 0.5*(slow + fast), by = root*time > 1e-6 ? 0.5*(slow - fast)/root : mean*time;
-    vector3 slip[2], lost[2];
-    for (int k = 0; k < 2; k++)
-        slip[k] = plus(times(1.0/(distance*distance), w->moment), -1.0, w->spin[k]);
-    lost[0] = plus(times(1.0 - mean + by*(a - half), slip[0]), by*p, slip[1]);
-    lost[1] = plus(times(1.0 - mean + by*(d - half), slip[1]), by*q, slip[0]);
-    double whole = orbital*(one + other) + one*other;
+    double half = 0.5*(a + d), root = sqrt(fmax(0.25*(a - d)*(a - d) + p*q, 0.0)), least = fmax(half - root, 0.0);
+    double mean[2], by[2], whole = orbital*(one + other) + one*other;
+    vector3 turning = times(1.0/(distance*distance), w->moment), aside = cross(turning, w->n), slip[2], lost[2];
+    for (int k = 0; k < 2; k++) { /* of exp(-z), and of its mean up to z */
+        double slow = k ? decayed(least*time) : exp(-least*time), fast = k ? decayed((half + root)*time) : exp(-(half + root)*time);
+        mean[k] = 0.5*(slow + fast);
+        by[k] = root > 1e-9*half ? 0.5*(slow - fast)/root : 0.0;
+        slip[k] = plus(turning, -1.0, w->spin[k]);
+    }
     for (int k = 0; k < 2; k++) {
-        double mine = k ? orbital + one : orbital + other;
+        double beside = k ? q : p, off = (k ? d : a) - half;
+        vector3 drift[2];
+        drift[0] = times(w->twist[k]*time, aside);
+        drift[1] = times(w->twist[1 - k]*time, aside);
+        lost[k] = plus(times(1.0 - mean[0] + by[0]*off, slip[k]), by[0]*beside, slip[1 - k]);
+        lost[k] = plus(plus(lost[k], 1.0 - mean[1] + by[1]*off, drift[0]), by[1]*beside, drift[1]);
+    }
+    for (int k = 0; k < 2; k++) {
+        double mine = k ? orbital + one : orbital + other, twisted = w->twist[k];
         vector3 given = times(1.0/whole, plus(times(mine, lost[k]), -orbital, lost[1 - k]));
+        w->twist[k] -= time*dot(w->n, cross(turning, plus(w->spin[k], 0.5/b->inertia[k], given)));
         w->impulse[k] = plus(w->impulse[k], 1.0, given);
-        w->spin[k] = plus(w->spin[k], 1.0/b->inertia[k], given);
+        w->spin[k] = plus(plus(w->spin[k], 1.0/b->inertia[k], given), -twisted*time, aside);
         w->moment = plus(w->moment, -1.0/b->reduced_mass, given);
     }
+}
+
+/* v, turned as one unit vector is into another. */
+static vector3 turned(vector3 v, vector3 from, vector3 to)
+{
+    vector3 axis = cross(from, to);
+    double along = dot(from, to);
+    vector3 made = plus(times(along, v), 1.0, cross(axis, v));
+    return plus(made, along > -1.0 ? dot(axis, v)/(1.0 + along) : 0.0, axis);
+}
+
+static vector3 unit(vector3 v)
+{
+    return times(1.0/length(v), v);
 }
 
 /* The time from now to when the films touch on straight paths, negative for a pair that is found late; infinite if never. */
@@ -357,26 +383,41 @@ int law_contact_force(const law_material *material, const law_motion *given, dou
     l.gap = s.gap > l.h.contact ? s.gap : l.h.contact;
     l.velocity = opening(distance, before, sideways, start) - s.lead + l.others/l.mass*(dt - acts);
     l.work = 0.0;
-    whirl w, at_first;
+    whirl w;
+    w.n = n;
     w.moment = times(distance, cross(n, plus(moving, 0.5*acts/l.mass, load)));
     for (int k = 0; k < 2; k++) {
         w.impulse[k] = times(0.0, n);
-        w.spin[k] = plus(vector_of(given->spins[k]), 0.5*acts/b.inertia[k], vector_of(given->torques[k]));
-        w.spin[k] = across(w.spin[k], n);
+        vector3 given_spin = plus(vector_of(given->spins[k]), 0.5*acts/b.inertia[k], vector_of(given->torques[k]));
+        given_spin = turned(given_spin, unit(plus(apart, start, moving)), n);
+        w.twist[k] = dot(n, given_spin);
+        w.spin[k] = across(given_spin, n);
     }
-    at_first = w;
     double until = follow_line(&l, &b, acts, &s, &w, found);
     if (found->status != LAW_OK) {
         unforced(found, found->status, NAN);
         return found->status;
     }
-    double rubbed = 0.0; /* energy that the torques add to the host's motion, below zero */
-    for (int k = 0; k < 2; k++) {
-        vector3 slip = plus(plus(w.spin[k], 1.0, at_first.spin[k]), -1.0/(distance*distance), plus(w.moment, 1.0, at_first.moment));
-        rubbed += 0.5*dot(w.impulse[k], slip);
+    double end = s.joined ? 0.5*dt : start + until, wanted = l.velocity, after, rubbed = 0.0;
+    vector3 across_line = cross(w.moment, n), carried, momentum = times(distance, cross(n, plus(moving, dt/l.mass, load))), sum = times(0.0, n);
+    sideways = length(across_line)/distance;
+    carried = plus(times(distance + end*held_velocity(distance, wanted, sideways, end), n), end/distance, across_line);
+    carried = unit(carried);
+    for (int k = 0; k < 2; k++) { /* torques across the line that is given, which leave the spins as they are now across it then */
+        vector3 free = plus(vector_of(given->spins[k]), acts/b.inertia[k], vector_of(given->torques[k]));
+        vector3 back = turned(w.spin[k], n, carried);
+        back = plus(back, (dot(n, free) - dot(n, back))/fmax(dot(n, carried), 0.1), carried);
+        w.impulse[k] = times(b.inertia[k], across(plus(back, -1.0, free), n));
+        sum = plus(sum, 1.0, w.impulse[k]);
     }
-    sideways = length(plus(times(1.0/distance, w.moment), (dt - 0.5*acts)/l.mass, cross(n, load)));
-    double end = s.joined ? 0.5*dt : start + until, wanted = l.velocity, after;
+    momentum = plus(momentum, -1.0/l.mass, sum);
+    for (int k = 0; k < 2; k++) { /* energy that the torques add to the host's motion, below zero */
+        vector3 middle = plus(vector_of(given->spins[k]), 0.5*dt/b.inertia[k], vector_of(given->torques[k]));
+        middle = plus(plus(middle, 0.5/b.inertia[k], w.impulse[k]), -1.0/(distance*distance), plus(momentum, 0.5/l.mass, sum));
+        middle = plus(middle, 0.5*dt/(l.mass*distance), cross(n, load));
+        rubbed += dot(w.impulse[k], middle);
+    }
+    sideways = length(momentum)/distance;
     if (s.joined && fabs(lag) > SLACK*b.film && acts == dt)
         wanted -= RETURN*(lag - (lag > 0.0 ? SLACK : -SLACK)*b.film)/dt;
     after = held_velocity(distance, wanted, sideways, end);
@@ -392,7 +433,7 @@ int law_contact_force(const law_material *material, const law_motion *given, dou
     s.time += s.joined ? acts : until;
     s.lead = s.joined ? opening(distance, after, sideways, 0.5*dt) - l.velocity : 0.0;
     vector3 force = times(along/dt, n);
-    force = plus(force, -1.0/(distance*dt), cross(plus(w.impulse[0], 1.0, w.impulse[1]), n));
+    force = plus(force, -1.0/(distance*dt), cross(sum, n));
     put_vector(found->force, force);
     for (int k = 0; k < 2; k++)
         put_vector(found->torques[k], times(1.0/dt, w.impulse[k]));
