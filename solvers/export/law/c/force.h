@@ -41,16 +41,18 @@ static double way(const line *l, const response *r, double time, double *velocit
 }
 
 /* The substep of a length, with the means over its own way; false if that is too wide, or is not found. */
-static int substep(const line *l, double time, double *gap, double *velocity, response *r)
+static int substep(const line *l, const response *here, double time, double *gap, double *velocity, response *r)
 {
     double direction = l->velocity != 0.0 ? l->velocity : l->load;
-    double before = l->gap, off = 0.0, tried = l->gap;
+    double before = l->gap, off = 0.0, tried = l->gap + way(l, here, time, velocity);
+    if (!(fabs(tried - l->gap) <= WIDEST*l->gap))
+        return 0;
     for (int k = 0; k < 30; k++) {
         *r = space_mean_response(&l->h, l->gap, tried, direction);
         double found = l->gap + way(l, r, time, velocity), error = found - tried;
         if (!(fabs(found - l->gap) <= WIDEST*l->gap))
             return 0;
-        if (fabs(error) <= 1e-14*l->gap) {
+        if (fabs(error) <= 1e-12*l->gap) {
             *gap = found;
             return 1;
         }
@@ -249,7 +251,7 @@ static double follow_line(line *l, const bodies *b, double time, law_history *s,
         double wide = fabs(way(l, &here, taken, &velocity))/(WIDEST*l->gap);
         taken = wide > 1.0 ? 0.8*taken/wide : taken;
         for (press(l, b, &here, taken, *w);
-             !substep(l, taken, &gap, &velocity, &r)
+             !substep(l, &here, taken, &gap, &velocity, &r)
              || (glass_may_come(l, gap, velocity) && fabs(gap - l->gap) > 1e-9*l->gap);
              press(l, b, &here, taken, *w))
             taken *= 0.5;
@@ -410,13 +412,18 @@ int law_contact_force(const law_material *material, const law_motion *given, dou
         w.impulse[k] = times(b.inertia[k], across(plus(back, -1.0, free), n));
         sum = plus(sum, 1.0, w.impulse[k]);
     }
-    momentum = plus(momentum, -1.0/l.mass, sum);
-    for (int k = 0; k < 2; k++) { /* energy that the torques add to the host's motion, below zero */
-        vector3 middle = plus(vector_of(given->spins[k]), 0.5*dt/b.inertia[k], vector_of(given->torques[k]));
-        middle = plus(plus(middle, 0.5/b.inertia[k], w.impulse[k]), -1.0/(distance*distance), plus(momentum, 0.5/l.mass, sum));
-        middle = plus(middle, 0.5*dt/(l.mass*distance), cross(n, load));
-        rubbed += dot(w.impulse[k], middle);
+    double gain = 0.0, cost = 0.5*dot(sum, sum)/(l.mass*distance*distance), most = fmax(s.spare - l.work, 0.0), part = 1.0;
+    for (int k = 0; k < 2; k++) { /* energy that the torques add to the host's motion, below zero but for large steps */
+        vector3 slip = plus(vector_of(given->spins[k]), 0.5*dt/b.inertia[k], vector_of(given->torques[k]));
+        gain += dot(w.impulse[k], plus(slip, -0.5/distance, plus(cross(n, moving), 1.0, cross(n, plus(moving, dt/l.mass, load)))));
+        cost += 0.5*dot(w.impulse[k], w.impulse[k])/b.inertia[k];
     }
+    if (gain + cost > most)
+        part = 0.5*(sqrt(gain*gain + 4.0*cost*most) - gain)/cost;
+    rubbed = part*(gain + part*cost);
+    momentum = plus(momentum, -part/l.mass, sum);
+    for (int k = 0; k < 2; k++)
+        w.impulse[k] = times(part, w.impulse[k]);
     sideways = length(momentum)/distance;
     if (s.joined && fabs(lag) > SLACK*b.film && acts == dt)
         wanted -= RETURN*(lag - (lag > 0.0 ? SLACK : -SLACK)*b.film)/dt;
@@ -433,7 +440,7 @@ int law_contact_force(const law_material *material, const law_motion *given, dou
     s.time += s.joined ? acts : until;
     s.lead = s.joined ? opening(distance, after, sideways, 0.5*dt) - l.velocity : 0.0;
     vector3 force = times(along/dt, n);
-    force = plus(force, -1.0/(distance*dt), cross(sum, n));
+    force = plus(force, -1.0/(distance*dt), cross(plus(w.impulse[0], 1.0, w.impulse[1]), n));
     put_vector(found->force, force);
     for (int k = 0; k < 2; k++)
         put_vector(found->torques[k], times(1.0/dt, w.impulse[k]));
