@@ -109,9 +109,9 @@ static void meet(line *l, law_history *s, law_force *found, int kind, int *rebou
 }
 
 /* What rotates, in axes that turn with the line of centres `n`: the orbital momentum over the reduced mass, spins across the
- * line and along it, and the torques' impulses so far. */
+ * line and along it. */
 typedef struct {
-    vector3 n, moment, spin[2], impulse[2];
+    vector3 n, moment, spin[2];
     double twist[2];
 } whirl;
 
@@ -128,7 +128,8 @@ static void shear(const bodies *b, double gap, const response *r, double time, w
     double mean[2], by[2], whole = orbital*(one + other) + one*other;
     vector3 turning = times(1.0/(distance*distance), w->moment), aside = cross(turning, w->n), slip[2], lost[2];
     for (int k = 0; k < 2; k++) { /* of exp(-z), and of its mean up to z */
-        double slow = k ? decayed(least*time) : exp(-least*time), fast = k ? decayed((half + root)*time) : exp(-(half + root)*time);
+        double slow = k ? decayed(least*time) : exp(-least*time);
+        double fast = k ? decayed((half + root)*time) : exp(-(half + root)*time);
         mean[k] = 0.5*(slow + fast);
         by[k] = root > 1e-9*half ? 0.5*(slow - fast)/root : 0.0;
         slip[k] = plus(turning, -1.0, w->spin[k]);
@@ -145,7 +146,6 @@ static void shear(const bodies *b, double gap, const response *r, double time, w
         double mine = k ? orbital + one : orbital + other, twisted = w->twist[k];
         vector3 given = times(1.0/whole, plus(times(mine, lost[k]), -orbital, lost[1 - k]));
         w->twist[k] -= time*dot(w->n, cross(turning, plus(w->spin[k], 0.5/b->inertia[k], given)));
-        w->impulse[k] = plus(w->impulse[k], 1.0, given);
         w->spin[k] = plus(plus(w->spin[k], 1.0/b->inertia[k], given), -twisted*time, aside);
         w->moment = plus(w->moment, -1.0/b->reduced_mass, given);
     }
@@ -174,11 +174,6 @@ static double time_to_touch(const bodies *b, vector3 apart, vector3 moving)
         return INFINITY;
     root = sqrt(root);
     return along < 0.0 ? beyond/(root - along) : (-along - root)/square;
-}
-
-static double closing(vector3 apart, vector3 moving)
-{
-    return -dot(apart, moving)/length(apart);
 }
 
 /* The velocity of the gap after a time on a straight line, from a distance, with velocities along and across the line. */
@@ -280,42 +275,46 @@ static double follow_line(line *l, const bodies *b, double time, law_history *s,
     return -1.0;
 }
 
-static void unforced(law_force *found, int status, double value)
+static void unforced(law_force *found, int status)
 {
-    memset(found, 0, sizeof *found);
+    double value = status == LAW_OK ? 0.0 : NAN;
     found->status = status;
+    found->events = 0;
     found->outcome = LAW_UNDECIDED;
     found->gap = found->restitution = NAN;
-    put_vector(found->force, times(value, vector_of(found->force)));
     for (int k = 0; k < 3; k++)
         found->force[k] = found->torques[0][k] = found->torques[1][k] = value;
 }
 
 static int bad_motion(const law_motion *given, double dt)
 {
-    double most = largest(vector_of(given->position));
-    if (!(most > 0.0 && most < 1e150))
+    const double most = 1e100; /* squares and products of numbers below it are numbers */
+    double distance = largest(vector_of(given->position)), sum = largest(vector_of(given->velocity));
+    if (!(distance >= 1.0/most && distance <= most))
         return LAW_NO_DIRECTION;
-    most = largest(vector_of(given->velocity));
-    for (int k = 0; k < 2; k++)
-        most = larger(most, larger(largest(vector_of(given->spins[k])),
-            larger(largest(vector_of(given->forces[k])), largest(vector_of(given->torques[k])))));
-    if (!(most < 1e100))
+    for (int k = 0; k < 2; k++) {
+        sum += largest(vector_of(given->spins[k]));
+        sum += largest(vector_of(given->forces[k])) + largest(vector_of(given->torques[k]));
+    }
+    if (!(sum < most))
         return LAW_NOT_A_NUMBER;
-    for (int k = 0; k < 2; k++)
-        if (!(largest(vector_of(given->spins[k])) + largest(vector_of(given->forces[k])) + largest(vector_of(given->torques[k])) < INFINITY))
-            return LAW_NOT_A_NUMBER;
-    return dt > 0.0 && dt < INFINITY ? LAW_OK : LAW_BAD_STEP;
+    return dt >= 1.0/most && dt <= most ? LAW_OK : LAW_BAD_STEP;
+}
+
+static int known_speed(const bodies *b, double speed)
+{
+    return speed*b->stokes_per_speed >= 1.0/FURTHEST && speed*b->stokes_per_speed <= FURTHEST;
 }
 
 int law_contact_join(const law_material *material, double gap, double speed, law_history *history)
 {
     space_held h;
+    bodies b = bodies_of(material);
     int status = check_material(material);
+    if (status == LAW_OK && !known_speed(&b, speed))
+        status = LAW_OUT_OF_RANGE;
     if (status != LAW_OK)
         return status;
-    if (!(speed*bodies_of(material).stokes_per_speed >= 1.0/FURTHEST && speed*bodies_of(material).stokes_per_speed <= FURTHEST))
-        return LAW_OUT_OF_RANGE;
     space_hold(&h, material, speed);
     if (!(gap >= h.contact && gap < h.end))
         return LAW_NOT_IN_CONTACT;
@@ -323,134 +322,188 @@ int law_contact_join(const law_material *material, double gap, double speed, law
     return LAW_OK;
 }
 
-/* Begins the contact of a pair whose films touch before the middle of the coming step; returns for how long it acts. */
+/* Begins the contact of a pair whose films touch before the middle of the coming step. Returns for how long it acts, 0 if
+ * there is none. */
 static double begins(const law_material *material, const bodies *b, vector3 apart, vector3 moving, double dt,
                      law_history *s, law_force *found)
 {
-    double touch = time_to_touch(b, apart, moving), gap = length(apart) - b->contact, slowest = 1e-90/b->stokes_per_speed;
-    double speed = closing(apart, moving);
-    if (!(touch <= 0.5*dt) || (gap < b->film && !(speed > 0.0)))
+    double touch = time_to_touch(b, apart, moving), gap = length(apart) - b->contact;
+    if (!(touch <= 0.5*dt))
         return 0.0;
+    double speed = -dot(unit(apart), moving);
     if (touch >= -1.5*dt) {
+        speed = -dot(unit(plus(apart, touch, moving)), moving);
         gap = b->film;
-        speed = closing(plus(apart, touch, moving), moving);
     } else
-        touch = -0.5*dt; /* found where it cannot have come to in a step: it is taken as it is */
+        touch = -0.5*dt; /* it cannot have come so far in a step: it is taken as it is */
     if (!(speed > 0.0))
         return 0.0;
     found->status = check_material(material);
     if (found->status != LAW_OK)
         return 0.0;
-    join(s, gap, larger(speed, slowest));
-    found->events |= LAW_BEGINS;
+    join(s, gap, known_speed(b, speed) ? speed : 1.0/FURTHEST/b->stokes_per_speed);
+    found->events = LAW_BEGINS;
     return 0.5*dt - touch;
 }
 
-int law_contact_force(const law_material *material, const law_motion *given, double dt, law_history *history,
+/* A step of the host: what it gives, SI, and from when to when the contact acts, beside the time of the positions. */
+typedef struct {
+    vector3 n, moving, load, spin[2], torque[2]; /* `load`: of all else on the relative motion */
+    double distance, along, dt, start, end;
+} span;
+
+static span span_of(const bodies *b, const law_motion *given, double dt, double acts)
+{
+    span made;
+    vector3 apart = vector_of(given->position);
+    made.distance = length(apart);
+    made.n = times(1.0/made.distance, apart);
+    made.moving = vector_of(given->velocity);
+    made.along = dot(made.n, made.moving);
+    made.load = times(b->reduced_mass/b->mass[1], vector_of(given->forces[1]));
+    made.load = plus(made.load, -b->reduced_mass/b->mass[0], vector_of(given->forces[0]));
+    for (int k = 0; k < 2; k++) {
+        made.spin[k] = vector_of(given->spins[k]);
+        made.torque[k] = times(1.0/b->inertia[k], vector_of(given->torques[k]));
+    }
+    made.dt = dt;
+    made.start = 0.5*dt - acts;
+    made.end = 0.5*dt;
+    return made;
+}
+
+/* The relative velocity across the line, times the distance, after a part of the step's load. */
+static vector3 moment_of(const bodies *b, const span *h, double time)
+{
+    return times(h->distance, cross(h->n, plus(h->moving, time/b->reduced_mass, h->load)));
+}
+
+/* What rotates as the contact begins to act: half the load is on it, and the axes are those of the line then. */
+static whirl whirl_of(const bodies *b, const span *h)
+{
+    whirl made;
+    double half = 0.5*(0.5*h->dt - h->start);
+    vector3 then = unit(plus(times(h->distance, h->n), h->start, h->moving));
+    made.n = h->n;
+    made.moment = moment_of(b, h, half);
+    for (int k = 0; k < 2; k++) {
+        vector3 spin = turned(plus(h->spin[k], half, h->torque[k]), then, h->n);
+        made.twist[k] = dot(h->n, spin);
+        made.spin[k] = across(spin, h->n);
+    }
+    return made;
+}
+
+/* The impulses of the torques, across the line of the host's positions, that leave the spins across the line at the end as
+ * they are there, as far as energy is lost or there is `spare`. Returns the energy that they add, below zero but in large
+ * steps. */
+static double torque_impulses(const bodies *b, const span *h, const whirl *w, double opens, double spare,
+                              vector3 impulse[2])
+{
+    vector3 aside = cross(w->moment, h->n), then, sum = times(0.0, h->n), slip;
+    double apart = 1.0/h->distance, gain = 0.0, part = 1.0;
+    then = unit(plus(times(h->distance + h->end*opens, h->n), h->end*apart, aside));
+    for (int k = 0; k < 2; k++) {
+        vector3 free = plus(h->spin[k], h->end - h->start, h->torque[k]), back = turned(w->spin[k], h->n, then);
+        back = plus(back, dot(h->n, plus(free, -1.0, back))/fmax(dot(h->n, then), 0.1), then);
+        impulse[k] = times(b->inertia[k], across(plus(back, -1.0, free), h->n));
+        sum = plus(sum, 1.0, impulse[k]);
+    }
+    double cost = 0.5*apart*apart/b->reduced_mass*dot(sum, sum);
+    for (int k = 0; k < 2; k++) {
+        slip = plus(plus(h->spin[k], 0.5*h->dt, h->torque[k]), -apart*apart, moment_of(b, h, 0.5*h->dt));
+        gain += dot(impulse[k], slip);
+        cost += 0.5*dot(impulse[k], impulse[k])/b->inertia[k];
+    }
+    spare = fmax(spare, 0.0);
+    if (gain + cost > spare)
+        part = 0.5*(sqrt(gain*gain + 4.0*cost*spare) - gain)/cost;
+    for (int k = 0; k < 2; k++)
+        impulse[k] = times(part, impulse[k]);
+    return part*(gain + part*cost);
+}
+
+/* The velocity along the line that the host is to have after the step. */
+static double velocity_after(const bodies *b, const span *h, const line *l, const law_history *s, double sideways)
+{
+    double wanted = l->velocity, lag, after;
+    if (s->joined) {
+        lag = length(plus(times(h->distance, h->n), -0.5*h->dt, h->moving)) - b->contact - s->gap;
+        if (fabs(lag) > SLACK*b->film && h->start == -0.5*h->dt)
+            wanted -= RETURN*(lag - (lag > 0.0 ? SLACK : -SLACK)*b->film)/h->dt;
+        return held_velocity(h->distance, wanted, sideways, h->end);
+    }
+    /* as energy has it at the host's distance, which may be another than the contact's */
+    after = held_velocity(h->distance, wanted, sideways, h->end);
+    double there = hypot(h->distance + h->end*after, h->end*sideways), then = b->contact + l->gap;
+    double moment = h->distance*sideways, square = wanted*wanted + moment*moment*(1.0/(then*then) - 1.0/(there*there));
+    after = held_velocity(h->distance, sqrt(fmax(square, 0.0)), sideways, h->end);
+    return after + l->others/l->mass*(0.5*h->dt - h->end);
+}
+
+int law_contact_force(const law_material *material, const law_motion *motion, double dt, law_history *history,
                       law_force *found)
 {
     bodies b = bodies_of(material);
     law_history s = *history;
-    int wrong = bad_motion(given, dt);
-    unforced(found, wrong, wrong == LAW_OK ? 0.0 : NAN);
-    if (wrong == LAW_OK && !(b.contact + b.film < INFINITY && b.film > 0.0))
-        unforced(found, check_material(material), NAN);
+    double acts = dt;
+    unforced(found, bad_motion(motion, dt));
+    if (found->status == LAW_OK && !(b.contact + b.film < INFINITY && b.film > 0.0))
+        unforced(found, check_material(material));
     if (found->status != LAW_OK)
         return found->status;
-    vector3 apart = vector_of(given->position), moving = vector_of(given->velocity);
-    double distance = length(apart), acts = dt;
-    vector3 n = times(1.0/distance, apart);
     if (!s.joined) {
-        acts = begins(material, &b, apart, moving, dt, &s, found);
+        acts = begins(material, &b, vector_of(motion->position), vector_of(motion->velocity), dt, &s, found);
         if (!s.joined) {
-            if (found->status != LAW_OK)
-                unforced(found, found->status, NAN);
-            found->gap = distance - b.contact;
+            unforced(found, found->status);
+            found->gap = length(vector_of(motion->position)) - b.contact;
             return found->status;
         }
     }
+    if (!(s.joined == 1 && s.gap > 0.0 && known_speed(&b, s.speed) && s.spare >= 0.0 && s.spare + fabs(s.lead) < INFINITY)) {
+        unforced(found, LAW_BAD_HISTORY);
+        return found->status;
+    }
+    span h = span_of(&b, motion, dt, acts);
+    whirl w = whirl_of(&b, &h);
     line l;
     space_hold(&l.h, material, s.speed);
-    if (!(s.gap > 0.0 && s.gap <= l.h.end && s.speed > 0.0 && s.spare >= 0.0 && fabs(s.lead) < INFINITY)) {
-        unforced(found, LAW_BAD_HISTORY, NAN);
-        return found->status;
-    }
-    /* all else, as a load of the relative motion */
-    vector3 load = times(b.reduced_mass/b.mass[1], vector_of(given->forces[1]));
-    load = plus(load, -b.reduced_mass/b.mass[0], vector_of(given->forces[0]));
-    double before = dot(n, moving), sideways = length(cross(n, moving)), start = 0.5*dt - acts;
-    double lag = length(plus(apart, -0.5*dt, moving)) - b.contact - s.gap;
     l.mass = b.reduced_mass;
-    l.others = dot(n, load);
-    l.gap = s.gap > l.h.contact ? s.gap : l.h.contact;
-    l.velocity = opening(distance, before, sideways, start) - s.lead + l.others/l.mass*(dt - acts);
+    l.others = dot(h.n, h.load);
     l.work = 0.0;
-    whirl w;
-    w.n = n;
-    w.moment = times(distance, cross(n, plus(moving, 0.5*acts/l.mass, load)));
-    for (int k = 0; k < 2; k++) {
-        w.impulse[k] = times(0.0, n);
-        vector3 given_spin = plus(vector_of(given->spins[k]), 0.5*acts/b.inertia[k], vector_of(given->torques[k]));
-        given_spin = turned(given_spin, unit(plus(apart, start, moving)), n);
-        w.twist[k] = dot(n, given_spin);
-        w.spin[k] = across(given_spin, n);
-    }
+    l.gap = s.gap > l.h.contact ? s.gap : l.h.contact;
+    l.velocity = opening(h.distance, h.along, length(cross(h.n, h.moving)), h.start);
+    l.velocity += l.others/l.mass*(dt - acts) - s.lead;
     double until = follow_line(&l, &b, acts, &s, &w, found);
     if (found->status != LAW_OK) {
-        unforced(found, found->status, NAN);
+        unforced(found, found->status);
         return found->status;
     }
-    double end = s.joined ? 0.5*dt : start + until, wanted = l.velocity, after, rubbed = 0.0;
-    vector3 across_line = cross(w.moment, n), carried, momentum = times(distance, cross(n, plus(moving, dt/l.mass, load))), sum = times(0.0, n);
-    sideways = length(across_line)/distance;
-    carried = plus(times(distance + end*held_velocity(distance, wanted, sideways, end), n), end/distance, across_line);
-    carried = unit(carried);
-    for (int k = 0; k < 2; k++) { /* torques across the line that is given, which leave the spins as they are now across it then */
-        vector3 free = plus(vector_of(given->spins[k]), acts/b.inertia[k], vector_of(given->torques[k]));
-        vector3 back = turned(w.spin[k], n, carried);
-        back = plus(back, (dot(n, free) - dot(n, back))/fmax(dot(n, carried), 0.1), carried);
-        w.impulse[k] = times(b.inertia[k], across(plus(back, -1.0, free), n));
-        sum = plus(sum, 1.0, w.impulse[k]);
-    }
-    double gain = 0.0, cost = 0.5*dot(sum, sum)/(l.mass*distance*distance), most = fmax(s.spare - l.work, 0.0), part = 1.0;
-    for (int k = 0; k < 2; k++) { /* energy that the torques add to the host's motion, below zero but for large steps */
-        vector3 slip = plus(vector_of(given->spins[k]), 0.5*dt/b.inertia[k], vector_of(given->torques[k]));
-        gain += dot(w.impulse[k], plus(slip, -0.5/distance, plus(cross(n, moving), 1.0, cross(n, plus(moving, dt/l.mass, load)))));
-        cost += 0.5*dot(w.impulse[k], w.impulse[k])/b.inertia[k];
-    }
-    if (gain + cost > most)
-        part = 0.5*(sqrt(gain*gain + 4.0*cost*most) - gain)/cost;
-    rubbed = part*(gain + part*cost);
-    momentum = plus(momentum, -part/l.mass, sum);
-    for (int k = 0; k < 2; k++)
-        w.impulse[k] = times(part, w.impulse[k]);
-    sideways = length(momentum)/distance;
-    if (s.joined && fabs(lag) > SLACK*b.film && acts == dt)
-        wanted -= RETURN*(lag - (lag > 0.0 ? SLACK : -SLACK)*b.film)/dt;
-    after = held_velocity(distance, wanted, sideways, end);
-    if (!s.joined) { /* as energy has it at the host's distance */
-        double there = hypot(distance + end*after, end*sideways), ends = b.contact + l.gap, moment = distance*sideways;
-        double square = wanted*wanted + moment*moment*(1.0/(ends*ends) - 1.0/(there*there));
-        after = held_velocity(distance, sqrt(fmax(square, 0.0)), sideways, end) + l.others/l.mass*(0.5*dt - end);
-    }
-    after = afforded(l.mass, before, after, l.others/l.mass*dt, s.spare - l.work - rubbed);
-    double along = l.mass*(after - before) - l.others*dt;
-    s.spare = larger(s.spare - l.work - rubbed - 0.5*along*(after + before), 0.0);
+    vector3 impulse[2];
+    h.end = s.joined ? 0.5*dt : h.start + until;
+    w.moment = plus(w.moment, 1.0, plus(moment_of(&b, &h, dt), -1.0, moment_of(&b, &h, 0.5*acts)));
+    double sideways = length(w.moment)/h.distance, opens = held_velocity(h.distance, l.velocity, sideways, h.end);
+    s.spare -= l.work;
+    s.spare -= torque_impulses(&b, &h, &w, opens, s.spare, impulse);
+    vector3 whole = plus(impulse[0], 1.0, impulse[1]);
+    sideways = length(plus(moment_of(&b, &h, dt), -1.0/l.mass, whole))/h.distance;
+    double after = velocity_after(&b, &h, &l, &s, sideways);
+    after = afforded(l.mass, h.along, after, l.others/l.mass*dt, s.spare);
+    double pushed = l.mass*(after - h.along) - l.others*dt;
+    s.spare = fmax(s.spare - 0.5*pushed*(after + h.along), 0.0);
+    s.lead = s.joined ? opening(h.distance, after, sideways, 0.5*dt) - l.velocity : 0.0;
     s.gap = l.gap;
     s.time += s.joined ? acts : until;
-    s.lead = s.joined ? opening(distance, after, sideways, 0.5*dt) - l.velocity : 0.0;
-    vector3 force = times(along/dt, n);
-    force = plus(force, -1.0/(distance*dt), cross(plus(w.impulse[0], 1.0, w.impulse[1]), n));
-    put_vector(found->force, force);
+    put_vector(found->force, times(1.0/dt, plus(times(pushed, h.n), -1.0/h.distance, cross(whole, h.n))));
     for (int k = 0; k < 2; k++)
-        put_vector(found->torques[k], times(1.0/dt, w.impulse[k]));
+        put_vector(found->torques[k], times(1.0/dt, impulse[k]));
     found->gap = s.gap;
     if (!s.joined) {
         found->restitution = l.velocity/s.speed;
         found->outcome = s.rebound == LAW_NO_REBOUND ? LAW_STICK_ROTATE_SEPARATE : LAW_BOUNCE;
     }
-    if (!(largest(force) + largest(w.impulse[0]) + largest(w.impulse[1]) + s.spare < INFINITY)) {
-        unforced(found, LAW_UNDECIDED_NOT_FINITE, NAN);
+    if (!(largest(vector_of(found->force)) + largest(impulse[0]) + largest(impulse[1]) + s.spare + s.gap < INFINITY)) {
+        unforced(found, LAW_UNDECIDED_NOT_FINITE);
         return found->status;
     }
     *history = s;
