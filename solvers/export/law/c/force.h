@@ -9,7 +9,7 @@
 
 #include "ends.h"
 
-enum { SUBSTEPS = 20000, REBOUNDS = 8 }; /* most in a step; more rebounds are rest */
+enum { SUBSTEPS = 2000, REBOUNDS = 8 }; /* most in a step; more rebounds are rest */
 static const double WIDEST = 0.5;       /* change of the gap in a substep, over the gap */
 static const double SLACK = 0.25;       /* that the host's gap may differ from the contact's, over the film's thickness */
 static const double RETURN = 0.2;       /* part of what exceeds it that a step takes back */
@@ -228,14 +228,19 @@ static double follow_line(line *l, const bodies *b, double time, law_history *s,
     for (int k = 0; left > 0.0; k++) {
         response r, here;
         double gap, velocity, taken = left;
-        if (k == SUBSTEPS) {
-            found->status = LAW_UNDECIDED_NO_BUDGET;
+        if (k == SUBSTEPS || !(fabs(l->velocity) + dot(w->moment, w->moment) < INFINITY)) {
+            found->status = k == SUBSTEPS ? LAW_UNDECIDED_NO_BUDGET : LAW_UNDECIDED_NOT_FINITE;
             return -1.0;
         }
         if (l->velocity < 0.0 && l->gap <= l->h.contact)
             meet(l, s, found, space_solid_kind(&l->h), &rebounds);
         else if (l->velocity < 0.0 && !(space_glass_clears(&l->h, l->gap, l->velocity) > 0.0))
             meet(l, s, found, LAW_GLASS, &rebounds);
+        if (l->velocity > 0.0 && l->gap >= l->h.end) {
+            s->joined = 0;
+            found->events |= LAW_SEPARATES;
+            return time - left;
+        }
         here = space_mean_response(&l->h, l->gap, l->gap, l->velocity);
         press(l, b, &here, 0.0, *w);
         if (l->gap <= l->h.contact && l->velocity == 0.0 && l->load <= here.attraction) {
@@ -248,8 +253,13 @@ static double follow_line(line *l, const bodies *b, double time, law_history *s,
         for (press(l, b, &here, taken, *w);
              !substep(l, &here, taken, &gap, &velocity, &r)
              || (glass_may_come(l, gap, velocity) && fabs(gap - l->gap) > 1e-9*l->gap);
-             press(l, b, &here, taken, *w))
+             press(l, b, &here, taken, *w)) {
             taken *= 0.5;
+            if (!(taken > 0.0)) {
+                found->status = LAW_UNDECIDED_NOT_FINITE;
+                return -1.0;
+            }
+        }
         double target = passed(l, gap);
         if (target != gap) {
             taken = time_to(l, target, taken, &r);
@@ -266,11 +276,6 @@ static double follow_line(line *l, const bodies *b, double time, law_history *s,
         l->velocity = velocity;
         s->smallest_gap = gap < s->smallest_gap ? gap : s->smallest_gap;
         left -= taken;
-        if (gap >= l->h.end && velocity > 0.0) {
-            s->joined = 0;
-            found->events |= LAW_SEPARATES;
-            return time - left;
-        }
     }
     return -1.0;
 }
