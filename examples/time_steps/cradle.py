@@ -6,10 +6,6 @@ Needs `wetdoublet`, a C compiler and matplotlib. Every film is a pair with a his
 the other, each with the velocities that the last has left, so that energy is never created however many films act at once.
 """
 
-import ctypes
-import os
-import shlex
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -19,67 +15,11 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from law import Force, History, Law, Motion, exported
 from wetdoublet.solvers import Scene
 
 WORDS = ("fully agglomerated", "cradle", "reverse cradle", "fully separated")
 COLOURS = ("#4c72b0", "#dd8452", "#55a868", "#c44e52")
-_VECTOR = ctypes.c_double * 3
-_TWO = _VECTOR * 2
-
-
-class Motion(ctypes.Structure):
-    """NAME_motion."""
-
-    _fields_ = [("position", _VECTOR), ("velocity", _VECTOR), ("spins", _TWO), ("forces", _TWO), ("torques", _TWO)]
-
-
-class History(ctypes.Structure):
-    """NAME_history."""
-
-    _fields_ = [("joined", ctypes.c_int), ("rebound", ctypes.c_int)] + [
-        (name, ctypes.c_double) for name in ("gap", "smallest_gap", "speed", "time", "lead", "spare")
-    ]
-
-
-class Force(ctypes.Structure):
-    """NAME_force."""
-
-    _fields_ = [("status", ctypes.c_int), ("events", ctypes.c_int), ("outcome", ctypes.c_int), ("force", _VECTOR),
-                ("torques", _TWO), ("gap", ctypes.c_double), ("restitution", ctypes.c_double)]  # fmt: skip
-
-
-class Law:
-    """The exported law of a scene, compiled in a folder; its material can be changed."""
-
-    def __init__(self, scene: Scene, folder: Path) -> None:
-        self.name = str(scene.name)
-        command = [sys.executable, "-m", "wetdoublet", "export", str(folder / "scene.toml"), "--to", "c"]
-        (folder / "scene.toml").write_text(scene.to_toml())
-        subprocess.run([*command, "--out", str(folder)], check=True, stdout=subprocess.DEVNULL)
-        library = folder / "law.so"
-        flags = ["-std=c99", "-O2", "-fPIC", "-shared", "-o", str(library), str(folder / f"{self.name}.c"), "-lm"]
-        subprocess.run([*shlex.split(os.environ.get("CC", "cc")), *flags], check=True)
-        self.library = ctypes.CDLL(str(library))
-        header = (folder / f"{self.name}.h").read_text().split("typedef struct {")[1].split("}")[0]
-        names = [line.split()[1].rstrip(";") for line in header.splitlines() if line.strip().startswith("double")]
-        kind = type("Material", (ctypes.Structure,), {"_fields_": [(each, ctypes.c_double) for each in names]})
-        self._call("default_material").restype = kind
-        self.material = self._call("default_material")()
-
-    def _call(self, name: str) -> ctypes._CFuncPtr:
-        return getattr(self.library, f"{self.name}_{name}")
-
-    def force(self, motion: Motion, dt: float, history: History, found: Force) -> None:
-        """The force of a pair for a step."""
-        rest = ctypes.c_double(dt), ctypes.byref(history), ctypes.byref(found)
-        if status := self._call("contact_force")(ctypes.byref(self.material), ctypes.byref(motion), *rest):
-            raise RuntimeError(f"status {status}")
-
-    def join(self, gap: float, speed: float, history: History) -> None:
-        """A contact that is there beforehand."""
-        given = ctypes.c_double(gap), ctypes.c_double(speed), ctypes.byref(history)
-        if status := self._call("contact_join")(ctypes.byref(self.material), *given):
-            raise RuntimeError(f"status {status}")
 
 
 class Spheres:
@@ -181,13 +121,13 @@ def main() -> None:
     """Outcomes over speed, for viscosities and gaps of the target; the picture; clusters."""
     out = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent)
     with tempfile.TemporaryDirectory() as folder:
-        law = Law(oil(), Path(folder))
+        law = Law(exported(oil(), Path(folder)), "oil")
     usual, film = float(law.material.viscosity), law.material.film_thickness
     stokes = np.geomspace(0.5, 30.0, 25)
     figure, axes = plt.subplots(1, 2, figsize=(11, 3.6), sharey=False, layout="constrained")
     for ax, rows, label in (
-        (axes[0], [(factor, 0.1) for factor in (0.25, 0.5, 1.0, 2.0)], "viscosity, Pa s (target 0.1 of the film apart)"),
-        (axes[1], [(1.0, gap) for gap in (0.9, 0.5, 0.2, 0.1, 0.06)], "gap of the target over the film"),
+        (axes[0], [(factor, 0.1) for factor in (0.25, 0.5, 1.0, 2.0)], "viscosity, Pa s"),
+        (axes[1], [(1.0, gap) for gap in (0.9, 0.5, 0.2, 0.1, 0.06)], "gap of the target over film"),
     ):
         for place, (factor, gap) in enumerate(rows):
             law.material.viscosity = factor * usual
@@ -202,6 +142,7 @@ def main() -> None:
         ax.set_yticks(range(len(rows)), [f"{usual * f:g}" if ax is axes[0] else f"{g:g}" for f, g in rows])
         ax.set_xlabel("Stokes number of the striker")
         ax.set_ylabel(label)
+        ax.set_title("target 0.1 of the film apart" if ax is axes[0] else f"{usual:g} Pa s", fontsize="medium")
     handles = [plt.Line2D([], [], marker="s", ls="", color=c, label=w) for c, w in zip(COLOURS, WORDS, strict=True)]
     figure.legend(handles=handles, loc="outside lower center", ncols=4)
     figure.savefig(out / "cradle.png", dpi=110)
