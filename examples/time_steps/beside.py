@@ -50,8 +50,9 @@ def main(host: Host, script: str) -> int:
         job = Path(folder) / "job.json"
         given = {"folder": folder, "name": "granulation", "collisions": collisions, "steps": 60 * STEPS}
         job.write_text(json.dumps(given))
+        environment = {**os.environ, "FORCES_JOB": str(job), "PYTHONPATH": str(Path(__file__).parent)}
         command = [*shlex.split(sys.argv[1]), script]
-        subprocess.run(command, check=True, env={**os.environ, "FORCES_JOB": str(job)})
+        subprocess.run(command, check=True, env=environment)
         rows = json.loads(job.with_suffix(".out").read_text())
     words = ("stick", "stick-rotate-separate", "bounce")
     print(f"{'St':>6} {'angle':>6}  {'law':24} {'host':24} difference of e_n")

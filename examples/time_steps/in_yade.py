@@ -10,11 +10,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import numpy as np  # noqa: E402
-from beside import arrival, main  # noqa: E402
-from law import Force, History, Law, Motion  # noqa: E402
+import numpy as np
+from beside import arrival, main
+from law import Force, History, Law, Motion
 
 
 class Forces:
