@@ -85,8 +85,8 @@ def _motion(structure: Structure, states: tuple[sp.Symbol, ...]) -> Emitted:
     if structure.partner == "space":
         doc = (
             "How a doublet whose line of centres is held answers: the film force over the normal velocity and the "
-            "attractions, over m v0^2/x0 and v0, and the symmetric matrix that takes slips across the line of centres to "
-            "torques, over m a^2 v0/x0."
+            "attractions, over m v0^2/x0 and v0, and the symmetric matrix that takes slips across the line of centres "
+            "to torques, over m a^2 v0/x0."
         )
         held = {"resistance": forces(structure)[FILM_FORCE] / q.normal_velocity}
         held["attraction"] = inward_force(structure) + rotation(structure).centrifugal

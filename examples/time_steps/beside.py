@@ -60,5 +60,5 @@ def main(host: Host, script: str) -> int:
     places = [(stokes, degrees) for stokes in STOKES for degrees in ANGLES]
     for (stokes, degrees), one, row, off in zip(places, expected, rows, apart, strict=True):
         print(f"{stokes:6g} {degrees:6g}  {one.outcome:24} {words[row['outcome']]:24} {off:.1e}")
-    print(f"largest difference of e_n {max(apart):.1e}; momenta off by {max(row['off'] for row in rows):.0e} of their size")
+    print(f"largest difference {max(apart):.1e}; momenta off by {max(row['off'] for row in rows):.0e} of their size")
     return int(any(words[row["outcome"]] != one.outcome for row, one in zip(rows, expected, strict=True)))

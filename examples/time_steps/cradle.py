@@ -2,17 +2,18 @@
 
     python cradle.py [FOLDER]      prints the outcomes and the checks, and draws cradle.png into FOLDER (here)
 
-Needs `wetdoublet`, a C compiler and matplotlib. Every film is a pair with a history of its own. Pairs are taken one after
-the other, each with the velocities that the last has left, so that energy is never created however many films act at once.
+Needs `wetdoublet`, a C compiler and matplotlib. Every film is a pair with a history of its own. Pairs are taken one
+after the other, each with the velocities that the last has left, so that energy is never created however many films act
+at once.
 """
 
 import sys
 import tempfile
 from pathlib import Path
 
-import matplotlib
+import matplotlib as mpl
 
-matplotlib.use("Agg")
+mpl.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from law import Force, History, Law, Motion, exported
@@ -67,7 +68,7 @@ def oil() -> Scene:
 
 
 def cradle(law: Law, speed: float, target_gap: float, parts: int = 20) -> int:
-    """The outcome of a head-on cradle, an index of WORDS; `target_gap` is that of the target beforehand, over the film."""
+    """The outcome of a head-on cradle, an index of WORDS; `target_gap`: of the target beforehand, over the film."""
     film, apart = law.material.film_thickness, 4 * law.material.reduced_radius
     places = [0.0, apart + 1.01 * film, 2 * apart + (1.01 + target_gap) * film]
     spheres = Spheres(law, [[each, 0, 0] for each in places], [[speed, 0, 0], [0, 0, 0], [0, 0, 0]])
@@ -110,7 +111,9 @@ def clusters(law: Law, strike: np.ndarray) -> dict[str, float]:
         for _ in range(3000):
             spheres.step(unit * film / speed)
             now = spheres.sums()
-            worst = [max(w, float(np.abs(a - b).max()) / s) for w, a, b, s in zip(worst, now, first, sizes, strict=False)]
+            worst = [
+                max(w, float(np.abs(a - b).max()) / s) for w, a, b, s in zip(worst, now, first, sizes, strict=False)
+            ]
             most = max(most, now[2] / first[2])
         report |= {f"{word}: momentum": worst[0], f"{word}: angular momentum": worst[1], f"{word}: energy": most}
         report[f"{word}: contacts at the end"] = sum(history.joined for history in spheres.pairs.values())
@@ -136,9 +139,17 @@ def main() -> None:
             value = law.material.viscosity if ax is axes[0] else gap
             for k, word in enumerate(WORDS):
                 here = found == k
-                ax.semilogx(stokes[here], np.full(here.sum(), place), "s", color=COLOURS[k], label=word if place == 0 else "")
-            changes = [f"{WORDS[a]} to {WORDS[b]} at St {s:.2f}" for a, b, s in zip(found, found[1:], stokes[1:], strict=False) if a != b]
-            print(f"{'viscosity' if ax is axes[0] else 'target gap'} {value:g}: {WORDS[found[0]]}; {'; '.join(changes)}")
+                ax.semilogx(
+                    stokes[here], np.full(here.sum(), place), "s", color=COLOURS[k], label=word if place == 0 else ""
+                )
+            changes = [
+                f"{WORDS[a]} to {WORDS[b]} at St {s:.2f}"
+                for a, b, s in zip(found, found[1:], stokes[1:], strict=False)
+                if a != b
+            ]
+            print(
+                f"{'viscosity' if ax is axes[0] else 'target gap'} {value:g}: {WORDS[found[0]]}; {'; '.join(changes)}"
+            )
         ax.set_yticks(range(len(rows)), [f"{usual * f:g}" if ax is axes[0] else f"{g:g}" for f, g in rows])
         ax.set_xlabel("Stokes number of the striker")
         ax.set_ylabel(label)

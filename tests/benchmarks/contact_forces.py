@@ -1,13 +1,11 @@
-"""Forces for time steps beside the law's collisions: 2,000 random impacts at several steps of the host, and the cost of a step.
+"""Forces for time steps beside the law's collisions: 2,000 random impacts at several steps, and the cost of a step.
 
-    python -m tests.benchmarks.contact_forces [FOLDER]     measures, prints, writes contact_forces.json
-    python -m tests.benchmarks.contact_forces --print      only prints
+    python -m tests.benchmarks.contact_forces     measures and prints (the table is in docs/how-to/c-law.md)
 
-FOLDER is docs/engineering/performance. The impacts are those of the tests: speeds over three decades, any direction, spins in
-any direction. A step is a part of the contact time of each impact, and begins at a random phase. CPU time, in a loop in C.
+The impacts are those of the tests: speeds over three decades, any direction, spins in any direction. A step is a part
+of the contact time of each impact, and begins at a random phase. CPU time, in a loop in C.
 """
 
-import json
 import sys
 import tempfile
 import time
@@ -16,13 +14,12 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.host.environment import environment
 
 from ..helpers.exported_law import Law, written
 from ..helpers.host_of_forces import Host
 from ..solvers.export.test_forces import durations
 from ..solvers.export.test_law_in_space import OWN, arrivals
-from .law_in_c import FLAGS, FOLDER
+from .law_in_c import FLAGS
 from .measured.digits import of_rows
 
 COUNT, STEPS = 2000, (20, 100, 500)
@@ -53,36 +50,29 @@ def measured(name: str, scene: Scene, folder: Path) -> list[dict[str, Any]]:
     return rows
 
 
-def section(record: dict[str, Any]) -> str:
-    """The part of the page."""
+def section(measurements: list[dict[str, Any]]) -> str:
+    """The table."""
     rows = []
-    for row in record["rows"]:
+    for row in measurements:
         cells = {"2,000 random impacts": row["scene"], "step over contact time": f"1/{row['steps']}"}
         cells |= {"other outcomes": str(row["other"])}
         for word, said in (("bounce", "bounces"), ("separate", "stick-rotate-separate")):
             cells |= {f"error of e_n, {said}: {key}": row[f"{word} {key}"] for key in ("median", "99 %", "largest")}
         rows.append({**cells, "CPU ns a step": row["ns"]})
     said = (
-        "`python -m tests.benchmarks.contact_forces`: the law as a force over the steps of a host beside its collisions; "
-        "absolute errors. The angular momentum is kept to "
-        f"{max(row['angular_momentum'] for row in record['rows']):.0e} of its size. What errs most separates after hundreds "
-        "of times the film's crossing, beside the boundary of sticking."
+        "The law as a force over the steps of a host beside its collisions; absolute errors. The angular momentum is "
+        f"kept to {max(row['angular_momentum'] for row in measurements):.0e} of its size."
     )
-    return "\n\n".join(["## Forces for time steps", of_rows(rows), said])
+    return "\n\n".join([of_rows(rows), said])
 
 
 def main() -> None:
     """Measure all scenes."""
-    asked = [each for each in sys.argv[1:] if each != "--print"]
     rows = []
     for name, scene in SCENES.items():
         with tempfile.TemporaryDirectory() as folder:
             rows += measured(name, scene, Path(folder))
-    record = {"environment": environment(), "rows": rows}
-    sys.stdout.write(section(record) + "\n")
-    if "--print" not in sys.argv:
-        target = Path(asked[0]) if asked else FOLDER
-        (target / "contact_forces.json").write_text(json.dumps(record, indent=1) + "\n")
+    sys.stdout.write(section(rows) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""A host with time steps, in C: two particles under the exported force alone, from before contact until they separate."""
+"""A host with time steps, in C: two particles under the exported force alone, from before contact to separation."""
 
 import ctypes
 import subprocess
@@ -26,14 +26,17 @@ static double dot(const double *a, const double *b)
     return a[0]*b[0] + a[1]*b[1] + a[2]*b[2];
 }}
 
-static void sums(const {name}_material *m, const double *inertia, const {name}_motion *s, double *momentum, double *energy)
+static void sums(
+    const {name}_material *m, const double *inertia, const {name}_motion *s, double *momentum, double *energy)
 {{
     const double *r = s->position, *v = s->velocity;
     for (int k = 0; k < 3; k++) {{
         int i = (k + 1)%3, j = (k + 2)%3;
         momentum[k] = m->reduced_mass*(r[i]*v[j] - r[j]*v[i]) + inertia[0]*s->spins[0][k] + inertia[1]*s->spins[1][k];
     }}
-    *energy = 0.5*(m->reduced_mass*dot(v, v) + inertia[0]*dot(s->spins[0], s->spins[0]) + inertia[1]*dot(s->spins[1], s->spins[1]));
+    *energy = 0.5*m->reduced_mass*dot(v, v);
+    for (int k = 0; k < 2; k++)
+        *energy += 0.5*inertia[k]*dot(s->spins[k], s->spins[k]);
 }}
 
 /* From `position` at initial contact, where the host is `phase` steps before it. */
@@ -100,7 +103,7 @@ FLIGHT = np.dtype(
     ]
 )  # fmt: skip
 """Of each pair: the restitution; the largest kinetic energy over the first; the largest change of a component of the
-angular momentum over its size; how much further apart the host has them than the contact, m; motion, outcome and steps."""
+angular momentum over its size; how much further apart the host has them than the contact, m; motion, outcome, steps."""
 
 
 class Host:

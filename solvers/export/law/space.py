@@ -99,7 +99,9 @@ def no_forces(scene: Scene) -> str:
     """Why a scene has no forces for time steps; empty if it has."""
     if scene.wall:
         return "partner.wall: only of two spheres"
-    return "particles.friction: only without friction of the dry contact" if scene.particles.friction is not None else ""
+    return (
+        "particles.friction: only without friction of the dry contact" if scene.particles.friction is not None else ""
+    )
 
 
 def bodies(scene: Scene) -> str:
@@ -160,8 +162,8 @@ def _forces(scene: Scene) -> list[str]:
         "#define LAW_FORCES 1",
         "",
         *comment(
-            "Two particles where a force is asked for: positions of a time t, velocities and spins of half a step before "
-            "it. Forces and torques are those of all else from half a step before to half a step after."
+            "Two particles where a force is asked for: positions of a time t, velocities and spins of half a step "
+            "before it. Forces and torques are those of all else from half a step before to half a step after."
         ),
         *_structure("law_motion", MOTION),
         *comment(
@@ -177,12 +179,13 @@ def _forces(scene: Scene) -> list[str]:
         *comment("What the contact does to the pair."),
         *_structure("law_force", FORCE),
         *comment(
-            "The force of a pair for one step of the host, from `dt`/2 before the positions to `dt`/2 after them; apply "
-            "it all that time. The torques balance its lever arms at these positions, so that momentum and angular "
-            "momentum are kept to rounding. Returns found->status; without an answer the history stays as it is."
+            "The force of a pair for one step of the host, from `dt`/2 before the positions to `dt`/2 after them; "
+            "apply it all that time. The torques balance its lever arms at these positions, so that momentum and "
+            "angular momentum are kept to rounding. Returns found->status; without an answer the history stays as it is."
         ),
         "int law_contact_force(",
-        "    const law_material *material, const law_motion *motion, double dt, law_history *history, law_force *found);",
+        "    const law_material *material, const law_motion *motion, double dt, law_history *history,",
+        "    law_force *found);",
         "",
         *comment(
             "Puts a contact in place, at a gap between solid contact and rupture: a bridge that is there beforehand. "

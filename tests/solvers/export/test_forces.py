@@ -45,7 +45,9 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> tuple[Law, Host]:
     return law, Host(FILM_ALONE, law, folder)
 
 
-def durations(scene: Scene, law: Law, pairs: tuple[np.ndarray, np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+def durations(
+    scene: Scene, law: Law, pairs: tuple[np.ndarray, np.ndarray, np.ndarray]
+) -> tuple[np.ndarray, np.ndarray]:
     """What the law says of pairs, and their contact times; of sticks ten times the time to cross the film."""
     found = law.collide_pairs(law.pairs(*pairs))
     normal, velocities, _ = pairs
@@ -125,7 +127,9 @@ class Pair:
 
     def __init__(self, law: Law, position: object, velocity: object) -> None:
         self.law, self.material = law, law.material()
-        self.motion, self.history, self.force = (np.zeros(1, law.dtype(each)) for each in ("motion", "history", "force"))
+        self.motion, self.history, self.force = (
+            np.zeros(1, law.dtype(each)) for each in ("motion", "history", "force")
+        )
         self.motion["position"], self.motion["velocity"] = position, velocity
 
     def call(self, dt: float) -> int:
@@ -195,7 +199,8 @@ def test_bad_input_is_refused(law: Law):
         return law.message(result)
 
     def put(array: str, value: float) -> object:
-        return lambda pair: getattr(pair, array.split(".")[0])[array.split(".")[1]].fill(value)
+        row, name = array.split(".")
+        return lambda pair: getattr(pair, row)[name].fill(value)
 
     for dt in (0.0, -1.0, math.nan, math.inf):
         assert "step" in status(dt=dt)
@@ -226,7 +231,13 @@ static double number(void)
     if (next()%4 == 0) {{ double x; uint64_t bits = next(); memcpy(&x, &bits, 8); return x; }}
     return next()%3 ? ((double)(next()%2000) - 1000.0)*1e-3 : odd[next()%9];
 }}
-static void fill(void *at, size_t bytes) {{ for (size_t k = 0; k + 8 <= bytes; k += 8) {{ double x = number(); memcpy((char *)at + k, &x, 8); }} }}
+static void fill(void *at, size_t bytes)
+{{
+    for (size_t k = 0; k + 8 <= bytes; k += 8) {{
+        double x = number();
+        memcpy((char *)at + k, &x, 8);
+    }}
+}}
 int main(void)
 {{
     long answered = 0;
@@ -247,7 +258,10 @@ int main(void)
             double sum = found.force[0] + found.force[1] + found.force[2] + found.torques[0][0] + found.torques[1][2];
             if (sum != sum) return 1;
             answered++;
-            for (int i = 0; i < 3; i++) {{ s.velocity[i] += dt*found.force[i]/m.reduced_mass; s.position[i] += dt*s.velocity[i]; }}
+            for (int i = 0; i < 3; i++) {{
+                s.velocity[i] += dt*found.force[i]/m.reduced_mass;
+                s.position[i] += dt*s.velocity[i];
+            }}
         }}
     }}
     printf("%ld", answered);

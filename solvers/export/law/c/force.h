@@ -1,8 +1,8 @@
-/* A contact as a force over the steps of a host: the pair's own motion along its line of centres, which is held for a step,
- * is followed within the step, film and bridge implicitly; what is returned is its impulse over the step's length.
+/* A contact as a force over the steps of a host: the pair's own motion along its line of centres, which is held for a
+ * step, is followed within the step, film and bridge implicitly; its impulse over the step's length is returned.
  *
- * Every substep is the exact motion under the means of resistance and attraction over the gaps that it passes, so that the
- * momentum that the film takes and the work of the attractions are those between these gaps, and energy is never created.
+ * Every substep is the exact motion under the means of resistance and attraction over the gaps that it passes, so that
+ * the momentum that the film takes and the work of the attractions are those between these gaps.
  * The centrifugal force is the host's: positions move along straight lines from one step to the next.
  */
 #pragma once
@@ -11,7 +11,7 @@
 
 enum { SUBSTEPS = 2000, REBOUNDS = 8 }; /* most in a step; more rebounds are rest */
 static const double WIDEST = 0.5;       /* change of the gap in a substep, over the gap */
-static const double SLACK = 0.25;       /* that the host's gap may differ from the contact's, over the film's thickness */
+static const double SLACK = 0.25;       /* that the host's gap may differ from the contact's, over the film */
 static const double RETURN = 0.2;       /* part of what exceeds it that a step takes back */
 
 /* A step along the line of centres: what goes on from substep to substep. */
@@ -108,15 +108,15 @@ static void meet(line *l, law_history *s, law_force *found, int kind, int *rebou
     found->events |= LAW_REBOUNDS;
 }
 
-/* What rotates, in axes that turn with the line of centres `n`: the orbital momentum over the reduced mass, spins across the
- * line and along it. */
+/* What rotates, in axes that turn with the line of centres `n`: the orbital momentum over the reduced mass, spins across
+ * the line and along it. */
 typedef struct {
     vector3 n, moment, spin[2];
     double twist[2];
 } whirl;
 
-/* A whirl under the torques of the film, at a gap: the exact motion with constant coefficients. Twist comes across the line
- * as that turns away from it. */
+/* A whirl under the torques of the film, at a gap: the exact motion with constant coefficients. Twist comes across the
+ * line as that turns away from it. */
 static void shear(const bodies *b, double gap, const response *r, double time, whirl *w)
 {
     double distance = b->contact + gap;
@@ -165,7 +165,7 @@ static vector3 unit(vector3 v)
     return times(1.0/length(v), v);
 }
 
-/* The time from now to when the films touch on straight paths, negative for a pair that is found late; infinite if never. */
+/* The time from now to when the films touch on straight paths, negative for a pair that is found late; else infinite. */
 static double time_to_touch(const bodies *b, vector3 apart, vector3 moving)
 {
     double distance = b->contact + b->film, square = dot(moving, moving), along = dot(apart, moving);
@@ -176,7 +176,7 @@ static double time_to_touch(const bodies *b, vector3 apart, vector3 moving)
     return along < 0.0 ? beyond/(root - along) : (-along - root)/square;
 }
 
-/* The velocity of the gap after a time on a straight line, from a distance, with velocities along and across the line. */
+/* The velocity of the gap after a time on a straight line, from a distance and velocities along and across the line. */
 static double opening(double distance, double along, double sideways, double time)
 {
     double square = along*along + sideways*sideways;
@@ -327,8 +327,8 @@ int law_contact_join(const law_material *material, double gap, double speed, law
     return LAW_OK;
 }
 
-/* Begins the contact of a pair whose films touch before the middle of the coming step. Returns for how long it acts, 0 if
- * there is none. */
+/* Begins the contact of a pair whose films touch before the end of the step. Returns for how long it acts, 0 if there is
+ * none. */
 static double begins(const law_material *material, const bodies *b, vector3 apart, vector3 moving, double dt,
                      law_history *s, law_force *found)
 {
@@ -399,9 +399,9 @@ static whirl whirl_of(const bodies *b, const span *h)
     return made;
 }
 
-/* The impulses of the torques, across the line of the host's positions, that leave the spins across the line at the end as
- * they are there, as far as energy is lost or there is `spare`. Returns the energy that they add, below zero but in large
- * steps. */
+/* The impulses of the torques, across the line of the host's positions, that leave the spins across the line at the end
+ * as they are there, as far as energy is lost or there is `spare`. Returns the energy that they add, below zero but in
+ * large steps. */
 static double torque_impulses(const bodies *b, const span *h, const whirl *w, double opens, double spare,
                               vector3 impulse[2])
 {
@@ -465,7 +465,8 @@ int law_contact_force(const law_material *material, const law_motion *motion, do
             return found->status;
         }
     }
-    if (!(s.joined == 1 && s.gap > 0.0 && known_speed(&b, s.speed) && s.spare >= 0.0 && s.spare + fabs(s.lead) < INFINITY)) {
+    if (!(s.joined == 1 && s.gap > 0.0 && known_speed(&b, s.speed) && s.spare >= 0.0
+            && s.spare + fabs(s.lead) < INFINITY)) {
         unforced(found, LAW_BAD_HISTORY);
         return found->status;
     }

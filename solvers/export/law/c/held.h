@@ -48,8 +48,10 @@ static void hold(held *h, const law_material *m, double speed)
 
 static response mean_response(const held *h, double from, double to, double velocity)
 {
-    static const double place[PLACES] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
-    static const double weight[PLACES] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+    static const double place[PLACES] = {
+        0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
+    static const double weight[PLACES] = {
+        0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
     double sums[RESPONSES] = {0.0};
     response made;
     vec y[STATES], found[RESPONSES];
@@ -57,7 +59,10 @@ static response mean_response(const held *h, double from, double to, double velo
     y[NORMAL_VELOCITY] = splat(velocity/h->speed);
     for (int first = 0; first < PLACES; first += LANES) {
         vec film = splat(1.0);
-        EACH_LANE(lane) LANE(y[GAP], lane) = (from + (to - from)*place[first + lane < PLACES ? first + lane : 0])/h->film;
+        EACH_LANE(lane) {
+            int k = first + lane < PLACES ? first + lane : 0;
+            LANE(y[GAP], lane) = (from + (to - from)*place[k])/h->film;
+        }
 #if !SPREAD
         film = only(y[GAP] < 1.0, film);
 #endif
