@@ -180,8 +180,8 @@ def _forces(scene: Scene) -> list[str]:
         *_structure("law_force", FORCE),
         *comment(
             "The force of a pair for one step of the host, from `dt`/2 before the positions to `dt`/2 after them; "
-            "apply it all that time. The torques balance its lever arms at these positions, so that momentum and "
-            "angular momentum are kept to rounding. Returns found->status; without an answer the history stays as it is."
+            "apply it all that time. The torques balance its lever arms at these positions: momentum and angular "
+            "momentum are kept to rounding. Returns found->status; without an answer the history stays as it is."
         ),
         "int law_contact_force(",
         "    const law_material *material, const law_motion *motion, double dt, law_history *history,",
