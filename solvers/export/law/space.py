@@ -54,7 +54,7 @@ HISTORY = (
     ("double", "speed", (), "m/s, normal approach speed at initial contact"),
     ("double", "time", (), "s, since initial contact"),
     ("double", "lead", (), "m/s, by which the host's velocity brings its gap back to that of the contact"),
-    ("double", "spare", (), "J, lost along the line of centres so far; what `lead` takes comes from here"),
+    ("double", "spare", (), "J, that the contact has taken so far; what `lead` needs comes from it"),
 )
 """Members of `law_history`."""
 HAPPENINGS = (
@@ -117,7 +117,7 @@ def declarations(scene: Scene) -> list[str]:
     why = only_in_a_plane(scene)
     if why:
         sentence = f"There are no collisions in space (law_collide_pair) of this scene: {why}."
-        return [*comment(sentence), "#define LAW_IN_SPACE 0", ""]
+        return [*comment(sentence), "#define LAW_IN_SPACE 0", "#define LAW_FORCES 0", ""]
     lines = [
         *comment("There are collisions in space."),
         "#define LAW_IN_SPACE 1",
