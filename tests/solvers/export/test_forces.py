@@ -1,6 +1,5 @@
 """Forces for time steps: the law's collisions at second order, all that is conserved to rounding, no silent NaN."""
 
-import ctypes
 import math
 import subprocess
 from pathlib import Path
@@ -152,6 +151,7 @@ def test_a_restart_from_bytes_gives_the_same_bits(law: Law):
     distance, inertia = law.contact_distance(), (1e-12, 2e-12)
     pair = Pair(law, [1.001 * distance, 0, 0], [-0.4, 0.3, 0.1])
     other = Pair(law, 0.0, 0.0)
+    assert pair.history.nbytes == 56  # as the page says
     for k in range(60):
         pair.step(2e-6, inertia)
         if k == 20:
@@ -270,6 +270,7 @@ int main(void)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("compiler", FOUND)
 def test_hostile_numbers_under_sanitizers(compiler: str, folder: Path, law: Law, tmp_path: Path):
     """Any bits at all: no undefined behaviour, no NaN with the status that says there is an answer."""
@@ -283,6 +284,7 @@ def test_hostile_numbers_under_sanitizers(compiler: str, folder: Path, law: Law,
     assert int(run.stdout) > 10_000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("compiler", FOUND)
 def test_no_warnings(compiler: str, folder: Path, law: Law):
     """As C99 and as C++20, with conversions and shadows."""
@@ -301,9 +303,3 @@ def test_what_has_no_forces_says_so(tmp_path: Path):
         header = (written(scene, tmp_path / why) / "granulation.h").read_text()
         assert "#define GRANULATION_FORCES 0" in header
         assert why in header.replace("\n * ", " ")
-
-
-def test_pointers_are_not_needed(law: Law):
-    """The history has the size that the page says."""
-    assert law.dtype("history").itemsize == 56
-    assert ctypes.sizeof(ctypes.c_double) == 8
