@@ -13,13 +13,13 @@ _TWO = _VECTOR * 2
 
 
 class Motion(ctypes.Structure):
-    """NAME_motion."""
+    """NAME_pair_motion."""
 
     _fields_ = [("position", _VECTOR), ("velocity", _VECTOR), ("spins", _TWO), ("forces", _TWO), ("torques", _TWO)]
 
 
 class History(ctypes.Structure):
-    """NAME_history."""
+    """NAME_pair_history."""
 
     _fields_ = [("joined", ctypes.c_int), ("rebound", ctypes.c_int)] + [
         (name, ctypes.c_double) for name in ("gap", "smallest_gap", "speed", "time", "lead", "spare")
@@ -27,7 +27,7 @@ class History(ctypes.Structure):
 
 
 class Force(ctypes.Structure):
-    """NAME_force."""
+    """NAME_pair_force."""
 
     _fields_ = [("status", ctypes.c_int), ("events", ctypes.c_int), ("outcome", ctypes.c_int), ("force", _VECTOR),
                 ("torques", _TWO), ("gap", ctypes.c_double), ("restitution", ctypes.c_double)]  # fmt: skip

@@ -1,4 +1,4 @@
-"""The example of forces for time steps: clusters keep what is conserved, and three balls in a line agglomerate or not."""
+"""The example of forces for time steps: clusters keep what is conserved; three balls in a line agglomerate or not."""
 
 import sys
 from pathlib import Path

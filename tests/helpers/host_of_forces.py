@@ -27,7 +27,7 @@ static double dot(const double *a, const double *b)
 }}
 
 static void sums(
-    const {name}_material *m, const double *inertia, const {name}_motion *s, double *momentum, double *energy)
+    const {name}_material *m, const double *inertia, const {name}_pair_motion *s, double *momentum, double *energy)
 {{
     const double *r = s->position, *v = s->velocity;
     for (int k = 0; k < 3; k++) {{
@@ -43,9 +43,9 @@ static void sums(
 static void fly(const {name}_material *m, const double *inertia, const double *position, const double *velocity,
                 const double *spins, double dt, double phase, long most, flight *f)
 {{
-    {name}_motion s;
-    {name}_history h;
-    {name}_force found;
+    {name}_pair_motion s;
+    {name}_pair_history h;
+    {name}_pair_force found;
     double first[3], momentum[3], initial, energy, size = 0.0;
     memset(&s, 0, sizeof s);
     memset(&h, 0, sizeof h);

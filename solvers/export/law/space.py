@@ -45,7 +45,7 @@ MOTION = (
     ("double", "forces", (2, 3), "N, on each of all but this contact; zero where they are not known"),
     ("double", "torques", (2, 3), "N m, on each of all but this contact"),
 )
-"""Members of `law_motion`."""
+"""Members of `law_pair_motion`."""
 HISTORY = (
     ("int", "joined", (), "1 while there is a contact, else 0"),
     ("int", "rebound", (), "the first rebound criterion met, LAW_NO_REBOUND if none"),
@@ -56,7 +56,7 @@ HISTORY = (
     ("double", "lead", (), "m/s, by which the host's velocity brings its gap back to that of the contact"),
     ("double", "spare", (), "J, that the contact has taken so far; what `lead` needs comes from it"),
 )
-"""Members of `law_history`."""
+"""Members of `law_pair_history`."""
 HAPPENINGS = (
     ("BEGINS", "the films touch; a bridge forms"),
     ("REBOUNDS", "a rebound criterion is met"),
@@ -74,7 +74,7 @@ FORCE = (
     ("double", "gap", (), "m, at the end of the step"),
     ("double", "restitution", (), "normal velocity at separation over that of the approach; NaN before"),
 )
-"""Members of `law_force`."""
+"""Members of `law_pair_force`."""
 RESULTS = (
     Result(150, "NO_DIRECTION", "the normal is zero or not finite: the particles are at one place, or nowhere"),
     Result(151, "NOT_A_NUMBER", "a velocity or a spin is not finite"),
@@ -165,33 +165,33 @@ def _forces(scene: Scene) -> list[str]:
             "Two particles where a force is asked for: positions of a time t, velocities and spins of half a step "
             "before it. Forces and torques are those of all else from half a step before to half a step after."
         ),
-        *_structure("law_motion", MOTION),
+        *_structure("law_pair_motion", MOTION),
         *comment(
             "What a host keeps of a pair: zeros where there is no contact. It has no pointers, and may be copied, sent "
             "and written to a file."
         ),
-        *_structure("law_history", HISTORY),
+        *_structure("law_pair_history", HISTORY),
         *comment("What happens in a step, added up."),
         "enum {",
         *(f"    LAW_{name} = {1 << k}, /* {what} */" for k, (name, what) in enumerate(HAPPENINGS)),
         "};",
         "",
         *comment("What the contact does to the pair."),
-        *_structure("law_force", FORCE),
+        *_structure("law_pair_force", FORCE),
         *comment(
             "The force of a pair for one step of the host, from `dt`/2 before the positions to `dt`/2 after them; "
             "apply it all that time. The torques balance its lever arms at these positions: momentum and angular "
             "momentum are kept to rounding. Returns found->status; without an answer the history stays as it is."
         ),
         "int law_contact_force(",
-        "    const law_material *material, const law_motion *motion, double dt, law_history *history,",
-        "    law_force *found);",
+        "    const law_material *material, const law_pair_motion *motion, double dt, law_pair_history *history,",
+        "    law_pair_force *found);",
         "",
         *comment(
             "Puts a contact in place, at a gap between solid contact and rupture: a bridge that is there beforehand. "
             "`speed`, m/s, is the approach that the elastic length goes by. Returns a status."
         ),
-        "int law_contact_join(const law_material *material, double gap, double speed, law_history *history);",
+        "int law_contact_join(const law_material *material, double gap, double speed, law_pair_history *history);",
         "",
     ]
 

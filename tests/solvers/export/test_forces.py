@@ -127,7 +127,7 @@ class Pair:
     def __init__(self, law: Law, position: object, velocity: object) -> None:
         self.law, self.material = law, law.material()
         self.motion, self.history, self.force = (
-            np.zeros(1, law.dtype(each)) for each in ("motion", "history", "force")
+            np.zeros(1, law.dtype(f"pair_{each}")) for each in ("motion", "history", "force")
         )
         self.motion["position"], self.motion["velocity"] = position, velocity
 
@@ -243,9 +243,9 @@ int main(void)
     long answered = 0;
     for (long k = 0; k < 20000; k++) {{
         {name}_material m = {name}_default_material();
-        {name}_motion s;
-        {name}_history h;
-        {name}_force found;
+        {name}_pair_motion s;
+        {name}_pair_history h;
+        {name}_pair_force found;
         double dt = next()%2 ? 1e-6 : number(), r = {name}_contact_distance(&m);
         memset(&h, 0, sizeof h);
         fill(&s, sizeof s);

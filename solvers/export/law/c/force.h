@@ -100,7 +100,7 @@ static int glass_may_come(const line *l, double gap, double velocity)
 }
 
 /* What a rebound leaves; pairs that rebound again and again rest. */
-static void meet(line *l, law_history *s, law_force *found, int kind, int *rebounds)
+static void meet(line *l, law_pair_history *s, law_pair_force *found, int kind, int *rebounds)
 {
     l->velocity = ++*rebounds > REBOUNDS ? 0.0 : space_rebounds_with(&l->h, l->velocity);
     if (s->rebound == LAW_NO_REBOUND)
@@ -203,7 +203,7 @@ static double afforded(double mass, double before, double after, double pushed, 
 }
 
 /* Puts a contact in place. */
-static void join(law_history *s, double gap, double speed)
+static void join(law_pair_history *s, double gap, double speed)
 {
     memset(s, 0, sizeof *s);
     s->joined = 1;
@@ -221,7 +221,7 @@ static void press(line *l, const bodies *b, const response *r, double time, whir
 }
 
 /* Follows the motion along the line for a time, and what rotates with it; returns the time of separation, or -1. */
-static double follow_line(line *l, const bodies *b, double time, law_history *s, whirl *w, law_force *found)
+static double follow_line(line *l, const bodies *b, double time, law_pair_history *s, whirl *w, law_pair_force *found)
 {
     double left = time;
     int rebounds = 0;
@@ -280,7 +280,7 @@ static double follow_line(line *l, const bodies *b, double time, law_history *s,
     return -1.0;
 }
 
-static void unforced(law_force *found, int status)
+static void unforced(law_pair_force *found, int status)
 {
     double value = status == LAW_OK ? 0.0 : NAN;
     found->status = status;
@@ -291,7 +291,7 @@ static void unforced(law_force *found, int status)
         found->force[k] = found->torques[0][k] = found->torques[1][k] = value;
 }
 
-static int bad_motion(const law_motion *given, double dt)
+static int bad_motion(const law_pair_motion *given, double dt)
 {
     const double most = 1e100; /* squares and products of numbers below it are numbers */
     double distance = largest(vector_of(given->position)), sum = largest(vector_of(given->velocity));
@@ -311,7 +311,7 @@ static int known_speed(const bodies *b, double speed)
     return speed*b->stokes_per_speed >= 1.0/FURTHEST && speed*b->stokes_per_speed <= FURTHEST;
 }
 
-int law_contact_join(const law_material *material, double gap, double speed, law_history *history)
+int law_contact_join(const law_material *material, double gap, double speed, law_pair_history *history)
 {
     space_held h;
     bodies b = bodies_of(material);
@@ -330,7 +330,7 @@ int law_contact_join(const law_material *material, double gap, double speed, law
 /* Begins the contact of a pair whose films touch before the end of the step. Returns for how long it acts, 0 if there is
  * none. */
 static double begins(const law_material *material, const bodies *b, vector3 apart, vector3 moving, double dt,
-                     law_history *s, law_force *found)
+                     law_pair_history *s, law_pair_force *found)
 {
     double touch = time_to_touch(b, apart, moving), gap = length(apart) - b->contact;
     if (!(touch <= 0.5*dt))
@@ -357,7 +357,7 @@ typedef struct {
     double distance, along, dt, start, end;
 } span;
 
-static span span_of(const bodies *b, const law_motion *given, double dt, double acts)
+static span span_of(const bodies *b, const law_pair_motion *given, double dt, double acts)
 {
     span made;
     vector3 apart = vector_of(given->position);
@@ -429,7 +429,7 @@ static double torque_impulses(const bodies *b, const span *h, const whirl *w, do
 }
 
 /* The velocity along the line that the host is to have after the step. */
-static double velocity_after(const bodies *b, const span *h, const line *l, const law_history *s, double sideways)
+static double velocity_after(const bodies *b, const span *h, const line *l, const law_pair_history *s, double sideways)
 {
     double wanted = l->velocity, lag, after;
     if (s->joined) {
@@ -446,11 +446,11 @@ static double velocity_after(const bodies *b, const span *h, const line *l, cons
     return after + l->others/l->mass*(0.5*h->dt - h->end);
 }
 
-int law_contact_force(const law_material *material, const law_motion *motion, double dt, law_history *history,
-                      law_force *found)
+int law_contact_force(const law_material *material, const law_pair_motion *motion, double dt, law_pair_history *history,
+                      law_pair_force *found)
 {
     bodies b = bodies_of(material);
-    law_history s = *history;
+    law_pair_history s = *history;
     double acts = dt;
     unforced(found, bad_motion(motion, dt));
     if (found->status == LAW_OK && !(b.contact + b.film < INFINITY && b.film > 0.0))

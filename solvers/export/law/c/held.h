@@ -37,7 +37,7 @@ static void hold(held *h, const law_material *m, double speed)
     h->speed = speed;
     h->force = m->reduced_mass*speed*speed/h->film;
     h->torque = m->reduced_mass*m->reduced_radius*m->reduced_radius*speed/h->film;
-    h->contact = h->film*LANE(contact_gap(&h->c), 0);
+    h->contact = h->film*in_lane(contact_gap(&h->c), 0);
 #if BRIDGE
     h->end = h->film*LANE(h->c.rupture_gap, 0);
 #else
@@ -89,7 +89,7 @@ static double glass_clears(const held *h, double gap, double velocity)
     memset(y, 0, sizeof y);
     y[GAP] = splat(gap/h->film);
     y[NORMAL_VELOCITY] = splat(velocity/h->speed);
-    return LANE(glass_clearance(&h->c, y), 0);
+    return in_lane(glass_clearance(&h->c, y), 0);
 }
 
 /* The velocity after a rebound. */
