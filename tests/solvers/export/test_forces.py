@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene
+from wetdoublet.solvers.space.pairs import Bodies
 
 from ...helpers.exported_law import COMPILERS, FOUND, Law, written
 from ...helpers.host_of_forces import Host
@@ -161,6 +162,41 @@ def test_a_restart_from_bytes_gives_the_same_bits(law: Law):
             other.step(2e-6, inertia)
             assert pair.force.tobytes() == other.force.tobytes()
     assert pair.history["time"][0] > 0.0
+
+
+def capillary_work(gap: float) -> float:
+    """Work against OWN's bridge from the film's thickness to a gap, J: Mikami's fit as printed, integrated by sums."""
+    radius, volume = 2 * float(OWN.material["reduced_radius"]), 0.02  # of equal spheres with the same curvature
+    slope, tail = -1.1 * volume**-0.53, 0.0042 * math.log(volume) + 0.078
+    offset = -0.019 * math.log(volume) + 0.48
+    at = (np.arange(2000) + 0.5) / 2000 * (gap - 8e-6) + 8e-6
+    force = math.pi * radius * float(OWN.material["surface_tension"]) * (np.exp(slope * at / radius + offset) + tail)
+    return float(force.mean() * (gap - 8e-6))
+
+
+def test_a_bridge_adds_its_own_energy_alone(law: Law):
+    """Kinetic energy and work against the bridge never exceed the first, at steps from a half of the contact time."""
+    material, inertia = law.material(), Bodies.of(OWN).inertia
+    mass = float(material["reduced_mass"][0])
+    pairs = arrivals(OWN, 40, seed=8)
+    _, times = durations(OWN, law, pairs)
+    for normal, velocities, spins, time in zip(*pairs, times, strict=True):
+        moving = velocities[1] - velocities[0]
+        for steps in (2, 20):
+            pair = Pair(law, law.contact_distance() * normal - 2.3 * time / steps * moving, moving)
+            pair.motion["spins"][0] = spins
+            first = 0.5 * (
+                mass * moving @ moving + sum(i * spin @ spin for i, spin in zip(inertia, spins, strict=True))
+            )
+            for _ in range(3 * steps):
+                pair.step(time / steps, inertia)
+                turning = sum(i * spin @ spin for i, spin in zip(inertia, pair.motion["spins"][0], strict=True))
+                energy = 0.5 * (mass * (pair.motion["velocity"][0] ** 2).sum() + turning)
+                if pair.history["joined"][0] or pair.force["outcome"][0] >= 0:
+                    energy += capillary_work(float(pair.force["gap"][0]))
+                assert energy <= first * (1 + 1e-9)
+                if pair.force["outcome"][0] >= 0:
+                    break
 
 
 def test_a_load_holds_against_a_bridge(law: Law):
