@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from .collision.result import Collision
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
+    from .explore.explorer import Explorer, explore
     from .fitting.compare import compare_models
     from .fitting.fit import fit, log_likelihood
     from .fitting.result import Fit
@@ -42,6 +43,7 @@ _NAMES = {
     "collision.result": "Collision",
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
+    "explore.explorer": "Explorer explore",
     "fitting.compare": "compare_models",
     "fitting.fit": "fit log_likelihood",
     "fitting.result": "Fit",
@@ -65,10 +67,10 @@ _NAMES = {
 _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()}
 
 __all__ = [
-    "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Design", "Fit",
+    "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Design", "Explorer", "Fit",
     "InputError", "ModelWarning", "Scene", "Sensitivities", "Table", "WetDoubletError", "atlas", "band", "boundary",
     "boundary_sensitivities", "collide", "collide_many", "collide_pair", "collision_averages", "compare_models",
-    "compile_kernels", "design", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "regime_map",
+    "compile_kernels", "design", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "regime_map",
     "sensitivities", "sobol_indices", "table", "trajectory_sensitivities",
 ]  # fmt: skip
 
