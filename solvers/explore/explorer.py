@@ -28,7 +28,10 @@ _PAGE = """<!doctype html>
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'sha256-{script_digest}' \
 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:">
 <title>{title}</title><style>{style}</style></head>
-<body><script type="application/json" id="scene">{data}</script>
+<body><header><h1>{what}</h1>
+<p>Scene “{name}”, {bridge}. Turn a knob, or pick an impact in the map. Everything is computed in this page, by wetdoublet \
+{version}.</p></header>
+<script type="application/json" id="scene">{data}</script>
 <script>{script}</script></body></html>
 """
 
@@ -50,8 +53,13 @@ class Explorer:
     @cached_property
     def html(self) -> str:
         """The page, which loads nothing."""
+        scene, name = self.scene, escape(self.scene.name or "scene")
         return _PAGE.format(
-            title=escape(f"wetdoublet: {self.scene.name or 'scene'}"),
+            title=f"wetdoublet: {name}",
+            name=name,
+            what="A wet sphere hits a wall" if scene.wall else "Two wet particles collide",
+            bridge=f"with a liquid bridge ({escape(scene.bridge.law)})" if scene.bridge else "without a liquid bridge",
+            version=version("wetdoublet"),
             style=_built("page.css"),
             script=_built("page.js"),
             script_digest=base64.b64encode(hashlib.sha256(_built("page.js").encode()).digest()).decode(),
@@ -75,7 +83,6 @@ class Explorer:
         given = dict(scene.given)
         return {
             "name": scene.name or "scene",
-            "version": version("wetdoublet"),
             "rtol": RTOL,
             "wasm": base64.b64encode(gzip.compress(module(law), 9, mtime=0)).decode(),
             "worker": _built("worker.js"),
@@ -88,8 +95,6 @@ class Explorer:
             "speed": next(name for name in SPEEDS if name in given).partition(".")[2],
             "wall": scene.wall,
             "strings": scene.pendulum is not None,
-            "bridge": scene.bridge.law if scene.bridge else None,
-            "absolute": scene.ways.volume == "absolute",
             "tables": _tables(scene, law),
             "outcomes": list(OUTCOMES),
             "criteria": list(CRITERIA),

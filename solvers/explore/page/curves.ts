@@ -1,6 +1,6 @@
 // Gap, normal velocity and rotation in time, with events; the pinned state's behind them.
 import uPlot from "uplot";
-import { quantity } from "./text";
+import { short } from "./text";
 import type { Trajectory } from "./trajectory";
 
 const SCALES: [number, string][] = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"]];
@@ -69,7 +69,7 @@ export class Curves {
             x: { time: false, range: [0, end / unit], ...(this.stretched ? { distr: 4, asinh: tau / unit } : {}) },
           },
           axes: [
-            { ...axis, show: true, size: last ? 44 : 8, values: last ? (_, splits) => splits.map(label) : () => [], label: last ? `time, ${letter}s` : undefined, labelSize: 16, labelFont: axis.font },
+            { ...axis, ...(this.stretched ? { splits: () => decades(tau / unit, end / unit) } : {}), size: last ? 26 : 8, values: last ? (_, splits) => splits.map((each) => short(each)) : () => [], label: last ? `time, ${letter}s` : undefined, labelSize: 16, labelFont: axis.font },
             { ...axis, size: 54, space: 26 },
           ],
           series: [{}, { stroke: () => css("--accent"), width: 2, spanGaps: true, points: { show: false } }, ...(pinned ? [{ stroke: () => css("--pin"), width: 2, dash: [6, 4], spanGaps: true, points: { show: false } }] : [])],
@@ -118,4 +118,8 @@ export class Curves {
   }
 }
 
-const label = (x: number): string => (x === 0 ? "0" : quantity(x, "").trim().replace(/ (?=[mµn])/, ""));
+/** Zero and the powers of ten between two times. */
+function decades(from: number, to: number): number[] {
+  const first = Math.ceil(Math.log10(from));
+  return [0, ...Array.from({ length: Math.max(Math.floor(Math.log10(to)) - first + 1, 0) }, (_, k) => 10 ** (first + k))];
+}

@@ -103,9 +103,6 @@ class Page {
   // ---- what the page is made of
 
   private layout(mapBox: HTMLElement, doubletBox: HTMLElement, curvesBox: HTMLElement): void {
-    const what = scene.wall ? "A wet sphere hits a wall" : "Two wet particles collide";
-    const law = scene.bridge ? `with a liquid bridge (${scene.bridge})` : "without a liquid bridge";
-    const header = el("header", {}, el("h1", {}, what), el("p", {}, `Scene “${scene.name}”, ${law}. Turn a knob or pick an impact in the map. Everything is computed in this page by wetdoublet ${scene.version}.`));
     const first = scene.knobs.filter((each) => each.first).map((each) => this.row(each));
     const rest = scene.knobs.filter((each) => !each.first).map((each) => this.row(each));
     const controls = el(
@@ -161,7 +158,7 @@ class Page {
         button("Picture, PNG", () => void this.picture("png"))),
       this.code,
     );
-    document.body.append(header, el("main", {}, controls, el("div", { class: "column middle" }, mapCard, answerCard), el("div", { class: "column" }, doubletCard, curvesCard, share)));
+    document.body.append(el("main", {}, controls, el("div", { class: "column middle" }, mapCard, answerCard, share), el("div", { class: "column" }, doubletCard, curvesCard)));
   }
 
   private row(knob: Knob): HTMLElement {

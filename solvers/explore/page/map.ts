@@ -49,7 +49,7 @@ export class RegimeMap {
   private colour(outcome: number, restitution: number, even: boolean): [number, number, number] {
     const [fill, dark] = [this.fills[outcome], DARK[outcome]];
     if (!fill || !dark) return NONE;
-    const part = outcome === 0 ? 0 : Math.min(restitution, 1) * 0.62 * (restitution > 1 && even ? 0.45 : 1);
+    const part = outcome === 0 ? 0 : Math.min(restitution, 1) * 0.62 * (restitution > 1 && even ? 0.7 : 1);
     return [0, 1, 2].map((k) => Math.round(fill[k]! + (dark[k]! - fill[k]!) * part)) as [number, number, number];
   }
 
@@ -193,7 +193,10 @@ export class RegimeMap {
           if (depth > best) [best, place] = [depth, r * n + c];
         }
       if (best < n * 0.03) return;
-      const [x, y] = at(grid.across[place % n]!, grid.upward[Math.floor(place / n)]!);
+      const [middle, y] = at(grid.across[place % n]!, grid.upward[Math.floor(place / n)]!);
+      const half = ctx.measureText(name).width / 2 + 4 * scale;
+      const [left, right] = [at(grid.across[0]!, grid.upward[0]!)[0] + half, at(grid.across[n - 1]!, grid.upward[0]!)[0] - half];
+      const x = Math.min(Math.max(middle, left), right);
       ctx.strokeStyle = "rgba(255,255,255,.85)";
       ctx.lineWidth = 4 * scale;
       ctx.strokeText(name, x, y);

@@ -19,7 +19,6 @@ export type Layout = Record<"pair_entries" | "material" | "impact" | "collision"
 
 export interface Scene {
   name: string;
-  version: string;
   rtol: number;
   wasm: string;
   worker: string;
@@ -29,8 +28,6 @@ export interface Scene {
   speed: SpeedKind;
   wall: boolean;
   strings: boolean;
-  bridge: string | null;
-  absolute: boolean;
   tables: [string, string, string | null, string | null, string | null][];
   outcomes: string[];
   criteria: string[];
