@@ -142,7 +142,9 @@ def _tables(scene: Scene, law: LawSource) -> list[list[str | None]]:
         if name.replace(".", "_", 1) not in members and key not in _SIZES:
             text = "true" if raw is True else json.dumps(raw, ensure_ascii=False)
             rows.append([table, key, text, None, None])
-    return sorted(rows, key=lambda row: [*dict.fromkeys(name.partition(".")[0] for name in kept), *_LATER].index(row[0] or ""))
+    return sorted(
+        rows, key=lambda row: [*dict.fromkeys(name.partition(".")[0] for name in kept), *_LATER].index(row[0] or "")
+    )
 
 
 _LATER = ("particles", "liquid", "bridge", "attraction", "pendulum", "partner", "model", "custom")

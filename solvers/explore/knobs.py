@@ -114,7 +114,10 @@ def _of_entry(scene: Scene, entry: _Entry) -> Knob:
 
 def _unit(scene: Scene, name: str, si: str) -> tuple[str, float]:
     """The unit in which the scene's file gives an entry, or its size's, and how much it is in SI."""
-    alike = {"particles.radius": ("particles.diameter", "particles.reduced_radius"), "partner.radius": ("partner.diameter",)}
+    alike = {
+        "particles.radius": ("particles.diameter", "particles.reduced_radius"),
+        "partner.radius": ("partner.diameter",),
+    }
     given = dict(scene.given)
     for each in (name, *alike.get(name, ())):
         raw = given.get(each)

@@ -11,6 +11,8 @@ const PANELS = [
 ] as const;
 const HEIGHT = 118;
 
+/** The font of canvases at a part of the page's size. */
+export const font = (part: number, weight = ""): string => `${weight} ${(part * parseFloat(getComputedStyle(document.body).fontSize)).toFixed(1)}px system-ui, sans-serif`;
 export const css = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 /** The factor and prefix in which numbers up to `most` are written. */
@@ -48,15 +50,16 @@ export class Curves {
     const [unit, letter] = prefix(end);
     this.unit = unit;
     const tau = Math.min(path.tau, end / 2);
-    this.plots = PANELS.map((panel, k) => {
+    const panels = PANELS.filter((each) => each.column !== "rotation" || path.geometry.partner); // beside a wall nothing turns
+    this.plots = panels.map((panel, k) => {
       const most = Math.max(...path.columns[panel.column].map(Math.abs), 1e-300);
       const [scale, small] = panel.unit === "°" ? [1 / panel.factor, ""] : prefix(most);
       const tables = [path, ...(pinned ? [pinned] : [])].map(
         (each) => [each.columns.time.map((t) => t / unit), each.columns[panel.column].map((v) => v / scale)] as uPlot.AlignedData,
       );
       const data = tables.length > 1 ? uPlot.join(tables) : tables[0]!;
-      const last = k === PANELS.length - 1;
-      const axis = { stroke: () => css("--soft"), grid: { stroke: () => css("--line"), width: 1 }, ticks: { show: false }, font: "12px system-ui, sans-serif" };
+      const last = k === panels.length - 1;
+      const axis = { stroke: () => css("--soft"), grid: { stroke: () => css("--line"), width: 1 }, ticks: { show: false }, font: font(0.8) };
       const plot = new uPlot(
         {
           width,

@@ -12,6 +12,7 @@ import { geometry, Trajectory } from "./trajectory";
 import type { Knob, Scene, SpeedKind, State } from "./scene";
 
 const SECONDS = 6; // of the animation at speed 1
+const LISTED = 9; // events named below the curves
 const AFTER = 0.3; // of that, behind a separation
 const scene = JSON.parse(document.getElementById("scene")!.textContent!) as Scene;
 const knobOf = (name: string): Knob => scene.knobs.find((each) => each.name === name)!;
@@ -175,7 +176,7 @@ class Page {
     });
     this.rows.set(knob.name, { slider, field, label });
     const unit = knob.name === "impact.speed" ? this.kindChoice() : el("span", { class: "unit" }, pretty(knob.unit));
-    return el("div", { class: "row" }, label, el("span", { class: "value" }, field, unit), slider);
+    return el("div", { class: knob === speedKnob ? "row speed" : "row" }, label, el("span", { class: "value" }, field, unit), slider);
   }
 
   private kindChoice(): HTMLSelectElement {
@@ -324,8 +325,10 @@ class Page {
     this.title.textContent = `${title}.`;
     this.said.textContent = said + this.gain(this.shown);
     if (this.shown.found.status && isBadInput(this.shown.found.status)) this.said.textContent = `${said} Change that knob.`;
+    const events = this.shown.path?.events ?? [];
     this.events.replaceChildren(
-      ...(this.shown.path?.events ?? []).map((each) => el("li", {}, button(`${quantity(each.time, "s")}: ${each.words}`, () => this.goTo(each.time)))),
+      ...events.slice(0, LISTED).map((each) => el("li", {}, button(`${quantity(each.time, "s")}: ${each.words}`, () => this.goTo(each.time)))),
+      ...(events.length > LISTED ? [el("li", {}, `and ${events.length - LISTED} more`)] : []),
     );
     this.compare.hidden = !this.pinned;
     if (this.pinned) this.compare.replaceChildren(this.comparison(this.pinned.found, this.shown.found));

@@ -1,6 +1,6 @@
 // The map of outcomes as a picture: cells, boundaries, names of regions, the chosen point and the pinned one.
 import uPlot from "uplot";
-import { css } from "./curves";
+import { css, font } from "./curves";
 import { fromPart, segments, toPart, type Grid } from "./mapper";
 import { pretty } from "./text";
 import type { Knob, Scene, State } from "./scene";
@@ -93,8 +93,8 @@ export class RegimeMap {
       stroke: () => css("--ink"),
       grid: { show: false },
       ticks: { stroke: () => css("--ink"), size: 5 },
-      font: "12px system-ui, sans-serif",
-      labelFont: "13px system-ui, sans-serif",
+      font: font(0.8),
+      labelFont: font(0.87),
       values: (_, splits) => splits.map((each) => (each === null || (knob.logarithmic && Math.log10(each) % 1 !== 0 && knob.high / knob.low > 30) ? "" : String(Number(each.toPrecision(6))))),
     });
     this.plot = new uPlot(
@@ -179,7 +179,7 @@ export class RegimeMap {
   private regions(ctx: CanvasRenderingContext2D, grid: Grid, at: (x: number, y: number) => [number, number], scale: number): void {
     const n = grid.across.length;
     const names = ["stick", "stick, rotate, separate", "bounce"];
-    ctx.font = `600 ${13 * scale}px system-ui, sans-serif`;
+    ctx.font = font(0.87 * scale, "600");
     ctx.textAlign = "center";
     ctx.lineJoin = "round";
     names.forEach((name, outcome) => {
