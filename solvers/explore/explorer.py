@@ -29,8 +29,8 @@ _PAGE = """<!doctype html>
 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:">
 <title>{title}</title><style>{style}</style></head>
 <body><header><h1>{what}</h1>
-<p>Scene “{name}”, {bridge}. Turn a knob, or pick an impact in the map. Everything is computed in this page, by wetdoublet \
-{version}.</p></header>
+<p>Scene “{name}”, {bridge}. Turn a knob, or pick an impact in the map. Everything is computed in this page, by
+wetdoublet {version}.</p></header>
 <script type="application/json" id="scene">{data}</script>
 <script>{script}</script></body></html>
 """
@@ -142,9 +142,5 @@ def _tables(scene: Scene, law: LawSource) -> list[list[str | None]]:
         if name.replace(".", "_", 1) not in members and key not in _SIZES:
             text = "true" if raw is True else json.dumps(raw, ensure_ascii=False)
             rows.append([table, key, text, None, None])
-    return sorted(
-        rows, key=lambda row: [*dict.fromkeys(name.partition(".")[0] for name in kept), *_LATER].index(row[0] or "")
-    )
-
-
-_LATER = ("particles", "liquid", "bridge", "attraction", "pendulum", "partner", "model", "custom")
+    order = [*dict.fromkeys(name.partition(".")[0] for name in kept)]
+    return sorted(rows, key=lambda row: order.index(row[0] or ""))

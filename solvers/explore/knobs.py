@@ -40,6 +40,11 @@ _FIRST = (
 """What is shown at once, in this order; the rest opens."""
 _UNITS = {"m": ("um", 1e-6), "kg/m^3": ("kg/m^3", 1.0), "rad": ("deg", math.pi / 180), "Pa": ("MPa", 1e6)}
 """Units of entries that the scene gives otherwise, or not at all."""
+_ALIKE = {
+    "particles.radius": ("particles.diameter", "particles.reduced_radius"),
+    "partner.radius": ("partner.diameter",),
+}
+"""Entries in whose unit a diameter is shown."""
 _NEVER = 1e50  # from here on a limit is never met
 _STEEPEST = 85.0  # deg, on sliders; number fields take all below 90
 
@@ -114,12 +119,8 @@ def _of_entry(scene: Scene, entry: _Entry) -> Knob:
 
 def _unit(scene: Scene, name: str, si: str) -> tuple[str, float]:
     """The unit in which the scene's file gives an entry, or its size's, and how much it is in SI."""
-    alike = {
-        "particles.radius": ("particles.diameter", "particles.reduced_radius"),
-        "partner.radius": ("partner.diameter",),
-    }
     given = dict(scene.given)
-    for each in (name, *alike.get(name, ())):
+    for each in (name, *_ALIKE.get(name, ())):
         raw = given.get(each)
         if isinstance(raw, str) and " " in raw and scene.fields[each].unit:
             unit = raw.partition(" ")[2]

@@ -30,9 +30,8 @@ def module(law: LawSource) -> bytes:
         InputError: no compiler makes WebAssembly here.
     """
     text = _VALUES.sub("", _HEAD.sub("", law.c))  # without what differs between scenes: its name and its numbers
-    text = (
-        text.replace('#include "law.h"', _VALUES.sub("", law.header)) + (Path(__file__).with_name("shim.h")).read_text()
-    )
+    text = text.replace('#include "law.h"', _VALUES.sub("", law.header))
+    text += Path(__file__).with_name("shim.h").read_text()
     digest = hashlib.sha256("\0".join([text, *_FLAGS]).encode()).hexdigest()[:32]
     try:
         return kept(f"explorer-{digest}.wasm", lambda: webassembly(text, _FLAGS))

@@ -168,10 +168,8 @@ def test_every_knob_moves_every_view(opened: Any):
     """Address, answer's state and map are those of the new value."""
     page = opened("coating")
     for knob in page.knobs:
-        value = (
-            (knob["low"] * knob["high"]) ** 0.5 * 1.3 if knob["logarithmic"] else 0.37 * (knob["low"] + knob["high"])
-        )
-        value = value or 0.21 * knob["high"]
+        low, high = knob["low"], knob["high"]
+        value = 1.3 * math.sqrt(low * high) if knob["logarithmic"] else 0.37 * (low + high) or 0.21 * high
         page.ask("([name, value]) => wetdoublet.set(name, value)", [knob["name"], value])
         page.settled()
         page.until(f"location.hash.includes({json.dumps(knob['name'])})")
@@ -186,9 +184,8 @@ def test_every_knob_moves_every_view(opened: Any):
 
 def test_an_address_gives_the_same_state_again(opened: Any):
     """To the last bit, with another kind of speed and a pinned state."""
-    page = opened(
-        "granulation", "impact.kind=relative_speed&impact.speed=1.2345678901234567&pinned=1&pinned.liquid.viscosity=3"
-    )
+    speed = "impact.kind=relative_speed&impact.speed=1.2345678901234567"
+    page = opened("granulation", f"{speed}&pinned=1&pinned.liquid.viscosity=3")
     state = page.ask("wetdoublet.state()")
     assert state["values"]["impact.speed"] == 1.2345678901234567
     assert page.tab.get_by_text("pinned", exact=True).count() == 1
@@ -243,7 +240,7 @@ def test_python_gives_the_same_numbers(opened: Any, capsys: pytest.CaptureFixtur
     line = page.ask("wetdoublet.python(wetdoublet.state())")
     found = page.ask("wetdoublet.shown().found")
     names: dict[str, Any] = {}
-    exec(line.replace("print(", "one = (").replace("; one", "; one"), names)
+    exec(line.replace("print(", "one = ("), names)
     assert found["restitution"] == pytest.approx(names["one"].restitution, rel=1e-8)
 
 
