@@ -68,10 +68,10 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()
 
 __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Design",
-    "Explorer", "Fit", "InputError", "ModelWarning", "Scene", "Sensitivities", "Table", "WetDoubletError", "atlas", "band",
-    "boundary", "boundary_sensitivities", "collide", "collide_many", "collide_pair", "collision_averages",
-    "compare_models", "compile_kernels", "design", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot",
-    "regime_map", "sensitivities", "sobol_indices", "table", "trajectory_sensitivities",
+    "Explorer", "Fit", "InputError", "ModelWarning", "Scene", "Sensitivities", "Table", "WetDoubletError", "atlas",
+    "band", "boundary", "boundary_sensitivities", "collide", "collide_many", "collide_pair", "collision_averages",
+    "compare_models", "compile_kernels", "design", "explore", "fit", "gradients_many", "log_likelihood",
+    "pair_gradients", "plot", "regime_map", "sensitivities", "sobol_indices", "table", "trajectory_sensitivities",
 ]  # fmt: skip
 
 if not TYPE_CHECKING:  # so that type checkers know the names above and no others

@@ -43,7 +43,12 @@ class Explorer:
         scene: with an impact.
 
     Raises:
-        InputError: a scene without an impact or with a law that has no recurrence, or no compiler for WebAssembly.
+        InputError: a scene without an impact.
+
+    Example:
+        >>> import wetdoublet as wd
+        >>> wd.explore("granulation").scene.name
+        'granulation'
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -52,7 +57,11 @@ class Explorer:
 
     @cached_property
     def html(self) -> str:
-        """The page, which loads nothing."""
+        """The page, which loads nothing.
+
+        Raises:
+            InputError: a law that has no recurrence, or no compiler for WebAssembly.
+        """
         scene, name = self.scene, escape(self.scene.name or "scene")
         return _PAGE.format(
             title=f"wetdoublet: {name}",
@@ -67,7 +76,7 @@ class Explorer:
         )
 
     def write(self, path: str | Path) -> None:
-        """Write the page. OSError if that is not possible."""
+        """Write the page. InputError as for `html`; OSError if the file cannot be written."""
         files.write(path, self.html)
 
     def _repr_html_(self) -> str:
@@ -112,12 +121,13 @@ def explore(scene: Scene | str | Path) -> Explorer:
         scene: a Scene, a path or a preset's name; it has an impact.
 
     Raises:
-        InputError: a scene without an impact or with a law that has no recurrence, or no compiler for WebAssembly
-            (`wetdoublet[explorer]` brings one).
+        InputError: a scene without an impact. To write the page needs a compiler for WebAssembly, which
+            `wetdoublet[explorer]` brings.
 
     Example:
         >>> import wetdoublet as wd
-        >>> wd.explore("granulation").write("explorer.html")  # doctest: +SKIP
+        >>> page = wd.explore("granulation")
+        >>> page.write("explorer.html")  # doctest: +SKIP
     """
     return Explorer(Scene.load(scene))
 
