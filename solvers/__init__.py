@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .collision.result import Collision
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
-    from .explore.explorer import Explorer, explore
+    from .explorer.page_of_scene import Explorer, explore
     from .fitting.compare import compare_models
     from .fitting.fit import fit, log_likelihood
     from .fitting.result import Fit
@@ -43,7 +43,7 @@ _NAMES = {
     "collision.result": "Collision",
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
-    "explore.explorer": "Explorer explore",
+    "explorer.page_of_scene": "Explorer explore",
     "fitting.compare": "compare_models",
     "fitting.fit": "fit log_likelihood",
     "fitting.result": "Fit",

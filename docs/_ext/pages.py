@@ -9,7 +9,7 @@ import api
 import drawings
 import laws
 import scene_entries
-from wetdoublet.solvers.explore.explorer import explore
+from wetdoublet.solvers.explorer.page_of_scene import explore
 
 DOCS = Path(__file__).resolve().parents[1]
 

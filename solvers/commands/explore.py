@@ -24,7 +24,7 @@ def command(output: str | None, request: options.Request) -> None:
     if output is None:
         raise InputError("-o", None, "a file to write, such as explorer.html")
 
-    from ..explore.explorer import explore
+    from ..explorer.page_of_scene import explore
 
     explore(scene).write(output)
     click.echo(output)

@@ -1,4 +1,4 @@
-// What Python tells the page of a scene (explorer.py and knobs.py).
+// What Python tells the page of a scene (page_of_scene.py and knobs.py).
 
 export interface Knob {
   name: string;

@@ -1,5 +1,7 @@
 """The page of a scene: one HTML file that holds everything it needs."""
 
+from __future__ import annotations
+
 import base64
 import gzip
 import hashlib
@@ -8,18 +10,14 @@ from functools import cached_property
 from html import escape
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ...generated.automaton import CRITERIA, OUTCOMES
-from ..engines.settings import RTOL
-from ..export.law.interface import structures
-from ..export.law.texts import LawSource, source
-from ..formatting.style import FILLS
 from ..host import files
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
-from .knobs import knobs
-from .module import module
+
+if TYPE_CHECKING:
+    from ..export.law.texts import LawSource
 
 _BUILT = Path(__file__).with_name("built")
 _SIZES = {"radius", "diameter", "reduced_radius", "mass", "density", "reduced_mass"}
@@ -86,6 +84,14 @@ class Explorer:
 
     def _data(self) -> dict[str, Any]:
         """What the page is told of the scene."""
+        from ...generated.automaton import CRITERIA, OUTCOMES
+        from ..engines.settings import RTOL
+        from ..export.law.interface import structures
+        from ..export.law.texts import source
+        from ..formatting.style import FILLS
+        from .knobs import knobs
+        from .module import module
+
         scene = self.scene
         law = source(scene)
         layout = structures(law.header)

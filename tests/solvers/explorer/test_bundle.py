@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import InputError, Scene
-from wetdoublet.solvers.explore.explorer import explore
-from wetdoublet.solvers.explore.knobs import knobs
-from wetdoublet.solvers.explore.module import module
+from wetdoublet.solvers.explorer.page_of_scene import explore
+from wetdoublet.solvers.explorer.knobs import knobs
+from wetdoublet.solvers.explorer.module import module
 from wetdoublet.solvers.export.law.texts import LawSource, source
 
-ROOM = Path(__file__).parents[3] / "solvers" / "explore"
+ROOM = Path(__file__).parents[3] / "solvers" / "explorer"
 BUILT = ("page.css", "page.js", "worker.js")
 
 
@@ -28,7 +28,7 @@ def test_the_bundle_is_that_of_its_sources():
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not (ROOM / "page" / "node_modules").is_dir(), reason="needs `npm ci` in solvers/explore/page")
+@pytest.mark.skipif(not (ROOM / "page" / "node_modules").is_dir(), reason="needs `npm ci` in solvers/explorer/page")
 def test_the_bundle_is_built_again_byte_for_byte(tmp_path: Path):
     """By esbuild of the version that package-lock.json has."""
     node = shutil.which("node")

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide, collide_many, explore
-from wetdoublet.solvers.explore.module import module
+from wetdoublet.solvers.explorer.module import module
 from wetdoublet.solvers.export.law.texts import source
 
 playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright (pip install playwright)")
