@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import InputError, Scene
-from wetdoublet.solvers.explorer.page_of_scene import explore
 from wetdoublet.solvers.explorer.knobs import knobs
 from wetdoublet.solvers.explorer.module import module
+from wetdoublet.solvers.explorer.page_of_scene import explore
 from wetdoublet.solvers.export.law.texts import LawSource, source
 
 ROOM = Path(__file__).parents[3] / "solvers" / "explorer"
