@@ -12,6 +12,7 @@ import { geometry, Trajectory } from "./trajectory";
 import type { Knob, Scene, SpeedKind, State } from "./scene";
 
 const SECONDS = 6; // of the animation at speed 1
+const TITLE = 20; // px above a panel of a saved picture
 const LISTED = 9; // events named below the curves
 const AFTER = 0.3; // of that, behind a separation
 const scene = JSON.parse(document.getElementById("scene")!.textContent!) as Scene;
@@ -455,28 +456,33 @@ class Page {
   /** Map, doublet, curves and answer in one picture. */
   private async picture(kind: "svg" | "png"): Promise<void> {
     const canvases = [this.map.canvas, ...this.curves.canvases];
+    const titles = ["", ...[...document.querySelectorAll(".u-title")].map((each) => each.textContent!)];
     const styled = this.doublet.svg.cloneNode(true) as SVGSVGElement;
     const names = ["--liquid", "--first", "--second", "--ink"];
     const style = getComputedStyle(document.documentElement);
     const resolve = (text: string): string => names.reduce((all, each) => all.replaceAll(`var(${each})`, style.getPropertyValue(each).trim()), text);
     const sizes = canvases.map((each) => [each.width / devicePixelRatio, each.height / devicePixelRatio] as const);
-    const right = sizes.slice(1).reduce((sum, each) => sum + each[1], 0) + 320;
+    const right = sizes.slice(1).reduce((sum, each) => sum + each[1] + TITLE, 0) + 320;
     const width = sizes[0]![0] + Math.max(sizes[1]?.[0] ?? 0, 420) + 30;
-    const height = Math.max(sizes[0]![1], right) + 70;
+    const height = Math.max(sizes[0]![1] + 140, right) + 70;
+    const ink = style.getPropertyValue("--ink").trim();
+    const write = (text: string, x: number, y: number, weight = "normal"): string =>
+      `<text x="${x}" y="${y}" font-family="sans-serif" font-size="13" font-weight="${weight}" fill="${ink}">${el("p", {}, text).innerHTML}</text>`;
     styled.setAttribute("x", `${sizes[0]![0] + 20}`);
     styled.setAttribute("y", "40");
     styled.setAttribute("width", "420");
     styled.setAttribute("height", "300");
-    const title = el("p", {}, `${scene.name}: ${this.title.textContent} ${this.said.textContent}`).innerHTML;
+    const words = `${this.title.textContent} ${this.said.textContent}`.match(new RegExp(`.{1,${Math.floor(sizes[0]![0] / 7)}}(\\s|$)`, "g")) ?? [];
     let y = 350;
     const images = canvases.map((each, k) => {
       const [w, h] = sizes[k]!;
       const place = k ? [sizes[0]![0] + 20, y] : [10, 40];
-      if (k) y += h;
-      return `<image x="${place[0]}" y="${place[1]}" width="${w}" height="${h}" href="${each.toDataURL()}"/>`;
+      if (k) y += h + TITLE;
+      return `${k ? write(titles[k]!, sizes[0]![0] + 70, place[1]! - 4, "bold") : ""}<image x="${place[0]}" y="${place[1]}" width="${w}" height="${h}" href="${each.toDataURL()}"/>`;
     });
-    const head = `<rect width="100%" height="100%" fill="${style.getPropertyValue("--card")}"/><text x="10" y="24" font-family="sans-serif" font-size="13" fill="${style.getPropertyValue("--ink")}">${title}</text>`;
-    const drawn = resolve(styled.outerHTML).replaceAll('class="note"', `font-family="sans-serif" font-size="12" fill="${style.getPropertyValue("--ink")}"`);
+    const lines = words.map((each, k) => write(each, 14, sizes[0]![1] + 64 + 18 * k)).join("");
+    const head = `<rect width="100%" height="100%" fill="${style.getPropertyValue("--card")}"/>${write(`wetdoublet: ${scene.name}`, 14, 24, "bold")}${lines}`;
+    const drawn = resolve(styled.outerHTML).replaceAll('class="note"', `font-family="sans-serif" font-size="12" fill="${ink}"`);
     const svg = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${head}${images.join("")}${drawn}</svg>`;
     let blob = new Blob([svg], { type: "image/svg+xml" });
     if (kind === "png") {
