@@ -54,6 +54,7 @@ class Page {
   private pace = 1;
   private stretched = true;
   private last = 0;
+  private stale = false; // the pictures are of an older state
   private hashTimer = 0;
   private rows = new Map<string, { slider: HTMLInputElement; field: HTMLInputElement; label: HTMLElement }>();
   private readonly mapper: Mapper;
@@ -95,6 +96,7 @@ class Page {
     this.tell(read.ignored);
     if (this.pinnedState) this.pinned = this.follow(this.pinnedState);
     this.changed(true);
+    this.repaint();
     this.play(this.playing);
     addEventListener("hashchange", () => this.onAddress());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.repaint());
@@ -289,10 +291,8 @@ class Page {
     for (const axis of ["across", "upward"] as const) (document.getElementById(axis) as HTMLSelectElement).value = this.state[axis];
     document.getElementById("pin")!.textContent = this.pinned ? "Unpin" : "Pin to compare";
     this.say();
-    this.map.redraw();
-    this.drawCurves();
     if (!this.playing && this.clock > 1 + this.after()) this.clock = 1;
-    this.frame();
+    this.stale = true;
     if (newMap) {
       this.refined = false;
       this.mapper.request(this.state);
@@ -365,7 +365,9 @@ class Page {
     this.curves.show(this.shown.path, this.pinned?.path ?? null, this.stretched);
   }
 
+  /** Draws all but the words; several changes between two frames of the screen are drawn once. */
   private repaint(): void {
+    this.stale = false;
     this.map.redraw();
     this.drawCurves();
     this.frame();
@@ -399,6 +401,7 @@ class Page {
   }
 
   private tick(now: number): void {
+    if (this.stale) this.repaint();
     const step = Math.min(now - this.last, 100) / 1000;
     this.last = now;
     if (this.playing && this.shown.path) {

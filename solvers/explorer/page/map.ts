@@ -12,6 +12,7 @@ const STEPS = 100; // of the arrow keys across the map
 export class RegimeMap {
   private plot: uPlot | null = null;
   private grid: Grid | null = null;
+  private lines: ReturnType<typeof segments> = [];
   private axes = "";
   private readonly cells = document.createElement("canvas");
   private readonly fills: [number, number, number][];
@@ -34,6 +35,7 @@ export class RegimeMap {
 
   show(grid: Grid): void {
     this.grid = grid;
+    this.lines = segments(grid);
     const n = grid.across.length;
     this.cells.width = this.cells.height = n;
     const image = new ImageData(n, n);
@@ -162,7 +164,7 @@ export class RegimeMap {
     ctx.lineCap = "round";
     ctx.strokeStyle = "#202020";
     ctx.beginPath();
-    for (const [from, to] of segments(grid)) {
+    for (const [from, to] of this.lines) {
       ctx.moveTo(...at(from.x, from.y));
       ctx.lineTo(...at(to.x, to.y));
     }

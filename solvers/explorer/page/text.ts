@@ -39,7 +39,8 @@ export function answer(found: Collision & Impact, scene: Scene): [string, string
   const what = scene.wall ? "sphere and wall" : "spheres";
   if (found.outcome === 0) {
     const proof = found.certified ? "" : " It is not proved that they never part later.";
-    return [title, `The ${what} stay together.${proof}`];
+    const criterion = found.rebound >= 0 ? ` They rebounded, as ${REBOUNDS[found.rebound]}, but did not get apart.` : "";
+    return [title, `The ${what} stay together.${criterion}${proof}`];
   }
   const parts = [`normal restitution ${found.restitution.toFixed(3)}`];
   if (Number.isFinite(found.tangential_restitution)) parts.push(`tangential ${found.tangential_restitution.toFixed(3)}`);
