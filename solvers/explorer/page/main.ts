@@ -142,7 +142,7 @@ class Page {
     });
     const doubletCard = el(
       "section",
-      { class: "card", "aria-label": "The particles" },
+      { class: "card doubletcard", "aria-label": "The particles" },
       doubletBox,
       el("div", { class: "player" }, this.playButton, this.scrub, pace),
       el("label", { class: "note" }, stretch, " stretch the first instants"),
@@ -150,7 +150,7 @@ class Page {
       ...(scene.strings ? [el("p", { class: "note" }, "The free flight after the films part is not drawn for particles on strings.")] : []),
       ...(scene.wall ? [el("p", { class: "note" }, "The motion along the wall is not drawn: the exported law does not give it during contact.")] : []),
     );
-    const curvesCard = el("section", { class: "card", "aria-label": "Curves in time" }, curvesBox, this.events);
+    const curvesCard = el("section", { class: "card curvescard", "aria-label": "Curves in time" }, curvesBox, this.events);
     const share = el(
       "section",
       { class: "card share", "aria-label": "Take it with you" },
