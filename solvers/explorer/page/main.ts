@@ -90,7 +90,11 @@ class Page {
     this.curves = new Curves(curvesBox, (time) => this.goTo(time));
     this.map = new RegimeMap(mapBox, scene, () => this.state, () => this.pinnedState, (x, y) => this.choose(x, y));
     const [legend] = document.getElementsByClassName("legend");
-    [1, 2].forEach((k) => legend!.append(el("span", {}, this.map.legend(k), ` ${OUTCOMES[k]!.toLowerCase()}`)));
+    OUTCOMES.forEach((name, k) => {
+      const made = button("", () => this.map.find(k), { title: "Choose an impact of this outcome" });
+      made.append(this.map.legend(k), ` ${name.toLowerCase()}`);
+      legend!.append(made);
+    });
     this.mapper = new Mapper(scene, module, (grid) => this.onGrid(grid), Math.min(Math.max(navigator.hardwareConcurrency || 2, 1), 4));
     this.setKind(this.state.speed);
     this.tell(read.ignored);
@@ -122,8 +126,8 @@ class Page {
       { class: "card mapcard", "aria-label": "Map" },
       el("div", { class: "axes" }, this.axisChoice("upward", "Outcome over"), this.axisChoice("across", "and")),
       mapBox,
-      el("p", { class: "legend note" }),
-      el("p", { class: "note" }, "Deeper colour: larger normal restitution; chequered: above 1. The model's range of validity is not shaded here: ", el("code", {}, "wetdoublet map"), " shows it. ", this.timing),
+      el("div", { class: "legend buttons", role: "group", "aria-label": "Choose an impact by its outcome" }),
+      el("p", { class: "note" }, "Press an outcome to see one. Deeper colour: larger normal restitution; chequered: above 1. The model's range of validity is not shaded here: ", el("code", {}, "wetdoublet map"), " shows it. ", this.timing),
     );
     const answerCard = el("section", { class: "card answercard", "aria-label": "Answer" }, status, this.note, this.compare);
     this.scrub.addEventListener("input", () => {

@@ -6,6 +6,7 @@ import { pretty } from "./text";
 import type { Knob, Scene, State } from "./scene";
 
 const DARK: [number, number, number][] = [[78, 121, 158], [140, 72, 0], [122, 104, 12]]; // of the largest restitution
+const DEPTH = [0, 0.62, 0.3]; // of an outcome's darkest colour; far apart, for those who see no hue
 const NONE: [number, number, number] = [221, 221, 221];
 const STEPS = 100; // of the arrow keys across the map
 
@@ -51,8 +52,16 @@ export class RegimeMap {
   private colour(outcome: number, restitution: number, even: boolean): [number, number, number] {
     const [fill, dark] = [this.fills[outcome], DARK[outcome]];
     if (!fill || !dark) return NONE;
-    const part = outcome === 0 ? 0 : Math.min(restitution, 1) * 0.62 * (restitution > 1 && even ? 0.7 : 1);
+    const part = Math.min(restitution, 1) * DEPTH[outcome]! * (restitution > 1 && even ? 0.7 : 1);
     return [0, 1, 2].map((k) => Math.round(fill[k]! + (dark[k]! - fill[k]!) * part)) as [number, number, number];
+  }
+
+  /** Chooses an impact with this outcome, where its region is widest. */
+  find(outcome: number): void {
+    const place = this.grid ? widest(this.grid, outcome) : -1;
+    if (place < 0) return;
+    const n = this.grid!.across.length;
+    this.choose(this.grid!.across[place % n]!, this.grid!.upward[Math.floor(place / n)]!);
   }
 
   /** A strip of the colours of an outcome, restitution 0 to 1 and above. */
@@ -185,16 +194,8 @@ export class RegimeMap {
     ctx.textAlign = "center";
     ctx.lineJoin = "round";
     names.forEach((name, outcome) => {
-      let [best, place] = [0, -1];
-      const is = (r: number, c: number): boolean => grid.outcome[r * n + c] === outcome;
-      const margin = Math.ceil(n * 0.14);
-      for (let r = 2; r < n - 2; r += 2)
-        for (let c = margin; c < n - margin; c += 2) {
-          let depth = 0;
-          while (depth < n / 2 && c - 2 * depth >= 0 && c + 2 * depth < n && r - depth >= 0 && r + depth < n && is(r, c - 2 * depth) && is(r, c + 2 * depth) && is(r - depth, c) && is(r + depth, c)) depth++;
-          if (depth > best) [best, place] = [depth, r * n + c];
-        }
-      if (best < n * 0.03) return;
+      const place = widest(grid, outcome);
+      if (place < 0) return;
       const [middle, y] = at(grid.across[place % n]!, grid.upward[Math.floor(place / n)]!);
       const half = ctx.measureText(name).width / 2 + 4 * scale;
       const [left, right] = [at(grid.across[0]!, grid.upward[0]!)[0] + half, at(grid.across[n - 1]!, grid.upward[0]!)[0] - half];
@@ -228,6 +229,21 @@ export class RegimeMap {
   get canvas(): HTMLCanvasElement {
     return this.plot!.ctx.canvas;
   }
+}
+
+/** The cell of an outcome that is farthest from others, apart from those near the sides; -1 if its region is narrow. */
+function widest(grid: Grid, outcome: number): number {
+  const n = grid.across.length;
+  const margin = Math.ceil(n * 0.14);
+  const is = (r: number, c: number): boolean => grid.outcome[r * n + c] === outcome;
+  let [best, place] = [n * 0.03, -1];
+  for (let r = 2; r < n - 2; r += 2)
+    for (let c = margin; c < n - margin; c += 2) {
+      let depth = 0;
+      while (depth < n / 2 && c - 2 * depth >= 0 && c + 2 * depth < n && r - depth >= 0 && r + depth < n && is(r, c - 2 * depth) && is(r, c + 2 * depth) && is(r - depth, c) && is(r + depth, c)) depth++;
+      if (depth >= best) [best, place] = [depth + 0.5, r * n + c];
+    }
+  return place;
 }
 
 export function axisLabel(knob: Knob, state: State): string {
