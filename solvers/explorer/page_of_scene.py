@@ -90,16 +90,19 @@ class Explorer:
         from ..export.law.texts import source
         from ..formatting.style import FILLS
         from .knobs import knobs
+        from .limits import limits
         from .module import module
 
         scene = self.scene
         law = source(scene)
         layout = structures(law.header)
         given = dict(scene.given)
+        members = [member for _, member, _ in layout["law_material"]]
+        behind, ends = limits(scene, members, [each.name for each in law.entries])
         return {
             "name": scene.name or "scene",
             "rtol": RTOL,
-            "wasm": base64.b64encode(gzip.compress(module(law), 9, mtime=0)).decode(),
+            "wasm": base64.b64encode(gzip.compress(module(law, behind), 9, mtime=0)).decode(),
             "worker": _built("worker.js"),
             "layout": {
                 name: [[kind, member] for kind, member, _ in layout[f"law_{name}"]]
@@ -111,6 +114,7 @@ class Explorer:
             "wall": scene.wall,
             "strings": scene.pendulum is not None,
             "tables": _tables(scene, law),
+            "limits": ends,
             "outcomes": list(OUTCOMES),
             "criteria": list(CRITERIA),
             "colours": list(FILLS.values()),

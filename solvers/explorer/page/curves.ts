@@ -121,8 +121,10 @@ export class Curves {
   }
 }
 
-/** Zero and the powers of ten between two times. */
+/** Zero and the powers of ten between two times; with their halves and fifths where these are few. */
 function decades(from: number, to: number): number[] {
-  const first = Math.ceil(Math.log10(from));
-  return [0, ...Array.from({ length: Math.max(Math.floor(Math.log10(to)) - first + 1, 0) }, (_, k) => 10 ** (first + k))];
+  const [first, last] = [Math.floor(Math.log10(from)), Math.floor(Math.log10(to))];
+  const parts = last - first > 1 ? [1] : [1, 2, 5];
+  const times = Array.from({ length: last - first + 1 }, (_, k) => parts.map((part) => part * 10 ** (first + k))).flat();
+  return [0, ...times.filter((each) => each >= from && each <= to)];
 }

@@ -1,5 +1,5 @@
 // The law of a scene in WebAssembly, behind typed arrays at the places of shim.h.
-import type { Knob, Layout, SpeedKind, Values } from "./scene";
+import type { Knob, Layout, Limit, SpeedKind, Values } from "./scene";
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -11,6 +11,7 @@ interface Exports {
   follow(rtol: number, step: number, factor: number, still: number): number;
   followed_events(): number;
   message(status: number): number;
+  limits_of(k: number): number;
 }
 
 export const ROW = 9; // numbers of a row: see shim.h
@@ -32,6 +33,7 @@ export interface Collision {
   final_spin: number;
   final_partner_spin: number;
   final_rotation_rate: number;
+  outside: string[];
 }
 
 export interface Impact {
@@ -56,6 +58,7 @@ export class Law {
     private readonly layout: Layout,
     private readonly knobs: Knob[],
     defaults: Record<string, number>,
+    private readonly limits: Limit[],
   ) {
     // no imports but what wasi-libc may name: nothing of it is called
     const none = new Proxy({}, { get: () => () => 0 });
@@ -145,6 +148,17 @@ export class Law {
     return this.collisions.getFloat64(k * this.stride + this.offsets["restitution"]!, true);
   }
 
+  /** Bits of the limits that a collision has exceeded. */
+  outside(k: number): number {
+    const numbers = new Float64Array(this.exports.memory.buffer, this.exports.limits_of(k), this.limits.length);
+    let bits = 0;
+    this.limits.forEach(({ least, most }, bit) => {
+      const number = numbers[bit]!;
+      if ((most !== null && number > most) || (least !== null && number < least)) bits |= 1 << bit;
+    });
+    return bits;
+  }
+
   /** One collision with all that is known of it. */
   collide(values: Values, kind: SpeedKind, rtol: number): Collision & Impact {
     let status = this.set(values);
@@ -158,7 +172,9 @@ export class Law {
     }
     if (!status) status = found["status"]!;
     const message = status ? this.message(status) : "";
-    return { ...(found as unknown as Collision), ...impact, certified: !!found["certified"], status, message };
+    const bits = status ? 0 : this.outside(0);
+    const outside = this.limits.filter((_, bit) => bits & (1 << bit)).map((each) => each.words);
+    return { ...(found as unknown as Collision), ...impact, outside, certified: !!found["certified"], status, message };
   }
 
   /** Rows of the collision that `collide` was asked for last (see shim.h), and its events. */

@@ -72,6 +72,7 @@ class Page {
   private readonly scrub = el("input", { type: "range", min: "0", max: "1000", step: "1", "aria-label": "Time of the collision" });
   private readonly playButton = button("", () => this.play(!this.playing));
   private readonly timing = el("span");
+  private readonly beyond = el("span");
   readonly ready: number;
   gridCount = 0;
   refined = false;
@@ -127,7 +128,7 @@ class Page {
       el("div", { class: "axes" }, this.axisChoice("upward", "Outcome over"), this.axisChoice("across", "and")),
       mapBox,
       el("div", { class: "legend buttons", role: "group", "aria-label": "Choose an impact by its outcome" }),
-      el("p", { class: "note" }, "Press an outcome to see one. Deeper colour: larger normal restitution; chequered: above 1. The model's range of validity is not shaded here: ", el("code", {}, "wetdoublet map"), " shows it. ", this.timing),
+      el("p", { class: "note" }, "Press an outcome to see one. Deeper colour: larger normal restitution; chequered: above 1. ", this.beyond, " ", this.timing),
     );
     const answerCard = el("section", { class: "card answercard", "aria-label": "Answer" }, status, this.note, this.compare);
     this.scrub.addEventListener("input", () => {
@@ -318,6 +319,8 @@ class Page {
     this.gridCount++;
     this.refined = grid.refined;
     const n = grid.across.length ** 2;
+    const beyond = scene.limits.filter((_, bit) => grid.outside.some((each) => each & (1 << bit)));
+    this.beyond.textContent = beyond.length ? `Dotted: outside the model's range (${[...new Set(beyond.map((each) => each.words))].join(", ")}).` : "";
     const bad = grid.outcome.filter((each) => each < 0).length;
     const { coarse, fine } = this.mapper.timings;
     this.timing.textContent = grid.refined || fine ? `${n.toLocaleString("en")} collisions in ${(grid.refined ? fine : coarse).toFixed(0)} ms${bad ? `, ${bad} without an answer (grey)` : ""}.` : "";
@@ -528,7 +531,7 @@ declare global {
 
 unpacked(scene.wasm)
   .then((module) => {
-    const law = new Law(module, scene.layout, scene.knobs, scene.entries);
+    const law = new Law(module, scene.layout, scene.knobs, scene.entries, scene.limits);
     window.wetdoublet = new Page(law, module).handle;
   })
   .catch((error: unknown) => document.body.prepend(el("p", { role: "alert", class: "card" }, `This browser cannot run the page: ${String(error)}`)));

@@ -7,6 +7,7 @@ import type { Knob, Scene, State } from "./scene";
 
 const DARK: [number, number, number][] = [[78, 121, 158], [140, 72, 0], [122, 104, 12]]; // of the largest restitution
 const DEPTH = [0, 0.62, 0.3]; // of an outcome's darkest colour; far apart, for those who see no hue
+const DOT: [number, number, number] = [85, 85, 85];
 const NONE: [number, number, number] = [221, 221, 221];
 const STEPS = 100; // of the arrow keys across the map
 
@@ -42,7 +43,8 @@ export class RegimeMap {
     const image = new ImageData(n, n);
     for (let k = 0; k < n * n; k++) {
       const [r, c] = [Math.floor(k / n), k % n];
-      image.data.set([...this.colour(grid.outcome[k]!, grid.restitution[k]!, (r + c) % 2 === 0), 255], 4 * ((n - 1 - r) * n + c));
+      const dotted = grid.outside[k]! && r % 4 === 1 && c % 4 === 1;
+      image.data.set([...(dotted ? DOT : this.colour(grid.outcome[k]!, grid.restitution[k]!, (r + c) % 2 === 0)), 255], 4 * ((n - 1 - r) * n + c));
     }
     this.cells.getContext("2d")!.putImageData(image, 0, 0);
     this.redraw();

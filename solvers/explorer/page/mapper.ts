@@ -9,6 +9,7 @@ export interface Grid {
   upward: Float64Array;
   outcome: Int8Array;
   restitution: Float32Array;
+  outside: Int16Array; // bits of the model's limits
   edges: Crossing[];
   refined: boolean;
 }
@@ -42,7 +43,7 @@ export class Mapper {
     count: number,
   ) {
     const url = URL.createObjectURL(new Blob([scene.worker], { type: "text/javascript" }));
-    const start: Start = { module, layout: scene.layout, knobs: scene.knobs, entries: scene.entries };
+    const start: Start = { module, layout: scene.layout, knobs: scene.knobs, entries: scene.entries, limits: scene.limits };
     for (let k = 0; k < count; k++) {
       const worker = new Worker(url);
       worker.onmessage = (event: MessageEvent<{ id: number } | null>) => {
@@ -102,7 +103,7 @@ export class Mapper {
     const across = this.axis(state.across, n);
     const upward = this.axis(state.upward, n);
     const grid: Grid = {
-      state, across, upward, outcome: new Int8Array(n * n), restitution: new Float32Array(n * n), edges: [], refined: false,
+      state, across, upward, outcome: new Int8Array(n * n), restitution: new Float32Array(n * n), outside: new Int16Array(n * n), edges: [], refined: false,
     };
     const values: Values = state.values;
     const starts = Array.from({ length: Math.ceil(n / lines) }, (_, k) => k * lines);
@@ -124,6 +125,7 @@ export class Mapper {
           const cell = columns ? Math.floor(k / width) * n + from + (k % width) : from * n + k;
           grid.outcome[cell] = cells.outcome[k]!;
           grid.restitution[cell] = cells.restitution[k]!;
+          grid.outside[cell] = cells.outside[k]!;
         }
       }
     };

@@ -14,6 +14,13 @@ export interface Knob {
   first: boolean;
 }
 
+/** A number that says how far the model may be trusted; null where there is no bound. */
+export interface Limit {
+  words: string;
+  least: number | null;
+  most: number | null;
+}
+
 export type SpeedKind = "stokes" | "speed" | "relative_speed";
 export type Layout = Record<"pair_entries" | "material" | "impact" | "collision", [string, string][]>;
 
@@ -29,6 +36,7 @@ export interface Scene {
   wall: boolean;
   strings: boolean;
   tables: [string, string, string | null, string | null, string | null][];
+  limits: Limit[];
   outcomes: string[];
   criteria: string[];
   colours: string[];

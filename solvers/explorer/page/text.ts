@@ -35,6 +35,11 @@ const REBOUNDS = [
 /** What happens, in sentences. */
 export function answer(found: Collision & Impact, scene: Scene): [string, string] {
   if (found.status) return ["No answer", `${found.message}.`];
+  const [title, said] = decided(found, scene);
+  return [title, said + (found.outside.length ? ` Outside the model's range: ${found.outside.join(", ")}.` : "")];
+}
+
+function decided(found: Collision & Impact, scene: Scene): [string, string] {
   const title = OUTCOMES[found.outcome]!;
   const what = scene.wall ? "sphere and wall" : "spheres";
   if (found.outcome === 0) {

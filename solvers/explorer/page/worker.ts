@@ -1,12 +1,13 @@
 // Parts of a map, and points of its boundaries, beside the page.
 import { Law } from "./law";
-import type { Knob, Layout, SpeedKind, Values } from "./scene";
+import type { Knob, Layout, Limit, SpeedKind, Values } from "./scene";
 
 export interface Start {
   module: WebAssembly.Module;
   layout: Layout;
   knobs: Knob[];
   entries: Record<string, number>;
+  limits: Limit[];
 }
 
 /** Lines `from` to `to` of a map: numbers of the knobs across and upward; every line has one upward number. */
@@ -34,6 +35,7 @@ export interface Cells {
   id: number;
   outcome: Int8Array;
   restitution: Float32Array;
+  outside: Int16Array;
   milliseconds: number;
 }
 
@@ -45,7 +47,7 @@ let law: Law;
 onmessage = (event: MessageEvent<Start | Part | Edges>) => {
   const data = event.data;
   if ("module" in data) {
-    law = new Law(data.module, data.layout, data.knobs, data.entries);
+    law = new Law(data.module, data.layout, data.knobs, data.entries, data.limits);
     postMessage(null);
   } else if ("pairs" in data) postMessage({ id: data.id, points: bisected(data) });
   else postMessage(cells(data));
@@ -60,6 +62,7 @@ function cells(part: Part): Cells {
   const size = columns.length * lines.length;
   const outcome = new Int8Array(size);
   const restitution = new Float32Array(size);
+  const outside = new Int16Array(size);
   const values = { ...part.values };
   // cells with one material go to the law together
   const byColumn = !isImpact(across) && isImpact(upward);
@@ -82,13 +85,14 @@ function cells(part: Part): Cells {
     if (!bad) law.run(inner.length, RTOL, BUDGET);
     for (let i = 0; i < inner.length; i++) keep(o, i, bad ? -1 : i);
   }
-  return { id: part.id, outcome, restitution, milliseconds: performance.now() - start };
+  return { id: part.id, outcome, restitution, outside, milliseconds: performance.now() - start };
 
   function keep(o: number, i: number, at: number): void {
     const cell = byColumn ? i * columns.length + o : o * columns.length + i;
     const failed = at < 0 || law.status(at) !== 0;
     outcome[cell] = failed ? -1 : law.outcome(at);
     restitution[cell] = failed ? NaN : law.restitution(at);
+    outside[cell] = failed ? 0 : law.outside(at);
   }
 }
 

@@ -12,8 +12,6 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide, collide_many, explore
-from wetdoublet.solvers.explorer.module import module
-from wetdoublet.solvers.export.law.texts import source
 
 playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright (pip install playwright)")
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -21,8 +19,9 @@ pytestmark = [pytest.mark.slow, pytest.mark.skipif(BROWSER is None, reason="need
 
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--disable-background-networking", "--disable-sync"]
 LACTOSE = Scene.load("lactose-pvp")
+GRANULATION = Scene.load("granulation")
 SCENES = {
-    "granulation": Scene.load("granulation"),
+    "granulation": GRANULATION,
     "dry": Scene.load("granulation-dry-bridge").with_entries({"attraction.hamaker": 1e-19}),
     "strings": Scene.load("pendulum"),
     "coating": LACTOSE,
@@ -30,6 +29,7 @@ SCENES = {
     "unequal": LACTOSE.with_entries(
         {"partner.diameter": "500 um", "partner.density": "1.54 g/cm3", "particles.friction": 0.3}
     ),
+    "rubbing": GRANULATION.with_entries({"particles.friction": 0.2, "model.film": "cavitating"}),
     "wall": LACTOSE.with_entries({"partner.wall": True, "partner.coating_thickness": "1 um"}),
 }
 RESULTS = ("restitution", "tangential_restitution", "contact_time", "rotation", "smallest_gap", "final_spin")
@@ -41,7 +41,7 @@ SHARP = 1e-12  # relative tolerance of integration where numbers are compared to
 def browser() -> Iterator[Any]:
     """Chromium without a window."""
     try:
-        module(source(SCENES["granulation"]))
+        assert explore(GRANULATION).html
     except InputError as error:
         pytest.skip(str(error))
     with playwright.sync_playwright() as driver:
@@ -134,18 +134,20 @@ def test_numbers_are_those_of_python(name: str, opened: Any):
     assert decided > 30
 
 
-@pytest.mark.parametrize("name", ["granulation", "coating", "strings", "wall"])
+@pytest.mark.parametrize("name", ["granulation", "coating", "strings", "wall", "unequal", "rubbing"])
 def test_the_map_is_that_of_python(name: str, opened: Any):
-    """Every seventh cell of the fine map."""
+    """Every seventh cell of the fine map, and where it is outside the model's range."""
     page = opened(name)
     cells = page.ask(
-        "(g => [[...g.across], [...g.upward], [...g.outcome], [...g.restitution], g.state.speed])(wetdoublet.grid())"
+        "(g => [g.across, g.upward, g.outcome, g.restitution, g.outside].map(a => [...a]))(wetdoublet.grid())"
     )
-    across, upward, outcome, restitution = (np.array(each, float) for each in cells[:4])
+    across, upward, outcome, restitution, outside = (np.array(each, float) for each in cells)
     angle, speed = (each.ravel()[::7] for each in np.meshgrid(np.radians(across), upward))
-    expected = collide_many(SCENES[name], angle=angle, **{cells[4]: speed}, rtol=1e-6)
+    given = {page.ask("wetdoublet.state().speed"): speed}
+    expected = collide_many(SCENES[name], angle=angle, **given, rtol=1e-6, of=("outcome", "restitution", "validity"))
     assert np.array_equal(outcome[::7], expected["outcome"].values)
     np.testing.assert_allclose(restitution[::7], expected["restitution"].values, atol=2e-5, rtol=2e-5)
+    assert np.array_equal(outside[::7] != 0, expected["validity"].values != 0)
 
 
 @pytest.mark.parametrize("name", ["granulation", "coating", "strings", "unequal"])
