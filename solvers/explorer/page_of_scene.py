@@ -111,6 +111,7 @@ class Explorer:
             "entries": {each.name: each.value for each in law.entries},
             "knobs": knobs(scene, law.entries, law.impact),
             "speed": next(name for name in SPEEDS if name in given).partition(".")[2],
+            "own_model": scene.package is not None,
             "wall": scene.wall,
             "strings": scene.pendulum is not None,
             "tables": _tables(scene, law),

@@ -33,6 +33,7 @@ export interface Scene {
   entries: Record<string, number>;
   knobs: Knob[];
   speed: SpeedKind;
+  own_model: boolean;
   wall: boolean;
   strings: boolean;
   tables: [string, string, string | null, string | null, string | null][];

@@ -102,7 +102,8 @@ function lines(state: State, scene: Scene, law: Law): Line[] {
 const plainNumber = (x: number): string => (Number.isInteger(x) && Math.abs(x) < 1e15 ? `${x}.0` : String(x).replace(/^(-?\d+)e/, "$1.0e"));
 
 export function toml(state: State, scene: Scene, law: Law): string {
-  let text = `name = ${JSON.stringify(scene.name)}\n`;
+  let text = scene.own_model ? "# with --model FOLDER, the model that this page was made with\n" : "";
+  text += `name = ${JSON.stringify(scene.name)}\n`;
   let last = "";
   for (const line of lines(state, scene, law)) {
     if (line.table !== last) text += `\n[${line.table}]\n`;
@@ -113,6 +114,7 @@ export function toml(state: State, scene: Scene, law: Law): string {
 }
 
 export function python(state: State, scene: Scene, law: Law): string {
+  if (scene.own_model) return 'import wetdoublet as wd; print(wd.collide(wd.Scene.load("scene.toml", model="FOLDER")))  # the TOML, and the model';
   const tables: Record<string, string[]> = {};
   for (const { table, key, text } of lines(state, scene, law))
     (tables[table] ??= []).push(`"${key}": ${text === "true" ? "True" : text}`);

@@ -268,3 +268,27 @@ def test_the_keyboard_alone(opened: Any):
 def test_no_width_needs_scrolling_sideways(width: int, opened: Any):
     page = opened("unequal", viewport={"width": width, "height": 800})
     assert page.ask("document.documentElement.scrollWidth <= innerWidth")
+
+
+@pytest.mark.parametrize("outcome", [0, 1, 2])
+def test_the_legend_shows_an_outcome(outcome: int, opened: Any):
+    """Each of its buttons chooses an impact that has the outcome, and the answer says so."""
+    page, names = opened("granulation"), ("Stick", "Stick, rotate, separate", "Bounce")
+    page.tab.locator(".legend button").nth(outcome).click()
+    assert page.ask("wetdoublet.shown().found")["outcome"] == outcome
+    assert page.tab.inner_text("[role=status]").startswith(f"{names[outcome]}.")
+
+
+def test_a_notebook_shows_the_page(opened: Any, tmp_path: Path):
+    """In a frame, which needs neither a file nor an address of its own."""
+    page = opened("granulation")
+    (tmp_path / "notebook.html").write_text(explore(GRANULATION)._repr_html_())
+    page.tab.goto((tmp_path / "notebook.html").as_uri())
+    frame = page.tab.frames[1]
+    for _ in range(200):
+        if frame.evaluate("!!window.wetdoublet && wetdoublet.map().refined"):
+            break
+        time.sleep(0.05)
+    frame.evaluate("wetdoublet.set('liquid.viscosity', 3)")
+    assert frame.evaluate("wetdoublet.state().values['liquid.viscosity']") == 3
+    assert page.complaints == []
