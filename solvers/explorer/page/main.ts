@@ -100,6 +100,7 @@ class Page {
     this.setKind(this.state.speed);
     this.tell(read.ignored);
     if (this.pinnedState) this.pinned = this.follow(this.pinnedState);
+    this.mapper.first(this.state, law);
     this.changed(true);
     this.repaint();
     this.play(this.playing);

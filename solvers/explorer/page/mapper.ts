@@ -1,7 +1,9 @@
 // Maps by workers: a coarse one at once, a fine one after it, then points of the boundaries. The newest request wins.
 import type { Scene, State, Values } from "./scene";
 import { copyOf } from "./state";
-import type { Cells, Edges, Part, Start } from "./worker";
+import { cells, type Cells, type Part } from "./cells";
+import type { Law } from "./law";
+import type { Edges, Start } from "./worker";
 
 export interface Grid {
   state: State;
@@ -57,6 +59,15 @@ export class Mapper {
       worker.postMessage(start);
       this.workers.push(worker);
     }
+  }
+
+  /** The coarse map at once, here: workers take longer to start. */
+  first(state: State, law: Law): void {
+    const [across, upward] = [this.axis(state.across, COARSE), this.axis(state.upward, COARSE)];
+    const part: Part = { id: 0, values: state.values, speed: state.speed, across: [state.across, across], upward: [state.upward, upward] };
+    const grid: Grid = { state: copyOf(state), across, upward, ...cells(law, part), edges: [], refined: false };
+    grid.edges = crossings(grid, this.logarithmic(state));
+    this.onGrid(grid);
   }
 
   /** Asks for the map of a state; `onGrid` is called for each stage. */
