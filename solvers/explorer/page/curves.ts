@@ -72,7 +72,7 @@ export class Curves {
             x: { time: false, range: [0, end / unit], ...(this.stretched ? { distr: 4, asinh: tau / unit } : {}) },
           },
           axes: [
-            { ...axis, ...(this.stretched ? { splits: () => decades(tau / unit, end / unit) } : {}), size: last ? 26 : 8, values: last ? (_, splits) => splits.map((each) => short(each)) : () => [], label: last ? `time, ${letter}s` : undefined, labelSize: 16, labelFont: axis.font },
+            { ...axis, ...(this.stretched ? { splits: () => decades(tau / unit, end / unit), filter: (_: uPlot, splits: number[]) => splits } : {}), size: last ? 26 : 8, values: last ? (_, splits) => splits.map((each) => short(each)) : () => [], label: last ? `time, ${letter}s` : undefined, labelSize: 16, labelFont: axis.font },
             { ...axis, size: 54, space: 26 },
           ],
           series: [{}, { stroke: () => css("--accent"), width: 2, spanGaps: true, points: { show: false } }, ...(pinned ? [{ stroke: () => css("--pin"), width: 2, dash: [6, 4], spanGaps: true, points: { show: false } }] : [])],
