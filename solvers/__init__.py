@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from .collision.result import Collision
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
+    from .explorer.page_of_scene import Explorer, explore
     from .fitting.compare import compare_models
     from .fitting.examine import check_data
     from .fitting.fit import fit, log_likelihood
@@ -46,6 +47,7 @@ _NAMES = {
     "collision.result": "Collision",
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
+    "explorer.page_of_scene": "Explorer explore",
     "fitting.compare": "compare_models",
     "fitting.examine": "check_data",
     "fitting.fit": "fit log_likelihood",
@@ -74,9 +76,9 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()
 
 __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
-    "Design", "Fit", "InputError", "ModelWarning", "Scene", "Sensitivities", "Table", "WetDoubletError", "atlas",
-    "band", "boundary", "boundary_sensitivities", "check_data", "collide", "collide_many", "collide_pair",
-    "collision_averages", "compare_models", "compile_kernels", "critical", "design", "fit", "gradients_many",
+    "Design", "Explorer", "Fit", "InputError", "ModelWarning", "Scene", "Sensitivities", "Table", "WetDoubletError",
+    "atlas", "band", "boundary", "boundary_sensitivities", "check_data", "collide", "collide_many", "collide_pair",
+    "collision_averages", "compare_models", "compile_kernels", "critical", "design", "explore", "fit", "gradients_many",
     "log_likelihood", "pair_gradients", "plot", "regime_map", "sensitivities", "sobol_indices", "table", "tracks",
     "trajectory_sensitivities",
 ]  # fmt: skip
