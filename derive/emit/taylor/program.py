@@ -48,8 +48,8 @@ class Program:
 
     Arguments:
         moving: symbols that are series initially.
-        whole_angles: squared sines of half an angle are taken from its cosine: fewer products, but as a value this loses
-            the relative accuracy of a small angle.
+        whole_angles: squared sines of half an angle are taken from its cosine: fewer products, but as a value this
+            loses the relative accuracy of a small angle.
     """
 
     def __init__(self, moving: Iterable[sp.Symbol], whole_angles: bool = False) -> None:
