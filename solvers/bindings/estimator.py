@@ -90,7 +90,7 @@ class CollisionRegressor:
         seen = np.asarray(y, dtype=float)
         return float(1 - ((seen - self.predict(X)) ** 2).sum() / ((seen - seen.mean()) ** 2).sum())
 
-    def get_params(self, deep: bool = True) -> dict[str, Any]:  # noqa: ARG002 # scikit-learn's protocol
+    def get_params(self, deep: bool = True) -> dict[str, Any]:  # scikit-learn's protocol
         """The arguments by name."""
         return {name: getattr(self, name) for name in inspect.signature(type(self)).parameters}
 

@@ -14,8 +14,9 @@ from ..scene.scene import Scene
 from .extras import required
 from .pointwise import OUTCOME, pointwise
 
-jax = required("jax", "jax")
-from jax import numpy as jnp  # noqa: E402 # after the check that it is there
+required("jax", "jax")
+import jax  # noqa: E402 # after the check that it is there
+from jax import numpy as jnp  # noqa: E402
 from jax.custom_derivatives import SymbolicZero  # noqa: E402
 
 __all__ = ["law"]
@@ -71,7 +72,7 @@ def law(
                 result, *columns, vmap_method="broadcast_all",
             )  # fmt: skip
 
-        @jax.custom_jvp
+        @jax.custom_jvp  # type: ignore[untyped-decorator] # jax has no types here
         def collide(*columns: Any) -> Any:
             return on_host(points.values, (len(names),), columns)
 
@@ -82,7 +83,7 @@ def law(
             return collide(*columns), moved
 
         collide.defjvp(rule, symbolic_zeros=True)
-        return collide  # type: ignore[no-any-return] # jax has no types here
+        return collide  # type: ignore[no-any-return] # as above
 
     def function(speed: Any, angle: Any, entries: Mapping[str, Any] | None = None) -> Any:
         ordered = dict(sorted((entries or {}).items()))

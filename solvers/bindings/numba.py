@@ -24,10 +24,10 @@ class CompiledForNumba:
 
     Attributes:
         material: record array of one element, the scene's numbers, SI; a changed copy is another material.
-        impact, collision: numpy types of an impact and of what a collision comes to; their fields are those of NAME.h.
-        collide_many: (material, impacts, rtol, found) -> how many have no answer; `found` is filled in, its `status` and
-            `outcome` (-1 without an answer) say what its numbers are worth: NaN where undefined. Arrays of the types
-            above, contiguous.
+        impact, collision: numpy types of an impact and of its result, with the fields of NAME.h.
+        collide_many: (material, impacts, rtol, found) -> how many have no answer; it fills `found`, whose `outcome` is
+            -1 without an answer, for the reason in `status`, and whose numbers are NaN where undefined. Contiguous
+            arrays of the types above.
         address: of NAME_collide_many, for a caller of one's own: (material *, impacts *, long count, double rtol,
             collisions *) -> long.
     """
@@ -60,15 +60,16 @@ def law(scene: Scene | str | Path) -> CompiledForNumba:
         0.968
     """
     compiled = compiled_law(scene)
-    kinds = [compiled.dtype(name) for name in ("material", "impact", "collision")]
+    numbers, impact, collision = (compiled.dtype(name) for name in ("material", "impact", "collision"))
     shared = compiled.opened(ctypes.CDLL)
     default = getattr(shared, f"{compiled.name}_default_material")
-    default.restype = type("Material", (ctypes.Structure,), {"_fields_": [(n, ctypes.c_double) for n in kinds[0].names]})
-    material = np.frombuffer(bytes(default()), kinds[0]).copy()
+    fields = [(name, ctypes.c_double) for name in numbers.names or ()]
+    default.restype = type("Material", (ctypes.Structure,), {"_fields_": fields})
+    material = np.frombuffer(bytes(default()), numbers).copy()
     many = getattr(shared, f"{compiled.name}_collide_many")
     pointer = ctypes.c_void_p
     many.argtypes, many.restype = (pointer, pointer, ctypes.c_long, ctypes.c_double, pointer), ctypes.c_long
-    records = [numba.types.Array(numba.from_dtype(kind), 1, "C") for kind in kinds]
+    records = [numba.types.Array(numba.from_dtype(kind), 1, "C") for kind in (numbers, impact, collision)]
     signature = numba.int64(records[0], records[1], numba.float64, records[2])
 
     @numba.njit(signature)  # type: ignore[untyped-decorator] # numba is Any
@@ -77,4 +78,4 @@ def law(scene: Scene | str | Path) -> CompiledForNumba:
             raise ValueError("one material, and as many collisions as impacts")
         return many(material.ctypes, impacts.ctypes, impacts.size, rtol, found.ctypes)  # type: ignore[no-any-return]
 
-    return CompiledForNumba(material, *kinds[1:], collide_many, ctypes.cast(many, pointer).value or 0)
+    return CompiledForNumba(material, impact, collision, collide_many, ctypes.cast(many, pointer).value or 0)

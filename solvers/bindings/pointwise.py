@@ -1,4 +1,4 @@
-"""Results of collisions and their derivatives, elementwise over arrays of SI numbers, for frameworks that differentiate."""
+"""Results of collisions and their derivatives, elementwise over arrays of SI numbers."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -76,7 +76,7 @@ class Pointwise:
                 self._refuse(flat, int(rows[bad]), str(found["reason"].values[bad]) or "it is undefined")
             elif self.undifferentiable == "zero":
                 gradient = np.where(missing, 0.0, gradient)
-            slopes[np.ix_(rows, places)] = gradient
+            slopes[rows[:, None], places] = gradient
         return slopes.reshape(*columns.shape[1:], len(self.of), len(by))
 
     @staticmethod

@@ -13,7 +13,8 @@ from ..scene.scene import Scene
 from .extras import required
 from .pointwise import OUTCOME, Pointwise, pointwise
 
-torch = required("torch", "torch")
+required("torch", "torch")
+import torch  # noqa: E402 # after the check that it is there
 
 __all__ = ["law"]
 
@@ -95,7 +96,7 @@ class _Slopes(_OfColumns):
         pass
 
     @staticmethod
-    def backward(ctx: Any, *_: Any) -> Any:  # noqa: ARG004 # torch's own signature
+    def backward(ctx: Any, *_: Any) -> Any:  # torch's own signature
         raise NotImplementedError("a collision law has first derivatives only")
 
 
@@ -103,11 +104,11 @@ class _Values(_OfColumns):
     """Results (..., results)."""
 
     @staticmethod
-    def forward(points: Pointwise, by: tuple[int, ...], *columns: Any) -> Any:  # noqa: ARG004 # as its base
+    def forward(points: Pointwise, by: tuple[int, ...], *columns: Any) -> Any:  # as its base
         return torch.from_numpy(points.values(_stacked(columns))).to(columns[0])
 
     @staticmethod
-    def setup_context(ctx: Any, inputs: tuple[Any, ...], output: Any) -> None:  # noqa: ARG004 # torch's own signature
+    def setup_context(ctx: Any, inputs: tuple[Any, ...], output: Any) -> None:  # torch's own signature
         ctx.points = inputs[0]
         ctx.save_for_backward(*inputs[2:])
         ctx.save_for_forward(*inputs[2:])

@@ -1,4 +1,3 @@
 """`wetdoublet.numba`: see `solvers/bindings/numba.py`."""
 
 from wetdoublet.solvers.bindings.numba import *  # noqa: F403 # its `__all__`
-from wetdoublet.solvers.bindings.numba import __all__ as __all__
