@@ -23,8 +23,8 @@ def test_numba_compiles_loops_over_the_law() -> None:
 
     @numba.njit
     def mean(material: np.ndarray, impacts: np.ndarray, found: np.ndarray) -> float:
-        assert collide(material, impacts, 1e-9, found) == 0
-        return found["restitution"].mean()
+        failed = collide(material, impacts, 1e-9, found)
+        return found["restitution"].mean() + failed
 
     impacts, found = np.zeros(3, granulation.impact), np.zeros(3, granulation.collision)
     impacts["speed"], impacts["angle"] = SPEED, ANGLE
