@@ -21,5 +21,5 @@ def test_gradient_descent_finds_the_film() -> None:
 def test_a_network_is_trained_through_a_collision() -> None:
     """The error of the restitution falls by a factor of ten."""
     pytest.importorskip("torch", reason="torch is not installed: pip install -e '.[torch]'")
-    losses = runpy.run_path(str(FOLDER / "collision_in_training.py"))["train"](100)
+    losses = runpy.run_path(str(FOLDER / "collision_in_training.py"))["train"](60)
     assert losses[-1] < 0.1 * losses[0]
