@@ -18,10 +18,10 @@ def law(scene: Scene | str | Path) -> tuple[Any, Any]:
     """The compiled law of a scene.
 
     Arguments:
-        scene: a Scene, a path or a preset's name. The names of functions begin with its name.
+        scene: a Scene, a path or a preset's name. Names begin with `law_` for every scene.
 
     Returns:
-        (ffi, lib): `ffi` has the structures of NAME.h, `lib` its functions and enumerators.
+        (ffi, lib): `ffi` has the structures of the exported header, `lib` its functions and enumerators.
 
     Raises:
         ComputationError: there is no C compiler.
@@ -29,12 +29,12 @@ def law(scene: Scene | str | Path) -> tuple[Any, Any]:
 
     Example:
         >>> ffi, lib = law("granulation")
-        >>> material = ffi.new("granulation_material *", lib.granulation_default_material())
-        >>> impact = ffi.new("granulation_impact *", {"speed": 3.0, "angle": 0.2})
-        >>> found = ffi.new("granulation_collision *")
-        >>> lib.granulation_collide(material, impact, 1e-9, found) == lib.GRANULATION_OK
+        >>> material = ffi.new("law_material *", lib.law_default_material())
+        >>> impact = ffi.new("law_impact *", {"speed": 3.0, "angle": 0.2})
+        >>> found = ffi.new("law_collision *")
+        >>> lib.law_collide(material, impact, 1e-9, found) == lib.LAW_OK
         True
-        >>> found.outcome == lib.GRANULATION_BOUNCE
+        >>> found.outcome == lib.LAW_BOUNCE
         True
     """
     compiled, ffi = compiled_law(scene), FFI()

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import ComputationError
 from ..export.law.interface import structures
-from ..export.law.texts import law_name, source_and_header
+from ..export.law.texts import source
 from ..host.compiler import CannotCompile, compiler, key, library, more_flags
 from ..host.user_cache import kept, loaded
 from ..scene.scene import Scene
@@ -21,15 +21,13 @@ _KINDS = {"int": "i4", "double": "f8"}
 
 @dataclass(frozen=True)
 class CompiledLaw:
-    """A scene's law as a shared library.
+    """A scene's law as a shared library; the prefix of its functions and structures is `law_` for every scene.
 
     Attributes:
-        name: prefix of its functions and structures.
-        header: text of NAME.h.
+        header: text of its header.
         content: the library.
     """
 
-    name: str
     header: str
     content: bytes
 
@@ -46,7 +44,7 @@ class CompiledLaw:
 
     def dtype(self, structure: str) -> np.dtype[Any]:
         """The numpy type of a structure: "material", "impact", "collision", "pair", "pair_after", "particle"."""
-        fields = structures(re.sub(rf"\b{self.name}_", "law_", self.header))[f"law_{structure}"]
+        fields = structures(self.header)[f"law_{structure}"]
         return np.dtype([(member, _KINDS[kind], shape) for kind, member, shape in fields], align=True)
 
 
@@ -57,15 +55,13 @@ def compiled_law(scene: Scene | str | Path) -> CompiledLaw:
         InputError: a law of the scene has no recurrence.
         ComputationError: there is no C compiler, or it fails.
     """
-    one = Scene.load(scene)
-    name = law_name(one)
-    files = source_and_header(one)
-    header, source = files[f"{name}.h"], files[f"{name}.c"].replace(f'#include "{name}.h"', files[f"{name}.h"])
+    law = source(Scene.load(scene))
+    text = law.c.replace('#include "law.h"', law.header)
     if compiler() is None:
         raise ComputationError("the law cannot be compiled: there is no C compiler", advice="install gcc or clang")
     flags = (*_FLAGS, *more_flags())
     try:
-        content = kept(f"law-{name}-{key(source, flags)}.so", lambda: library(source, flags))
+        content = kept(f"law-{key(text, flags)}.so", lambda: library(text, flags))
     except CannotCompile as error:
         raise ComputationError(f"the law cannot be compiled: {error}") from None
-    return CompiledLaw(name, header, content)
+    return CompiledLaw(law.header, content)

@@ -24,11 +24,11 @@ class CompiledForNumba:
 
     Attributes:
         material: record array of one element, the scene's numbers, SI; a changed copy is another material.
-        impact, collision: numpy types of an impact and of its result, with the fields of NAME.h.
+        impact, collision: numpy types of an impact and of its result, with the fields of the header.
         collide_many: (material, impacts, rtol, found) -> how many have no answer; it fills `found`, whose `outcome` is
             -1 without an answer, for the reason in `status`, and whose numbers are NaN where undefined. Contiguous
             arrays of the types above.
-        address: of NAME_collide_many, for a caller of one's own: (material *, impacts *, long count, double rtol,
+        address: of the C function, for a caller of one's own: (material *, impacts *, long count, double rtol,
             collisions *) -> long.
     """
 
@@ -62,11 +62,11 @@ def law(scene: Scene | str | Path) -> CompiledForNumba:
     compiled = compiled_law(scene)
     numbers, impact, collision = (compiled.dtype(name) for name in ("material", "impact", "collision"))
     shared = compiled.opened(ctypes.CDLL)
-    default = getattr(shared, f"{compiled.name}_default_material")
+    default = shared.law_default_material
     fields = [(name, ctypes.c_double) for name in numbers.names or ()]
     default.restype = type("Material", (ctypes.Structure,), {"_fields_": fields})
     material = np.frombuffer(bytes(default()), numbers).copy()
-    many = getattr(shared, f"{compiled.name}_collide_many")
+    many = shared.law_collide_many
     pointer = ctypes.c_void_p
     many.argtypes, many.restype = (pointer, pointer, ctypes.c_long, ctypes.c_double, pointer), ctypes.c_long
     records = [numba.types.Array(numba.from_dtype(kind), 1, "C") for kind in (numbers, impact, collision)]

@@ -167,10 +167,10 @@ def _calls(scene: Scene, speed: np.ndarray, angle: np.ndarray) -> Iterator[tuple
         from wetdoublet.solvers.bindings.cffi import law as for_cffi
 
         ffi, library = for_cffi(scene)
-        material = ffi.new("granulation_material *", library.granulation_default_material())
-        rows = ffi.new("granulation_impact[]", [{"speed": v, "angle": a} for v, a in zip(speed, angle)])
-        results = ffi.new("granulation_collision[]", speed.size)
-        many = library.granulation_collide_many
+        material = ffi.new("law_material *", library.law_default_material())
+        rows = ffi.new("law_impact[]", [{"speed": v, "angle": a} for v, a in zip(speed, angle)])
+        results = ffi.new("law_collision[]", speed.size)
+        many = library.law_collide_many
         yield "cffi, collide_many", lambda: many(material, rows, speed.size, 1e-9, results)
 
 
