@@ -32,7 +32,7 @@ def law(scene: Scene | str | Path) -> tuple[Any, Any]:
         >>> material = ffi.new("law_material *", lib.law_default_material())
         >>> impact = ffi.new("law_impact *", {"speed": 3.0, "angle": 0.2})
         >>> found = ffi.new("law_collision *")
-        >>> lib.law_collide(material, impact, 1e-9, found) == lib.LAW_OK
+        >>> lib.law_collide(material, impact, 1e-9, 0, found) == lib.LAW_OK
         True
         >>> found.outcome == lib.LAW_BOUNCE
         True

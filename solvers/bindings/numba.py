@@ -29,7 +29,7 @@ class CompiledForNumba:
             -1 without an answer, for the reason in `status`, and whose numbers are NaN where undefined. Contiguous
             arrays of the types above.
         address: of the C function, for a caller of one's own: (material *, impacts *, long count, double rtol,
-            collisions *) -> long.
+            int budget, collisions *) -> long; budget 0 is the usual one.
     """
 
     material: np.ndarray
@@ -68,7 +68,10 @@ def law(scene: Scene | str | Path) -> CompiledForNumba:
     material = np.frombuffer(bytes(default()), numbers).copy()
     many = shared.law_collide_many
     pointer = ctypes.c_void_p
-    many.argtypes, many.restype = (pointer, pointer, ctypes.c_long, ctypes.c_double, pointer), ctypes.c_long
+    many.argtypes, many.restype = (
+        (pointer, pointer, ctypes.c_long, ctypes.c_double, ctypes.c_int, pointer),
+        ctypes.c_long,
+    )
     records = [numba.types.Array(numba.from_dtype(kind), 1, "C") for kind in (numbers, impact, collision)]
     signature = numba.int64(records[0], records[1], numba.float64, records[2])
 
@@ -76,6 +79,6 @@ def law(scene: Scene | str | Path) -> CompiledForNumba:
     def collide_many(material: Any, impacts: Any, rtol: float, found: Any) -> int:
         if material.size != 1 or found.size != impacts.size:
             raise ValueError("one material, and as many collisions as impacts")
-        return many(material.ctypes, impacts.ctypes, impacts.size, rtol, found.ctypes)  # type: ignore[no-any-return]
+        return many(material.ctypes, impacts.ctypes, impacts.size, rtol, 0, found.ctypes)  # type: ignore[no-any-return]
 
     return CompiledForNumba(material, impact, collision, collide_many, ctypes.cast(many, pointer).value or 0)

@@ -171,7 +171,7 @@ def _calls(scene: Scene, speed: np.ndarray, angle: np.ndarray) -> Iterator[tuple
         rows = ffi.new("law_impact[]", [{"speed": v, "angle": a} for v, a in zip(speed, angle)])
         results = ffi.new("law_collision[]", speed.size)
         many = library.law_collide_many
-        yield "cffi, collide_many", lambda: many(material, rows, speed.size, 1e-9, results)
+        yield "cffi, collide_many", lambda: many(material, rows, speed.size, 1e-9, 0, results)
 
 
 def _cpu(run: Callable[[], Any], seconds: float = 0.3) -> float:

@@ -190,7 +190,8 @@ def cell(peer: Peer, asked: Gradients, truth: Found) -> tuple[str, float]:
         return f"fails: {text.rsplit('cpp:', 1)[-1][-90:]}", math.nan
     apart = abs(e_n - truth[0])
     wrong = np.abs(slope - truth[1]).max() / np.abs(truth[1]).max()
-    return f"{apart:.0e}, " + ("refused" if np.isnan(wrong) else f"{wrong:.0e}"), spent
+    said = "refused" if np.isnan(slope).any() else "no reference" if np.isnan(wrong) else f"{wrong:.0e}"
+    return f"{apart:.0e}, {said}", spent
 
 
 def text() -> str:

@@ -47,7 +47,7 @@ def test_cffi_has_the_headers_functions() -> None:
 
     ffi, lib = law("pendulum")
     material, found = ffi.new("law_material *", lib.law_default_material()), ffi.new("law_collision *")
-    assert lib.law_collide(material, ffi.new("law_impact *", (1.0, 0.5)), 1e-9, found) == lib.LAW_OK
+    assert lib.law_collide(material, ffi.new("law_impact *", (1.0, 0.5)), 1e-9, 0, found) == lib.LAW_OK
     expected = collide_many("pendulum", speed=1.0, angle=0.5)
     assert found.outcome == expected.outcome.item()
     assert found.restitution == pytest.approx(expected.restitution.item(), rel=1e-7)
