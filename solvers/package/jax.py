@@ -1,0 +1,3 @@
+"""`wetdoublet.jax`: see `solvers/bindings/jax.py`."""
+
+from wetdoublet.solvers.bindings.jax import *  # noqa: F403 # its `__all__`

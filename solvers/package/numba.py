@@ -1,0 +1,3 @@
+"""`wetdoublet.numba`: see `solvers/bindings/numba.py`."""
+
+from wetdoublet.solvers.bindings.numba import *  # noqa: F403 # its `__all__`
