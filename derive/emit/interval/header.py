@@ -171,7 +171,7 @@ def _scale(model: Model) -> list[str]:
 
     body = []
     for group, expression in expressions.items():
-        text = dual(expression, name)
+        text = dual(_over_larger(expression, expressions), name)
         if group in CONTACT_GAPS.values():
             absent = " || ".join(f"d_absent({places[s]})" for s in symbols if s in expression.free_symbols)
             text = f"{absent} ? d_ratio(0.0, 1.0) : {text}"
@@ -184,6 +184,15 @@ def _scale(model: Model) -> list[str]:
     lines += ["const char quantity_names[] =", f'    "{" ".join(names)}";', ""]
     doc = "The groups of a collision from its quantities in SI."
     return lines + documented(doc, "static void scale(constants *c, const dual *q)", body)
+
+
+def _over_larger(ratio: sp.Expr, groups: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
+    """A ratio x/T with T = max(x, y) as 1/max(1, y/x), which is exact where y is 0."""
+    over, under = ratio.as_numer_denom()
+    largest = groups.get(under, under)
+    if not (isinstance(largest, sp.Max) and over in largest.args):
+        return ratio
+    return 1 / sp.Max(*(each / over for each in largest.args))
 
 
 def _values(model: Model, constants: Constants) -> list[str]:
