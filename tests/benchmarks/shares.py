@@ -21,7 +21,7 @@ from wetdoublet.solvers.engines.settings import RTOL, STEPS
 from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, variant_for_many
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
-from wetdoublet.solvers.engines.taylor.machine import here
+from wetdoublet.solvers.engines.machine import here
 from wetdoublet.solvers.engines.taylor.source import emitted_headers, flags, source
 from wetdoublet.solvers.host.compiler import library
 from wetdoublet.solvers.host.user_cache import loaded

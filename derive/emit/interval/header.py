@@ -10,6 +10,7 @@ from ...equations.events import CONTACT_GAPS, contact_gap
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import Law, needed, slot_call
+from ...physics.scaling import group_definitions
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..casadi.printer import EmissionError
@@ -179,11 +180,14 @@ def _scale(model: Model) -> list[str]:
             own = dual(own_rupture(), name).replace("bridge_rupture_distance", "BRIDGE_RUPTURE_DISTANCE")
             text = f"OWN_RUPTURE ? {own} : {text}"
         body.append(f"c->{group.name} = {text};")
-    names = [symbol.name for symbol in symbols]
+    names = [*(symbol.name for symbol in symbols), q.stokes.name]
     lines = [f"enum {{ {', '.join(f'SI_{name.upper()}' for name in names)}, QUANTITIES }};"]
-    lines += ["const char quantity_names[] =", f'    "{" ".join(names)}";', ""]
-    doc = "The groups of a collision from its quantities in SI."
-    return lines + documented(doc, "static void scale(constants *c, const dual *q)", body)
+    lines += [f'static const char quantity_names[] = "{" ".join(names)}";', ""]
+    speed = sp.solve(sp.Eq(group_definitions()[q.stokes], q.stokes), q.v0)[0]
+    text = dual(speed, lambda symbol: f"q[SI_{symbol.name.upper()}]")
+    body = ["if (!d_absent(q[SI_STOKES]))", f"    q[SI_SPEED] = {text};", *body]
+    doc = "The groups of a collision from its quantities in SI; the speed from the Stokes number, if that is given."
+    return lines + documented(doc, "static void scale(constants *c, dual *q)", body)
 
 
 def _over_larger(ratio: sp.Expr, groups: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:

@@ -15,7 +15,7 @@ from ...host.user_cache import found, has, kept, loaded
 from ...model.model import select_model
 from ...scene.scene import Scene
 from .headers import headers, tangents
-from .machine import here
+from ..machine import here
 from .orders import ORDERS
 from .shipped import is_shipped, shipped
 from .source import Variant, emitted_headers, flags, source, stem

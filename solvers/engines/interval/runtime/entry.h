@@ -3,7 +3,7 @@
 #include "funnel.h"
 
 enum { UNPROVED, STICK, ROTATE, BOUNCE };
-enum reason { PROVED, TOO_MANY_STEPS, STEP_TOO_SMALL, GRAZE, ORDER, START, TOO_WIDE, TOO_MANY_REBOUNDS, CHATTER, NOT_ROUNDED };
+enum reason { PROVED, TOO_MANY_STEPS, STEP_TOO_SMALL, GRAZE, ORDER, START, TOO_WIDE, TOO_MANY_REBOUNDS, CHATTER };
 enum event { AT_CONTACT, AT_FILM_IN, AT_FILM_OUT, AT_SHEAR_IN, AT_SHEAR_OUT, AT_RUPTURE, AT_GLASS, EVENTS };
 enum { RESULTS = 12, MOST_REBOUNDS = 200 };
 #define NO_SPEED 1e-9 /* slower rebounds rest in contact (derive/equations/automaton.py), which is not enclosed */
@@ -529,6 +529,8 @@ EXPORTED int interval_start(void)
     rounded(run_start, &good);
     return good;
 }
+
+EXPORTED const char *interval_quantities(void) { return quantity_names; }
 
 EXPORTED size_t interval_room(void) { return sizeof(proof); }
 
