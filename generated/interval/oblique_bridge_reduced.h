@@ -145,11 +145,10 @@ static void advance(flow *s, const constants *c, int k)
     film_resistance_next(&s->film_resistance_law_parts, &s->film_resistance_law,
         &c->film_resistance_law_constants, &s->state[GAP], k);
     s_product(&s->film_force, &s->state[NORMAL_VELOCITY], &s->film_resistance_law, &c->k8, k);
-    s_linear(&s->scaled_gap, 1, (const series *[]){&s->state[GAP]}, (const dual *[]){&c->k9}, NULL, k);
+    s_scaled(&s->scaled_gap, &s->state[GAP], &c->k9, k);
     bridge_force_next(&s->bridge_force_law_parts, &s->bridge_force_law, &c->bridge_force_law_constants,
         &s->scaled_gap, k);
-    s_linear(&s->bridge_force, 1, (const series *[]){&s->bridge_force_law}, (const dual *[]){&c->k10}, NULL,
-        k);
+    s_scaled(&s->bridge_force, &s->bridge_force_law, &c->k10, k);
     s_linear(&s->rate_of_normal_velocity, 3, (const series *[]){&s->bridge_force, &s->centrifugal_force,
         &s->film_force}, (const dual *[]){&c->k0, &c->k5, &c->k0}, NULL, k);
     s_product(&s->rate_of_orbital_momentum, &s->distance, &s->shear_force, &c->k0, k);
@@ -161,8 +160,7 @@ static void advance(flow *s, const constants *c, int k)
 /* Coefficient k of the clearance of the glass criterion. */
 static void advance_clearance(flow *s, const constants *c, int k)
 {
-    s_linear(&s->approach, 1, (const series *[]){&s->state[NORMAL_VELOCITY]}, (const dual *[]){&c->k0}, NULL,
-        k);
+    s_scaled(&s->approach, &s->state[NORMAL_VELOCITY], &c->k0, k);
     glass_pressure_next(&s->glass, &s->clearance, &c->glass, &s->state[GAP], &s->approach, k);
 }
 

@@ -133,8 +133,7 @@ static void advance(flow *s, const constants *c, int k)
 /* Coefficient k of the clearance of the glass criterion. */
 static void advance_clearance(flow *s, const constants *c, int k)
 {
-    s_linear(&s->approach, 1, (const series *[]){&s->state[NORMAL_VELOCITY]}, (const dual *[]){&c->k0}, NULL,
-        k);
+    s_scaled(&s->approach, &s->state[NORMAL_VELOCITY], &c->k0, k);
     glass_pressure_next(&s->glass, &s->clearance, &c->glass, &s->state[GAP], &s->approach, k);
 }
 

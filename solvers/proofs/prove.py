@@ -9,7 +9,7 @@ from typing import Any
 
 from ...generated.automaton import OUTCOMES
 from ..engines.interval.build import NotProvable
-from ..engines.interval.call import BOX, OUTCOME, REASONS, SHARP, Range, enclose
+from ..engines.interval.call import BOX, OUTCOME, REASONS, SHARP, Enclosure, Range, enclose
 from ..formatting.style import LETTERS
 from ..scene.origin import origin
 from ..scene.scene import Scene
@@ -106,17 +106,16 @@ def prove(
 def prove_inputs(inputs: Inputs) -> Proof:
     """The proof for inputs that are checked."""
     x0 = inputs.scene.liquid.film_thickness
+    found: Enclosure | None = None
     try:
         engine = inputs.engine()
-    except NotProvable as error:
-        found = None
-        reason = str(error)
-    else:
         for settings in (BOX,) if inputs.moving else (SHARP, OUTCOME):
             found = enclose(engine, inputs.ranges, inputs.moving, settings)
             if found.outcome:
                 break
-        reason = REASONS.get(found.why, "")
+        reason = REASONS.get(found.why, "") if found else ""
+    except NotProvable as error:
+        reason = str(error)
     proved = found is not None and found.outcome > 0
     return Proof(
         outcome=OUTCOMES[found.outcome - 1] if found and proved else None,

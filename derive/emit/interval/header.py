@@ -16,8 +16,8 @@ from ...vocabulary import quantities as q
 from ..casadi.printer import EmissionError
 from ..provenance import header, law_digest, model_digest
 from ..taylor.groups_from_si import group_expressions, group_quantities, own_rupture
-from ..taylor.layout import comment, documented, function, struct
 from ..taylor.law_header import COMPARED, LIMIT, clearance, moves
+from ..taylor.layout import comment, documented, function, struct
 from ..taylor.program import Program, cheapest
 from .text import Constants, dual, recurrences
 
@@ -25,8 +25,10 @@ from .text import Constants, dual, recurrences
 def enclosed(structure: Structure) -> bool:
     """True for structures whose collisions can be enclosed."""
     plain = not (structure.strings or structure.partner or structure.friction or structure.spread)
-    return plain and (structure.reduced or structure.bridge or structure.attraction) and (
-        structure.reduced or not structure.oblique
+    return (
+        plain
+        and (structure.reduced or structure.bridge or structure.attraction)
+        and (structure.reduced or not structure.oblique)
     )
 
 
@@ -56,12 +58,7 @@ def law_header(law: Law) -> str:
 
 
 def _law_function(
-    name: str,
-    doc: str,
-    program: Program,
-    result: str | sp.Expr,
-    moving: tuple[sp.Symbol, ...],
-    fixed: list[sp.Symbol],
+    name: str, doc: str, program: Program, result: str | sp.Expr, moving: tuple[sp.Symbol, ...], fixed: list[sp.Symbol]
 ) -> list[str]:
     constants = Constants(fixed)
     given = {argument.name for argument in moving}
@@ -112,7 +109,7 @@ def structure_header(model: Model) -> str:
     def where(series: str) -> str:
         return places.get(series, f"&s->{series}")
 
-    glass = f"&s->approach, &s->state[NORMAL_VELOCITY], &{constants.name(sp.Integer(-1))}"
+    minus = constants.name(sp.Integer(-1))
     flow = recurrences(program, constants, where)
     for name, rate in results.items():
         source = f"{where(rate)}, NULL" if isinstance(rate, str) else f"NULL, &{constants.name(rate)}"
@@ -129,7 +126,9 @@ def structure_header(model: Model) -> str:
     lines += [f"enum {{ {', '.join(f'{word.upper()} = {int(getattr(shape, word))}' for word in words)} }};"]
     lines += ['#include "series.h"', ""]
     values = _values(model, constants)
-    members = [f"dual {each};" for each in (*(g.name for g in model.groups), FILM.name, SHEAR.name, *constants.prepared)]
+    members = [
+        f"dual {each};" for each in (*(g.name for g in model.groups), FILM.name, SHEAR.name, *constants.prepared)
+    ]
     members += [f"{slot}_{call}_constants {name}_constants;" for name, (slot, call, _) in calls.items()]
     lines += struct("constants", [*members, "glass_pressure_constants glass;"])
     lines += _scale(model)
@@ -152,8 +151,7 @@ def structure_header(model: Model) -> str:
         "Coefficient k of the clearance of the glass criterion.",
         "static void advance_clearance(flow *s, const constants *c, int k)",
         [
-            f"s_linear(&s->approach, 1, (const series *[]){{{glass.split(', ')[1]}}}, "
-            f"(const dual *[]){{{glass.split(', ')[2]}}}, NULL, k);",
+            f"s_scaled(&s->approach, &s->state[NORMAL_VELOCITY], &{minus}, k);",
             "glass_pressure_next(&s->glass, &s->clearance, &c->glass, &s->state[GAP], &s->approach, k);",
         ],
     )

@@ -114,7 +114,9 @@ def recurrences(program: Program, constants: Constants, where: Callable[[str], s
     lines = []
     for each in program.operations:
         target, parts = where(each.name), [where(part) for part in each.series]
-        if each.kind == "linear":
+        if each.kind == "linear" and len(parts) == 1 and each.factors[1] == 0:
+            lines.append(f"s_scaled({target}, {parts[0]}, &{constants.name(each.factors[0])}, k);")
+        elif each.kind == "linear":
             factors = ", ".join(f"&{constants.name(factor)}" for factor in each.factors[:-1])
             offset = f"&{constants.name(each.factors[-1])}" if each.factors[-1] != 0 else "NULL"
             lines.append(
@@ -129,7 +131,9 @@ def recurrences(program: Program, constants: Constants, where: Callable[[str], s
         elif each.kind == "call":
             slot, function, arguments = each.call
             passed = "".join(f", {where(a)}" for a in arguments if isinstance(a, str))
-            lines.append(f"{slot}_{function}_next(&s->{each.name}_parts, {target}, &c->{each.name}_constants{passed}, k);")
+            lines.append(
+                f"{slot}_{function}_next(&s->{each.name}_parts, {target}, &c->{each.name}_constants{passed}, k);"
+            )
         elif each.kind in _PLAIN:
             lines.append(f"{_PLAIN[each.kind]}({', '.join([target, *parts])}, k);")
         elif each.kind != "cosine":  # comes with its sine

@@ -150,6 +150,11 @@ static void s_linear(series *z, int n, const series *const *a, const dual *const
     }
 }
 
+static void s_scaled(series *z, const series *a, const dual *factor, int k)
+{
+    s_linear(z, 1, &a, &factor, NULL, k);
+}
+
 static void s_product(series *z, const series *a, const series *b, const dual *factor, int k)
 {
     if (k == 0)
