@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from .many.regime_map import regime_map
     from .planning.design import design
     from .planning.result import Design
+    from .proofs.prove import Proof, prove
+    from .proofs.proved_boundary import ProvedBoundary, prove_boundary
+    from .proofs.proved_map import ProvedMap, prove_map
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
     from .sensitivity.gradients_many import gradients_many
@@ -50,6 +53,9 @@ _NAMES = {
     "many.regime_map": "regime_map",
     "planning.design": "design",
     "planning.result": "Design",
+    "proofs.prove": "Proof prove",
+    "proofs.proved_boundary": "ProvedBoundary prove_boundary",
+    "proofs.proved_map": "ProvedMap prove_map",
     "scene.scene": "Scene",
     "sensitivity.boundaries": "BoundarySensitivities boundary_sensitivities",
     "sensitivity.gradients_many": "gradients_many",
@@ -66,10 +72,11 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()
 
 __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Design", "Fit",
-    "InputError", "ModelWarning", "Scene", "Sensitivities", "Table", "WetDoubletError", "atlas", "band", "boundary",
-    "boundary_sensitivities", "collide", "collide_many", "collide_pair", "collision_averages", "compare_models",
-    "compile_kernels", "design", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "regime_map",
-    "sensitivities", "sobol_indices", "table", "trajectory_sensitivities",
+    "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap", "Scene", "Sensitivities", "Table",
+    "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "collide", "collide_many",
+    "collide_pair", "collision_averages", "compare_models", "compile_kernels", "design", "fit", "gradients_many",
+    "log_likelihood", "pair_gradients", "plot", "prove", "prove_boundary", "prove_map", "regime_map", "sensitivities",
+    "sobol_indices", "table", "trajectory_sensitivities",
 ]  # fmt: skip
 
 if not TYPE_CHECKING:  # so that type checkers know the names above and no others

@@ -18,7 +18,7 @@ from ..host.locks import sweep_temporary
 
 COMMANDS = (
     "scenes", "collide", "sensitivity", "map", "boundary", "averages", "table", "reproduce", "generate", "diff",
-    "export", "verify", "bench", "fit", "design", "compile", "cite",
+    "export", "verify", "bench", "prove", "fit", "design", "compile", "cite",
 )  # fmt: skip
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
 

@@ -13,13 +13,12 @@ from ..host.arguments import check_mapping
 from ..model.model import select_model
 from ..scene.groups import si_values
 from ..scene.scene import Scene
-from ..scene.schema import SPEEDS
 from ..scene.user_model import fields
 
 Within = float | Mapping[str, float | tuple[float | str, float | str]]
 MOST = 6  # entries of a box
 _ACCEPTED = "LO and HI of one unit, LO below HI, or a relative uncertainty such as 1e-4"
-_OTHERS = "also decides other quantities of this scene: give those, as reduced radius and mass"
+_OTHERS = "decides the mass as well: give the scene's reduced radius and mass"
 
 
 @dataclass(frozen=True)
@@ -73,23 +72,22 @@ class Inputs:
         if name not in known:
             raise InputError("within", name, "entries of a scene file by dotted name", "is not an entry")
         field, label = known[name], f"within {name}"
-        if not field.quantity:
+        quantity = {"impact.stokes": "stokes"}.get(name, field.quantity)
+        if not quantity:
             raise InputError(label, shown(width), "an entry that is a number by itself", "is no range of numbers")
-        ruled = name in SPEEDS and {"impact.stokes": "stokes", "impact.speed": "speed"}.get(name) not in values
-        shared = field.quantity == "reduced_radius" and {"particles.density", "impact.stokes"} & scene.entries.keys()
-        if field.quantity not in values or ruled or (shared and "particles.density" in scene.entries):
-            raise InputError(label, shown(width), "an entry that this scene has", _OTHERS if shared else "is not there")
-        if name == "impact.speed" and "stokes" in values:
-            raise InputError(label, shown(width), "impact.stokes, by which this impact is given", "is not there")
+        if quantity == "reduced_radius" and {"particles.density", "partner.density"} & scene.entries.keys():
+            raise InputError(label, shown(width), _ACCEPTED, _OTHERS)
+        if quantity not in values or (quantity == "speed" and "stokes" in values):
+            raise InputError(label, shown(width), "an entry that this scene has", "is not there")
         if isinstance(width, tuple) and len(width) == 2:
             low, high = (field.number(end, label=label) * field.factor for end in width)
             if not low < high:
                 raise InputError(label, f"{shown(width[0])}, {shown(width[1])}", _ACCEPTED, "is empty or reversed")
         else:
-            low, high = _around(values[field.quantity], _relative(width, label))
+            low, high = _around(values[quantity], _relative(width, label))
             for end in (low, high):
                 field.number(end / field.factor, label=label)
-        return field.quantity, (low, high)
+        return quantity, (low, high)
 
     def engine(self) -> Engine:
         """The engine that encloses these collisions.
