@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 c9ebeb94ff604d23b554e30ed735ffe4db65a45243425f0f33259e5e35a525b7
+# Automaton sha256 bd2fe62f4e5cd6f70ace935610d549456aef73a59cf6257777687dcd01029afe
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -116,7 +116,6 @@ class Purpose(IntEnum):
     ESCAPE = 2  # until the doublet separates, falls back or rests; with certificates only while it approaches
 
 
-REST_SPEED = 1e-09  # in v0: a slower rebound against an inward force rests
 RELEASE_SPEED = 1e-12  # in v0: with it a resting doublet is released. At rest, where no force is left, rounding would decide in which direction it starts
 MOST_OBLIQUE = 1000000000.0  # in v0^2/x0: a larger centrifugal force reverses the motion within rounding of x0
 LOOSEST = 1e-06  # largest relative tolerance; a larger one is reduced to it, as certificates need it
@@ -145,7 +144,7 @@ def is_parted(gap: float, rupture_gap: float) -> bool:
 
 def is_too_weak(inward_force: float, normal_velocity: float, rtol: float, gap: float) -> bool:
     """True if a rebound does not open the gap."""
-    return inward_force > 0 and (normal_velocity < REST_SPEED or normal_velocity*normal_velocity/(2*inward_force) < rtol*gap)
+    return inward_force > 0 and normal_velocity*normal_velocity/(2*inward_force) < rtol*gap
 
 
 def has_no_slip(slip: float) -> bool:

@@ -16,8 +16,10 @@ if TYPE_CHECKING:
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .fitting.compare import compare_models
+    from .fitting.examine import check_data
     from .fitting.fit import fit, log_likelihood
     from .fitting.result import Fit
+    from .fitting.tracks import tracks
     from .host.pictures import plot
     from .many.collide_many import collide_many
     from .many.regime_map import regime_map
@@ -28,6 +30,8 @@ if TYPE_CHECKING:
     from .proofs.proved_map import ProvedMap, prove_map
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
+    from .sensitivity.critical import critical
+    from .sensitivity.critical_result import Critical
     from .sensitivity.gradients_many import gradients_many
     from .sensitivity.pair_gradients import pair_gradients
     from .sensitivity.result import Sensitivities
@@ -46,8 +50,10 @@ _NAMES = {
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
     "fitting.compare": "compare_models",
+    "fitting.examine": "check_data",
     "fitting.fit": "fit log_likelihood",
     "fitting.result": "Fit",
+    "fitting.tracks": "tracks",
     "host.pictures": "plot",
     "many.collide_many": "collide_many",
     "many.regime_map": "regime_map",
@@ -58,6 +64,8 @@ _NAMES = {
     "proofs.proved_map": "ProvedMap prove_map",
     "scene.scene": "Scene",
     "sensitivity.boundaries": "BoundarySensitivities boundary_sensitivities",
+    "sensitivity.critical": "critical",
+    "sensitivity.critical_result": "Critical",
     "sensitivity.gradients_many": "gradients_many",
     "sensitivity.pair_gradients": "pair_gradients",
     "sensitivity.result": "Sensitivities",
@@ -71,12 +79,12 @@ _NAMES = {
 _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()}
 
 __all__ = [
-    "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Design", "Fit",
-    "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap", "Scene", "Sensitivities", "Table",
-    "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "collide", "collide_many",
-    "collide_pair", "collision_averages", "compare_models", "compile_kernels", "design", "fit", "gradients_many",
-    "log_likelihood", "pair_gradients", "plot", "prove", "prove_boundary", "prove_map", "regime_map", "sensitivities",
-    "sobol_indices", "table", "trajectory_sensitivities",
+    "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
+    "Design", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap", "Scene", "Sensitivities",
+    "Table", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data", "collide",
+    "collide_many", "collide_pair", "collision_averages", "compare_models", "compile_kernels", "critical", "design",
+    "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove", "prove_boundary", "prove_map",
+    "regime_map", "sensitivities", "sobol_indices", "table", "tracks", "trajectory_sensitivities",
 ]  # fmt: skip
 
 if not TYPE_CHECKING:  # so that type checkers know the names above and no others

@@ -37,6 +37,11 @@ def cut(text: str, longest: int) -> str:
     return text if len(text) <= longest else f"{text[: longest * 2 // 3]}...{text[-longest // 4 :]}"
 
 
+def install_extra(name: str) -> str:
+    """Return the advice to install an extra of the package, which is installed from a clone."""
+    return f"in the clone run pip install '.[{name}]'"
+
+
 def one_line(text: str) -> str:
     """Return `text` with line breaks and control characters escaped."""
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)

@@ -8,6 +8,7 @@ own, with caches of its own, through the public interface (`two_trees_worker.py`
 * collisions: `collide` and `collide_many` by the CasADi engines, with ledger, events and trajectory: bit for bit;
 * kernels: `collide_many` and `collide` by the Taylor kernel: bit for bit with -ffp-contract=off, and with the flags
   that ship to 1e-13 times the conditioning, while outcomes, events and reasons are equal;
+* space: `collide_pair` on random vectors, and `collide` where solids chatter until they rest: bit for bit;
 * gradients: `gradients_many`, `sensitivities`, `trajectory_sensitivities`, `band`, `sobol_indices`: bit for bit;
 * boundaries: `boundary`, `boundary_sensitivities`, `atlas`, `regime_map`: bit for bit;
 * commands: exit status, standard output, errors and files of every command but `bench`, which measures time.
@@ -46,7 +47,7 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = ("derive", "generated", "solvers")
-KINDS = ("collisions", "kernels", "gradients", "boundaries", "commands")
+KINDS = ("collisions", "kernels", "space", "gradients", "boundaries", "commands")
 OFF, SHIPPED = "-ffp-contract=off", ""
 SHOWN = 4  # records of a kind that differ, and differences of a record, that are printed
 _print = partial(print, flush=True)

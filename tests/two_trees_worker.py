@@ -35,6 +35,8 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "pendulum.law": ("exact", "small-angle"),
     "partner": ("", "", "sphere", "wall"),
     "attraction": ("", "", "van der Waals"),
+    "friction": ("", "", "dry"),
+    "spins": ("", "", "spinning"),
 }  # fmt: skip
 FIELDS = ("restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap")
 SPANS = {  # decades by which a preset's value is scaled, so that each criterion is the first one somewhere
@@ -101,7 +103,7 @@ def models(count: int) -> list[dict[str, str]]:
     found = [{name: column[k] for name, column in columns.items()} for k in range(count)]
     for one in found:  # what a scene refuses, or has not
         if one["preset"] == "pendulum":
-            one.update({"partner": "", "model.film": "finite"})
+            one.update({"partner": "", "model.film": "finite", "spins": ""})
         else:
             del one["pendulum.law"]
         if one["preset"] == "granulation-dry-bridge" or (one["preset"] == "pendulum" and one["attraction"]):
@@ -133,7 +135,14 @@ def drawn(model: Mapping[str, str], random: np.random.Generator) -> wd.Scene:
         size = 2 * entries["particles.reduced_radius"] * float(4 ** random.uniform(-1, 1))
         mass = 2 * entries["particles.reduced_mass"] * float(4 ** random.uniform(-1, 1))
         entries |= {"partner.radius": size, "partner.mass": mass}
-    return preset.with_entries(entries)
+    if model["friction"]:
+        entries["particles.friction"] = float(random.uniform(0, 1))
+        entries["particles.contact_tangential_restitution"] = float(random.uniform(0, 1))
+    scene = preset.with_entries(entries)
+    if model["spins"]:  # surfaces about as fast as the centres
+        rate = scene.speed_of(0.3) / scene.reduced_radius
+        scene = scene.with_entries({"impact.spin": float(random.uniform(-rate, rate))})
+    return scene
 
 
 def scenes(out: Out, number: int, model: Mapping[str, str], count: int) -> Iterator[tuple[str, wd.Scene, Any, Any]]:
@@ -240,6 +249,30 @@ def kernels(out: Out) -> None:
         vary = {"liquid.viscosity": np.geomspace(0.5, 2.0, 90) * dict(wd.Scene.load(preset).si)["liquid.viscosity"]}
         found = answer(wd.collide_many, preset, vary=vary, engine="taylor", of=FIELDS)
         out("collide_many taylor, vary", preset, found, count=90)
+
+
+def space(out: Out) -> None:
+    """Pairs in space with any velocities and spins, and solids that chatter until they rest in friction."""
+    for number, model in enumerate(models(MODELS)):
+        if model["preset"] == "pendulum" or (model["friction"] and model["partner"] == "wall"):
+            continue
+        planar = model | {"model.arm": "midgap", "spins": ""}
+        for name, scene, stokes, _ in scenes(out, number, planar, 1 if QUICK else 3):
+            random, speed = np.random.default_rng(number), scene.speed_of(1.0) * stokes[:, None, None]
+            particles = 1 if model["partner"] == "wall" else 2
+            velocities, spins = random.normal(size=(2, BATCH, particles, 3))
+            normal = velocities[:, 0] - (velocities[:, 1] if particles == 2 else 0) + random.normal(size=(BATCH, 3)) / 2
+            given = (normal, speed * velocities, speed / scene.reduced_radius * spins)
+            for ledger in (False, True):
+                answers = answer(wd.collide_pair, scene, *given, ledger=ledger)
+                out("collide_pair", f"{name}, ledger {ledger}", answers, count=BATCH, about=scene.to_toml())
+    beads = wd.Scene.load("glass-beads-water")
+    for restitution in np.geomspace(0.003, 0.3, 20 if QUICK else 60):  # each passes other speeds before it rests
+        entries = {"particles.dry_restitution": float(restitution), "particles.friction": 0.3}
+        scene = beads.with_entries({**entries, "liquid.viscosity": 1e-3 * float(dict(beads.si)["liquid.viscosity"])})
+        for speed in (0.25, 0.3):  # so oblique that no proof ends it at its first rebound
+            answers = answer(wd.collide, scene, speed=speed, angle=1.2, engine="taylor", rtol=1e-13)
+            out("rests", f"dry restitution {restitution:.3g}, {speed} m/s", answers, about=scene.to_toml())
 
 
 def gradients(out: Out) -> None:
@@ -379,6 +412,6 @@ if __name__ == "__main__":
     home = Path(wd.__file__).resolve().parent
     if home != Path(TASK["source"]).resolve() / "solvers":
         sys.exit(f"wetdoublet.solvers is imported from {home}, not from the tree {TASK['source']}")
-    {each.__name__: each for each in (collisions, kernels, gradients, boundaries, commands)}[TASK["kind"]](
+    {each.__name__: each for each in (collisions, kernels, space, gradients, boundaries, commands)}[TASK["kind"]](
         Out(TASK["file"])
     )

@@ -256,12 +256,11 @@ RULES = (
     Rule("parted", "a rebound at a gap not below the rupture gap",
          "the collision ends: separated. Without a bridge this is a criterion that holds at initial contact",
          ("rupture",), (("is_parted", "the gap is not below the rupture gap", "gap >= rupture_gap"),)),
-    Rule("rest", "after a rebound the net force points inward, and the rebound is slower than REST_SPEED or, "
-         "without drag, would rise by less than the relative tolerance times the gap",
+    Rule("rest", "after a rebound the net force points inward, and the rebound would rise, without drag, by less than "
+         "the relative tolerance times the gap",
          "the gap is held in contact; the energy of the rebound is booked as dry contact", ("rests",),
          (("is_too_weak", "a rebound does not open the gap",
-           ("inward_force > 0 and (normal_velocity < REST_SPEED or "
-            "normal_velocity*normal_velocity/(2*inward_force) < rtol*gap)")),)),
+           "inward_force > 0 and normal_velocity*normal_velocity/(2*inward_force) < rtol*gap"),)),
     Rule("friction", "a rebound of a scene with friction, by solid contact or, if asked for, by glass",
          "a tangential impulse that reverses the slip times contact_tangential_restitution (it sticks), or Coulomb's "
          "limit if that is less (it slides). If the doublet comes to rest, the limit is that of the approach alone"),
@@ -387,7 +386,6 @@ class Constant:
 
 
 CONSTANTS = (
-    Constant("REST_SPEED", 1e-9, "in v0: a slower rebound against an inward force rests"),
     Constant("RELEASE_SPEED", 1e-12, "in v0: with it a resting doublet is released. At rest, where no force is left, "
              "rounding would decide in which direction it starts"),
     Constant("MOST_OBLIQUE", 1e9, "in v0^2/x0: a larger centrifugal force reverses the motion within rounding of x0"),

@@ -37,9 +37,19 @@ def _events(text: str) -> str:
     return "\n".join(line for line in body.splitlines() if "automaton.svg" not in line)
 
 
+def required_arguments(_app: Any, context: Any, lines: list[str]) -> None:
+    """Say of a command's arguments which are required: click is told of none, so that wrong options are named first."""
+    names = iter(each.human_readable_name for each in context.command.params if each.param_type_name == "argument")
+    for k, line in enumerate(lines):
+        if line.strip().startswith("Optional argument") and not next(names).startswith("["):
+            lines[k] = line.replace("Optional", "Required")
+
+
 def setup(app: Any) -> dict[str, bool]:
     """Register with Sphinx."""
+    app.setup_extension("sphinx_click")
     app.connect("config-inited", lambda app, _config: write(app))
+    app.connect("sphinx-click-process-arguments", required_arguments)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 

@@ -184,7 +184,7 @@ static int collide(int i, int j)
         both[1]->p.position[k] = both[0]->p.position[k] + image(both[1]->p.position[k] - both[0]->p.position[k]);
     after.time = 0.0;
     /* whom others have passed while it was in contact may be found within them: any distance is taken back to contact */
-    int status = granulation_collide_particles(&material, &both[0]->p, &both[1]->p, 1.0, 1e-8, &after);
+    int status = granulation_collide_particles(&material, &both[0]->p, &both[1]->p, 1.0, 1e-8, 0, &after);
     if (status >= GRANULATION_BAD_RTOL) {
         fprintf(stderr, "a collision is refused: %s\n", granulation_message(status));
         exit(1);

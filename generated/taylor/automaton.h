@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 c9ebeb94ff604d23b554e30ed735ffe4db65a45243425f0f33259e5e35a525b7 */
+ * Automaton sha256 bd2fe62f4e5cd6f70ace935610d549456aef73a59cf6257777687dcd01029afe */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H
@@ -66,7 +66,6 @@ enum {
     ESCAPE, /* until the doublet separates, falls back or rests; with certificates only while it approaches */
 };
 
-static const double REST_SPEED = 1e-09; /* in v0: a slower rebound against an inward force rests */
 static const double RELEASE_SPEED = 1e-12; /* in v0: with it a resting doublet is released. At rest, where no force is left, rounding would decide in which direction it starts */
 static const double MOST_OBLIQUE = 1000000000.0; /* in v0^2/x0: a larger centrifugal force reverses the motion within rounding of x0 */
 static const double LOOSEST = 1e-06; /* largest relative tolerance; a larger one is reduced to it, as certificates need it */
@@ -96,8 +95,7 @@ static inline int is_parted(double gap, double rupture_gap)
 /* Whether a rebound does not open the gap. */
 static inline int is_too_weak(double inward_force, double normal_velocity, double rtol, double gap)
 {
-    return inward_force > 0 && (normal_velocity < REST_SPEED ||
-        normal_velocity*normal_velocity/(2*inward_force) < rtol*gap);
+    return inward_force > 0 && normal_velocity*normal_velocity/(2*inward_force) < rtol*gap;
 }
 
 /* Whether the surfaces do not slip. */

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 c9ebeb94ff604d23b554e30ed735ffe4db65a45243425f0f33259e5e35a525b7
+ * Automaton sha256 bd2fe62f4e5cd6f70ace935610d549456aef73a59cf6257777687dcd01029afe
  *
  * What an event does to a lane. Included where `queue`, `lanes`, `fixed` and the functions that it calls, are
  * known. */

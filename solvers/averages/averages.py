@@ -25,10 +25,10 @@ from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, Field, Range
 from .dataset import Columns, dataset
-from .geometry import COLUMNS
+from .geometry import COLUMNS, SLOPES
 from .gradients import gradients
 from .over_speeds import SHARP_CUT, means
-from .sizes import FILMS, FIXED, experiment_of, scene_of_sizes
+from .sizes import FILMS, FIXED, experiment_of, scene_of_sizes, target
 from .speeds import Speeds
 
 if TYPE_CHECKING:
@@ -219,7 +219,8 @@ def _blocks(request: _Request, blocks: list[np.ndarray]) -> Iterator[tuple[np.nd
 
 def _blank(size: int, parameters: int) -> Columns:
     columns: Columns = {name: np.full((size, COLUMNS), np.nan) for name in ("mean", "error")}
-    columns |= {name: np.full((size, COLUMNS * parameters), np.nan) for name in ("gradient", "gradient_error")}
+    columns |= {name: np.full((size, SLOPES * parameters), np.nan) for name in ("gradient", "gradient_error")}
+    columns["rate"] = np.full(size, np.nan)
     return columns | {"reason": np.full(size, "", dtype=object)}
 
 
@@ -232,6 +233,8 @@ def _block(request: _Request, where: np.ndarray) -> Columns:
             scenes[k] = request.scene_of(tuple(int(each) for each in np.unravel_index(flat, request.shape)))
         except InputError as error:
             columns["reason"][k] = str(error)
+        else:
+            columns["rate"][k] = request.speeds.mean * target(scenes[k])
     rows = np.array(list(scenes), dtype=int)
     if not rows.size:
         return columns

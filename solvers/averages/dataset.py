@@ -10,7 +10,7 @@ import numpy as np
 
 from ..many.csv_map import cells_of, csv_text
 from ..scene.scene import Scene
-from .geometry import BOUNCES, COLUMNS, NORMAL, ROTATES, STICKS, TANGENTIAL
+from .geometry import BOUNCES, ENERGY, NORMAL, ROTATES, SLOPES, STICKS, TANGENTIAL, TURNING
 
 if TYPE_CHECKING:
     import xarray
@@ -28,7 +28,16 @@ _SEPARATED = {
     "tangential_restitution_separated": (TANGENTIAL, "mean tangential restitution of the collisions that separate"),
 }
 QUANTITIES = (*_MEANS, *_SEPARATED)
-"""What is averaged, in this order."""
+"""What is averaged and has derivatives, in this order."""
+_ENERGIES = {  # name: column, factor and constant, meaning
+    "normal_dissipation": (ENERGY, -2.0, 1.0, "part of the normal kinetic energy of all collisions that is dissipated"),
+    "energy_into_rotation": (
+        TURNING,
+        1.0,
+        0.0,
+        "gain of the energy of rotation over the kinetic energy of all collisions",
+    ),
+}
 
 _AXES = {"radius": "radius of the first sphere", "partner_radius": "radius of the second sphere"}
 
@@ -46,6 +55,13 @@ def dataset(
         variables[name] = dims, mean[:, k].reshape(shape), {"units": "1", "long_name": meaning}
         meaning = f"estimated error of the quadrature of {name}"
         variables[f"{name}_error"] = dims, error[:, k].reshape(shape), {"units": "1", "long_name": meaning}
+    for name, (column, factor, constant, meaning) in _ENERGIES.items():
+        value, its_error = constant + factor * columns["mean"][:, column], abs(factor) * columns["error"][:, column]
+        variables[name] = dims, value.reshape(shape), {"units": "1", "long_name": meaning}
+        meaning = f"estimated error of the quadrature of {name}"
+        variables[f"{name}_error"] = dims, its_error.reshape(shape), {"units": "1", "long_name": meaning}
+    rate = {"units": "m s-1" if scene.wall else "m3 s-1", "long_name": "collisions per time and number densities"}
+    variables["collision_rate"] = dims, columns["rate"].reshape(shape), rate
     coordinates: dict[str, Any] = {
         name: (name, axis, {"units": "m", "long_name": _AXES[name]}) for name, axis in axes.items()
     }
@@ -72,9 +88,9 @@ def _quantities(columns: Columns, parameters: int) -> tuple[np.ndarray, ...]:
 
     The means over the collisions that separate are those over all, divided by the share of the former, s = 1 - stick.
     """
-    mean, error = columns["mean"], columns["error"]
+    mean, error = columns["mean"][:, :SLOPES], columns["error"][:, :SLOPES]
     slope, slope_error = (
-        columns[name].reshape(len(mean), COLUMNS, parameters) for name in ("gradient", "gradient_error")
+        columns[name].reshape(len(mean), SLOPES, parameters) for name in ("gradient", "gradient_error")
     )
     separate, of_share = mean[:, [ROTATES]] + mean[:, [BOUNCES]], error[:, [STICKS]]
     share = np.where(separate > np.maximum(of_share, 1e-12), separate, np.nan)

@@ -17,8 +17,10 @@ from .sizes import collide, outcome_of
 
 RIGHT_ANGLE = np.pi / 2
 WIDTH = 1e-8  # rad, to which changes are enclosed
-STICKS, ROTATES, BOUNCES, NORMAL, TANGENTIAL = range(5)  # columns: shares of the outcomes, sums of e_n and e_t
-COLUMNS = 5
+STICKS, ROTATES, BOUNCES, NORMAL, TANGENTIAL, ENERGY, TURNING = range(7)  # columns: shares of the outcomes, sums of
+# e_n and e_t, of the normal energy that is left and of what rotations gain, both over the energy of the collision
+COLUMNS = 7
+SLOPES = 5  # columns that have derivatives
 _ROUNDS = 12  # halvings of a panel
 _MOST = 64  # changes of a line within one bracket; more are those of chatter, and are left to the quadrature
 _HINTS = 4  # angles of a line that are kept to sample another one
@@ -135,7 +137,7 @@ def over_angles(
         weight = length * np.sin(2 * angle)
         expected = outcome[panels.owner]
         strange = ((collided.outcome.reshape(angle.shape) != expected[:, None]) * weight * KRONROD).sum(axis=1)
-        values = collided.results.reshape(2, *angle.shape)
+        values = collided.results.reshape(-1, *angle.shape)
         fine, rough = ((values * weight * rule).sum(axis=2) for rule in (KRONROD, GAUSS))
         difference = np.abs(fine - rough)
         missing = np.isnan(difference).any(axis=0)  # collisions that no engine completes

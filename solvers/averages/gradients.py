@@ -8,7 +8,7 @@ from ..changes.brackets import Brackets
 from ..changes.experiment import STEEPEST, UNDECIDED, Experiment
 from ..changes.lines import Lines
 from ..changes.slopes import slopes, slopes_by_differences
-from .geometry import COLUMNS, NORMAL, RIGHT_ANGLE
+from .geometry import NORMAL, RIGHT_ANGLE, SLOPES
 from .over_speeds import Batch, Means
 from .rule import summed
 from .sizes import Collided, collide, outcome_of
@@ -20,13 +20,13 @@ _BLOCK = 4096  # collisions in a call of the kernel
 
 
 def gradients(experiment: Experiment, means: Means) -> tuple[np.ndarray, np.ndarray]:
-    """Derivatives of the means of pairs (pairs, COLUMNS, free entries), SI, and their errors, with the speeds held.
+    """Derivatives of the means of pairs (pairs, SLOPES, free entries), SI, and their errors, with the speeds held.
 
     Raises:
         ComputationError: the kernel has no derivatives of this scene.
     """
     pairs, entries = len(means.mean), len(experiment.rows.names)
-    total = np.zeros((3, pairs, COLUMNS, entries))  # by Kronrod's rule, and with Gauss's along either variable
+    total = np.zeros((3, pairs, SLOPES, entries))  # by Kronrod's rule, and with Gauss's along either variable
     lost = np.zeros(total.shape[1:])
     for batch in means.batches:
         _add_integrands(experiment, batch, total, lost)
@@ -86,7 +86,7 @@ def _add_limits(experiment: Experiment, batch: Batch, total: np.ndarray, lost: n
     by_free = _slopes(experiment, lines, changes)
     known, weight = ~np.isnan(by_free), np.sin(2 * changes.place)[:, None]
     steepest = np.abs(np.nan_to_num(by_free)).max(axis=0, initial=0.0)
-    for column in range(COLUMNS):
+    for column in range(SLOPES):
         each = weight * np.nan_to_num(by_free) * jump[:, [column]]
         for row, of_line in enumerate((batch.kronrod, batch.gauss, batch.kronrod)):
             total[row, :, column] += summed(pair, of_line[line, None] * each, len(lost))
@@ -95,9 +95,9 @@ def _add_limits(experiment: Experiment, batch: Batch, total: np.ndarray, lost: n
 
 
 def _integrands(collided: Collided) -> np.ndarray:
-    """The integrands of the means, (collisions, COLUMNS)."""
+    """The integrands of the means, (collisions, SLOPES)."""
     shares = [collided.outcome == k for k in range(NORMAL)]
-    return np.stack([*shares, *collided.results], axis=1).astype(float)
+    return np.stack([*shares, *collided.results[:2]], axis=1).astype(float)
 
 
 def _slopes(experiment: Experiment, lines: Lines, changes: Brackets) -> np.ndarray:

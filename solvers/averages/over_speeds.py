@@ -9,7 +9,7 @@ import numpy as np
 
 from ..changes.brackets import locate
 from ..changes.experiment import Experiment
-from .geometry import COLUMNS, OverAngles, over_angles, segments
+from .geometry import COLUMNS, ENERGY, OverAngles, over_angles, segments
 from .rule import GAUSS, KRONROD, Panels, summed
 from .sizes import collide
 from .speeds import Speeds
@@ -59,6 +59,7 @@ def means(experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, 
         return Means(along.mean, along.error, along.collisions, [Batch(every, speed, one, one, along)])
     sequences = _Sequences(replace(experiment, rtol=max(experiment.rtol, _LOOSE)), float(speeds.knots[-1]))
     panels, pair_of, hints = _panels(sequences, pairs, speeds, cut)
+    mean_square = speeds.moment(2)
     collisions = sequences.collisions
     mean, error = np.zeros((pairs, COLUMNS)), np.zeros((pairs, COLUMNS))
     batches = []
@@ -72,6 +73,8 @@ def means(experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, 
         collisions += along.collisions
         weight = (length * speeds.density(speed))[:, :, None]
         values, errors = (each.reshape(*speed.shape, COLUMNS) for each in (along.mean, along.error))
+        for each in (values, errors):  # energies, over the mean one
+            each[:, :, ENERGY:] *= (speed**2 / mean_square)[:, :, None]
         fine, rough, within = (
             (each * weight * rule[:, None]).sum(axis=1)
             for each, rule in ((values, KRONROD), (values, GAUSS), (errors, KRONROD))

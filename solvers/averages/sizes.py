@@ -10,14 +10,16 @@ from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES
 from ..changes.experiment import STEEPEST, UNDECIDED, Experiment, Rows
 from ..engines.settings import FEW, KERNEL_STEPS
 from ..host.cores import usable_cores
+from ..many.by_kernel import rates_of
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
+from ..space.pairs import Bodies
 
 FIXED, PROPORTIONAL = FILMS = ("fixed", "proportional")
 BOUNCES = OUTCOMES.index(BOUNCE)
 _BUDGET = 20_000  # steps of a collision that only locates a change
 _EVENTS, _CRITERIA = 1000, 10  # the label's parts
-_RESULTS = ("restitution", "tangential_restitution")
+_RESULTS = ("restitution", "tangential_restitution", "final_spin", "final_spin_partner")
 _OF_SPHERES = tuple(
     f"{table}.{key}"
     for table in ("particles", "partner")
@@ -47,7 +49,8 @@ class Collided:
     Attributes:
         label: 0 for a stick and -1 for an undecided collision; others have the same one if the outcome is the same,
             and of bounces the first rebound criterion, the number of events, and whether it is met at initial contact.
-        results: (2, collisions), e_n and e_t; 0 for sticks.
+        results: (4, collisions): e_n and e_t, 0 for sticks; (e_n cos(angle))^2, and what the energy of rotation gains,
+            over that of the relative motion. A stick rotates as one body.
     """
 
     label: np.ndarray
@@ -88,15 +91,55 @@ def collide(
     events = np.where(outcome == BOUNCES, np.minimum(answers["events"], _EVENTS - 1), 0)
     label = ((outcome * _CRITERIA + answers["reversal"] + 1) * _EVENTS + events) * 2 + (answers["smallest_gap"] >= 1)
     label = np.where(decided, np.where(outcome > 0, label, 0), UNDECIDED)
-    results = np.where(outcome > 0, answers["shown"][:, :2].T, 0.0)
+    found = np.where(outcome > 0, answers["shown"][:, :2].T, 0.0)
+    spins = np.zeros((2, angle.size))
+    if not locating:
+        rates = rates_of(experiment.scene, answers, experiment.impacts(pair, normal, within))
+        spins = np.stack([rates[name] for name in _RESULTS[2:]])
     late = np.flatnonzero(~decided)
     if late.size and not locating:
         block = experiment.completed(pair[late], normal[late], within[late], _RESULTS)
         known = block["outcome"] >= 0
         label[late] = np.where(known, block["outcome"].astype(np.int64) * _CRITERIA * _EVENTS * 2, UNDECIDED)
-        results[:, late] = np.where(known, np.nan_to_num([block[name] for name in _RESULTS]), np.nan)
-    results[0] *= flatter
-    return Collided(label, results)
+        completed = np.where(known, np.nan_to_num([block[name] for name in _RESULTS]), np.nan)
+        found[:, late], spins[:, late] = completed[:2], completed[2:]
+        outcome[late] = block["outcome"]
+    found[0] *= flatter
+    if locating:
+        return Collided(label, found)
+    left = (found[0] * np.cos(angle)) ** 2
+    return Collided(label, np.stack([*found, left, _turning(experiment, pair, normal, within, outcome, spins)]))
+
+
+def _turning(
+    experiment: Experiment,
+    pair: np.ndarray,
+    speed: np.ndarray,
+    angle: np.ndarray,
+    outcome: np.ndarray,
+    spins: np.ndarray,
+) -> np.ndarray:
+    """Gain of the energy of rotation over the energy of the relative motion; of a stick that of the rigid doublet.
+
+    Arguments:
+        spins: (2, collisions), after separation, rad/s; of the partner NaN where it is that of the sphere.
+    """
+    given = {name: values[pair] if values.size > 1 else values[0] for name, values in experiment.columns.items()}
+    mass = given["reduced_mass"]
+    energy = mass * (speed / np.cos(angle)) ** 2
+    before = np.stack([given["impact_spin"] + 0 * angle, given.get("impact_partner_spin", 0.0) + 0 * angle])
+    if experiment.scene.wall:  # a stick neither slides nor rolls on
+        gained = np.where(outcome > 0, spins[0], 0.0) ** 2 - before[0] ** 2
+        return np.asarray(0.4 * mass * given["reduced_radius"] ** 2 * gained / energy)
+    bodies = Bodies.made_of(given)
+    inertia, touching = np.stack(bodies.inertia).reshape(2, -1), sum(bodies.radius)
+    orbital = mass * (touching + given["film_thickness"]) ** 2
+    momentum = orbital * speed * np.tan(angle) / touching + (inertia * before).sum(axis=0)
+    after = np.where(np.isnan(spins[1]), spins[0], spins[1])
+    apart = (inertia * np.stack([spins[0], after]) ** 2).sum(axis=0)
+    together = momentum**2 / (orbital + inertia.sum(axis=0))
+    gained = np.where(outcome > 0, apart, together) - (inertia * before**2).sum(axis=0)
+    return np.asarray(np.where(outcome == UNDECIDED, np.nan, gained / energy))
 
 
 def scene_of_sizes(scene: Scene, radius: float, partner_radius: float | None, films: str) -> Scene:
@@ -137,3 +180,10 @@ def scene_of_sizes(scene: Scene, radius: float, partner_radius: float | None, fi
     return Scene(
         scene.name, tuple((name, scene.as_given(name, value)) for name, value in entries.items()), package=scene.package
     )
+
+
+def target(scene: Scene) -> float:
+    """The cross-section of collisions of a pair, m^2; beside a wall the part of the speed that is its flux, 1/4."""
+    if scene.wall:
+        return 0.25
+    return math.pi * (sum(Bodies.of(scene).radius) + scene.liquid.film_thickness) ** 2

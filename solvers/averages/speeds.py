@@ -29,6 +29,8 @@ _ACCEPTED = (
     "or a table of relative speeds (m/s) and their density among collisions: two arrays, or a CSV file with a header"
 )
 _MAXWELL = (0.0, 2.0, 4.0, 10.0)  # panels of a Maxwellian, in standard deviations; 4e-10 of the collisions are faster
+_POINTS, _POINT_WEIGHTS = np.polynomial.legendre.leggauss(40)
+_NODES, _WEIGHTS = (1 + _POINTS) / 2, _POINT_WEIGHTS / 2  # on (0, 1)
 _HEADER = ("relative_speed", "density")
 
 
@@ -45,6 +47,25 @@ class Speeds:
     text: str
     knots: np.ndarray
     density: Callable[[np.ndarray], np.ndarray] | None
+
+    def moment(self, power: int) -> float:
+        """The mean of a power of the speed over the collisions, SI; inf where it does not exist."""
+        if self.density is None:
+            return float(self.knots[0] ** power)
+        if power < 0 and self.knots[0] == 0 and self.density(self.knots[:1])[0] > 0:
+            return np.inf
+        low, high = self.knots[:-1, None], self.knots[1:, None]
+        with np.errstate(divide="ignore"):
+            ratio = np.where(low > 0, high / low, 1.0)
+        speed = np.where(low > 0, low * ratio**_NODES, high * _NODES)
+        length = np.where(low > 0, speed * np.log(ratio), high)
+        return float((self.density(speed.ravel()).reshape(speed.shape) * speed**power * length * _WEIGHTS).sum())
+
+    @property
+    def mean(self) -> float:
+        """The mean relative speed of all pairs, m/s, which collide in proportion to it; NaN where they would rest."""
+        inverse = self.moment(-1)
+        return np.nan if np.isinf(inverse) else 1 / inverse
 
     @classmethod
     def of(cls, value: Any, label: str = "speeds") -> Speeds:

@@ -17,8 +17,8 @@ from ..host.interrupts import INTERRUPTED, handled
 from ..host.locks import sweep_temporary
 
 COMMANDS = (
-    "scenes", "collide", "sensitivity", "map", "boundary", "averages", "table", "reproduce", "generate", "diff",
-    "export", "verify", "bench", "prove", "fit", "design", "compile", "cite",
+    "scenes", "collide", "sensitivity", "map", "boundary", "critical", "averages", "table", "reproduce", "generate",
+    "diff", "export", "verify", "bench", "prove", "tracks", "check", "fit", "design", "compile", "cite",
 )  # fmt: skip
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
 

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ..scene.scene import Scene
 
 _CHANGE = 'NAME=VALUE, such as liquid.viscosity="3 Pa s"'
+_DEVIATION = 'NAME=VALUE, such as liquid.viscosity="5 %"'
 _PRIOR = 'NAME=PRIOR, such as particles.roughness="2 um +- 20 %"'
 
 
@@ -163,6 +164,7 @@ _OPTIONS = options_of(
     -o FILE (output): Write to FILE instead of standard output.
     --rtol R: Relative tolerance, 1e-13..1e-3 [1e-9].
     --engine E: cvodes, rosenbrock or taylor [the best for the scene].
+    --uncertainty NAME=VALUE: A standard deviation, as liquid.viscosity="5 %" or impact.angle="1 deg"; repeatable.
     --prior NAME=PRIOR (priors): What is known of an entry, as particles.roughness="2 um +- 20 %"; repeatable.
 """.strip("\n")
 )
@@ -194,6 +196,12 @@ SeveralRequests = Annotated[
 ]
 Changes = Annotated[dict[str, str], replace(_OPTIONS["changes"], read=lambda texts: typed(assigned(_CHANGE, texts)))]
 """Entries of --set, unchecked; they apply to a scene that is read later."""
+Uncertainty = Annotated[
+    dict[str, str],
+    replace(
+        _OPTIONS["uncertainty"], read=lambda texts: typed(assigned(_DEVIATION, texts)), settings={"multiple": True}
+    ),
+]
 Rtol = Annotated[float | None, replace(_OPTIONS["rtol"], read=check_rtol)]
 Engine = Annotated[str | None, replace(_OPTIONS["engine"], read=check_engine)]
 Priors = Annotated[

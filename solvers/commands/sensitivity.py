@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..scene.held import NAMES
@@ -17,15 +17,13 @@ if TYPE_CHECKING:
 
     from ..scene.scene import Scene
 
-_DEVIATION = 'NAME=VALUE, such as liquid.viscosity="5 %"'
-
 
 @as_command("Exact derivatives of a collision's results, through its events.")
 def command(
     of: list[str] | None,
     wrt: list[str] | None,
     method: str | None,
-    uncertainty: Annotated[dict[str, str], lambda typed: texts.typed(texts.assigned(_DEVIATION, typed))],
+    uncertainty: options.Uncertainty,
     over: str | None,
     over_time: bool,
     hessian: bool,
@@ -46,7 +44,6 @@ def command(
         --of NAMES: Results, as restitution,contact_time,energy.capillary [restitution].
         --wrt NAMES: Parameters, as liquid.viscosity,impact.angle [all of the scene].
         --method M: forward or adjoint [forward].
-        --uncertainty NAME=VALUE: A standard deviation, as liquid.viscosity="5 %" or impact.angle="1 deg"; repeatable.
         --over NAME=RANGE: With --uncertainty: the band over stokes, speed or angle, as stokes=log:0.01:0.5:30 or
             angle=20:80:25.
         --over-time: Derivatives of the whole trajectory; --plot draws them.
@@ -125,7 +122,7 @@ def _band(
     if not equals or name not in units:
         raise InputError("--over", over, ", ".join(f"{each}=RANGE" for each in units))
     if not uncertainty:
-        raise InputError("--uncertainty", None, f"{_DEVIATION}, with --over")
+        raise InputError("--uncertainty", None, 'NAME=VALUE, such as liquid.viscosity="5 %", with --over')
     if len(of) != 1:
         raise InputError("--of", ",".join(of), "one result with --over")
     entry = FIELDS[f"impact.{name}"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,10 +16,11 @@ from ..host.arguments import check_function
 from ..host.progress import Estimated, Progress
 from ..model.validity import warn
 from ..scene.scene import Scene
+from .examine import examine
 from .free_entries import IDENTIFIED, NOT_AT_ALL, FreeEntries, combinations, free_entries, in_unit
-from .likelihood import Evaluation, Likelihood
+from .likelihood import KNEE, Evaluation, Likelihood
 from .measurements import UNKNOWN, Measurements, read_data
-from .optimise import Objective, Optimum, optimise, whitening
+from .optimise import Objective, Optimum, maximum_with_aiming, optimise, whitening
 from .profiles import End, intervals, judged
 from .result import CONTRADICTED, Estimate, Fit, RowDiagnostics
 from .scatter import Resolution
@@ -29,6 +31,7 @@ _ONE_OUTCOME = "Such data can only bound an entry; within the bounds no value is
 _UNLIKELY = 1e-3  # probability of residuals as large below which they are remarked on
 _UNDECIDED = 1e-3  # probability of impacts without an outcome that is remarked on
 _EVALUATIONS, _PER_PAIR = 20, 22  # usual number of evaluations, and more for each pair of free entries (measured)
+_EVERYWHERE = 64  # starts in the whole range of the search, where the data contradict the model
 _COARSE = 0.05  # error of the log-likelihood by quadrature that is remarked on
 
 
@@ -84,8 +87,19 @@ def fit(
     work.start()
     likelihood.tell = work.add
     try:
+        odd = examine(first, table)
         best = optimise(likelihood, entries, starts, seed)
-        best, ends = intervals(likelihood, entries, best)
+        contradicts = _is_contradicted(likelihood, entries, best)
+        if contradicts:
+            best = max(optimise(likelihood, entries, _EVERYWHERE, seed, everywhere=True), best, key=lambda at: at.value)
+            best = maximum_with_aiming(likelihood, entries, best.inner)
+            contradicts = _is_contradicted(likelihood, entries, best)
+        if contradicts:  # profiles would say nothing, and take long
+            ends = [[End(best.inner, open=True)] * 2 for _ in entries.entries]
+        else:
+            best, ends = intervals(likelihood, entries, best)
+        about = [one.text for one in odd if contradicts or one.kind in ("outlier", "duplicate")]
+        table = replace(table, remarks=(*(f"Before the fit: {text}" for text in about), *table.remarks))
         result = _result(first, table, likelihood, entries, best, ends)
     except KeyboardInterrupt as interrupt:
         if best is None or str(interrupt):
@@ -96,6 +110,13 @@ def fit(
         del likelihood.tell
     work.finish()
     return result
+
+
+def _is_contradicted(likelihood: Likelihood, free: FreeEntries, best: Optimum) -> bool:
+    """Whether even at the most likely values at least half of the impacts contradict the model."""
+    evaluation = likelihood(free.values(best.inner))
+    assert evaluation is not None  # the optimum is possible
+    return bool(2 * np.count_nonzero(evaluation.plain - likelihood.constant < -KNEE) >= likelihood.data.size)
 
 
 def log_likelihood(
@@ -172,7 +193,8 @@ def _result(
     return Fit(
         first.with_si({name: each.value for name, each in estimates.items()}), first, data, estimates,
         evaluation.value, covariance / np.outer(spread, spread),
-        combinations(free, objective.information(inner), verdicts), tuple(remarks), rows, float(error), others,
+        () if rows.contradicted else combinations(free, objective.information(inner), verdicts),
+        tuple(remarks), rows, float(error), others,
         objective, tuple((below.inner, above.inner) for below, above in ends),
     )  # fmt: skip
 

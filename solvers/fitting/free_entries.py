@@ -239,15 +239,24 @@ def combinations(
             break
         first = int(np.argmax(np.abs(vector)))
         powers = vector / vector[first]
-        factors = [
-            free.names[tied[k]] if k == first else f"{free.names[tied[k]]}^{powers[k]:.2g}"
-            for k in range(len(tied))
-            if abs(powers[k]) >= _LEAST_POWER
-        ]
+        product = _product({free.names[tied[k]]: p for k, p in enumerate(powers.tolist()) if abs(p) >= _LEAST_POWER})
         error = abs(1 / np.sqrt(value) / vector[first])
         known = f"to {100 * np.expm1(error):.2g} %" if error < 1 else f"to a factor of {np.exp(error):.2g}"
-        sentences.append(f"{subject} tell {' * '.join(factors)} {known} (standard error).")
+        open_ones = sum(verdicts[k] == COMBINED for k in tied)
+        alone = f"; {'neither' if len(tied) == 2 else 'none of them'} alone" if open_ones == len(tied) else ""
+        sentences.append(f"{subject} fix {product} {known} (standard error){alone}.")
     return tuple(sentences)
+
+
+def _product(powers: Mapping[str, float]) -> str:
+    """A product of powers as text, negative ones as a denominator; the first of them positive."""
+    if next(iter(powers.values())) < 0:
+        powers = {name: -power for name, power in powers.items()}
+    text = ""
+    for name, power in powers.items():
+        size = f"{abs(power):.2g}"
+        text += (" / " if power < 0 else " * " if text else "") + name + (f"^{size}" if size != "1" else "")
+    return text
 
 
 def unit_shown(scene: Scene, name: str) -> tuple[str, float]:

@@ -77,7 +77,7 @@ class Likelihood:
 
     def __init__(self, scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float = RTOL) -> None:
         self.data, self.names = data, names
-        _check_energy(scene, names, data)
+        check_energy(scene, names, data)
         self.measured = tuple(name for name, (values, _) in data.observed.items() if np.isfinite(values).any())
         self.experiments = rows_of(scene, names, data, rtol)
         self.direction = np.zeros(data.size)  # of the lines of each row
@@ -255,7 +255,7 @@ def limit(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.maximum(rows, -KNEE) - TAIL * np.log1p(beyond / TAIL), 1 / (1 + beyond / TAIL)
 
 
-def _check_energy(scene: Scene, names: tuple[str, ...], data: Measurements) -> None:
+def check_energy(scene: Scene, names: tuple[str, ...], data: Measurements) -> None:
     """InputError for restitutions that no values of the entries give: e_n^2 <= 1 + tan^2 of the impact angle.
 
     The right side is the kinetic energy of the impact over that of its normal motion; no law of the library but the

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -15,11 +16,11 @@ from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..changes.experiment import Rows, check_derivatives
 from ..errors import InputError, did_you_mean
 from ..scene import units
+from ..scene.columns import DECIMAL_COMMA, Column, columns_of
 from ..scene.held import NAMES
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
-from .columns import Column, columns_of
 
 UNKNOWN = -1
 """Code of an outcome that was not recorded."""
@@ -31,7 +32,6 @@ RESULT_SD = {"restitution": 0.02, "tangential_restitution": 0.02, "contact_time"
 """Standard deviation of measured results where the data do not give it; of the contact time relative."""
 
 _STICK = OUTCOMES.index(STICK)
-_DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+")
 _MISSING = ("", "-", "na", "n/a", "nan", "null", "none")
 _ALIASES = {STICK: ("sticks", "s"), ROTATE: ("srs",), BOUNCE: ("bounces", "b")}
 _WORDS = {word: OUTCOMES.index(name) for name, others in _ALIASES.items() for word in (name, *others)}
@@ -39,6 +39,20 @@ _UNITS = {"restitution": "", "tangential_restitution": "", "contact_time": "s", 
 _IMPACT = {"speed": "m/s", "relative_speed": "m/s", "stokes": "", "angle": "rad"}
 _SPREAD = ("speed_sd", "relative_speed_sd", "angle_sd")
 _PLAIN = (*_IMPACT, *_SPREAD, "outcome", *OBSERVED, *(f"{name}_sd" for name in OBSERVED))
+_SPELT = {  # as people name columns, in small letters with underscores
+    "speed": "v v_n vn velocity normal_speed normal_velocity impact_speed impact_velocity",
+    "relative_speed": "v_rel vrel relative_velocity",
+    "stokes": "st stokes_number st_n",
+    "angle": "theta theta0 θ impact_angle angle_of_impact",
+    "outcome": "result regime",
+    "restitution": "e e_n en cor restitution_coefficient coefficient_of_restitution normal_restitution",
+    "tangential_restitution": "e_t et",
+    "contact_time": "t_c tc contact_duration",
+    "rotation": "rotation_angle",
+}
+_CANONICAL = {word: name for name, words in _SPELT.items() for word in (name, *words.split())}
+_SPREAD_WORDS = re.compile(r"(.*?)_*(sd|std|err|error|sigma|uncertainty)")
+_MISSPELT = 0.75  # similarity to a known name from which an unknown column is refused and not left out
 _NOISE = 5.0  # standard deviations by which a measured restitution may lie below 0
 _WIDEST = 1 / 3  # relative scatter of a speed
 
@@ -139,9 +153,10 @@ def read_data(source: Any, scene: Scene, label: str = "data") -> Measurements:
             columns; in these plain numbers are SI and radians. Measurements are returned as they are.
         scene: what the columns leave out.
 
-    Columns: speed, relative_speed or stokes, and angle; speed_sd, angle_sd; outcome; restitution,
-    tangential_restitution, contact_time, rotation, each with NAME_sd; entries of the scene by their dotted names.
-    Standard deviations may be in %. Empty cells are missing. Restitution 0 without an outcome is a stick.
+    Columns, also as people name them (`v (mm/s)`, `COR`, `theta err`): speed, relative_speed or stokes, and angle;
+    speed_sd, angle_sd; outcome; restitution, tangential_restitution, contact_time, rotation, each with NAME_sd; entries
+    of the scene by their dotted names. Standard deviations may be in %. Empty cells are missing. Restitution 0 without
+    an outcome is a stick. Other columns are not used, and named in a remark, unless they look like a misspelt name.
 
     Raises:
         InputError: an unknown column or unit, or a bad cell, named by row and column.
@@ -158,20 +173,33 @@ class _Table:
         if not self.size:
             raise InputError(label, None, "at least one row", "has no rows")
         self.by_name: dict[str, Column] = {}
-        for column in columns:
-            self._check_name(column.name)
-            self.by_name[column.name] = column
         self.remarks: list[str] = []
+        ignored = []
+        for column in columns:
+            name = _canonical(column.name)
+            if self._is_known(name):
+                self.by_name[name] = replace(column, name=name)
+                if name != column.name:
+                    self.remarks.append(f'Column "{column.name}" is read as {_MEANT.get(name, name)}.')
+            else:
+                ignored.append(column.name)
+        if ignored:
+            self.remarks.append(f"Columns that are not used: {', '.join(ignored)}.")
 
-    def _check_name(self, name: str) -> None:
+    def _is_known(self, name: str) -> bool:
+        """Whether a column is used; InputError for a name that is close to a known one, and for a repeated one."""
         entries = [each for each in self.scene.fields if each not in MEETING and not self.scene.fields[each].choices]
         if name not in (*_PLAIN, *entries):
-            accepted = f"{', '.join(_PLAIN)}, and entries of the scene by dotted name; notes are written after #"
-            raise InputError(self.header, name, accepted, "is unknown" + did_you_mean(name, (*_PLAIN, *entries)))
+            known = entries if "." in name else [*_PLAIN, *_CANONICAL]
+            if "." not in name and not get_close_matches(name.lower(), known, cutoff=_MISSPELT):
+                return False
+            accepted = f"{', '.join(_PLAIN)}, and entries of the scene by dotted name"
+            raise InputError(self.header, name, accepted, "is unknown" + did_you_mean(name, known))
         if name in self.by_name:
             raise InputError(self.header, name, "each column once", "is given twice")
         if name in entries and name.partition(".")[0] not in {entry.partition(".")[0] for entry, _ in self.scene.si}:
             raise InputError(self.header, name, "entries of the scene's tables", "has no table there")
+        return True
 
     def _where(self, row: int, name: str) -> str:
         line = f" (line {self.lines[row]})" if self.lines[row] != row + 1 else ""
@@ -215,7 +243,7 @@ class _Table:
         if _is_missing(cell):
             return None
         if isinstance(cell, str):
-            if _DECIMAL_COMMA.fullmatch(cell.strip()):
+            if DECIMAL_COMMA.fullmatch(cell):
                 where = self._where(row, name)
                 raise InputError(where, cell.strip(), "numbers with a decimal point", "has a decimal comma")
             return units.number(cell.strip(), self._where(row, name), words)
@@ -355,6 +383,21 @@ class _Table:
                 self._refuse(values < -_NOISE * sd, name, values, accepted, "is out of range")
             observed[name] = values, sd
         return observed
+
+
+def _canonical(text: str) -> str:
+    """The name of a column as people write it: `v`, `COR`, `theta err`; a dotted name and an unknown one stay."""
+    word = re.sub(r"[\s-]+", "_", text.strip().lower())
+    if word in _CANONICAL or "." in word:
+        return _CANONICAL.get(word, text)
+    spread = _SPREAD_WORDS.fullmatch(word)
+    return f"{_CANONICAL[spread[1]]}_sd" if spread and spread[1] in _CANONICAL else text
+
+
+_MEANT = {
+    "speed": "the normal speed (name it relative_speed if it is the magnitude of the relative velocity)",
+    "relative_speed": "the magnitude of the relative velocity",
+}
 
 
 def _is_missing(cell: Any) -> bool:

@@ -142,14 +142,19 @@ class Optimum:
     others: tuple[Optimum, ...] = ()
 
 
-def optimise(likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, seed: int = 0) -> Optimum:
+def optimise(
+    likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, seed: int = 0, everywhere: bool = False
+) -> Optimum:
     """The most likely of the maxima that several starts lead to; the lines of the likelihood are left turned for it.
+
+    Arguments:
+        everywhere: starts lie in the whole range of the search, not only about the scene's values.
 
     Raises:
         ComputationError: no start has a likelihood.
     """
     climbs: list[Optimum] = []
-    for start in _screened(likelihood, free, starts, seed):
+    for start in _screened(likelihood, free, starts, seed, np.inf if everywhere else _NEIGHBOURHOOD):
         likelihood.aim(free.values(start))
         rough = Objective(likelihood, free, _ROUGH)
         if np.isfinite(rough.value(start)):
@@ -238,11 +243,13 @@ def rough_maximum(
     return with_moved(optimum.x)
 
 
-def _screened(likelihood: Likelihood, free: FreeEntries, starts: int, seed: int) -> list[np.ndarray]:
+def _screened(
+    likelihood: Likelihood, free: FreeEntries, starts: int, seed: int, neighbourhood: float
+) -> list[np.ndarray]:
     """The scene's own values, and the most likely of quasi-random points around them."""
     scene = np.clip(free.start, free.low, free.high)
-    low = np.where(free.logarithmic, np.maximum(free.low, scene - _NEIGHBOURHOOD), free.low)
-    high = np.where(free.logarithmic, np.minimum(free.high, scene + _NEIGHBOURHOOD), free.high)
+    low = np.where(free.logarithmic, np.maximum(free.low, scene - neighbourhood), free.low)
+    high = np.where(free.logarithmic, np.minimum(free.high, scene + neighbourhood), free.high)
     points = qmc.scale(qmc.Sobol(free.size, seed=seed).random(starts), low, high) if starts else np.zeros((0, 1))
     coarse = Objective(likelihood, free, COARSE)
     return [scene, *sorted(points, key=lambda point: -coarse.value(point))[: _FOLLOWED - 1]]

@@ -211,7 +211,7 @@ def _profile(axes: Axes, fit: Fit, k: int) -> None:
         axes.set_xscale("log")
     axes.set_ylim(max(min(min(heights), -DROP) * 1.1, -5.0), 0.4)
     axes.set_xlabel(f"{entry.name.partition('.')[2].replace('_', ' ')}" + (f" ({unit})" if unit else ""))
-    axes.set_title(estimate.verdict, fontsize=8)
+    axes.set_title(f"{estimate.verdict} {estimate.precision}".rstrip(), fontsize=8)
 
 
 def _followed(fit: Fit, k: int, start: np.ndarray, places: np.ndarray) -> np.ndarray:

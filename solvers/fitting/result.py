@@ -19,7 +19,7 @@ from ..host.pictures import plot
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.scene import Scene
-from .free_entries import FreeEntries, in_unit, interval, unit_shown
+from .free_entries import IDENTIFIED, FreeEntries, in_unit, interval, unit_shown
 from .likelihood import KNEE
 from .measurements import Measurements
 from .optimise import Objective
@@ -29,11 +29,12 @@ if TYPE_CHECKING:
 
     from ..formatting.document import Block
 
+_WIDE = 4.0  # ratio of the ends of an interval from which it is told as a factor
 _PULLING = 12  # rows of the data in the report
 
 CONTRADICTED = (
-    "At least half of the impacts contradict the model: no entry is identified. The estimates are the least bad ones, "
-    "and the intervals say only which values are as bad."
+    "At least half of the impacts contradict the model: no entry is identified, and no intervals are computed. The "
+    "estimates are the least bad within a factor of 1000 of the scene's. `wetdoublet check` looks at the data."
 )
 """The first remark where `RowDiagnostics.contradicted`."""
 
@@ -46,6 +47,15 @@ class Estimate:
     low: float | None
     high: float | None
     verdict: str
+
+    @property
+    def precision(self) -> str:
+        """How well it is known, as text: half the width of the interval relative to the value, or a factor if wide."""
+        if self.verdict != IDENTIFIED or self.low is None or self.high is None or not self.value:
+            return ""
+        if self.low > 0 and self.high > _WIDE * self.low:
+            return f"within a factor of {(self.high / self.low) ** 0.5:.2g}"
+        return f"to {50 * (self.high - self.low) / abs(self.value):.2g} %"
 
 
 @dataclass(frozen=True)
@@ -132,9 +142,10 @@ class Fit:
     def table(self) -> tuple[list[str], list[list[str]]]:
         """Head and rows of the table of estimates."""
         rows = [
-            [name, in_unit(self.first, name, one.value), interval(self.first, name, one.low, one.high), one.verdict]
+            [name, in_unit(self.first, name, one.value), interval(self.first, name, one.low, one.high),
+             f"{one.verdict} {one.precision}".rstrip()]
             for name, one in self.estimates.items()
-        ]
+        ]  # fmt: skip
         return ["entry", "estimate", "95 % interval", "verdict"], rows
 
     def log_density(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
@@ -218,10 +229,8 @@ class Fit:
             scene = self._rounded(6)
         except InputError:  # at the edge of what is possible
             scene = self._rounded(17)
-        comments = dict(scene.comments) | {
-            name: f"fitted: 95 % {interval(self.first, name, each.low, each.high)}, {each.verdict}"
-            for name, each in self.estimates.items()
-        }
+        rows = self.table()[1]
+        comments = dict(scene.comments) | {name: f"fitted: 95 % {ends}, {verdict}" for name, _, ends, verdict in rows}
         return Scene(scene.name, scene.given, tuple(comments.items()), scene.package).to_toml()
 
     def _rounded(self, digits: int) -> Scene:

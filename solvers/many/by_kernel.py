@@ -159,14 +159,14 @@ def block_of(request: Batch, answers: np.ndarray, impacts: Impacts, books: np.nd
         "restitution": np.where(separated, answers["shown"][:, 0], 0.0),
     }
     if any(name in RATES for name in request.of):
-        rates = _rates(scene, answers, impacts)
+        rates = rates_of(scene, answers, impacts)
         columns |= {name: partial(defined, separated, column) for name, column in rates.items()}
     if books is not None:
         block |= {name: column for name, column in _ledger(request, books, impacts).items() if name in request.of}
     return block | {name: column() for name, column in columns.items() if name in request.of}
 
 
-def _rates(scene: Scene, answers: np.ndarray, impacts: Impacts) -> Block:
+def rates_of(scene: Scene, answers: np.ndarray, impacts: Impacts) -> Block:
     """Spins and rotation rate at separation, rad/s; 0 head-on."""
     values = si_values(scene, None, None) | dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
     unit = rate_scales(scene, values)

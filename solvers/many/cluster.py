@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..engines.arithmetic import arithmetic, difference, has_kernel
-from ..errors import ComputationError, InputError
+from ..errors import ComputationError, InputError, install_extra
 from ..host import bounded
 from ..host.cores import usable_cores
 from ..host.interrupts import check
@@ -99,7 +99,7 @@ def connected(scheduler: Any, label: str = "client") -> Iterator[Client]:
     try:
         from distributed import Client, LocalCluster
     except ImportError:
-        raise ComputationError(f"{label} needs dask.distributed", advice="pip install 'wetdoublet[cluster]'") from None
+        raise ComputationError(f"{label} needs dask.distributed", advice=install_extra("cluster")) from None
     with ExitStack() as opened:
         opened.enter_context(_quiet())
         if _LOCAL.fullmatch(checked):

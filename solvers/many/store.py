@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import ComputationError, InputError
+from ..errors import ComputationError, InputError, install_extra
 from ..host import bounded
 from ..host.interrupts import held
 from ..host.outputs import check_file
@@ -177,7 +177,7 @@ def _zarr() -> Any:
     try:
         import zarr
     except ImportError:
-        raise ComputationError(f"writing {SUFFIX} needs zarr", advice="pip install 'wetdoublet[cluster]'") from None
+        raise ComputationError(f"writing {SUFFIX} needs zarr", advice=install_extra("cluster")) from None
     return zarr
 
 

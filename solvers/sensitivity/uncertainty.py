@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
-from ..errors import ComputationError, InputError
+from ..errors import InputError
 from ..host.arguments import check_mapping, check_name, check_whole
 from ..host.pictures import register
 from ..many.batch import checked_numbers
@@ -45,7 +45,7 @@ def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncer
         accepted = f'{name} = "5 %", or a standard deviation with its unit, such as {scene.fields[name].example}'
         if isinstance(text, str) and text.strip().endswith("%"):
             try:
-                value = float(text.strip()[:-1]) / 100 * _value(scene, name)
+                value = float(text.strip()[:-1]) / 100 * value_of(scene, name)
             except ValueError:
                 raise InputError(label, text, accepted, "is no percentage") from None
         else:
@@ -59,7 +59,8 @@ def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncer
     return result
 
 
-def _value(scene: Scene, name: str) -> float:
+def value_of(scene: Scene, name: str) -> float:
+    """The value of a parameter, SI, as the scene has it or by default."""
     if name in ("impact.stokes", "impact.speed"):
         return float((scene.stokes if name == "impact.stokes" else scene.speed) or 0.0)
     if name == RELATIVE:
@@ -113,7 +114,6 @@ def band(
 
     Raises:
         InputError: an invalid name or value.
-        ComputationError: scipy is not installed.
 
     Example:
         >>> from wetdoublet.solvers import band
@@ -175,13 +175,13 @@ def _sampled(
     hold: str,
 ) -> np.ndarray:
     """Results of the samples, (values, samples); a stick has restitution 0 and NaN for other results."""
-    normal = _normal(samples, len(uncertainty))
+    normal = normal_deviates(samples, len(uncertainty))
     columns: dict[str, list[np.ndarray]] = {name: [] for name in uncertainty}
     speeds, angles = [], []
     for one, (speed, angle) in zip(at, impacts, strict=True):
         held = _held(one, hold)
         varied = {
-            name: _possible(held.fields[name], _value(held, name), sigma * normal[:, k])
+            name: possible_values(held.fields[name], value_of(held, name), sigma * normal[:, k])
             for k, (name, sigma) in enumerate(deviations(held, uncertainty).items())
         }
         for name, column in varied.items():
@@ -216,16 +216,14 @@ def check_samples(samples: object) -> int:
     return count
 
 
-def _normal(samples: int, count: int) -> np.ndarray:
+def normal_deviates(samples: int, count: int) -> np.ndarray:
     """Standard normal deviates of a scrambled Sobol sequence with a fixed seed."""
-    try:
-        from scipy.stats import norm, qmc
-    except ImportError:
-        raise ComputationError("sampling needs scipy", advice="pip install 'wetdoublet[global]'") from None
+    from scipy.stats import norm, qmc
+
     return np.asarray(norm.ppf(qmc.Sobol(count, seed=0).random(samples)))
 
 
-def _possible(entry: Field, value: float, deviation: np.ndarray) -> np.ndarray:
+def possible_values(entry: Field, value: float, deviation: np.ndarray) -> np.ndarray:
     """The value plus its deviations; a deviation is halved until the schema accepts it, and is zero at a limit."""
     holds = entry.range.holds
     moved = np.array(deviation)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..engines.settings import check_rtol
-from ..errors import ComputationError, InputError
+from ..errors import ComputationError, InputError, install_extra
 from ..host.arguments import check_mapping, check_name, check_whole
 from ..host.pictures import register
 from ..many.collide_many import collide_many
@@ -130,5 +130,5 @@ def _salib() -> tuple[Any, Any]:
         from SALib.analyze.sobol import analyze
         from SALib.sample.sobol import sample
     except ImportError:
-        raise ComputationError("Sobol indices need SALib", advice="pip install 'wetdoublet[global]'") from None
+        raise ComputationError("Sobol indices need SALib", advice=install_extra("global")) from None
     return sample, analyze

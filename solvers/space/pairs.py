@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from numbers import Real
@@ -48,8 +49,13 @@ class Bodies:
     @classmethod
     def of(cls, scene: Scene) -> Bodies:
         """The spheres of a scene without a wall."""
+        return cls.made_of(scene.material)
+
+    @classmethod
+    def made_of(cls, quantities: Mapping[str, Any]) -> Bodies:
+        """The spheres of these quantities by vocabulary name, numbers or columns, SI."""
         names = ("reduced_radius", "reduced_mass", "radius_ratio", "mass_ratio")
-        a, m, size, weight = (float(scene.material[name]) for name in names)
+        a, m, size, weight = (quantities[name] for name in names)
         return cls((m * (1 + weight) / weight, m * (1 + weight)), (a * (1 + size) / size, a * (1 + size)))
 
 

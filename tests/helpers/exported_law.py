@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import Scene
@@ -34,6 +35,10 @@ class Law:
         command = [compiler, "-std=c99", "-O1", "-fno-math-errno", *flags, "-fPIC", "-shared"]
         subprocess.run([*command, "-o", str(library), source, "-lm"], check=True)
         self._library = ctypes.CDLL(str(library))
+
+    def function(self, name: str) -> Any:
+        """NAME_name, of ctypes."""
+        return getattr(self._library, f"{self.name}_{name}")
 
     @cached_property
     def header(self) -> str:
@@ -68,13 +73,13 @@ class Law:
         structure = type(
             "Material", (ctypes.Structure,), {"_fields_": [(name, ctypes.c_double) for name in kind.names]}
         )
-        function = getattr(self._library, f"{self.name}_default_material")
+        function = self.function("default_material")
         function.restype = structure
         return np.frombuffer(bytearray(function()), kind).copy()
 
     def message(self, status: int) -> str:
         """A status in words."""
-        function = getattr(self._library, f"{self.name}_message")
+        function = self.function("message")
         function.restype = ctypes.c_char_p
         found: bytes = function(status)
         return found.decode()
@@ -87,16 +92,17 @@ class Law:
             rows[name] = column
         return rows
 
-    def collide(self, impacts: np.ndarray, rtol: float = 1e-9, material: np.ndarray | None = None) -> np.ndarray:
+    def collide(
+        self, impacts: np.ndarray, rtol: float = 1e-9, material: np.ndarray | None = None, budget: int = 0
+    ) -> np.ndarray:
         """The results of impacts, by one call for all."""
         found = np.zeros(impacts.size, self.dtype("collision"))
         material = self.material() if material is None else material
-        function = getattr(self._library, f"{self.name}_collide_many")
+        function = self.function("collide_many")
         function.restype = ctypes.c_long
         pointers = (ctypes.c_void_p(each.ctypes.data) for each in (material, impacts))
-        failed = function(
-            *pointers, ctypes.c_long(impacts.size), ctypes.c_double(rtol), ctypes.c_void_p(found.ctypes.data)
-        )
+        settings = ctypes.c_long(impacts.size), ctypes.c_double(rtol), ctypes.c_int(budget)
+        failed = function(*pointers, *settings, ctypes.c_void_p(found.ctypes.data))
         assert failed == np.count_nonzero(found["status"])
         return found
 
@@ -104,23 +110,27 @@ class Law:
         """The result of a single impact, by the call for one."""
         found = np.zeros(1, self.dtype("collision"))
         material = self.material() if material is None else material
-        function = getattr(self._library, f"{self.name}_collide")
+        function = self.function("collide")
         pointers = (ctypes.c_void_p(each.ctypes.data) for each in (material, np.ascontiguousarray(impact)))
-        status = function(*pointers, ctypes.c_double(rtol), ctypes.c_void_p(found.ctypes.data))
+        status = function(*pointers, ctypes.c_double(rtol), ctypes.c_int(0), ctypes.c_void_p(found.ctypes.data))
         assert status == found["status"][0]
         return found
 
-    def begin(self, impact: np.ndarray, rtol: float = 1e-9) -> np.ndarray:
+    def begin(
+        self, impact: np.ndarray, rtol: float = 1e-9, budget: int = 0, material: np.ndarray | None = None
+    ) -> np.ndarray:
         """A contact at its beginning, as a row of its type."""
-        contact, material = np.zeros(1, self.dtype("contact")), self.material()
-        function = getattr(self._library, f"{self.name}_begin")
+        contact = np.zeros(1, self.dtype("contact"))
+        material = self.material() if material is None else material
+        function = self.function("begin")
         pointers = (ctypes.c_void_p(each.ctypes.data) for each in (material, np.ascontiguousarray(impact)))
-        assert function(*pointers, ctypes.c_double(rtol), ctypes.c_void_p(contact.ctypes.data)) == contact["status"][0]
+        settings = ctypes.c_double(rtol), ctypes.c_int(budget)
+        assert function(*pointers, *settings, ctypes.c_void_p(contact.ctypes.data)) == contact["status"][0]
         return contact
 
     def advance(self, contact: np.ndarray, time: float) -> int:
         """Advance a contact to a time; its status."""
-        function = getattr(self._library, f"{self.name}_advance")
+        function = self.function("advance")
         status: int = function(ctypes.c_void_p(contact.ctypes.data), ctypes.c_double(time))
         return status
 
@@ -132,30 +142,34 @@ class Law:
             rows[name][:, : np.shape(given)[1]] = given
         return rows
 
-    def collide_pairs(self, pairs: np.ndarray, rtol: float = 1e-9, material: np.ndarray | None = None) -> np.ndarray:
+    def collide_pairs(
+        self, pairs: np.ndarray, rtol: float = 1e-9, material: np.ndarray | None = None, budget: int = 0
+    ) -> np.ndarray:
         """The results of pairs in space, by one call for all."""
         found = np.zeros(pairs.size, self.dtype("pair_after"))
         material = self.material() if material is None else material
-        function = getattr(self._library, f"{self.name}_collide_pair_many")
+        function = self.function("collide_pair_many")
         function.restype = ctypes.c_long
         pointers = (ctypes.c_void_p(each.ctypes.data) for each in (material, pairs))
-        failed = function(
-            *pointers, ctypes.c_long(pairs.size), ctypes.c_double(rtol), ctypes.c_void_p(found.ctypes.data)
-        )
+        settings = ctypes.c_long(pairs.size), ctypes.c_double(rtol), ctypes.c_int(budget)
+        failed = function(*pointers, *settings, ctypes.c_void_p(found.ctypes.data))
         assert failed == np.count_nonzero(found["status"])
         return found
 
-    def collide_particles(self, particles: np.ndarray, tolerance: float = 1e-9, rtol: float = 1e-9) -> np.ndarray:
+    def collide_particles(
+        self, particles: np.ndarray, tolerance: float = 1e-9, rtol: float = 1e-9, material: np.ndarray | None = None
+    ) -> np.ndarray:
         """The result of two particles (rows of their type), which are moved in place."""
-        found, material = np.zeros(1, self.dtype("pair_after")), self.material()
+        found = np.zeros(1, self.dtype("pair_after"))
+        material = self.material() if material is None else material
         first, second = (ctypes.c_void_p(particles[k : k + 1].ctypes.data) for k in range(2))
-        function = getattr(self._library, f"{self.name}_collide_particles")
-        rest = ctypes.c_double(tolerance), ctypes.c_double(rtol), ctypes.c_void_p(found.ctypes.data)
+        function = self.function("collide_particles")
+        rest = ctypes.c_double(tolerance), ctypes.c_double(rtol), ctypes.c_int(0), ctypes.c_void_p(found.ctypes.data)
         assert function(ctypes.c_void_p(material.ctypes.data), first, second, *rest) == found["status"][0]
         return found
 
     def contact_distance(self) -> float:
         """The distance at which a collision begins, m."""
-        function, material = getattr(self._library, f"{self.name}_contact_distance"), self.material()
+        function, material = self.function("contact_distance"), self.material()
         function.restype = ctypes.c_double
         return float(function(ctypes.c_void_p(material.ctypes.data)))

@@ -46,14 +46,16 @@ def contact_header() -> list[str]:
         "    law_material material;",
         "    law_impact impact;",
         "    double rtol;",
+        "    int budget;",
         f"    double memory[{MEMORY}];",
         "} law_contact;",
         "",
         *comment(
-            "Begins a contact at initial contact, time 0; a rebound criterion that holds there has been met. Returns "
-            "contact->status."
+            "Begins a contact at initial contact, time 0; a rebound criterion that holds there has been met. `budget` "
+            "is that of each later call. Returns contact->status."
         ),
-        "int law_begin(const law_material *material, const law_impact *impact, double rtol, law_contact *contact);",
+        "int law_begin(",
+        "    const law_material *material, const law_impact *impact, double rtol, int budget, law_contact *contact);",
         "",
         *comment(
             "Follows a contact to the time t, s since initial contact, not before contact->time. Where it ends "

@@ -3,10 +3,12 @@
 from collections.abc import Iterable, Sequence
 
 from ....generated.automaton import CRITERIA, KINDS, OUTCOMES
+from ...engines.settings import STEPS
 from ...scene.scene import Scene
 from .comments import comment
 from .contact import contact_header
 from .material import LARGEST, Number, Result
+from .pair import pair_header
 from .space import declarations
 
 _MEANINGS = ("no separation", "separated, and no rebound criterion was met", "separated after a rebound")
@@ -29,7 +31,13 @@ RESULTS = (
 )
 
 
-def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Number], statuses: Sequence[Result]) -> str:
+def header(
+    scene: Scene,
+    of_material: Sequence[Number],
+    of_impact: Sequence[Number],
+    entries: Sequence[Number],
+    statuses: Sequence[Result],
+) -> str:
     """The text of NAME.h, with `law_` and `LAW_` in the place of the law's prefix."""
     lines = ["#ifndef LAW_H", "#define LAW_H", "", "#ifdef __cplusplus", 'extern "C" {', "#endif", ""]
     lines += [
@@ -42,6 +50,7 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
         *_structure("law_material", of_material),
         "law_material law_default_material(void);",
         "",
+        *pair_header(scene, entries),
         *comment(_frame(scene)),
         *_structure("law_impact", of_impact),
         *comment("Outcomes."),
@@ -66,16 +75,19 @@ def header(scene: Scene, of_material: Sequence[Number], of_impact: Sequence[Numb
         "",
         *comment(
             "One collision. `rtol` is the relative tolerance of the integration, 1e-13 to 1e-3; at most 1e-6 is used. "
+            f"`budget` is the largest number of steps; 0 is {STEPS}. Beyond it the status is LAW_UNDECIDED_NO_BUDGET. "
             "Returns found->status. Reentrant: nothing is allocated, and no data is shared between calls."
         ),
-        "int law_collide(const law_material *material, const law_impact *impact, double rtol, law_collision *found);",
+        "int law_collide(",
+        "    const law_material *material, const law_impact *impact, double rtol, int budget, law_collision *found);",
         "",
         *comment(
             "`count` collisions of one material, side by side where the processor has vectors. Returns how many have "
             "another status than LAW_OK. The results are those of single calls, up to the last digits."
         ),
         "long law_collide_many(",
-        "    const law_material *material, const law_impact *impacts, long count, double rtol, law_collision *found);",
+        "    const law_material *material, const law_impact *impacts, long count, double rtol, int budget,",
+        "    law_collision *found);",
         "",
         *contact_header(),
         *declarations(scene),

@@ -3,20 +3,47 @@
 import re
 
 _KINDS = {"int": "integer(c_int)", "long": "integer(c_long)", "double": "real(c_double)"}
+_MESSAGE = """\
+  ! A status in words.
+  function law_message(status) result(text)
+    integer(c_int), intent(in) :: status
+    character(:), allocatable :: text
+    character(kind=c_char), pointer :: letters(:)
+    type(c_ptr) :: found
+    integer :: k
+    interface
+      function message(status) bind(c, name="law_message") result(found)
+        import
+        integer(c_int), value :: status
+        type(c_ptr) :: found
+      end function message
+      function length_of(text) bind(c, name="strlen") result(length)
+        import
+        type(c_ptr), value :: text
+        integer(c_size_t) :: length
+      end function length_of
+    end interface
+    found = message(status)
+    call c_f_pointer(found, letters, [length_of(found)])
+    allocate (character(size(letters)) :: text)
+    do k = 1, size(letters)
+      text(k:k) = letters(k)
+    end do
+  end function law_message
+"""
 Fields = list[tuple[str, str, tuple[int, ...]]]
 """Members of a structure: type, name, shape."""
 
 
 def structures(header: str) -> dict[str, Fields]:
-    """The structures that a host fills or reads; what a contact keeps between calls is only for C."""
+    """The structures that a host fills or reads, by name."""
     bodies = re.findall(r"typedef struct \{([^}]*)\} (law_\w+);", header)
     return {
         name: [
             (kind, member, tuple(map(int, re.findall(r"\d+", shape))))
-            for kind, member, shape in re.findall(r"^ *(int|double) (\w+)((?:\[\d+\])*);", body, re.MULTILINE)
+            for kind, member, shape in re.findall(r"^ *(int|double|law_\w+) (\w+)((?:\[\d+\])*);", body, re.MULTILINE)
         ]
         for body, name in bodies
-        if name != "law_contact"
     }
 
 
@@ -30,15 +57,18 @@ def fortran(header: str) -> str:
     """NAME.f90 with `law_` in the place of the law's prefix; arrays have the component first."""
     lines = ["! The law from Fortran; what everything means stands in the header of the C file.", "module @NAME@"]
     lines += ["  use, intrinsic :: iso_c_binding", "  implicit none", ""]
+    constants = re.findall(r"^(?:#define|   ) (LAW_[A-Z]\w*) =? ?(-?\d+)\b", header, re.MULTILINE)
+    lines += [*(f"  integer(c_int), parameter :: {name} = {value}" for name, value in constants), ""]
     for name, fields in structures(header).items():
         lines.append(f"  type, bind(c) :: {name}")
         for kind, member, shape in fields:
-            lines.append(f"    {_KINDS[kind]} :: {member}" + (f"({', '.join(map(str, shape[::-1]))})" if shape else ""))
+            declared = _KINDS.get(kind, f"type({kind})")
+            lines.append(f"    {declared} :: {member}" + (f"({', '.join(map(str, shape[::-1]))})" if shape else ""))
         lines += [f"  end type {name}", ""]
     functions = re.findall(r"^(\w+) (law_\w+)\(\s*([^;]*?)\);", header, re.MULTILINE)
-    blocks = [_function(*each) for each in functions if "law_contact *" not in each[2]]
-    lines += ["  interface", *"\n\n".join(blocks).splitlines(), "  end interface", "end module @NAME@", ""]
-    return "\n".join(lines)
+    blocks = "\n\n".join(_function(*each) for each in functions)
+    lines += ["  interface", *blocks.splitlines(), "  end interface", "", "contains", "", *_MESSAGE.splitlines()]
+    return "\n".join([*lines, "end module @NAME@", ""])
 
 
 def _function(kind: str, name: str, parameters: str) -> str:
@@ -52,15 +82,14 @@ def _function(kind: str, name: str, parameters: str) -> str:
         if not each.startswith("*"):
             declared.append((type_name, f"{_KINDS[type_name]}, value", bare))
             continue
-        intent = "in" if type_ != type_name else "inout" if type_name == "law_particle" else "out"
+        changed = type_name == "law_particle" or name == "law_advance"
+        intent = "in" if type_ != type_name else "inout" if changed else "out"
         array = "(count)" if counted and type_name != "law_material" else ""
         declared.append((type_name, f"type({type_name}), intent({intent})", f"{bare}{array}"))
     declared.sort(key=lambda each: each[2] != "count" and not each[1].startswith("type(law_material)"))
-    types = [kind, *(type_name for type_name, *_ in declared)]
-    imported = [f"c_{each}" for each in ("int", "long", "double") if each in types]
-    imported += dict.fromkeys(each for each in types if each.startswith("law_"))
-    head = f"    function {name}({', '.join(each.lstrip('*') for _, each in arguments)}) bind(c)"
+    names = ", ".join(each.lstrip("*") for _, each in arguments)
+    head = f"    function {name}({f' &{chr(10)}        ' if names else ''}{names}) bind(c)"
     returned = f"type({kind})" if kind.startswith("law_") else _KINDS[kind]
-    lines = [head + ("" if result == name else f" result({result})"), f"      import :: {', '.join(imported)}"]
+    lines = [head + ("" if result == name else f" result({result})"), "      import"]
     lines += [f"      {type_} :: {member}" for _, type_, member in declared]
     return "\n".join([*lines, f"      {returned} :: {result}", f"    end function {name}"])

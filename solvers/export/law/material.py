@@ -18,7 +18,7 @@ from .kernels import SPACE, Kernel
 
 LARGEST = 1e30
 """Largest magnitude of a number, and the inverse of the smallest: beyond it groups may leave a double's range."""
-_LARGE = {"glass_transition_pressure": NO_GLASS, "youngs_modulus": NEVER_MET["youngs_modulus"]}
+LARGE = {"glass_transition_pressure": NO_GLASS, "youngs_modulus": NEVER_MET["youngs_modulus"]}
 _RATIO = Range(f"from {1 / FARTHEST:g} to {FARTHEST:g}", 1 / FARTHEST, FARTHEST, low_open=False, high_open=False)
 _ALONE = {
     "reduced_radius": "reduced radius, R1 R2/(R1 + R2)",
@@ -38,6 +38,8 @@ class Number:
     meaning: str
     range: Range
     value: float
+    most: float = LARGEST
+    """Largest magnitude that is accepted."""
 
     @property
     def status(self) -> str:
@@ -45,17 +47,12 @@ class Number:
         return f"BAD_{self.name.upper()}"
 
     @property
-    def most(self) -> float:
-        """Largest magnitude that is accepted."""
-        return _LARGE.get(self.name, LARGEST)
-
-    @property
     def said(self) -> str:
         """The interval in words, in the unit of the number."""
         if self.range.low == -math.inf and self.range.high == math.inf:
             return "any finite number"
         if self.unit != "rad":
-            return self.range.text + (f" ({self.most:g}: never met)" if self.name in _LARGE else "")
+            return self.range.text + (f" ({self.most:g}: never met)" if self.most > LARGEST else "")
         return "from 0 to pi/2" if not self.range.high_open else "at least 0, below pi/2"
 
 
@@ -78,15 +75,16 @@ def material(scene: Scene, kernels: Iterable[Kernel]) -> tuple[Number, ...]:
     result = []
     for name in [*known, *sorted(names - {*known})]:
         if name in known:
-            unit, meaning = VOCABULARY[name].unit, _meaning(name, scene)
+            unit, meaning = VOCABULARY[name].unit, meaning_of(name, scene)
         else:
             field = user_model.fields(scene.package)[f"{user_model.TABLE}.{name}"]
             unit, meaning = field.unit or "1", field.what
-        result.append(Number(name, unit, meaning, _range(name, scene), float(values[name])))
+        most = LARGE.get(name, LARGEST)
+        result.append(Number(name, unit, meaning, _range(name, scene), float(values[name]), most))
     return tuple(result)
 
 
-def _meaning(name: str, scene: Scene) -> str:
+def meaning_of(name: str, scene: Scene) -> str:
     """The vocabulary's, but for numbers whose R and M the header does not explain."""
     from ....derive.vocabulary.quantities import VOCABULARY
 
@@ -114,10 +112,10 @@ def impact(scene: Scene) -> tuple[Number, ...]:
     )
 
 
-def results(numbers: Iterable[Number]) -> tuple[Result, ...]:
-    """Every status."""
+def results(numbers: Iterable[Number], entries: Iterable[Number] = ()) -> tuple[Result, ...]:
+    """Every status: of numbers of a material and an impact, and of entries of a pair."""
     failed = {
-        Status.NO_BUDGET: "not decided within the largest number of steps",
+        Status.NO_BUDGET: "not decided within `budget` steps",
         Status.NOT_FINITE: "the state is not finite, or energy has grown",
         Status.CHATTER: "not decided: the pair goes in and out of contact again and again",
         Status.TOO_OBLIQUE: "the centrifugal force is too large beside the approach to be resolved",
@@ -134,18 +132,20 @@ def results(numbers: Iterable[Number]) -> tuple[Result, ...]:
         "RUPTURE_WITHIN_FILM": "the bridge ruptures within film_thickness: a larger volume is needed",
         "STRINGS_TOO_SHORT": "string_length is too short for two spheres to swing around each other",
         "NOTHING_STOPS": "nothing stops the approach: roughness is 0 and there is no elastic length",
+        "BAD_BUDGET": "budget must be a number of steps from 0",
     }
     statuses += [Result(100 + k, name, sentence) for k, (name, sentence) in enumerate(rules.items())]
-    for k, number in enumerate(numbers):
-        unit = "" if number.unit == "1" else f", {number.unit}"
-        statuses.append(Result(200 + k, number.status, f"{number.name} must be {number.said}{unit}"))
+    for first, those in ((200, numbers), (300, entries)):
+        for k, number in enumerate(those, first):
+            unit = "" if number.unit == "1" else f", {number.unit}"
+            statuses.append(Result(k, number.status, f"{number.name} must be {number.said}{unit}"))
     return tuple(statuses)
 
 
 def checks(scene: Scene, of_material: Iterable[Number], of_impact: Iterable[Number], kernels: Iterable[Kernel]) -> str:
     """C functions that refuse a material, an impact and a tolerance."""
     tolerance = Number("rtol", "1", "", TOLERANCE.range, 1e-9)
-    body = [line for number in of_material for line in _refusal(number, "m->")]
+    body = refusals(of_material, "m->")
     never = [f"m->{name} {'>=' if value > 1 else '<='} {value!r}" for name, value in NEVER_MET.items()]
     stops = " && ".join(never)
     if scene.attraction is not None:
@@ -156,14 +156,15 @@ def checks(scene: Scene, of_material: Iterable[Number], of_impact: Iterable[Numb
     *others, last = (f"{kernel.prefix}_inconsistent(m)" for kernel in kernels if kernel.prefix != SPACE)
     for other in others:
         body += [f"if ({other} != LAW_OK)", f"    return {other};"]
-    lines = _function("static int check_material(const law_material *m)", [*body, f"return {last};"])
-    refused = [line for number in of_impact for line in _refusal(number, "impact->")]
-    lines += _function("static int check_impact(const law_impact *impact)", [*refused, "return LAW_OK;"])
-    lines += _function("static int check_rtol(double rtol)", [*_refusal(tolerance, ""), "return LAW_OK;"])
+    lines = c_function("static int check_material(const law_material *m)", [*body, f"return {last};"])
+    refused = [*refusals(of_impact, "impact->"), "return LAW_OK;"]
+    lines += c_function("static int check_impact(const law_impact *impact)", refused)
+    settings = [*refusals([tolerance], ""), "return budget >= 0 ? LAW_OK : LAW_BAD_BUDGET;"]
+    lines += c_function("static int check_settings(double rtol, int budget)", settings)
     intro = "/* Numbers outside their ranges, NaN among them, are refused. */\n\n"
     usual = [
         "/* Whether a number is zero, or of a size with which the groups stay within a double's range. */",
-        *_function(
+        *c_function(
             "static int is_usual(double x, double most)",
             [f"return x == 0.0 || (fabs(x) >= {1 / LARGEST!r} && fabs(x) <= most);"],
         ),
@@ -171,19 +172,22 @@ def checks(scene: Scene, of_material: Iterable[Number], of_impact: Iterable[Numb
     return intro + "\n".join([*usual, *lines])
 
 
-def _refusal(number: Number, of: str) -> list[str]:
-    interval, name, tests = number.range, f"{of}{number.name}", []
-    if interval.low > -math.inf:
-        tests.append(f"{name} {'>' if interval.low_open else '>='} {interval.low!r}")
-    if interval.high < math.inf:
-        tests.append(f"{name} {'<' if interval.high_open else '<='} {interval.high!r}")
-    return [
-        f"if (!({' && '.join([*tests, f'is_usual({name}, {number.most!r})'])}))",
-        f"    return LAW_{number.status};",
-    ]
+def refusals(numbers: Iterable[Number], of: str) -> list[str]:
+    """Lines of C that return the status of the first number outside its range; `of` stands before their names."""
+    lines = []
+    for number in numbers:
+        interval, name, tests = number.range, f"{of}{number.name}", []
+        if interval.low > -math.inf:
+            tests.append(f"{name} {'>' if interval.low_open else '>='} {interval.low!r}")
+        if interval.high < math.inf:
+            tests.append(f"{name} {'<' if interval.high_open else '<='} {interval.high!r}")
+        tests.append(f"is_usual({name}, {number.most!r})")
+        lines += [f"if (!({' && '.join(tests)}))", f"    return LAW_{number.status};"]
+    return lines
 
 
-def _function(head: str, body: Iterable[str]) -> list[str]:
+def c_function(head: str, body: Iterable[str]) -> list[str]:
+    """Lines of a C function and an empty one."""
     return [head, "{", *(f"    {line}" for line in body), "}", ""]
 
 

@@ -1,5 +1,6 @@
 """Collisions in space as part of an exported law: what its header says of them, and its C files."""
 
+from ...engines.settings import STEPS, STEPS_IN_SPACE
 from ...scene.scene import Scene
 from .comments import comment
 from .kernels import only_in_a_plane
@@ -76,12 +77,18 @@ def declarations(scene: Scene) -> list[str]:
         *_structure("law_pair", PAIR),
         *comment(_afterwards(scene)),
         *_structure("law_pair_after", AFTER),
-        *comment("One pair, with `rtol` as in law_collide. Returns after->status."),
-        "int law_collide_pair(const law_material *material, const law_pair *pair, double rtol, law_pair_after *after);",
+        *comment(
+            "One pair, with `rtol` and `budget` as in law_collide; a budget of 0 is "
+            + (f"{STEPS} for each of two planar collisions" if scene.wall else f"{STEPS_IN_SPACE}, in a plane {STEPS}")
+            + ". Returns after->status."
+        ),
+        "int law_collide_pair(",
+        "    const law_material *material, const law_pair *pair, double rtol, int budget, law_pair_after *after);",
         "",
         *comment("`count` pairs, side by side. Returns how many have another status than LAW_OK."),
         "long law_collide_pair_many(",
-        "    const law_material *material, const law_pair *pairs, long count, double rtol, law_pair_after *after);",
+        "    const law_material *material, const law_pair *pairs, long count, double rtol, int budget,",
+        "    law_pair_after *after);",
         "",
         *comment("A particle in the laboratory's axes."),
         *_structure("law_particle", PARTICLE),
@@ -91,7 +98,7 @@ def declarations(scene: Scene) -> list[str]:
         *comment(_in_place(scene)),
         "int law_collide_particles(",
         "    const law_material *material, law_particle *first, law_particle *second, double tolerance, double rtol,",
-        "    law_pair_after *after);",
+        "    int budget, law_pair_after *after);",
     ]
     return [*lines, ""]
 

@@ -1,8 +1,9 @@
 """The folder of an exported law: its C file and header, and what shows how to use it."""
 
 import re
-from collections.abc import Iterable
+from dataclasses import dataclass
 from importlib.metadata import version
+from typing import Self
 
 from ...engines.settings import RTOL
 from ...scene.scene import Scene
@@ -15,6 +16,7 @@ from .interface import ctypes_fields, fortran, structures
 from .items import items
 from .kernels import HEAD_ON, PLANE, SPACE, Kernel, kernels, only_in_a_plane
 from .material import Number, Result, checks, impact, material, results
+from .pair import pair_entries, pair_function
 from .vectors import table
 
 ROOTS = ("integrate.h", "follow.h")
@@ -43,6 +45,24 @@ _LANES = """\
 """
 
 
+@dataclass(frozen=True)
+class _Numbers:
+    """What a host gives, and the statuses that it may get."""
+
+    material: tuple[Number, ...]
+    impact: tuple[Number, ...]
+    entries: tuple[Number, ...]
+    statuses: tuple[Result, ...]
+
+    @classmethod
+    def of(cls, scene: Scene, law_kernels: tuple[Kernel, ...]) -> Self:
+        of_material, of_impact = material(scene, law_kernels), impact(scene)
+        entries = pair_entries(scene, of_material)
+        statuses = results((*of_material, *of_impact), entries)
+        in_space = () if only_in_a_plane(scene) else space.RESULTS
+        return cls(of_material, of_impact, entries, (*statuses, *in_space))
+
+
 def law_name(scene: Scene) -> str:
     """The prefix of a scene's law and the name of its files, other than those of its neighbours and prefixes within it.
 
@@ -63,11 +83,11 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
     """
     name = law_name(scene)
     law_kernels = kernels(scene, rtol)
-    of_material, of_impact = material(scene, law_kernels), impact(scene)
-    declared = header(scene, of_material, of_impact, _results(scene, (*of_material, *of_impact)))
+    numbers = _Numbers.of(scene, law_kernels)
+    declared = header(scene, numbers.material, numbers.impact, numbers.entries, numbers.statuses)
     files = {
         f"{name}.h": _head(scene, law_kernels) + declared,
-        f"{name}.c": _law(scene, law_kernels),
+        f"{name}.c": _law(scene, law_kernels, numbers),
         f"{name}.f90": fortran(declared).replace("@NAME@", name),
         "vectors.h": table(scene, law_kernels),
     }
@@ -105,18 +125,18 @@ def _sizes(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
     return (float(scene.material["reduced_radius"]), 0.0), (float(scene.material["reduced_mass"]), 0.0)
 
 
-def _law(scene: Scene, law_kernels: tuple[Kernel, ...]) -> str:
+def _law(scene: Scene, law_kernels: tuple[Kernel, ...], numbers: _Numbers) -> str:
     """Text of NAME.c: its kernels, and behind them the functions that a host calls."""
-    of_material, of_impact = material(scene, law_kernels), impact(scene)
     called, parts = list(CALLERS), []
     if not only_in_a_plane(scene):
         called += space.callers(scene)
         parts.append(space.bodies(scene))
     behind = "\n".join(
         [
-            default_material(of_material),
-            message_function(_results(scene, (*of_material, *of_impact))),
-            checks(scene, of_material, of_impact, law_kernels),
+            default_material(numbers.material),
+            message_function(numbers.statuses),
+            checks(scene, numbers.material, numbers.impact, law_kernels),
+            pair_function(scene, numbers.entries, numbers.material),
             *parts,
             *(_LINE.sub("", (OWN / name).read_text()) for name in called),
         ]
@@ -129,10 +149,6 @@ def _sources(scene: Scene, law_kernels: tuple[Kernel, ...]) -> list[Source]:
     types = () if only_in_a_plane(scene) else space.TYPES
     in_plane = (*ROOTS, *types)
     return [kernel.source(space.ROOTS if kernel.prefix == SPACE else in_plane) for kernel in law_kernels]
-
-
-def _results(scene: Scene, numbers: Iterable[Number]) -> tuple[Result, ...]:
-    return (*results(numbers), *(() if only_in_a_plane(scene) else space.RESULTS))
 
 
 def _head(scene: Scene, law_kernels: tuple[Kernel, ...]) -> str:

@@ -13,12 +13,14 @@ from wetdoublet.solvers import (
     Scene,
     boundary_sensitivities,
     collide_many,
+    collide_pair,
     collision_averages,
 )
 from wetdoublet.solvers.averages.dataset import QUANTITIES
 from wetdoublet.solvers.averages.sizes import PROPORTIONAL, scene_of_sizes
 from wetdoublet.solvers.averages.speeds import Speeds
 from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.space.pairs import Bodies
 
 from ...helpers.command import run
 
@@ -261,3 +263,72 @@ def test_speeds_have_densities_of_integral_one() -> None:
         assert speeds.density is not None
         at = np.linspace(speeds.knots[0], speeds.knots[-1], 200_001)
         assert np.trapezoid(speeds.density(at), at) == pytest.approx(1, abs=1e-9)
+
+
+def test_energies_and_rates_are_those_of_random_pairs_of_a_gas() -> None:
+    """Spheres with Maxwellian velocities and spins, met by flux, by `collide_pair`: within four standard errors.
+
+    The model's sideways velocity is that of touching surfaces, so that isotropic ones are stretched by the film.
+    """
+    scene = UNEQUAL.with_entries({"impact.spin": 2000.0, "impact.partner_spin": -500.0})
+    count, rng, deviation, bodies = 20_000, np.random.default_rng(7), 0.8, Bodies.of(UNEQUAL)
+    normal = rng.normal(size=(count, 3))
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    relative = deviation * (rng.normal(size=(count, 3)) - rng.normal(size=(count, 3)))
+    opening = (relative * normal).sum(axis=1)
+    relative[opening > 0] *= -1  # as many as there would be, without those that part
+    speed = np.abs(opening)
+    sideways = relative + speed[:, None] * normal
+    axis = np.cross(normal, sideways)
+    axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+    contact, film = sum(bodies.radius), scene.liquid.film_thickness
+    velocities = np.zeros((count, 2, 3))
+    velocities[:, 1] = (1 + film / contact) * sideways - speed[:, None] * normal
+    spins = np.array([2000.0, -500.0])[:, None] * axis[:, None]
+    after = collide_pair(scene, normal, velocities, spins)
+    inertia, sticks = np.array(bodies.inertia), after.outcome.values == 0
+    orbital = bodies.reduced_mass * (contact + film) ** 2
+    before, apart = (
+        0.5 * (inertia * (each**2).sum(axis=2)).sum(axis=1) for each in (spins, np.nan_to_num(after.spins.values))
+    )
+    together = 0.5 * (orbital + inertia.sum()) * (np.nan_to_num(after.angular_velocity.values) ** 2).sum(axis=1)
+    gained = np.where(sticks, together, apart) - before
+    rows = {
+        "normal_dissipation": (speed * (1 - after.restitution.values**2) * speed**2, speed * speed**2),
+        "energy_into_rotation": (speed * gained, speed * 0.5 * bodies.reduced_mass * (relative**2).sum(axis=1)),
+        "stick_probability": (speed * sticks, speed),
+        "collision_rate": (2 * np.pi * (contact + film) ** 2 * speed, np.ones(count)),
+    }
+    found = collision_averages(scene, speeds=f"maxwell:{deviation} m/s", tolerance=1e-5)
+    for name, (above, below) in rows.items():
+        ratio = above.mean() / below.mean()
+        error = (above - ratio * below).std() / below.mean() / np.sqrt(count)
+        assert float(found[name]) == pytest.approx(ratio, abs=4 * error), name
+        assert error < 0.02 * abs(ratio)
+
+
+def test_beside_a_wall_energies_and_rates_are_sums() -> None:
+    """A quarter of the mean speed meets the wall; sums over a fine grid of angles give the energies."""
+    count, speed = 4_000, 1.5
+    scene = Scene.load("granulation").with_entries({"partner.wall": True, "impact.spin": 3000.0})
+    angle = (np.arange(count) + 0.5) / count * np.pi / 2
+    each = collide_many(scene, relative_speed=speed, angle=angle, of=("outcome", "restitution", "final_spin"))
+    weight = np.sin(2 * angle)
+    found = collision_averages(scene, speeds=speed)
+    left = np.average((each.restitution.values * np.cos(angle)) ** 2, weights=weight)
+    assert float(found.normal_dissipation) == pytest.approx(1 - 2 * left, abs=4 / count)
+    spin = np.nan_to_num(each.final_spin.values)
+    gained = 0.4 * (scene.reduced_radius / speed) ** 2 * (spin**2 - 3000.0**2)
+    assert float(found.energy_into_rotation) == pytest.approx(np.average(gained, weights=weight), abs=4 / count)
+    assert float(found.collision_rate) == speed / 4
+
+
+def test_speeds_have_moments() -> None:
+    """Of a gas and of a table, against closed forms; a density at rest has no mean."""
+    gas, table = Speeds.of("maxwell:0.3 m/s"), Speeds.of(([1.0, 3.0], [0.5, 0.5]))
+    assert gas.mean == pytest.approx(4 * 0.3 / np.sqrt(np.pi), rel=1e-8)
+    assert gas.moment(2) == pytest.approx(8 * 0.3**2, rel=1e-8)
+    assert table.mean == pytest.approx(2 / np.log(3), rel=1e-12)
+    assert table.moment(2) == pytest.approx(13 / 3, rel=1e-12)
+    assert np.isnan(Speeds.of(([0.0, 1.0], [1.0, 0.0])).mean)
+    assert Speeds.of(2.0).mean == 2.0

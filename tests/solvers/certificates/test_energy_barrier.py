@@ -212,6 +212,7 @@ def test_loose_tolerances_still_prove(angle: float, below: float) -> None:
 
 
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+@pytest.mark.slow
 def test_a_well_that_nearly_merges_with_its_barrier_holds(engine: str) -> None:
     """A doublet that settles in its film is proved to stick up to 1e-7 below the speed at which its well vanishes.
 

@@ -130,6 +130,7 @@ def test_rows_collide_as_their_scenes() -> None:
     assert {0, 1, 2} == set(single.outcome.values.tolist())
 
 
+@pytest.mark.slow
 def test_derivatives_are_those_of_displaced_experiments() -> None:
     """By the free entries, and by speed and angle, results change as differences say."""
     scene = Scene.load("granulation")
@@ -154,6 +155,7 @@ def test_derivatives_are_those_of_displaced_experiments() -> None:
 @pytest.mark.parametrize(
     ("degrees", "approximate", "within"), [(0.0, False, 1e-5), (45.0, False, 1e-5), (45.0, True, 1e-2)]
 )
+@pytest.mark.slow
 def test_slopes_are_those_of_boundary_sensitivities(degrees: float, approximate: bool, within: float) -> None:
     """Critical speeds at an angle move with viscosity and film thickness as the exact derivatives say."""
     scene, angle = Scene.load("granulation"), math.radians(degrees)

@@ -85,6 +85,7 @@ def test_kernel_and_rosenbrock_share_the_steps(counted: Counted) -> None:
     assert 0 < kernel + ROSENBROCK * counted.total <= STEPS
 
 
+@pytest.mark.slow
 def test_a_batch_has_the_steps_of_one(counted: Counted) -> None:
     """Rosenbrock gets as many after the kernel, so that both decide the same."""
     scene = Scene.from_dict(CHATTERS)
@@ -115,6 +116,7 @@ def test_location_and_replay_share_the_steps(engine: str, most: int, distance: f
     assert counted.total <= 2 * most  # a decided trajectory that cannot be replayed is located again
 
 
+@pytest.mark.slow
 def test_a_line_through_chatter_takes_a_quarter_of_the_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     """It is given up for a range in which collisions chatter, as few of them show; next to it they are decided."""
     scene, runs = Scene.from_dict(CHATTERS), []

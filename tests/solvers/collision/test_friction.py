@@ -150,6 +150,7 @@ def test_a_spinning_doublet_that_slides_at_rest_is_released() -> None:
 
 
 @pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
+@pytest.mark.slow
 def test_where_chatter_is_cut_off_changes_no_more_than_the_tolerance(engine: str) -> None:
     """A doublet that rebounds ever less and then slides at rest is cut off at a speed that goes as its square root."""
     entries = {

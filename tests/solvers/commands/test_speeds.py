@@ -27,15 +27,19 @@ SHOWN: dict[str, tuple[str, ...]] = {
     "map": GRID,
     "boundary": (*LINES, "--wrt", "liquid.viscosity"),
     "boundary --json": (*LINES, "--json"),
+    "critical": ("--angle", "55"),
+    "critical --json": ("--angle", "55", "--json"),
     "averages": ("--tolerance", "1e-2"),
+    "check": (),
     "fit": ("--free", "liquid.viscosity"),
     "table": ("--over", "stokes=0.2:0.21,angle=10:12", "--error", "1e-2", "--attack", "100"),
 }
-DRAWN = {"collide", "sensitivity", "sensitivity band", "map", "boundary", "fit", "table"}
+DRAWN = {"collide", "sensitivity", "sensitivity band", "map", "boundary", "critical", "fit", "table"}
 SILENT = {  # why the others show no speed
     "prove": "names in SI and Stokes numbers", "reproduce": "the paper's figures are over Stokes numbers and angles",
     "verify": "residuals of laws", "bench": "CPU times and errors", "export": "functions, whose headers name arguments",
     "generate": "files of equations", "diff": "files of equations", "compile": "digests", "cite": "references",
+    "tracks": "the columns of `fit`; printed, they say normal speed",
 }  # fmt: skip
 NAMED = re.compile(r"(normal|relative|rel\.|approach|impact\.)[\s_]?$|_$")
 MACHINE = re.compile(r"""^["']?speed(_sd)?["']?( \[m/s\])?["']?\s*([:,]|$)""")
@@ -79,10 +83,11 @@ def test_every_command_is_looked_at() -> None:
 
 
 @pytest.mark.parametrize("name", SHOWN)
+@pytest.mark.slow
 def test_output_says_which_speed(name: str, scene: Path, tmp_path: Path) -> None:
     """No table, JSON, CSV or picture of a command says `speed` alone, and none shows m/s without a name of it."""
     command = name.partition(" ")[0]
-    words = [command, scene, *([scene.parent / "data.csv"] if command == "fit" else []), *SHOWN[name]]
+    words = [command, scene, *([scene.parent / "data.csv"] if command in ("fit", "check") else []), *SHOWN[name]]
     picture = tmp_path / "picture.svg"
     words += ["--plot", picture] if name in DRAWN else []
     file = tmp_path / ("law.nc" if command == "table" else "table.csv")

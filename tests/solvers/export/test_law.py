@@ -159,6 +159,30 @@ def test_one_by_one_is_the_batch(law: Law):
 
 
 @NEED
+def test_a_budget_ends_what_takes_longer(law: Law):
+    """What has more steps is undecided and says so; what has fewer is as without a budget, to the last bit."""
+    spent, longer = law.number("UNDECIDED_NO_BUDGET"), 1 << 30
+    draw = np.random.default_rng(5)
+    velocities = np.zeros((100, 2, 3))
+    velocities[:, 0] = draw.uniform(0.2, 2, (100, 1)) * [0.5, 0.0, 1.0]
+    pairs = law.pairs([0, 0, 1], velocities, 2e4 * draw.normal(size=(100, 2, 3)))
+    for rows, answers in ((random_impacts(law, 200), law.collide), (pairs, law.collide_pairs)):
+        whole, shares = answers(rows), list[float]()
+        for budget in (1, 30, 100, longer):
+            found = answers(rows, budget=budget)
+            over = found["status"] == spent
+            for name in whole.dtype.names or ():
+                np.testing.assert_array_equal(found[name][~over], whole[name][~over])
+            assert np.all(found["outcome"][over] == law.number("UNDECIDED"))
+            shares.append(over.mean())
+        assert shares[0] > shares[1] > shares[2] > shares[3] == 0
+        assert np.all(answers(rows, budget=-1)["status"] == law.number("BAD_BUDGET"))
+    contact = law.begin(law.impacts(speed=1.0, angle=0.5), budget=1)
+    assert law.advance(contact, 1.0) == spent
+    assert contact["motion"][0] == law.number("LOST")
+
+
+@NEED
 def test_in_pieces_a_contact_is_the_collision(law: Law):
     """Interrupted at random times, it takes the same steps: the numbers at separation are those of one call."""
     draw, apart = np.random.default_rng(3), law.number("APART")

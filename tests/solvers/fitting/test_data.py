@@ -51,7 +51,7 @@ def test_units_missing_cells_and_comments(tmp_path):
             "out of range",
         ),
         ("speed [m/s];angle [deg];restitution", "0,5;30;0.3", "row 1 (line 2), column speed", "decimal comma"),
-        ("speed (m/s),angle [deg],restitution", "0.5,30,0.3", "data", "square brackets"),
+        ("speed (m/s,angle [deg],restitution", "0.5,30,0.3", "data", "no name of a column"),
         ("speed [m/s],angle [deg],restitution", "0.5,30,0.3,1", "row 1 (line 2)", "too many"),
         ("speed,angle [deg],restitution", "0.5,30,0.3", "header", "has no unit"),
         ("speed [kg],angle [deg],restitution", "0.5,30,0.3", "header", "a mass"),

@@ -8,6 +8,7 @@ import pytest
 from wetdoublet.solvers import InputError, Scene, collide_many, fit, log_likelihood
 from wetdoublet.solvers.fitting.free_entries import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
+from wetdoublet.solvers.fitting.result import Estimate
 
 from tests.helpers.command import run
 from tests.helpers.synthetic import drawn
@@ -167,9 +168,8 @@ def test_a_known_combination():
     found = fit(scene, drawn(scene, head_on, 4), [VISCOSITY, mass], starts=0)
     assert {each.verdict for each in found.estimates.values()} == {COMBINED}
     (sentence,) = found.combinations
-    assert sentence.startswith(
-        (f"The data tell {VISCOSITY} * {mass}^-1 to", f"The data tell {VISCOSITY}^-1 * {mass} to")
-    )
+    assert sentence.startswith(f"The data fix {VISCOSITY} / {mass} to")
+    assert sentence.endswith("; neither alone.")
 
 
 def test_a_contradicting_row_is_named():
@@ -272,3 +272,13 @@ def test_a_profile_that_flattens_just_below_its_drop_is_open():
     result = fit("glass-beads-water", seen, [VISCOSITY, "particles.dry_restitution"])
     estimate = result.estimates[VISCOSITY]
     assert (estimate.low, estimate.verdict) == (None, ONE_SIDE)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [(0.8, 1.5, "to 35 %"), (0.99, 1.01, "to 1 %"), (0.1, 10.0, "within a factor of 10"), (None, 1.5, "")],
+)
+def test_an_identified_entry_says_how_well(low, high, words):
+    """Beside the verdict stands half the interval relative to the estimate: wide intervals are closed, too."""
+    verdict = IDENTIFIED if low else ONE_SIDE
+    assert Estimate(1.0, low, high, verdict).precision == words

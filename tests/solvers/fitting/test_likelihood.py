@@ -32,6 +32,7 @@ PENDULUM = (
 )
 
 
+@pytest.mark.slow
 def test_likelihood_is_the_mean_over_the_scatter():
     """Of each row the likelihood is the mean over drawn impacts of outcome times density."""
     scene = Scene.load("pendulum")
@@ -59,6 +60,7 @@ def test_likelihood_is_the_mean_over_the_scatter():
     ("name", "table"),
     [("pendulum", PENDULUM), ("granulation", ([0.05, 0.117, 0.2], [45.0, 45.0, 60.0], [1, 2, 2], [0.25, 0.6, 0.9]))],
 )
+@pytest.mark.slow
 def test_gradient_is_that_of_differences(name: str, table: tuple):
     """The gradient agrees with differences, also where outcomes change within the scatter."""
     scene = Scene.load(name)

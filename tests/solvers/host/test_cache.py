@@ -136,6 +136,7 @@ _CACHE = "from wetdoublet.solvers.host import user_cache as cache"
 _INCH = 'from wetdoublet.solvers.scene.units import quantity; print(quantity("1 inch", "m", "x", "a length"))'
 
 
+@pytest.mark.slow
 def test_a_damaged_unit_is_read_again(shelf: Path, tmp_path: Path):
     """A unit that pint has judged is kept in our cache alone; in pieces it is judged again, and is not unknown."""
     settings = {"XDG_CACHE_HOME": str(tmp_path / "home")}

@@ -67,6 +67,7 @@ def test_batches_and_maps_hold_the_scenes_speed() -> None:
         assert many.attrs["held"].startswith("held: Stokes number" if hold else "held: normal speed")
 
 
+@pytest.mark.slow
 def test_a_step_in_viscosity_is_what_the_derivative_says() -> None:
     """Differences of changed scenes equal the sensitivities, with the speed or the Stokes number held."""
     step = 1e-4

@@ -44,6 +44,7 @@ def agree(scene, inputs, names):
     return found
 
 
+@pytest.mark.slow
 def test_of_spheres_by_entries_and_vectors():
     """Spins in and out of the plane, velocities along and across the normal, its direction, and the scene."""
     inputs = {"normal": NORMAL, "velocities": VELOCITIES, "spins": SPINS}

@@ -108,7 +108,7 @@ def test_first_order_standard_deviation() -> None:
 def test_samples_at_the_edge_of_what_may_be() -> None:
     """Samples of a value that may only move one way (a contact angle of 0, a head-on impact) lie on that side alone."""
     for name in ("bridge.contact_angle", "impact.angle"):
-        assert uncertainty._possible(FIELDS[name], 0.0, np.array([0.1, -0.1])).tolist() == [0.1, 0.0]
+        assert uncertainty.possible_values(FIELDS[name], 0.0, np.array([0.1, -0.1])).tolist() == [0.1, 0.0]
 
 
 @pytest.mark.slow
@@ -168,7 +168,7 @@ def test_sobol_indices() -> None:
 def test_without_salib(monkeypatch: pytest.MonkeyPatch) -> None:
     """One line says what to install."""
     monkeypatch.setitem(sys.modules, "SALib.sample.sobol", None)
-    with pytest.raises(ComputationError, match=r"SALib; pip install 'wetdoublet\[global\]'"):
+    with pytest.raises(ComputationError, match=r"SALib; in the clone run pip install '\.\[global\]'"):
         sobol_indices(GRANULATION, {"impact.angle": ("60 deg", "66 deg")}, samples=2)
 
 

@@ -26,6 +26,7 @@ def rough(friction, beta_0=0.0, **entries):
 
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
 @pytest.mark.parametrize(("friction", "beta_0"), [(0.02, 0.5), (0.3, 0.5)])
+@pytest.mark.slow
 def test_the_reference_in_the_laboratory_s_axes_says_the_same(engine, friction, beta_0):
     """Of random pairs, whose contacts slide and stick: impulses on both bodies, from their velocities."""
     scene = rough(friction, beta_0, **UNEQUAL)

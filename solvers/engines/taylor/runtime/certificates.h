@@ -52,7 +52,7 @@ static vec film_takes(const constants *c, vec low, vec high)
 /* Ratio of successive gaps in a geometric sequence from `start` to contact. */
 static inline vec ratio_of_depths(vec start, vec contact)
 {
-    return vec_exp(vec_log(vec_max(contact, start*LEAST_DEPTH)/start)*(1.0/DEPTHS));
+    return vec_exp(vec_log(vec_max(contact, start*LEAST_DEPTH)/start)*(1.0/(double)DEPTHS));
 }
 
 #if !ATTRACTION

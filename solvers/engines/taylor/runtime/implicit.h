@@ -192,7 +192,7 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
         if (state >= FIRST_VECTOR && state < MODEL_STATES)
             allowed += FLOOR_OF_VECTOR*(size + LEAST_VECTOR);
 #else
-        if (state > NORMAL_VELOCITY && state < MODEL_STATES)
+        if (state != GAP && state != NORMAL_VELOCITY && state < MODEL_STATES)
             allowed += FLOOR_OF_MOMENTUM*size;
 #endif
         if (state == GAP)

@@ -206,8 +206,8 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
     a->time = LANE(l->time, lane);
     a->smallest_gap = LANE(l->smallest, lane);
     a->final_gap = LANE(l->y[GAP], lane);
-    a->steps = LANE(l->steps, lane);
-    a->reversal = LANE(l->reversal, lane);
+    a->steps = (int32_t)LANE(l->steps, lane);
+    a->reversal = (int32_t)LANE(l->reversal, lane);
 #if TURNING_STATE
     a->turned = LANE(l->y[TURNED], lane);
 #elif OBLIQUE && STRINGS

@@ -164,7 +164,7 @@ INLINE mask to_whole(vec x)
 /* Each lane of a set of bits, in ascending order. */
 #define EACH_OF(lane, set) \
     for (unsigned left_of_##lane = (set); left_of_##lane; left_of_##lane &= left_of_##lane - 1) \
-        for (int lane = first_of(left_of_##lane), once = 1; once; once = 0)
+        for (int lane = first_of(left_of_##lane), once_##lane = 1; once_##lane; once_##lane = 0)
 
 static const uint64_t SIGN = 0x8000000000000000; /* of a double */
 static const double PI = 3.14159265358979323846;

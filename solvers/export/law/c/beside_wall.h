@@ -39,7 +39,7 @@ static ending beside_wall(const bodies *b, const arrival *a, const law_collision
 
 /* The ends of pairs that arrive, those of `those`. */
 static void find_ends(const law_material *m, const bodies *b, const arrival *rows, const int *those, int count,
-                      double rtol, ending *ends)
+                      double rtol, int budget, ending *ends)
 {
     law_impact impacts[2*PAIRS];
     law_collision found[2*PAIRS];
@@ -49,7 +49,7 @@ static void find_ends(const law_material *m, const bodies *b, const arrival *row
         set_unknown(found + 2*k + 1, LAW_OK);
     }
     if (count)
-        collide_planar(m, impacts, 2*count, rtol, found);
+        collide_planar(m, impacts, 2*count, rtol, budget, found);
     for (int k = 0; k < count; k++)
         ends[those[k]] = beside_wall(b, rows + those[k], found + 2*k, found + 2*k + 1);
 }

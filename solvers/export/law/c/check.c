@@ -51,7 +51,7 @@ static int is_wrong_in_pieces(int k, const law_material *material, const law_imp
     law_contact c;
     int wrong = 0, sticks = whole->outcome == LAW_STICK;
     double time = sticks ? 3.0*material->film_thickness/impact->speed : whole->contact_time*(1.0 + 1e-9);
-    law_begin(material, impact, VECTOR_RTOL, &c);
+    law_begin(material, impact, VECTOR_RTOL, 0, &c);
     for (int piece = 1; piece <= 3 && c.status == LAW_OK; piece++)
         law_advance(&c, time*piece/3.0);
     if (sticks && c.motion == LAW_LOST && c.outcome == LAW_STICK)
@@ -117,10 +117,10 @@ static int wrong_pairs(const law_material *material)
     int wrong = 0;
     for (int k = 0; k < PAIR_COUNT; k++)
         pairs[k] = pair_vectors[k].pair;
-    law_collide_pair_many(material, pairs, PAIR_COUNT, VECTOR_RTOL, after);
+    law_collide_pair_many(material, pairs, PAIR_COUNT, VECTOR_RTOL, 0, after);
     for (int k = 0; k < PAIR_COUNT; k++) {
         law_pair_after one;
-        law_collide_pair(material, &pairs[k], VECTOR_RTOL, &one);
+        law_collide_pair(material, &pairs[k], VECTOR_RTOL, 0, &one);
         wrong += pair_is_wrong(k, &after[k]) || pair_is_wrong(k, &one);
     }
     printf("%d of %d pairs in space differ\n", wrong, (int)PAIR_COUNT);
@@ -136,14 +136,15 @@ int main(void)
     int wrong = 0;
     for (int k = 0; k < COUNT; k++)
         impacts[k] = vectors[k].impact;
-    law_collide_many(&material, impacts, COUNT, VECTOR_RTOL, found);
+    law_collide_many(&material, impacts, COUNT, VECTOR_RTOL, 0, found);
     for (int k = 0; k < COUNT; k++) {
         law_collision one;
-        law_collide(&material, &impacts[k], VECTOR_RTOL, &one);
+        law_collide(&material, &impacts[k], VECTOR_RTOL, 0, &one);
         wrong += is_wrong(k, &found[k]) || is_wrong(k, &one) || is_wrong_in_pieces(k, &material, &impacts[k], &one);
     }
     impacts[0].speed = -1.0;
-    if (law_collide(&material, &impacts[0], VECTOR_RTOL, &found[0]) != LAW_BAD_SPEED || found[0].outcome != LAW_UNDECIDED) {
+    if (law_collide(&material, &impacts[0], VECTOR_RTOL, 0, &found[0]) != LAW_BAD_SPEED
+            || found[0].outcome != LAW_UNDECIDED) {
         printf("a negative speed is not refused\n");
         wrong++;
     }

@@ -14,15 +14,16 @@ int law_advance(law_contact *c, double t)
     return c->status;
 }
 
-int law_begin(const law_material *material, const law_impact *impact, double rtol, law_contact *c)
+int law_begin(const law_material *material, const law_impact *impact, double rtol, int budget, law_contact *c)
 {
     memset(c, 0, sizeof *c);
     c->material = *material;
     c->impact = *impact;
     c->rtol = rtol;
+    c->budget = budget;
     c->status = check_material(material);
     if (c->status == LAW_OK)
-        c->status = check_rtol(rtol);
+        c->status = check_settings(rtol, budget);
     if (c->status == LAW_OK)
         c->status = check_impact(impact);
     if (c->status == LAW_OK)

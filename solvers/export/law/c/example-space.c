@@ -56,7 +56,7 @@ int main(void)
         law_pair_after after;
         meet(&first, &second, distance);
         before += energy(&first, 0) + energy(&second, 1);
-        if (law_collide_particles(&material, &first, &second, 1e-9, 1e-9, &after) != LAW_OK)
+        if (law_collide_particles(&material, &first, &second, 1e-9, 1e-9, 0, &after) != LAW_OK)
             printf("pair %d: %s\n", pair, law_message(after.status)); /* they are as they were */
         else
             counts[after.outcome]++; /* of a stick: one rigid body from here on, after.angular_velocity */

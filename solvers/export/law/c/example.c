@@ -11,7 +11,7 @@ static void follow_one(const law_material *material)
 {
     const law_impact impact = {@SPEED@, 0.5, 0.0, 0.0};
     law_contact c;
-    law_begin(material, &impact, 1e-9, &c);
+    law_begin(material, &impact, 1e-9, 0, &c);
     for (int k = 1; k <= 4 && c.motion <= LAW_RESTING; k++) {
         law_advance(&c, k*0.5*material->film_thickness/impact.speed);
         printf("after %.3e s: gap %.3e m, its rate %.3e m/s\n", c.time, c.gap, c.normal_velocity);
@@ -29,7 +29,7 @@ int main(void)
         impact.angle = k/32*0.04;                              /* rad */
         impact.spin = 0.0;                                     /* rad/s */
         impact.partner_spin = 0.0;
-        if (law_collide(&material, &impact, 1e-9, &c) != LAW_OK) {
+        if (law_collide(&material, &impact, 1e-9, 0, &c) != LAW_OK) {
             printf("impact %d: %s\n", k, law_message(c.status));
             continue;
         }

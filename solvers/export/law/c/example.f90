@@ -15,7 +15,11 @@ program example
     impact%angle = 1
     impact%spin = 0
     impact%partner_spin = 0
-    status = law_collide(material, impact, 1.0e-9_c_double, found)
-    print '(es12.4, i4, i4, f14.9)', impact%speed, status, found%outcome, found%restitution
+    status = law_collide(material, impact, 1.0e-9_c_double, 0_c_int, found)
+    if (status == LAW_OK) then
+      print '(es12.4, i4, f14.9)', impact%speed, found%outcome, found%restitution
+    else
+      print '(es12.4, 2x, a)', impact%speed, law_message(status)
+    end if
   end do
 end program example

@@ -24,7 +24,7 @@ static void follow(law_contact *c, double t)
     add_impact(&b, &c->impact, 0);
     set_columns(columns, &c->material, &b);
     h.limit = t/unit_of_time;
-    integrate(columns, 1, c->rtol, answers, &h);
+    integrate(columns, 1, c->rtol, c->budget, answers, &h);
     memcpy(c->memory, &h, sizeof h);
     c->status = answers[0].status;
     if (c->status > LAST_ANSWER || !h.begun) {

@@ -12,7 +12,7 @@ struct interrupted; /* limit.h; a collision in space is not interrupted */
  *
  * `contact`: of a single collision that may be interrupted, where it is; else null. */
 static void integrate(
-    const buffer *columns, long count, double rtol, answer *answers, struct interrupted *contact)
+    const buffer *columns, long count, double rtol, int budget, answer *answers, struct interrupted *contact)
 {
     queue q; /* large: only what counts at the start is set */
     memset(answers, 0, sizeof *answers*(size_t)count);
@@ -25,11 +25,11 @@ static void integrate(
     q.count = count;
     q.next = q.queued = q.taken = 0;
     q.parks = q.resumes = 0;
-    q.budget = MOST_STEPS_TAKEN;
+    q.budget = budget ? budget : MOST_STEPS_TAKEN;
 #if WITH_LIMIT
     q.contact = contact;
     if (contact)
-        q.budget += contact->now.steps;
+        q.budget += contact->now.steps < INT32_MAX - q.budget ? contact->now.steps : INT32_MAX - q.budget;
 #else
     (void)contact;
 #endif
@@ -63,13 +63,13 @@ static void find_rate_scales(const buffer *columns, long count, double *found)
 #endif
 
 /* Integrates a block; the results of collision k go to found[b->which[k]]. */
-static void run_block(const law_material *m, const block *b, double rtol, law_collision *found)
+static void run_block(const law_material *m, const block *b, double rtol, int budget, law_collision *found)
 {
     buffer columns[QUANTITIES];
     answer answers[BLOCK];
     double unit[BLOCK];
     set_columns(columns, m, b);
-    integrate(columns, b->count, rtol, answers, NULL);
+    integrate(columns, b->count, rtol, budget, answers, NULL);
 #if OBLIQUE
     find_rate_scales(columns, b->count, unit);
 #else

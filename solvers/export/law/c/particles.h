@@ -45,7 +45,7 @@ static double brought_together(const bodies *b, law_particle *first, law_particl
 }
 
 int law_collide_particles(const law_material *material, law_particle *first, law_particle *second, double tolerance,
-                          double rtol, law_pair_after *after)
+                          double rtol, int budget, law_pair_after *after)
 {
     law_particle both[2];
     law_pair pair;
@@ -64,7 +64,7 @@ int law_collide_particles(const law_material *material, law_particle *first, law
         memcpy(pair.velocities[k], both[k].velocity, sizeof pair.velocities[k]);
         memcpy(pair.spins[k], both[k].spin, sizeof pair.spins[k]);
     }
-    if (law_collide_pair(material, &pair, rtol, after) != LAW_OK)
+    if (law_collide_pair(material, &pair, rtol, budget, after) != LAW_OK)
         return after->status;
     if (b.wall)
         move_sphere(after, both, both + 1);

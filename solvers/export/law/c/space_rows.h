@@ -36,7 +36,7 @@ static ending end_with_vectors(const bodies *b, const arrival *a, const answer *
 }
 
 static void find_ends_with_vectors(const law_material *m, const bodies *b, const arrival *rows, const int *those,
-                                   int count, double rtol, ending *ends)
+                                   int count, double rtol, int budget, ending *ends)
 {
     double values[QUANTITIES][PAIRS], unit[PAIRS];
     buffer columns[QUANTITIES];
@@ -56,7 +56,7 @@ static void find_ends_with_vectors(const law_material *m, const bodies *b, const
         put_column(values, SI_IMPACT_SPIN_X, k, a->spin[0]);
         put_column(values, SI_IMPACT_PARTNER_SPIN_X, k, a->spin[1]);
     }
-    integrate(columns, count, rtol, found, NULL);
+    integrate(columns, count, rtol, budget, found, NULL);
     find_rate_scales(columns, count, unit);
     for (int k = 0; k < count; k++)
         ends[those[k]] = end_with_vectors(b, rows + those[k], found + k, unit[k]);

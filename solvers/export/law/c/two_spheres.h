@@ -34,7 +34,7 @@ static ending out_of_plane(const bodies *b, const arrival *a, const plane *p, co
 
 /* The ends of pairs that arrive, those of `those`. */
 static void find_ends(const law_material *m, const bodies *b, const arrival *rows, const int *those, int count,
-                      double rtol, ending *ends)
+                      double rtol, int budget, ending *ends)
 {
     law_impact impacts[PAIRS];
     law_collision found[PAIRS];
@@ -50,9 +50,9 @@ static void find_ends(const law_material *m, const bodies *b, const arrival *row
             solid[solids++] = those[k];
     }
     if (flats)
-        collide_planar(m, impacts, flats, rtol, found);
+        collide_planar(m, impacts, flats, rtol, budget, found);
     for (int k = 0; k < flats; k++)
         ends[flat[k]] = out_of_plane(b, rows + flat[k], planes + k, found + k);
     if (solids)
-        space_find_ends_with_vectors(m, b, rows, solid, solids, rtol, ends);
+        space_find_ends_with_vectors(m, b, rows, solid, solids, rtol, budget, ends);
 }

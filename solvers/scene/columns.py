@@ -12,11 +12,13 @@ import numpy as np
 
 from ..errors import InputError
 from ..host import bounded
-from ..scene.schema import MEETING
+from .schema import MEETING
 
 _LARGEST = 20_000_000  # bytes of a file
 _MOST_ROWS = 100_000
-_HEADER = re.compile(r"\s*([^\[\]]+?)\s*(?:\[\s*([^\[\]]*?)\s*\])?\s*")
+_HEADER = re.compile(r"\s*([^\[\]()]+?)\s*(?:[\[(]\s*([^\[\]()]*?)\s*[\])])?\s*")
+DECIMAL_COMMA = re.compile(r"\s*[-+]?\d*,\d+\s*")
+_DECIMAL_POINT = re.compile(r"\s*[-+]?\d*\.\d+.*")
 
 
 @dataclass(frozen=True)
@@ -104,6 +106,10 @@ def _from_csv(source: str | Path, label: str) -> tuple[list[Column], list[int]]:
         cells += [""] * (len(head) - len(cells))
         for column, cell in zip(columns, cells):
             column.cells.append(cell)
+    cells = [cell for column in columns for cell in column.cells]
+    if separator != "," and not any(map(_DECIMAL_POINT.fullmatch, cells)):
+        for column in columns:
+            column.cells[:] = [c.replace(",", ".") if DECIMAL_COMMA.fullmatch(c) else c for c in column.cells]
     return columns, lines
 
 
@@ -111,6 +117,5 @@ def _header(text: str, label: str) -> tuple[str, str | None]:
     match = _HEADER.fullmatch(text)
     if match is None:
         raise InputError(label, text, "names of columns, with their unit in brackets", "is no name of a column")
-    if "(" in match[1]:
-        raise InputError(label, text, "the unit in square brackets, such as speed [m/s]", "has parentheses")
-    return match[1].strip().removeprefix("impact.") if match[1].strip() in MEETING else match[1].strip(), match[2]
+    name, unit = match[1].strip(), "" if match[2] in ("-", "–") else match[2]  # as spreadsheets write it
+    return name.removeprefix("impact.") if name in MEETING else name, unit

@@ -1,0 +1,54 @@
+"""`wetdoublet tracks`: two tracked centres become the table that `fit` reads."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import Annotated
+
+from ..errors import InputError
+from ..host import files
+from . import options, texts
+from .signature import as_command, passed
+
+_NUMBER = partial(texts.number, "a number")
+
+
+@as_command("Two tracked centres over time become the table that `fit` reads.")
+def command(
+    film: str | None,
+    rate: Annotated[float | None, _NUMBER],
+    scale: str | None,
+    scale_sd: Annotated[float | None, _NUMBER],
+    noise: Annotated[float | None, _NUMBER],
+    request: options.EntriesRequest,
+    output: options.Written,
+) -> None:
+    """Speed, angle, e_n, e_t, contact time and rotation from the tracked centres of two spheres in FILM.csv.
+
+    The columns are frame,x1,y1,x2,y2 in pixels, or time [s] and units of length; `impact` tells several films apart.
+    SCENE gives radii, film thickness and rupture gap. With -o FILE.csv the table is written as `fit` reads it.
+
+    \b
+    Examples:
+      wetdoublet tracks film.csv scene.toml --rate 4000 --scale "12.5 um" -o impacts.csv
+
+    Options:
+        FILM.csv (film):
+        --rate F: Frames per second.
+        --scale LENGTH: Length of a pixel, as "12.5 um".
+        --scale-sd S: Relative standard deviation of the scale, as 0.005 [0].
+        --noise N: Standard deviation of a tracked coordinate, in the unit of the columns [from the scatter].
+    """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
+    from ..fitting.tracks import tracks
+
+    source = request.source or ""
+    if source.lower().endswith(".csv"):
+        request, film = replace(request, source=film), source
+    if film is None:
+        raise InputError("FILM.csv", None, "a CSV file with a row for each frame")
+    found = tracks(film, request.scene(), **passed(rate=rate, scale=scale, scale_sd=scale_sd, noise=noise))
+    if output.file is not None and output.file.suffix == ".csv":
+        files.write(output.file, found.to_csv())
+        output = options.Output(output.as_json)
+    output.put(str(found), found.to_dict())

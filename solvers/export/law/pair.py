@@ -1,0 +1,146 @@
+"""The material of a pair from a scene's entries, in C: what `quantities` computes of symbols, printed as C."""
+
+from collections.abc import Sequence
+
+import casadi
+from casadi import SX, Function
+
+from ...averages.sizes import FIXED, scene_of_sizes
+from ...errors import CheckFailed
+from ...scene.quantities import Ways, quantities
+from ...scene.scene import Scene
+from ...scene.user_model import TABLE
+from .comments import comment
+from .material import LARGE, LARGEST, Number, c_function, meaning_of, refusals
+
+_OPERATIONS = {
+    casadi.OP_ADD: "{} + {}", casadi.OP_SUB: "{} - {}", casadi.OP_MUL: "{}*{}", casadi.OP_DIV: "{}/{}",
+    casadi.OP_NEG: "-{}", casadi.OP_SQ: "{0}*{0}", casadi.OP_TWICE: "2.0*{}", casadi.OP_INV: "1.0/{}",
+    casadi.OP_SQRT: "sqrt({})",
+}  # fmt: skip
+_COATED, _COATED_TOO = "liquid.coating_thickness", "partner.coating_thickness"
+_SIZES = ("reduced_radius", "reduced_mass", "film_thickness", "volume")
+"""Quantities that entries of several kinds may give."""
+
+
+def pair_entries(scene: Scene, of_material: Sequence[Number]) -> tuple[Number, ...]:
+    """The numbers that describe a pair: all of the scene's but its impact, and those that may be added to it.
+
+    Spheres have a radius and a density each, however the scene gives their sizes; those on strings are equal.
+    """
+    first, other = 2 * scene.particles.reduced_radius, scene.partner and scene.partner.radius
+    alone = scene.wall or scene.pendulum is not None
+    sized = scene_of_sizes(scene, first, None if alone else other or first, FIXED)
+    given = {name: float(value) for name, value in sized.si if not isinstance(value, str)}
+    if not alone and _COATED in given:
+        given.setdefault(_COATED_TOO, given[_COATED])
+    needed = {*_SIZES, "", *(number.name for number in of_material)}
+    known = {*_SIZES, *(scene.fields[name].quantity for name in given)}
+    added = {number.name: number.value for number in of_material if number.name not in known}
+    numbers = []
+    for name, field in scene.fields.items():
+        quantity = field.quantity
+        if name in given or quantity in added:
+            plain = name.startswith(f"{TABLE}.") or not quantity or quantity in _SIZES[:2]
+            meaning = field.what if plain else meaning_of(quantity, scene)
+            if name == "bridge.volume" and scene.ways.volume == "absolute":
+                meaning = "bridge volume"
+            if quantity not in needed:
+                meaning += ", on which no collision depends"
+            member, value = name.replace(".", "_"), given[name] if name in given else added[quantity]
+            most = LARGE.get(quantity, LARGEST)
+            numbers.append(Number(member, field.unit or "1", meaning, field.range, value, most))
+    return tuple(numbers)
+
+
+def pair_function(scene: Scene, entries: Sequence[Number], of_material: Sequence[Number]) -> str:
+    """The C functions that return the scene's own pair, refuse entries, and compute the material of a pair."""
+    values = [f"e.{each.name} = {each.value!r};" for each in entries]
+    head = "law_pair_entries law_default_pair_entries(void)"
+    lines = c_function(head, ["law_pair_entries e;", *values, "return e;"])
+    head = "static int check_pair_entries(const law_pair_entries *e)"
+    lines += c_function(head, [*refusals(entries, "e->"), "return LAW_OK;"])
+    body = ["law_material m;", "int status = check_pair_entries(e);", "memset(material, 0, sizeof *material);"]
+    body += ["if (status != LAW_OK)", "    return status;", *_computed(scene, entries, of_material)]
+    body += ["status = check_material(&m);", "if (status == LAW_OK)", "    *material = m;", "return status;"]
+    return "\n".join(
+        [*lines, *c_function("int law_material_of(const law_pair_entries *e, law_material *material)", body)]
+    )
+
+
+def _computed(scene: Scene, entries: Sequence[Number], of_material: Sequence[Number]) -> list[str]:
+    """Lines of C that set the members of `m` from those of `e`; what is used more than once has a name."""
+    symbols = {each.name.replace("_", ".", 1): SX.sym(each.name) for each in entries}
+    made = quantities(symbols, Ways(scene.wall, scene.ways.volume))
+    function = Function("f", [*symbols.values()], [SX(made[each.name]) for each in of_material])
+    places: dict[int, int] = {}  # of the work vector, and the instruction whose result is there
+    operands: list[tuple[int, ...]] = []
+    for k in range(function.n_instructions()):
+        kind = function.instruction_id(k)
+        operands.append(() if kind == casadi.OP_INPUT else tuple(places[i] for i in _read(function, k)))
+        if kind != casadi.OP_OUTPUT:
+            places[function.instruction_output(k)[0]] = k
+    lines, texts = list[str](), dict[int, str]()
+    for k, those in enumerate(operands):
+        kind = function.instruction_id(k)
+        if kind == casadi.OP_OUTPUT:
+            lines.append(f"m.{of_material[function.instruction_output(k)[0]].name} = {texts[those[0]]};")
+        elif kind == casadi.OP_INPUT:
+            texts[k] = f"e->{entries[function.instruction_input(k)[0]].name}"
+        elif kind == casadi.OP_CONST:
+            texts[k] = repr(function.instruction_constant(k))
+        elif kind in _OPERATIONS:
+            texts[k] = f"({_OPERATIONS[kind].format(*(texts[each] for each in those))})"
+            if kind == casadi.OP_SQ or sum(each.count(k) for each in operands) > 1:
+                lines.append(f"const double w{k} = {texts[k][1:-1]};")
+                texts[k] = f"w{k}"
+        else:
+            raise CheckFailed(f"an operation that is not known in C: {kind}")
+    return lines
+
+
+def _read(function: Function, k: int) -> list[int]:
+    """Places of the work vector that an instruction reads."""
+    return [] if function.instruction_id(k) == casadi.OP_CONST else list(function.instruction_input(k))
+
+
+def pair_header(scene: Scene, entries: Sequence[Number]) -> list[str]:
+    """What the header says of pairs."""
+    members = {each.name for each in entries}
+    film = (
+        "the sum of both coatings"
+        if "liquid_coating_thickness" in members
+        else "liquid_film_thickness, of both together"
+    )
+    rules = [f"The film is {film}."]
+    if scene.ways.volume == "coating":
+        part = (
+            "the part bridge_coating_fraction"
+            if "bridge_coating_fraction" in members
+            else "what the other's shadow covers"
+        )
+        rules.append(f"The bridge has of either coating {part}.")
+    if scene.pendulum is not None:
+        rules.append("The spheres on strings are equal.")
+    rows = [
+        f"    double {each.name}; /* {'' if each.unit == '1' else each.unit + ', '}{each.said}: {each.meaning} */"
+        for each in entries
+    ]
+    return [
+        *comment(
+            "A pair as a scene file describes it: member TABLE_KEY is the entry TABLE.KEY, SI. "
+            f"{' '.join(rules)} law_default_pair_entries() has the scene's."
+        ),
+        "typedef struct {",
+        *rows,
+        "} law_pair_entries;",
+        "",
+        "law_pair_entries law_default_pair_entries(void);",
+        "",
+        *comment(
+            "The material of a pair. Returns LAW_OK, or a status that names what is out of range; the material is then "
+            "all zeros, which every call refuses."
+        ),
+        "int law_material_of(const law_pair_entries *entries, law_material *material);",
+        "",
+    ]

@@ -1,0 +1,202 @@
+"""`critical()`: the speed up to which impacts stick, and the speed from which on they bounce."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ...generated import scaling
+from ...generated.automaton import BOUNCE, OUTCOMES, STICK
+from ..boundaries.boundary import boundary
+from ..boundaries.changes import Change
+from ..changes.brackets import locate
+from ..changes.experiment import Rows
+from ..engines.settings import RTOL, check_rtol
+from ..errors import ComputationError, InputError
+from ..host.arguments import check_function, check_mapping, check_whole
+from ..many.batch import checked_numbers
+from ..many.collide_many import collide_many
+from ..scene.scene import Scene
+from ..scene.schema import SPEEDS
+from .boundaries import check_boundary_wrt, moving
+from .critical_result import Critical, CriticalSpeed
+from .materials import Material, materials_of
+from .uncertainty import check_samples, deviations, normal_deviates, possible_values, value_of
+
+_BESIDE = 1e-6  # relative distance of the collisions that confirm a speed on both sides
+_NEAR, _FINE, _COARSE = 3.0, 100, 12  # factor about the speed within which draws are searched finely; samples a decade
+_WIDTH = 1e-5  # to which the speed of a draw is enclosed, relative
+_LEVELS = (0.025, 0.975)
+_STICK = OUTCOMES.index(STICK)
+
+
+def critical(
+    scene: Any,
+    *,
+    angle: Any = None,
+    uncertainty: Mapping[str, Any] | None = None,
+    wrt: Sequence[str] | str | None = None,
+    stokes: tuple[float, float] | None = None,
+    samples: int = 256,
+    rtol: float = RTOL,
+    progress: Callable[[int, int], None] | None = None,
+) -> Critical:
+    """The speed up to which impacts stick, for each angle and material.
+
+    The boundaries of all lines are traced over the range of Stokes numbers, and every change of outcome is checked by
+    collisions just below and just above it.
+
+    Arguments:
+        scene: a Scene, a path or a preset's name; or a table of materials: a CSV file, a DataFrame, or a mapping of
+            columns, which are entries by dotted name (see `materials_of`).
+        angle: impact angles in rad, a number or 1-D; default the scene's, or head-on.
+        uncertainty: standard deviations of entries by dotted name, as {"liquid.viscosity": "5 %"}; a table of materials
+            may have its own, as columns `liquid.viscosity_sd`.
+        wrt: parameters by which the relative speed is differentiated; "all" for those of the scene.
+        stokes: lowest and highest Stokes number of the search, as for `boundary`.
+        samples: draws of the uncertain entries, a power of two: independent normal distributions, truncated to values
+            that the entries may have.
+        rtol: relative tolerance of the integrations.
+        progress: called with (materials done, materials in all).
+
+    Returns:
+        Critical: a row for each material and angle.
+
+    Raises:
+        InputError: an invalid entry, name or number. A line that fails raises nothing; its row says why.
+
+    Example:
+        >>> import wetdoublet as wd
+        >>> one = wd.critical("granulation", angle="30 deg").rows[0]
+        >>> round(one.relative_speed, 3), one.to
+        (1.795, 'stick-rotate-separate')
+    """
+    rtol, samples = check_rtol(rtol), check_samples(check_whole(samples, "samples", 2, 2**16))
+    check_function(progress, "progress")
+    check_mapping({} if uncertainty is None else uncertainty, "uncertainty", "standard deviations by dotted name")
+    materials = materials_of(scene)
+    rows: list[CriticalSpeed] = []
+    for done, material in enumerate(materials, 1):
+        spread = {**material.uncertainty, **(uncertainty or {})}
+        rows += _of_material(material, angle, spread, wrt, stokes, samples, rtol)
+        if progress:
+            progress(done, len(materials))
+    return Critical(tuple(rows), materials[0].scene if len(materials) == 1 else None, rtol)
+
+
+def _of_material(
+    material: Material, angle: Any, uncertainty: Mapping[str, Any], wrt: Sequence[str] | str | None,
+    stokes: tuple[float, float] | None, samples: int, rtol: float,
+) -> list[CriticalSpeed]:  # fmt: skip
+    scene = material.scene
+    for name in [each for each in uncertainty if each in SPEEDS]:
+        raise InputError("uncertainty", name, "entries other than the speed", "is what is sought")
+    names = () if wrt is None else check_boundary_wrt(scene, None if wrt == "all" else wrt)
+    if uncertainty:
+        deviations(scene, uncertainty)
+    angles = checked_numbers("impact.angle", (scene.angle or 0.0) if angle is None else angle).reshape(-1)
+    traced = boundary(scene, angle=angles, stokes=stokes, rtol=rtol)
+    rows = []
+    for k, (at, changes) in enumerate(zip(traced.angles, traced.changes, strict=True)):
+        row = CriticalSpeed(material.label, at, traced.window)
+        slowest, failure = ("", traced.failures[k]) if traced.failures[k] else _slowest(scene, row, changes, rtol)
+        if failure:
+            row = replace(row, sentences=(failure,), failed=True)
+        else:
+            row = _row(scene, row, changes, slowest, traced.range_text)
+        if row.stokes is not None and uncertainty:
+            row = _with_interval(scene, row, uncertainty, samples, rtol, traced.range_text)
+        if row.stokes is not None and names:
+            found = moving(scene, at, changes[0], names, rtol)
+            gradient, elasticity = (each.get("relative_speed", {}) for each in (found.gradient, found.elasticity))
+            said = (f"no derivatives: {found.reason}",) if found.reason else ()
+            row = replace(row, gradient=gradient, elasticity=elasticity, sentences=row.sentences + said)
+        rows.append(row)
+    return rows
+
+
+def _row(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], slowest: str, searched: str) -> CriticalSpeed:
+    """The row with what its changes of outcome mean."""
+    per_stokes = 1 / scene.stokes_per_speed / math.cos(row.angle)
+    outcomes = [slowest, *(one.after for one in changes)]
+    ends = [each * per_stokes for each in (row.searched[0], *(one.stokes for one in changes), row.searched[1])]
+    sticks = tuple((ends[k], ends[k + 1]) for k, outcome in enumerate(outcomes) if outcome == STICK)
+    above = ends[-2] if changes and outcomes[-1] == BOUNCE else None
+    row, said = replace(row, slowest=slowest, sticks=sticks, bounces_above=above), []
+    if not changes:
+        said = [f"no change in the range that was searched: {slowest} for all of {searched}"]
+    elif slowest == STICK:
+        speed = changes[0].stokes / scene.stokes_per_speed
+        row = replace(row, stokes=changes[0].stokes, speed=speed, relative_speed=ends[1], to=changes[0].after)
+    else:
+        said = [f"the slowest do not stick: {slowest} from the lower end of the range on, {searched}"]
+    if changes:
+        again = "again " if slowest == STICK else ""
+        said += [f"sticks {again}from {a:.4g} to {b:.4g} m/s (relative speed)" for a, b in sticks[bool(again) :]]
+        said += [] if above else [f"no speed from which on all bounce, {searched}"]
+    return replace(row, sentences=tuple(said))
+
+
+def _slowest(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], rtol: float) -> tuple[str, str]:
+    """The outcome at the lower end of the range; or why it is unknown, or which change collisions do not confirm."""
+    places = np.array([one.stokes for one in changes])
+    gaps = np.diff(places, prepend=0.0, append=np.inf) / 3
+    below, above = (np.minimum(_BESIDE * places, each) for each in (gaps[:-1], gaps[1:]))
+    stokes = np.concatenate([row.searched[:1], places - below, places + above])
+    seen = collide_many(scene, stokes=stokes, angle=row.angle, rtol=rtol, of=("outcome",))
+    first, *outcome = [OUTCOMES[code] if code >= 0 else "" for code in seen.outcome.values]
+    for one, *beside in zip(changes, outcome[: places.size], outcome[places.size :], strict=True):
+        if beside != [one.before, one.after]:
+            return "", f"collisions beside St {one.stokes:.10g} do not confirm the change of outcome found there"
+    slowest = changes[0].before if changes else first
+    return slowest, "" if slowest else f"no collision could be computed at the slowest: {seen.reason.values[0]}"
+
+
+def _with_interval(
+    scene: Scene, row: CriticalSpeed, uncertainty: Mapping[str, Any], samples: int, rtol: float, searched: str
+) -> CriticalSpeed:
+    """The row with the 95 % interval of its relative speed: from draws of the entries, each located by collisions."""
+    at = scene.with_impact(angle=row.angle)
+    normal = normal_deviates(samples, len(uncertainty))
+    columns = {
+        name: possible_values(at.fields[name], value_of(at, name), sigma * normal[:, k])
+        for k, (name, sigma) in enumerate(deviations(at, uncertainty).items())
+    }
+    angle = np.abs(columns.pop("impact.angle", np.full(samples, row.angle)))
+    experiment = Rows(at, (), columns, samples, rtol).unchecked(np.zeros(0))
+    kept = np.flatnonzero(np.broadcast_to(experiment.possible, samples))
+    radius, mass, viscosity = (experiment.columns[name] for name in ("reduced_radius", "reduced_mass", "viscosity"))
+    per_speed = np.broadcast_to(scaling.stokes(radius, mass, viscosity, 1.0), samples)
+    centre, (low, high) = row.stokes, row.searched
+    assert centre is not None
+
+    def labels(line: np.ndarray, stokes: np.ndarray) -> np.ndarray:
+        draw = kept[line]
+        outcome = experiment.outcomes(draw, stokes / per_speed[draw], angle[draw])
+        return np.where(outcome < 0, -1, outcome != _STICK)
+
+    near = max(low, centre / _NEAR), min(high, centre * _NEAR)
+    parts = ((low, near[0], _COARSE), (*near, _FINE), (near[1], high, _COARSE))
+    grids = [np.geomspace(a, b, 2 + int(each * np.log10(b / a))) for a, b, each in parts if b > a]
+    grid = np.unique(np.concatenate(grids))
+    try:
+        changes = locate(labels, np.tile(grid, (kept.size, 1)), lambda each: _WIDTH * each.low, unknown=-1)
+    except ComputationError as error:  # no compiled kernel
+        return replace(row, sentences=(*row.sentences, f"no interval: {error}"))
+    ends = np.where(changes.first == 0, np.inf, 0.0)  # of a draw that sticks throughout, and of one that never does
+    first = np.flatnonzero((changes.before == 0) & (np.append(-1, changes.line[:-1]) != changes.line))
+    ends[changes.line[first]] = changes.place[first]
+    speeds = ends / per_speed[kept] / np.cos(angle[kept])
+    below, above = (float(np.quantile(speeds, _LEVELS[0], method="lower")),
+                    float(np.quantile(speeds, _LEVELS[1], method="higher")))  # fmt: skip
+    interval, said = (below or None, above if np.isfinite(above) else None), list(row.sentences)
+    if None in interval:
+        which = "all stick" if interval[1] is None else "not even the slowest stick"
+        said.append(f"in more than 2.5 % of the draws {which} in the range, {searched}")
+    if lost := samples - kept.size:
+        said.append(f"{lost} of {samples} draws make no scene and are left out")
+    return replace(row, interval=interval, sentences=tuple(said))

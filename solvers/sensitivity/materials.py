@@ -1,0 +1,93 @@
+"""Materials in a table, one scene a row."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError, did_you_mean
+from ..scene.columns import columns_of
+from ..scene.scene import Scene
+from ..scene.schema import FIELDS
+
+_SD = "_sd"
+
+
+@dataclass(frozen=True)
+class Material:
+    """A scene with its name in the table, and standard deviations of its entries by dotted name."""
+
+    label: str
+    scene: Scene
+    uncertainty: Mapping[str, Any] = field(default_factory=dict)
+
+
+def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[Material]:
+    """The materials of a table, or the one that a scene is; a list of them is returned as it is.
+
+    Arguments:
+        source: a Scene, a path or a preset's name; or a CSV file, a DataFrame or a mapping of columns. Columns are
+            entries by dotted name with their unit in brackets, as `particles.diameter [um]`; in Python plain numbers
+            are SI where none is written. `NAME_sd` is the entry's standard deviation, with a unit or in %. A column
+            `scene` names the scene file or preset that a row changes. Other columns without a dot are the row's name.
+        changes: entries that all materials share, in place of the table's.
+
+    Raises:
+        InputError: an unknown entry, or a row that makes no scene.
+    """
+    if isinstance(source, list):
+        return source
+    is_table = Path(source).suffix.lower() == ".csv" if isinstance(source, (str, Path)) else hasattr(source, "keys")
+    if not is_table:
+        scene = Scene.load(source)
+        return [Material(scene.name, scene.with_entries(changes) if changes else scene)]
+    columns, lines = columns_of(source, "materials")
+    if not lines:
+        raise InputError("materials", None, "at least one row", "has no rows")
+    for column in columns:
+        name = column.name.removesuffix(_SD)
+        if "." in name and name not in FIELDS:
+            accepted = "entries of a scene by dotted name"
+            raise InputError("materials, header", column.name, accepted, f"is unknown{did_you_mean(name, FIELDS)}")
+        if name in FIELDS and FIELDS[name].unit and column.unit is None and isinstance(source, (str, Path)):
+            accepted = f"the unit in brackets, such as {name} [{FIELDS[name].unit}]"
+            raise InputError("materials, header", column.name, accepted, "has no unit")
+    found = []
+    for k, line in enumerate(lines):
+        cells = {column.name: _cell(column.unit, column.cells[k]) for column in columns}
+        entries = {name: value for name, value in cells.items() if name in FIELDS and value is not None}
+        spread = {name.removesuffix(_SD): value for name, value in cells.items() if name.endswith(_SD) and value}
+        names = [str(value) for name, value in cells.items() if "." not in name and name != "scene" and value]
+        label = ", ".join(names) or f"row {k + 1}"
+        try:
+            scene = _scene(cells.get("scene"), entries).with_entries(changes or {})
+        except InputError as error:
+            where = f"materials, {label} (line {line}), {error.field}"
+            raise InputError(where, error.value, error.accepted, error.problem) from None
+        found.append(Material(label, scene, spread))
+    return found
+
+
+def _scene(base: Any, entries: Mapping[str, Any]) -> Scene:
+    if base:
+        return Scene.load(str(base)).with_entries(entries)
+    tables: dict[str, dict[str, Any]] = {}
+    for name, value in entries.items():
+        table, _, key = name.partition(".")
+        tables.setdefault(table, {})[key] = value
+    return Scene.from_dict(tables)
+
+
+def _cell(unit: str | None, cell: Any) -> Any:
+    """A cell with its column's unit; None for an empty one."""
+    if cell is None or cell != cell or (isinstance(cell, str) and not cell.strip()):
+        return None
+    text = cell.strip() if isinstance(cell, str) else cell
+    if unit:
+        return f"{text} {unit}"
+    try:
+        return float(text)
+    except ValueError:
+        return text

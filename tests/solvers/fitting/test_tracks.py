@@ -1,0 +1,121 @@
+"""Tracked centres become impacts: films of the toolkit's own trajectories, in which the truth is known."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from wetdoublet.solvers import InputError, Scene, collide, fit, tracks
+
+from tests.helpers.command import run
+from tests.helpers.films import filmed
+
+NAMES = ("speed", "angle", "restitution", "tangential_restitution", "contact_time", "rotation")
+PIXEL = 2e-6
+
+
+def film_of(name: str, stokes: float, angle: float, noise: float, seed: int, per_diameter: float = 30.0):
+    """A film, its rate, the scene and the collision; the pair approaches by a diameter in so many frames."""
+    scene = Scene.load(name)
+    one = collide(scene, stokes=stokes, angle=math.radians(angle), trajectory=True)
+    rate = per_diameter * one.speed / (4 * scene.particles.reduced_radius)
+    return filmed(scene, one, rate, PIXEL, noise, np.random.default_rng(seed)), rate, scene, one
+
+
+@pytest.mark.parametrize(
+    ("name", "stokes", "angle"), [("granulation", 0.2, 30), ("granulation", 0.03, 60), ("lactose-pvp", 12, 40)]
+)
+def test_without_noise_it_is_the_collision(name: str, stokes: float, angle: float) -> None:
+    """Speed, angle, e_n, e_t, contact time and rotation of a bounce, and of a doublet that turns more than once."""
+    film, rate, scene, one = film_of(name, stokes, angle, 0.0, 1)
+    found = tracks(film, scene, rate=rate, scale="2 um").columns
+    for each in NAMES:
+        assert found[each][0] == pytest.approx(getattr(one, each), rel=1e-6)
+    assert found["outcome"] == [""]
+
+
+@pytest.mark.parametrize(("name", "stokes", "angle"), [("granulation", 0.03, 60), ("lactose-pvp", 12, 40)])
+def test_uncertainties_are_those_of_many_films(name: str, stokes: float, angle: float) -> None:
+    """Over 200 films of one collision the error in standard deviations has mean 0 and variance 1.
+
+    Of 200 normal deviates the mean has a standard error of 0.071, the standard deviation one of 0.05: four of each.
+    """
+    errors = []
+    for seed in range(200):
+        film, rate, scene, one = film_of(name, stokes, angle, 0.2, seed)
+        found = tracks(film, scene, rate=rate, scale=PIXEL).columns
+        errors.append([(found[each][0] - getattr(one, each)) / found[f"{each}_sd"][0] for each in NAMES])
+    assert np.abs(np.mean(errors, axis=0)).max() < 4 * 0.071
+    assert np.abs(np.std(errors, axis=0) - 1).max() < 4 * 0.05
+
+
+def test_the_scale_is_uncertain() -> None:
+    """The uncertainty of the scale counts as much as another scale changes the results."""
+    film, rate, scene, _ = film_of("lactose-pvp", 12, 40, 0.0, 1)
+    found = tracks(film, scene, rate=rate, scale=PIXEL, scale_sd=0.01).columns
+    exact, larger = (tracks(film, scene, rate=rate, scale=k * PIXEL).columns for k in (1, 1.001))
+    for each in ("speed", "angle", "restitution"):
+        assert found[f"{each}_sd"][0] == pytest.approx(10 * abs(larger[each][0] - exact[each][0]), rel=0.02)
+
+
+def test_a_stick_and_a_head_on_impact_are_said() -> None:
+    """Together to the end of the film is a stick; head-on within the noise has no e_t and no sense of rotation."""
+    film, rate, scene, _ = film_of("glass-beads-water", 20, 20, 0.2, 1)
+    stuck = tracks(film, scene, rate=rate, scale=PIXEL)
+    assert stuck.columns["outcome"] == ["stick"]
+    assert "restitution" not in stuck.columns
+    assert "taken for a stick" in stuck.remarks[0]
+    film, rate, scene, one = film_of("granulation", 0.2, 0, 0.2, 1)
+    straight = tracks(film, scene, rate=rate, scale=PIXEL)
+    assert "tangential_restitution" not in straight.columns
+    assert straight.columns["restitution"][0] == pytest.approx(one.restitution, abs=0.03)
+    assert "head-on within its uncertainty" in straight.remarks[0]
+
+
+def test_turns_that_cannot_be_counted_are_left_out() -> None:
+    """A doublet filmed too slowly turns by more than 90 deg between frames: no rotation is given, and it is said."""
+    film, rate, scene, _ = film_of("granulation", 0.03, 60, 0.0, 1, per_diameter=0.3)
+    found = tracks(film, scene, rate=rate, scale=PIXEL)
+    assert "rotation" not in found.columns
+    assert "turns cannot be counted" in found.remarks[0]
+
+
+def test_the_table_is_read_by_fit(tmp_path: Path) -> None:
+    """Films in one file, through the command, to a fit that finds the viscosity of the films."""
+    true = Scene.load("lactose-pvp")
+    random, parts = np.random.default_rng(6), []
+    for label in range(12):
+        one = collide(true, stokes=random.uniform(6, 14), angle=random.uniform(0.3, 0.9), trajectory=True)
+        film = filmed(true, one, 2e5, PIXEL, 0.2, random)
+        parts.append(pd.DataFrame({"impact": label, **film}))
+    pd.concat(parts).to_csv(tmp_path / "films.csv", index=False)
+    words = ("tracks", tmp_path / "films.csv", "lactose-pvp", "--rate", 2e5, "--scale", "2 um")
+    done = run(*words, "-o", tmp_path / "impacts.csv")
+    assert done.exit_code == 0, done.output
+    record = json.loads(run(*words, "--json").stdout)
+    assert len(record["speed"]) == 12
+    first = true.with_entries({"liquid.viscosity": "10 mPa s"})
+    found = fit(first, tmp_path / "impacts.csv", "liquid.viscosity")
+    one = found.estimates["liquid.viscosity"]
+    assert one.low < true.liquid.viscosity < one.high
+
+
+def test_what_is_wrong_is_named() -> None:
+    """No scale, no rate, a missing column, too short a film, two that pass each other, a wall."""
+    film, rate, scene, _ = film_of("granulation", 0.2, 30, 0.2, 1)
+    late = {name: values[23:] for name, values in film.items()}
+    past = film | {"y2": film["y2"] + 1e3, "x2": film["x2"] + 1e3}
+    for wrong, settings, words in (
+        (film, {"rate": rate}, "x1 has no unit; accepted: scale"),
+        (film, {"scale": PIXEL}, "frame has no unit; accepted: rate"),
+        ({name: values for name, values in film.items() if name != "y2"}, {}, "has no y2"),
+        (late, {"rate": rate, "scale": PIXEL}, "at least 4 frames before the impact"),
+        (past, {"rate": rate, "scale": PIXEL}, "pass each other"),
+    ):
+        with pytest.raises(InputError) as error:
+            tracks(wrong, scene, **settings)
+        assert words in str(error.value).replace('"', "")
+    with pytest.raises(InputError, match="strings"):
+        tracks(film, "pendulum", rate=rate, scale=PIXEL)

@@ -1,0 +1,128 @@
+"""The speed up to which particles stick."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from wetdoublet.generated.automaton import OUTCOMES
+from wetdoublet.solvers import InputError, Scene, collide, collide_many, critical
+
+from tests.helpers.command import run
+
+FILM = {  # no attraction, no criterion but the roughness
+    "particles": {"diameter": "1 mm", "density": "2500 kg/m^3", "roughness": "2 um", "dry_restitution": 0.8},
+    "liquid": {"viscosity": "20 mPa s", "film_thickness": "30 um"},
+    "model": {"film": "infinite"},
+}
+
+
+def test_head_on_it_is_the_closed_form() -> None:
+    """A film alone, head-on: St* = (1 + 1/e) ln(x0/x_b), so that the speed is proportional to the viscosity."""
+    film = Scene.from_dict(FILM)
+    [one] = critical(film, angle=0.0, wrt=["liquid.viscosity"]).rows
+    assert one.stokes == pytest.approx((1 + 1 / 0.8) * math.log(30 / 2), rel=1e-7)
+    assert one.speed == pytest.approx(film.speed_of(one.stokes), rel=1e-14)
+    assert one.relative_speed == one.speed == one.bounces_above
+    assert one.to == "bounce"
+    assert one.elasticity["liquid.viscosity"] == pytest.approx(1.0, abs=1e-9)
+    assert one.gradient["liquid.viscosity"] == pytest.approx(one.speed / 0.02, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["granulation", "pendulum", "lactose-pvp", "pellet-coating"])
+def test_rosenbrock_agrees_on_both_sides(name: str) -> None:
+    """An engine that did not trace the boundary sticks just below, and has the outcome named just above."""
+    found = critical(name, angle=["10 deg", "55 deg"])
+    for one in found.rows:
+        speeds = [one.relative_speed * (1 + side * 1e-5) for side in (-1, 1)]
+        seen = [collide(name, relative_speed=v, angle=one.angle, engine="rosenbrock", ledger=False) for v in speeds]
+        assert [each.outcome for each in seen] == ["stick", one.to]
+
+
+def test_everything_slower_sticks_and_everything_faster_bounces() -> None:
+    """Between the two speeds and beyond them a dense scan of collisions meets no other outcome."""
+    scene = Scene.load("granulation")
+    [one] = critical(scene, angle="60 deg").rows
+    speed = np.geomspace(one.relative_speed / 50, one.bounces_above * 20, 4000)
+    outcome = collide_many(scene, relative_speed=speed, angle="60 deg").outcome.values
+    assert (outcome[speed < one.relative_speed] == OUTCOMES.index("stick")).all()
+    assert (outcome[speed > one.bounces_above] == OUTCOMES.index("bounce")).all()
+    assert (outcome[(speed > one.relative_speed) & (speed < one.bounces_above)] == 1).all()
+
+
+def test_the_interval_holds_what_other_draws_give() -> None:
+    """Head-on the speed is known in closed form: the quantiles of many draws of it are the ends of the interval."""
+    spread = {"liquid.viscosity": "10 %", "particles.roughness": "0.3 um", "particles.dry_restitution": 0.03}
+    [one] = critical(Scene.from_dict(FILM), angle=0.0, uncertainty=spread, samples=1024).rows
+    random = np.random.default_rng(1)
+    viscosity, roughness, dry = (c + s * random.standard_normal(100_000) for c, s in ((1, 0.1), (2, 0.3), (0.8, 0.03)))
+    speed = one.speed * viscosity * (1 + 1 / dry) * np.log(30 / roughness) / one.stokes
+    # 1024 quasi-random draws: standard error of a quantile of independent ones is sqrt(0.025 * 0.975/1024) = 0.5 %
+    share = [(speed < end).mean() for end in one.interval]
+    assert share == pytest.approx([0.025, 0.975], abs=0.01)
+
+
+def test_none_in_the_range_is_said_with_the_range() -> None:
+    """All stick, or the slowest do not: no number, and a sentence with the Stokes numbers and speeds searched."""
+    [one] = critical("pendulum", stokes=(1e-3, 0.1)).rows
+    assert one.relative_speed is one.speed is one.stokes is one.to is None
+    assert "stick for all of St 0.001 to 0.1 (normal speed 0.000264 to 0.0264 m/s)" in one.sentences[0]
+    spinning = Scene.from_dict(FILM | {"impact": {"spin": "2000 rad/s"}})
+    [fast] = critical(spinning, angle="30 deg").rows
+    assert fast.relative_speed is None
+    assert fast.slowest == "stick-rotate-separate"
+    assert "the slowest do not stick" in fast.sentences[0]
+
+
+def test_an_interval_may_be_open() -> None:
+    """If many draws stick throughout the range, the upper end is not in it, and that is said."""
+    scene = Scene.from_dict(FILM)
+    [one] = critical(scene, angle=0.0, stokes=(1.0, 6.3), uncertainty={"particles.roughness": "20 %"}).rows
+    assert one.interval[0] < one.relative_speed
+    assert one.interval[1] is None
+    assert "all stick in the range" in one.sentences[0]
+
+
+TABLE = """size;particles.diameter [um];liquid.coating_thickness [um];liquid.viscosity [P];liquid.viscosity_sd [%];scene
+fine;150;3;0.07;5;lactose-pvp
+coarse;600;12;0.4;;lactose-pvp
+"""
+
+
+def test_a_table_of_materials(tmp_path: Path) -> None:
+    """A row each: as the scene with these entries has it; its own uncertainties; plotted and printed."""
+    (tmp_path / "materials.csv").write_text(TABLE, encoding="utf-8")
+    plot = tmp_path / "critical.png"
+    done = run("critical", tmp_path / "materials.csv", "--angle", "0:20:2", "--json", "--plot", plot)
+    assert done.exit_code == 0, done.output
+    rows = json.loads(done.stdout)["rows"]
+    assert [each["material"] for each in rows] == ["fine", "fine", "coarse", "coarse"]
+    entries = {"particles.diameter": "600 um", "liquid.coating_thickness": "12 um", "liquid.viscosity": "40 mPa s"}
+    [alone] = critical(Scene.load("lactose-pvp").with_entries(entries), angle=math.radians(20)).rows
+    assert rows[3]["relative_speed"] == pytest.approx(alone.relative_speed, rel=1e-7)
+    assert [each["interval"] is None for each in rows] == [False, False, True, True]
+    assert plot.stat().st_size > 10_000
+    assert "coarse" in run("critical", tmp_path / "materials.csv").stdout
+
+
+def test_what_is_wrong_is_named(tmp_path: Path) -> None:
+    """A misspelt column, a row that makes no scene, an uncertainty of the speed that is sought."""
+    (tmp_path / "a.csv").write_text("particles.diametre [um]\n1\n", encoding="utf-8")
+    assert "did you mean particles.diameter" in run("critical", tmp_path / "a.csv").output
+    (tmp_path / "b.csv").write_text("grade,particles.diameter [um],scene\nB2,-1,lactose-pvp\n", encoding="utf-8")
+    wrong = run("critical", tmp_path / "b.csv")
+    assert wrong.exit_code == 2
+    assert "B2 (line 2), particles.diameter" in wrong.output
+    with pytest.raises(InputError, match=r"impact\.speed.*is what is sought"):
+        critical("granulation", uncertainty={"impact.speed": "5 %"})
+
+
+def test_json_of_one_scene() -> None:
+    """One scene and angle: the fields stand at the top, SI."""
+    record = json.loads(run("critical", "granulation", "--json").stdout)
+    [one] = critical("granulation").rows
+    for name in ("relative_speed", "speed", "stokes", "to", "interval"):
+        assert record[name] == getattr(one, name)
+    assert record["angle"] == pytest.approx(math.radians(60))
+    assert record["units"]["relative_speed"] == "m/s"
