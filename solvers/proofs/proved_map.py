@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from ...generated.automaton import OUTCOMES
 from ..engines.interval.build import NotProvable
@@ -18,24 +18,11 @@ from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
 from ..scene.origin import origin
 from ..scene.scene import Scene
+from .cells import UNDECIDED, Cell
 from .inputs import Inputs
 
-UNDECIDED = -1
 DEPTH = 12  # halvings of a cell
 _MOVING = ("stokes", "angle")
-
-
-class Cell(NamedTuple):
-    """A box of Stokes numbers and angles (rad), and the outcome of all its collisions by number; -1 is undecided."""
-
-    stokes: tuple[float, float]
-    angle: tuple[float, float]
-    outcome: int
-
-    @property
-    def area(self) -> float:
-        """Its area over the logarithm of the Stokes number, and the angle."""
-        return math.log(self.stokes[1] / self.stokes[0]) * (self.angle[1] - self.angle[0])
 
 
 @dataclass(frozen=True)
@@ -79,7 +66,7 @@ class ProvedMap:
         from ..host.pictures import saved
         from .plot import draw
 
-        return saved(lambda: draw(self), path)
+        return saved(lambda: draw(self.scene.name, self.cells, self.shares), path)
 
 
 def prove_map(
