@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .boundaries.boundary import Atlas, Boundaries, atlas, boundary
     from .collision.collide import collide
     from .collision.result import Collision
+    from .engines.interval.prove import Proof, prove
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .fitting.compare import compare_models
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from .many.regime_map import regime_map
     from .planning.design import design
     from .planning.result import Design
-    from .proofs.prove import Proof, prove
     from .proofs.proved_boundary import ProvedBoundary, prove_boundary
     from .proofs.proved_map import ProvedMap, prove_map
     from .scene.scene import Scene
@@ -59,7 +59,7 @@ _NAMES = {
     "many.regime_map": "regime_map",
     "planning.design": "design",
     "planning.result": "Design",
-    "proofs.prove": "Proof prove",
+    "engines.interval.prove": "Proof prove",
     "proofs.proved_boundary": "ProvedBoundary prove_boundary",
     "proofs.proved_map": "ProvedMap prove_map",
     "scene.scene": "Scene",

@@ -76,7 +76,7 @@ def collide(
 
 def _proved(result: Collision, scene: Scene) -> Collision:
     """The result with the proof of its outcome, or with the reason why there is none."""
-    from ..proofs.prove import prove
+    from ..engines.interval.prove import prove
 
     proof = prove(scene)
     if proof and proof.outcome != result.outcome:

@@ -12,7 +12,7 @@ from ..scene.scene import Scene
 if TYPE_CHECKING:
     import xarray
 
-    from ..proofs.prove import Proof
+    from ..engines.interval.prove import Proof
 
 UNITS = {
     "restitution": "1", "tangential_restitution": "1", "slip_restitution": "1",

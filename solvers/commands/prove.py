@@ -28,7 +28,7 @@ def command(
 ) -> None:
     """Prove the outcome of the collision of SCENE from its initial data on, or say why that is not possible here.
 
-    A proof is about the model's equations and the stored numbers. The exit status is 4 if nothing is proved.
+    A proof is about the model's equations and the stored numbers. The exit status is 1 if nothing is proved.
 
     \b
     Examples:
@@ -87,7 +87,7 @@ def command(
     scene = request.scene().with_impact(**{name: _number(name, text) for name, text in impact.items()})
     scene.need_impact()
 
-    from ..proofs.prove import prove
+    from ..engines.interval.prove import prove
 
     proof = prove(scene, within=box)
     output.show(proof)

@@ -1,1 +1,1 @@
-"""Outcomes that are proved, for stored numbers or for whole boxes of them: one collision, a map, a boundary."""
+"""Maps and boundaries of outcomes that are proved, for whole boxes of inputs."""

@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..engines.interval.inputs import Inputs
+from ..engines.interval.prove import Proof, prove_inputs
 from ..errors import ComputationError, InputError
 from ..formatting.style import LETTERS
 from ..scene.origin import origin
 from ..scene.scene import Scene
-from .inputs import Inputs
-from .prove import Proof, prove_inputs
 
 _LINES = 48  # points of a line between which changes are looked for
 _MOST = 60  # halvings

@@ -14,12 +14,12 @@ from typing import Any
 from ...generated.automaton import OUTCOMES
 from ..engines.interval.build import NotProvable
 from ..engines.interval.call import BOX, enclose
+from ..engines.interval.inputs import Inputs
 from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
 from ..scene.origin import origin
 from ..scene.scene import Scene
 from .cells import UNDECIDED, Cell
-from .inputs import Inputs
 
 DEPTH = 12  # halvings of a cell
 _MOVING = ("stokes", "angle")

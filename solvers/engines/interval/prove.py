@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...generated.automaton import OUTCOMES
-from ..engines.interval.build import NotProvable
-from ..engines.interval.call import BOX, OUTCOME, REASONS, SHARP, Enclosure, Range, enclose
-from ..formatting.style import LETTERS
-from ..scene.origin import origin
-from ..scene.scene import Scene
+from ....generated.automaton import OUTCOMES
+from ...formatting.style import LETTERS
+from ...scene.origin import origin
+from ...scene.scene import Scene
+from .build import NotProvable
+from .call import BOX, OUTCOME, REASONS, SHARP, Enclosure, Range, enclose
 from .inputs import Inputs, Within
 
 _REFUSED = "not provable here: "

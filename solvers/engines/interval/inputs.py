@@ -6,14 +6,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..engines.interval.build import Engine, NotProvable, engine
-from ..engines.interval.call import Range
-from ..errors import InputError, shown
-from ..host.arguments import check_mapping
-from ..model.model import select_model
-from ..scene.groups import si_values
-from ..scene.scene import Scene
-from ..scene.user_model import fields
+from ...errors import InputError, shown
+from ...host.arguments import check_mapping
+from ...model.model import select_model
+from ...scene.groups import si_values
+from ...scene.scene import Scene
+from ...scene.user_model import fields
+from .build import Engine, NotProvable, engine
+from .call import Range
 
 Within = float | Mapping[str, float | tuple[float | str, float | str]]
 MOST = 6  # entries of a box
