@@ -39,6 +39,11 @@ class ProvedBoundary:
     """Changes of outcome along a line of constant angle (rad), each between two proved collisions.
 
     That there is one change only between two points, or none elsewhere, is not proved.
+
+    Example:
+        >>> from wetdoublet.solvers import prove_boundary
+        >>> prove_boundary("granulation", angle="10 deg", stokes=(0.2, 0.5)).changes
+        ()
     """
 
     scene: Scene

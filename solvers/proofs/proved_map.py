@@ -32,6 +32,11 @@ class ProvedMap:
     Attributes:
         cells: of any size, as far as they had to be halved.
         proofs: collisions in a box that were enclosed.
+
+    Example:
+        >>> from wetdoublet.solvers import prove_map
+        >>> prove_map("granulation", stokes=[0.3, 0.301], angle=[0.35, 0.351]).shares["bounce"]
+        1.0
     """
 
     scene: Scene

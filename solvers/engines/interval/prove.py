@@ -29,6 +29,11 @@ class Proof:
         smallest_gap: a bound below the gap, m; None if nothing is proved.
         steps: of the enclosure.
         ranges: low and high of the quantities that the proof holds for, SI.
+
+    Example:
+        >>> from wetdoublet.solvers import prove
+        >>> bool(prove("granulation", stokes=0.3, angle="20 deg"))
+        True
     """
 
     outcome: str | None
