@@ -12,7 +12,7 @@ from setuptools.command.build_py import build_py
 from setuptools.errors import CompileError
 
 FOLDERS = find_namespace_packages(
-    include=["derive*", "generated*", "solvers*"], exclude=["*__pycache__*", "solvers.package*"]
+    include=["derive*", "generated*", "solvers*"], exclude=["*__pycache__*", "solvers.package*", "solvers.explorer.*"]
 )
 TAYLOR = "wetdoublet.solvers.engines.taylor"
 SETS = os.environ.get("WETDOUBLET_INSTRUCTION_SETS", "" if os.name == "nt" else None)  # not tried on Windows

@@ -79,6 +79,7 @@ sphinx_gallery_conf = {
 html_theme = "furo"
 html_title = "wetdoublet"
 html_static_path = ["_static"]
+html_extra_path = ["_emitted/site"]  # the explorer's page
 html_css_files = ["site.css"]
 html_show_sourcelink = False
 html_show_copyright = False

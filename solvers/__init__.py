@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .engines.interval.prove import Proof, prove
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
+    from .explorer.page_of_scene import Explorer, explore
     from .fitting.compare import compare_models
     from .fitting.examine import check_data
     from .fitting.fit import fit, log_likelihood
@@ -49,6 +50,7 @@ _NAMES = {
     "collision.result": "Collision",
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
+    "explorer.page_of_scene": "Explorer explore",
     "fitting.compare": "compare_models",
     "fitting.examine": "check_data",
     "fitting.fit": "fit log_likelihood",
@@ -80,11 +82,12 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()
 
 __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
-    "Design", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap", "Scene", "Sensitivities",
-    "Table", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data", "collide",
-    "collide_many", "collide_pair", "collision_averages", "compare_models", "compile_kernels", "critical", "design",
-    "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove", "prove_boundary", "prove_map",
-    "regime_map", "sensitivities", "sobol_indices", "table", "tracks", "trajectory_sensitivities",
+    "Design", "Explorer", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap", "Scene",
+    "Sensitivities", "Table", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
+    "collide", "collide_many", "collide_pair", "collision_averages", "compare_models", "compile_kernels", "critical",
+    "design", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove",
+    "prove_boundary", "prove_map", "regime_map", "sensitivities", "sobol_indices", "table", "tracks",
+    "trajectory_sensitivities",
 ]  # fmt: skip
 
 if not TYPE_CHECKING:  # so that type checkers know the names above and no others

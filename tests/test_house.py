@@ -20,7 +20,7 @@ ORDER = (
     "derive.emit", "generated", "solvers.errors", "solvers.host", "solvers.formatting", "solvers.scene",
     "solvers.model", "solvers.certificates", "solvers.engines", "solvers.proofs", "solvers.collision", "solvers.many",
     "solvers.space", "solvers.changes", "solvers.boundaries", "solvers.sensitivity", "solvers.averages",
-    "solvers.fitting", "solvers.planning", "solvers.verify", "solvers.export", "solvers.tables",
+    "solvers.fitting", "solvers.planning", "solvers.verify", "solvers.export", "solvers.explorer", "solvers.tables",
     "solvers.paper", "solvers.commands", "solvers", "solvers.package", "solvers.__main__",
 )  # fmt: skip
 

@@ -13,12 +13,13 @@ from typing import Any
 import sympy as sp
 
 from ..physics.partners import rotation
+from ..physics.partners.space import torque_coefficients
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from . import friction, observables
 from .certificates.table import CERTIFICATES
 from .events import events, rebound, rebound_loss, start
-from .intermediates import inward_force, rates, resting_rates, turning_rate
+from .intermediates import FILM_FORCE, forces, inward_force, rates, resting_rates, turning_rate
 
 Values = Mapping[str, sp.Expr]
 
@@ -81,6 +82,15 @@ def _motion(structure: Structure, states: tuple[sp.Symbol, ...]) -> Emitted:
             yield "turning_rate", doc, {q.beta.name: turning}
     doc = "Sum of the normal forces except the film's, over m v0^2/x0: positive inward."
     yield "inward_force", doc, {"inward_force": inward_force(structure)}
+    if structure.partner == "space":
+        doc = (
+            "How a doublet whose line of centres is held answers: the film force over the normal velocity and the "
+            "attractions, over m v0^2/x0 and v0, and the symmetric matrix that takes slips across the line of centres "
+            "to torques, over m a^2 v0/x0."
+        )
+        held = {"resistance": forces(structure)[FILM_FORCE] / q.normal_velocity}
+        held["attraction"] = inward_force(structure) + rotation(structure).centrifugal
+        yield "held_response", doc, held | torque_coefficients(), _REGIONAL
 
 
 def _changes(structure: Structure, states: tuple[sp.Symbol, ...]) -> Emitted:

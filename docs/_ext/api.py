@@ -9,6 +9,7 @@ import wetdoublet.solvers as solvers
 GROUPS = {
     "Scenes": ("Scene",),
     "Collisions": ("collide", "Collision", "collide_many", "collide_pair", "regime_map", "compile_kernels"),
+    "Explorer": ("explore", "Explorer"),
     "Averages": ("collision_averages",),
     "Boundaries": ("boundary", "Boundaries", "atlas", "Atlas"),
     "Tables": ("table", "Table"),

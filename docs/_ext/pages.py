@@ -9,6 +9,7 @@ import api
 import drawings
 import laws
 import scene_entries
+from wetdoublet.solvers.explorer.page_of_scene import explore
 
 DOCS = Path(__file__).resolve().parents[1]
 
@@ -26,6 +27,7 @@ def write(_app: Any = None) -> None:
         put(DOCS / name, text)
     laws.plots(DOCS / "reference" / "laws")
     drawings.write(DOCS / "_emitted")
+    put(DOCS / "_emitted" / "site" / "explorer.html", explore("granulation").html)
     generated = DOCS.parent / "generated"
     put(DOCS / "_emitted" / "automaton.svg", (generated / "automaton.svg").read_text(encoding="utf-8"))
     put(DOCS / "_emitted" / "automaton.md", _events((generated / "automaton.md").read_text(encoding="utf-8")))

@@ -25,7 +25,7 @@
  *
  * Law slots: film, glass, shear, arm, strings.
  *
- * Products of series: 14 and those of the laws. */
+ * Products of series: 12.5 and those of the laws. */
 
 #define OBLIQUE 1
 #define BRIDGE 0
@@ -216,20 +216,18 @@ typedef struct {
     film_resistance_series film_resistance_law;
     vec film_force[PASSING(ORDER) + 1];
     vec gap_squared[PASSING(ORDER) + 1];
-    vec scaled_rotation[TERMS];
-    vec sine_of_scaled_rotation[TERMS], slope_of_scaled_rotation[TERMS];
-    vec cosine_of_scaled_rotation[TERMS];
-    vec sine_of_scaled_rotation_squared[TERMS];
-    vec distance_by_sine_of_scaled_rotation_squared[PASSING(ORDER) + 1];
-    vec offset_squared[TERMS];
+    vec sine_of_rotation[TERMS], slope_of_rotation[TERMS];
+    vec cosine_of_rotation[TERMS];
     vec combination[TERMS];
+    vec distance_by_combination[PASSING(ORDER) + 1];
+    vec offset_squared[TERMS];
+    vec combination_2[TERMS];
     strings_stiffness_series strings_stiffness_law;
     vec string_pull[PASSING(ORDER) + 1];
-    vec sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
     vec string_sideways[PASSING(ORDER) + 1];
     arm_lever_series arm_lever_law;
     vec rate_of_normal_velocity[PASSING(ORDER) + 1];
-    vec combination_2[TERMS];
+    vec combination_3[TERMS];
     vec rate_of_orbital_momentum[PASSING(ORDER) + 1];
     vec rate_of_spin[PASSING(ORDER) + 1];
     vec rate_of_rotation[PASSING(ORDER) + 1];
@@ -237,7 +235,7 @@ typedef struct {
     vec rate_of_normal_loss[TERMS];
     vec distance_by_orbital_rate[TERMS];
     vec arm_lever_law_by_spin[TERMS];
-    vec combination_3[TERMS];
+    vec combination_4[TERMS];
     vec rate_of_tangential_loss[TERMS];
 #endif
     vec acceleration[TERMS]; /* of the gap, also while it is held */
@@ -264,27 +262,22 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->normal_velocity,
         s->film_resistance_law.result, k);
     s->gap_squared[PASSING(k)] = square(s->gap, k);
-    s->scaled_rotation[k] = 0.5*s->rotation[k];
-    circular(s->scaled_rotation, s->slope_of_scaled_rotation, s->sine_of_scaled_rotation,
-        s->cosine_of_scaled_rotation, k);
-    /* cosine_of_scaled_rotation comes with its sine */
-    s->sine_of_scaled_rotation_squared[k] = square(s->sine_of_scaled_rotation, k);
-    s->distance_by_sine_of_scaled_rotation_squared[PASSING(k)] = product(s->distance,
-        s->sine_of_scaled_rotation_squared, k);
+    circular(s->rotation, s->slope_of_rotation, s->sine_of_rotation, s->cosine_of_rotation, k);
+    /* cosine_of_rotation comes with its sine */
+    s->combination[k] = k == 0 ? -0.5*s->cosine_of_rotation[k] + 0.5 : -0.5*s->cosine_of_rotation[k];
+    s->distance_by_combination[PASSING(k)] = product(s->distance, s->combination, k);
     s->offset_squared[k] = c->offset_squared_per_gap_squared*s->gap_squared[PASSING(k)] +
-        4.0*s->distance_by_sine_of_scaled_rotation_squared[PASSING(k)];
-    s->combination[k] = c->aspect*s->gap[k] + 8.0*s->sine_of_scaled_rotation_squared[k];
+        4.0*s->distance_by_combination[PASSING(k)];
+    s->combination_2[k] = c->aspect*s->gap[k] + 8.0*s->combination[k];
     strings_stiffness_next(&s->strings_stiffness_law, &c->strings_stiffness_law, s->offset_squared, k);
-    s->string_pull[PASSING(k)] = c->weight*product(s->combination, s->strings_stiffness_law.result, k);
-    s->sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] = 2.0*product(s->sine_of_scaled_rotation,
-        s->cosine_of_scaled_rotation, k);
-    s->string_sideways[PASSING(k)] = c->string_sideways_factor*product(s->strings_stiffness_law.result,
-        s->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, k);
+    s->string_pull[PASSING(k)] = c->weight*product(s->combination_2, s->strings_stiffness_law.result, k);
+    s->string_sideways[PASSING(k)] = c->string_sideways_factor*product(s->sine_of_rotation,
+        s->strings_stiffness_law.result, k);
     arm_lever_next(&s->arm_lever_law, &c->arm_lever_law, s->distance, k);
     s->rate_of_normal_velocity[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->film_force[PASSING(k)] -
         s->string_pull[PASSING(k)];
-    s->combination_2[k] = s->shear_force[k] + s->string_sideways[PASSING(k)];
-    s->rate_of_orbital_momentum[PASSING(k)] = -product(s->distance, s->combination_2, k);
+    s->combination_3[k] = s->shear_force[k] + s->string_sideways[PASSING(k)];
+    s->rate_of_orbital_momentum[PASSING(k)] = -product(s->distance, s->combination_3, k);
     s->rate_of_spin[PASSING(k)] = 0.3125*product(s->shear_force, s->arm_lever_law.result, k);
     s->rate_of_rotation[PASSING(k)] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
     double next = 1.0/(k + 1);
@@ -298,9 +291,9 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->rate_of_normal_loss[k] = product(s->film_force, s->normal_velocity, k);
     s->distance_by_orbital_rate[k] = product(s->distance, s->orbital_rate, k);
     s->arm_lever_law_by_spin[k] = product(s->arm_lever_law.result, s->spin, k);
-    s->combination_3[k] = s->distance_by_orbital_rate[k] - 2.0*s->arm_lever_law_by_spin[k];
+    s->combination_4[k] = s->distance_by_orbital_rate[k] - 2.0*s->arm_lever_law_by_spin[k];
     s->rate_of_tangential_loss[k] = c->ledger.rate_of_tangential_loss_factor*product(s->shear_force,
-        s->combination_3, k);
+        s->combination_4, k);
     s->normal_loss[k + 1] = s->rate_of_normal_loss[k]*next;
     s->tangential_loss[k + 1] = s->rate_of_tangential_loss[k]*next;
 #endif

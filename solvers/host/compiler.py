@@ -133,6 +133,27 @@ def library(source: str, flags: Sequence[str]) -> bytes:
         raise CannotCompile(error.strerror or str(error)) from None
 
 
+def webassembly(source: str, flags: Sequence[str]) -> bytes:
+    """A C file compiled to a WebAssembly module without a main program, by Zig or else by clang with wasi-libc.
+
+    Raises:
+        CannotCompile: neither is there, or neither compiles it; gives the reason.
+        KeyboardInterrupt: the compiler was interrupted, as by Ctrl-C.
+    """
+    import subprocess
+
+    flags = ("--target=wasm32-wasi", "-mexec-model=reactor", *flags)
+    failed = []
+    for command in filter(None, map(_command, (*_zig(), "clang"))):
+        try:
+            with cache.room() as place:
+                (place / "source.c").write_text(source, encoding="utf-8")
+                return _compiled(command, flags, place, _limit())
+        except (CannotCompile, OSError, subprocess.TimeoutExpired) as error:
+            failed.append(f"{shlex.join(command)}: {' '.join(str(error).split())}")
+    raise CannotCompile("; ".join(failed) or f"there is neither {_ZIG} nor clang")
+
+
 def more_flags() -> tuple[str, ...]:
     """Additional compiler flags from WETDOUBLET_CFLAGS, such as sanitizers."""
     return tuple(shlex.split(os.environ.get("WETDOUBLET_CFLAGS", "")))

@@ -1,6 +1,7 @@
 """Where a collision leaves the model's range: each limit once, with its number, as sentences and as flags.
 
-The numbers are computed by formulas that take floats or arrays, so that one table serves a collision and a map.
+The numbers are computed by formulas that take floats, arrays or CasADi expressions, so that one table serves a
+collision, a map, and C that computes them elsewhere.
 """
 
 import math
@@ -8,6 +9,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache, reduce
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -18,7 +20,7 @@ from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, law_module, si_values
 from ..scene.scene import Scene
 
-Values = Mapping[str, Any]  # quantities under the vocabulary's names and results, SI: floats or arrays
+Values = Mapping[str, Any]  # quantities under the vocabulary's names and results, SI: floats, arrays, expressions
 _ROUNDING = 1e-12  # 50 deg is inside of 50 deg
 _SRS = 1
 
@@ -39,11 +41,31 @@ class Limit:
     least: float = -math.inf
     most: float = math.inf
 
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """The least and most number that count as inside."""
+        least = self.least - abs(self.least) * _ROUNDING if math.isfinite(self.least) else self.least
+        return least, self.most + abs(self.most) * _ROUNDING if math.isfinite(self.most) else self.most
+
     def exceeded(self, number: Any) -> Any:
         """Where the number lies outside."""
-        above = np.greater(number, self.most + abs(self.most) * _ROUNDING if math.isfinite(self.most) else self.most)
-        below = np.less(number, self.least - abs(self.least) * _ROUNDING if math.isfinite(self.least) else self.least)
-        return above | below
+        least, most = self.bounds
+        return np.greater(number, most) | np.less(number, least)
+
+
+def _library(values: Values) -> Any:
+    """The functions used here, under numpy's names: of arrays, or of CasADi expressions."""
+    return _of_expressions() if hasattr(values["angle"], "is_symbolic") else np
+
+
+@lru_cache(maxsize=1)
+def _of_expressions() -> Any:
+    import casadi
+
+    return SimpleNamespace(
+        tan=casadi.tan, sin=casadi.sin, arctan=casadi.atan, arctan2=casadi.atan2, abs=casadi.fabs, log=casadi.log,
+        maximum=casadi.fmax, where=casadi.if_else, logical_and=casadi.logic_and, logical_or=casadi.logic_or,
+    )  # fmt: skip
 
 
 # Re: lubrication theory leaves the inertia of the liquid out, and takes none of its terms to be of order Re.
@@ -92,13 +114,14 @@ def _bent(scene: Scene, values: Values) -> Any:
     """Angle by which the relative velocity has turned, of spheres that would have missed each other; else NaN."""
     if scene.wall:
         return math.nan
+    on = _library(values)
     touching = sum(_radii(values))
     apart = touching + values["film_thickness"]
-    sliding = np.tan(values["angle"]) * apart / touching  # per normal speed: omega is v0 tan(theta0)/touching
-    misses = apart * np.sin(np.arctan(sliding)) > touching
-    along = np.arctan2(values["tangential_restitution"] * sliding, values["restitution"])
-    bent = np.abs(values["rotation"] + along - (math.pi - np.arctan(sliding)))
-    return np.where(misses & (np.asarray(values["outcome"]) == _SRS), bent, math.nan)
+    sliding = on.tan(values["angle"]) * apart / touching  # per normal speed: omega is v0 tan(theta0)/touching
+    misses = apart * on.sin(on.arctan(sliding)) > touching
+    along = on.arctan2(values["tangential_restitution"] * sliding, values["restitution"])
+    bent = on.abs(values["rotation"] + along - (math.pi - on.arctan(sliding)))
+    return on.where(on.logical_and(misses, values["outcome"] == _SRS), bent, math.nan)
 
 
 def _wall_coupling(scene: Scene, values: Values) -> Any:
@@ -107,22 +130,25 @@ def _wall_coupling(scene: Scene, values: Values) -> Any:
     if not scene.wall or outer is None:
         return math.nan
     gap = values["smallest_gap"]  # NaN for a stick, whose spin is not defined
+    on = _library(values)
     with np.errstate(all="ignore"):
-        published = np.log(values["reduced_radius"] / gap) - _WALL_CONSTANT
-        ratio = np.where(published > 0, np.log(outer / gap) / published, np.where(np.isnan(published), np.nan, np.inf))
-    return np.where(np.asarray(values["angle"]) > 0, ratio, math.nan)
+        published = on.log(values["reduced_radius"] / gap) - _WALL_CONSTANT
+        none = on.where(published <= 0, math.inf, math.nan)
+        ratio = on.where(published > 0, on.log(outer / gap) / published, none)
+    return on.where(values["angle"] > 0, ratio, math.nan)
 
 
 def _unlike(scene: Scene, values: Values) -> Any:
     """The larger radius over the smaller; infinite for a wall."""
     if scene.wall:
         return math.inf
-    return np.maximum(values["radius_ratio"], 1 / values["radius_ratio"])
+    return _library(values).maximum(values["radius_ratio"], 1 / values["radius_ratio"])
 
 
 def _cavitating(scene: Scene, values: Values) -> Any:
-    oblique = np.asarray(values["angle"]) > 0
-    return np.where(oblique, _unlike(scene, values), math.nan) if scene.model.film == "cavitating" else math.nan
+    if scene.model.film != "cavitating":
+        return math.nan
+    return _library(values).where(values["angle"] > 0, _unlike(scene, values), math.nan)
 
 
 def _idle_friction(scene: Scene, values: Values) -> Any:
@@ -130,11 +156,12 @@ def _idle_friction(scene: Scene, values: Values) -> Any:
     if scene.particles.friction is None or scene.model.contact_friction != "solid":
         return math.nan
     values = {"poisson_ratio": 0.0, **NEVER_MET, **values}  # entries that may be left out
-    contact = values["film_thickness"] * reduce(np.maximum, (_group(scene, values, name) for name in GAPS.values()))
-    bounced = np.asarray(values["outcome"]) == OUTCOMES.index(BOUNCE)
-    oblique = (np.asarray(values["angle"]) > 0) | scene.turns(0.0)
+    on = _library(values)
+    contact = values["film_thickness"] * reduce(on.maximum, (_group(scene, values, name) for name in GAPS.values()))
+    bounced = values["outcome"] == OUTCOMES.index(BOUNCE)
+    oblique = on.logical_or(values["angle"] > 0, scene.turns(0.0))
     with np.errstate(all="ignore"):
-        return np.where(bounced & oblique, values["smallest_gap"] / contact, math.nan)
+        return on.where(on.logical_and(bounced, oblique), values["smallest_gap"] / contact, math.nan)
 
 
 def _partner(ratio: float) -> str:
@@ -260,7 +287,7 @@ def flags(scene: Scene, values: Values, size: int) -> np.ndarray:
     with np.errstate(all="ignore"):
         for bit, limit in enumerate(LIMITS):
             bits |= np.where(limit.exceeded(limit.number(scene, values)), 1 << bit, 0).astype(np.int16)
-        for limit in _law_limits(scene):
+        for limit in law_limits(scene):
             outside = limit.exceeded(limit.number(scene, values))
             bits |= np.where(outside, 1 << FLAGS.index(LAW_RANGE), 0).astype(np.int16)
     return bits
@@ -278,10 +305,10 @@ def flag_attributes() -> dict[str, Any]:
 def counted(mask: np.ndarray) -> list[tuple[str, int]]:
     """How many collisions exceed each limit, in words: those that any has."""
     counts = [int(np.count_nonzero(mask & (1 << bit))) for bit in range(len(FLAGS))]
-    return [(_WORDS.get(flag, flag), count) for flag, count in zip(FLAGS, counts, strict=True) if count]
+    return [(WORDS.get(flag, flag), count) for flag, count in zip(FLAGS, counts, strict=True) if count]
 
 
-_WORDS = {
+WORDS = {
     "film_reynolds": f"Re > {_REYNOLDS:g}",
     "film_gap": f"x0/a > {_FILM_GAP:g}",
     "rupture_gap": f"x_f/a > {_RUPTURE_GAP:g}",
@@ -293,6 +320,7 @@ _WORDS = {
     "idle_friction": "friction without contact",
     LAW_RANGE: "range of the bridge law",
 }
+"""Flag -> the limit, or what lies beyond it, in a few words."""
 
 
 # ---- the ranges of laws, which stand with the emitted laws (`VALIDITY`) as far as their sources give them
@@ -302,11 +330,11 @@ _WORDS = {
 def remarks(scene: Scene) -> tuple[str, ...]:
     """What of the scene lies outside the range its laws were made for, a sentence each."""
     values = si_values(scene, None, None)
-    numbers = [(limit, float(limit.number(scene, values))) for limit in _law_limits(scene)]
+    numbers = [(limit, float(limit.number(scene, values))) for limit in law_limits(scene)]
     return tuple(limit.says(number) for limit, number in numbers if limit.exceeded(number))
 
 
-def _law_limits(scene: Scene) -> list[Limit]:
+def law_limits(scene: Scene) -> list[Limit]:
     """The range of the scene's bridge law as limits; none where its source gives no range."""
     if scene.bridge is None:
         return []

@@ -26,7 +26,7 @@ static granulation_material granulation_default_material(void)
 static double granulation_contact_distance(const granulation_material *m) {{ return 4.0*m->reduced_radius; }}
 static const char *granulation_message(int status) {{ return status ? "refused" : ""; }}
 static int granulation_collide_particles(const granulation_material *m, granulation_particle *p,
-    granulation_particle *q, double tolerance, double rtol, granulation_pair_after *after)
+    granulation_particle *q, double tolerance, double rtol, int budget, granulation_pair_after *after)
 {{
     double n[3], r2 = 0.0, speed = 0.0;
     for (int k = 0; k < 3; k++) {{

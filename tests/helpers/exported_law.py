@@ -173,3 +173,20 @@ class Law:
         function, material = self.function("contact_distance"), self.material()
         function.restype = ctypes.c_double
         return float(function(ctypes.c_void_p(material.ctypes.data)))
+
+    def contact_force(
+        self, material: np.ndarray, motion: np.ndarray, dt: float, history: np.ndarray, force: np.ndarray
+    ) -> int:
+        """The force of a pair for a step, into rows of their types; its status."""
+        pointers = [ctypes.c_void_p(each.ctypes.data) for each in (material, motion, history, force)]
+        function = getattr(self._library, f"{self.name}_contact_force")
+        status: int = function(*pointers[:2], ctypes.c_double(dt), *pointers[2:])
+        assert status == force["status"][0]
+        return status
+
+    def contact_join(self, material: np.ndarray, gap: float, speed: float, history: np.ndarray) -> int:
+        """Put a contact in place; the status."""
+        function, numbers = getattr(self._library, f"{self.name}_contact_join"), (gap, speed)
+        pointers = [ctypes.c_void_p(each.ctypes.data) for each in (material, history)]
+        status: int = function(pointers[0], *map(ctypes.c_double, numbers), pointers[1])
+        return status

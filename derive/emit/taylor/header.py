@@ -53,7 +53,7 @@ class Header:
         self.constants = Constants({group: f"c->{group.name}" for group in model.groups}, flags)
         self.calls: dict[str, tuple[str, str, tuple[str | sp.Expr, ...]]] = {}
         rates = model["right_hand_side"].by_name
-        self.flow = Program.for_outputs(model.states, rates.values(), model.definitions)
+        self.flow = Program.for_outputs(model.states, rates.values(), model.definitions, whole_angles=True)
         self.rates = self._results(self.flow, "right_hand_side")
         self.turning: str | sp.Expr | None = None
         if "turning_rate" in model and not model.structure.strings:
@@ -297,6 +297,10 @@ class Header:
             targets = {key: f"found[{place}]" for key, place in places.items()}
             lines += self._vector("orbital_margins", "found", targets, doc)
         if shape.partner == "space":
+            head = "static inline void held_response(const constants *c, const vec *y, vec film, vec shear, vec *found)"
+            held = {key: f"found[HELD_{key.upper()}]" for key in model["held_response"].by_name}
+            lines.append(f"enum {{ {', '.join(f'HELD_{key.upper()}' for key in held)}, RESPONSES }};")
+            lines += self._value("held_response", head, held)
             lines += self._vector("resting_bound", "found", {"outward": "found[0]", "inward": "found[1]"})
             lines += self._scalar("wobble")
             momenta = {f"momentum_{axis}": f"found[{k}]" for k, axis in enumerate("xyz")}

@@ -48,9 +48,12 @@ class Program:
 
     Arguments:
         moving: symbols that are series initially.
+        whole_angles: squared sines of half an angle are taken from its cosine: fewer products, but as a value this
+            loses the relative accuracy of a small angle.
     """
 
-    def __init__(self, moving: Iterable[sp.Symbol]) -> None:
+    def __init__(self, moving: Iterable[sp.Symbol], whole_angles: bool = False) -> None:
+        self._whole_angles = whole_angles
         self.operations: list[Operation] = []
         self.inputs = tuple(symbol.name for symbol in moving)
         self._moving: dict[sp.Basic, str] = {symbol: symbol.name for symbol in moving}
@@ -60,10 +63,14 @@ class Program:
 
     @classmethod
     def for_outputs(
-        cls, moving: Iterable[sp.Symbol], outputs: Iterable[sp.Expr], definitions: Sequence[Definition]
+        cls,
+        moving: Iterable[sp.Symbol],
+        outputs: Iterable[sp.Expr],
+        definitions: Sequence[Definition],
+        whole_angles: bool = False,
     ) -> Program:
         """A program with the definitions that the outputs need."""
-        program = cls(tuple(moving))
+        program = cls(tuple(moving), whole_angles)
         for symbol, expression in needed(list(outputs), definitions)[0]:
             program.define(symbol, expression)
         return program
@@ -90,7 +97,7 @@ class Program:
 
     def continued(self) -> Program:
         """A program that continues from these series; its own operations are those added later."""
-        later = Program(())
+        later = Program((), self._whole_angles)
         later.inputs = (*self.inputs, *(operation.name for operation in self.operations))
         later._moving = dict(self._moving)
         later._names = set(self._names)
@@ -221,6 +228,8 @@ class Program:
         base, exponent = node.args
         if self.moves(exponent):
             return self.series(sp.exp(exponent * sp.log(base), evaluate=False), name)
+        if self._whole_angles and exponent == 2 and isinstance(base, sp.sin):
+            return self.series(sp.Rational(1, 2) - sp.cos(2 * base.args[0]) / 2, name)
         if exponent == -2 and 1 / base in self._moving:
             inverse = self._moving[1 / base]
             return self._add("square", (inverse,), name, f"{inverse}_squared")

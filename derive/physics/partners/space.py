@@ -41,6 +41,13 @@ def torques(slips: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
     return first, second
 
 
+def torque_coefficients() -> dict[str, sp.Expr]:
+    """The torques' matrix, which is symmetric (`rolling.torque_matrix`): torque over slip, each in its own unit."""
+    own, beside = torques((sp.Integer(1), sp.Integer(0))), torques((sp.Integer(0), sp.Integer(1)))
+    assert sp.expand(own[1] - beside[0]) == 0
+    return {"torque_own": STRENGTH * own[0], "torque_mutual": STRENGTH * own[1], "torque_partner": STRENGTH * beside[1]}
+
+
 def start() -> dict[sp.Symbol, sp.Expr]:
     """State of the rotation at initial contact."""
     momenta = [(CENTRES + q.aspect) ** 2 * rate for rate in q.initial_turnings]

@@ -3,7 +3,7 @@
 
 /* Tangent of oblique_bridge_strings.h: derivatives of the states by the groups.
  *
- * Products of series: 52 and those of the laws, then 13 a direction; backwards 31 and those of the laws'
+ * Products of series: 51 and those of the laws, then 13 a direction; backwards 28 and those of the laws'
  * derivatives. */
 
 enum { BY_STOKES, BY_ASPECT, BY_OBLIQUITY, BY_INITIAL_TURNING, BY_INITIAL_SPIN, BY_CAPILLARY, BY_VOLUME, BY_CONTACT_ANGLE, BY_WEIGHT, BY_STRING_RATIO, BY_GLASS_NUMBER, BY_ELASTIC_GAP, BY_ROUGH_GAP, BY_RUPTURE_GAP, BY_DRY_RESTITUTION };
@@ -78,13 +78,11 @@ typedef struct {
     vec rate_of_orbital_momentum[TERMS];
     vec arm_lever_law[TERMS];
     vec string_sideways[TERMS];
-    vec sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
     vec string_pull[TERMS];
     vec strings_stiffness_law[TERMS];
-    vec distance_by_sine_of_scaled_rotation_squared[TERMS];
-    vec sine_of_scaled_rotation_squared[TERMS];
-    vec cosine_of_scaled_rotation[TERMS];
-    vec sine_of_scaled_rotation[TERMS];
+    vec distance_by_combination[TERMS];
+    vec cosine_of_rotation[TERMS];
+    vec sine_of_rotation[TERMS];
     vec gap_squared[TERMS];
     vec bridge_force_law[TERMS];
     vec film_force[TERMS];
@@ -98,7 +96,7 @@ typedef struct {
 } adjoint;
 
 /* Transposed recurrences of coefficient k. `w` holds the derivatives of a result by coefficient k + 1 of the
- * states, then by coefficient k; `of_sum` those by their sums. Products of series: 31. */
+ * states, then by coefficient k; `of_sum` those by their sums. Products of series: 28. */
 INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec power, const series *of, const
     slopes *d, const constants *c, vec film, vec shear, mask moving, int k)
 {
@@ -115,59 +113,40 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     vec arm_lever_law_by_rate_of_spin = correlated(of->shear_force, bar->rate_of_spin, k);
     vec shear_force_by_rate_of_spin = correlated(of->arm_lever_law.result, bar->rate_of_spin, k);
     bar->rate_of_orbital_momentum[k] = after_orbital_momentum;
-    vec distance_by_rate_of_orbital_momentum = correlated(of->combination_2, bar->rate_of_orbital_momentum,
+    vec distance_by_rate_of_orbital_momentum = correlated(of->combination_3, bar->rate_of_orbital_momentum,
         k);
-    vec combination_2_by_rate_of_orbital_momentum = correlated(of->distance, bar->rate_of_orbital_momentum,
+    vec combination_3_by_rate_of_orbital_momentum = correlated(of->distance, bar->rate_of_orbital_momentum,
         k);
-    vec by_combination_2 = (-combination_2_by_rate_of_orbital_momentum);
+    vec by_combination_3 = (-combination_3_by_rate_of_orbital_momentum);
     vec by_rate_of_normal_velocity = after_normal_velocity;
     bar->arm_lever_law[k] = 0.3125*arm_lever_law_by_rate_of_spin;
     vec arm_lever_law_distance = correlated(d->arm_lever_law.by_distance, bar->arm_lever_law, k);
-    bar->string_sideways[k] = by_combination_2;
-    vec strings_stiffness_law_by_string_sideways =
-        correlated(of->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, bar->string_sideways, k);
-    vec sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_string_sideways =
-        correlated(of->strings_stiffness_law.result, bar->string_sideways, k);
+    bar->string_sideways[k] = by_combination_3;
+    vec strings_stiffness_law_by_string_sideways = correlated(of->sine_of_rotation, bar->string_sideways, k);
+    vec sine_of_rotation_by_string_sideways = correlated(of->strings_stiffness_law.result,
+        bar->string_sideways, k);
     bar->constant[1] += of->strings_stiffness_law.result[k]*strings_stiffness_law_by_string_sideways;
-    bar->sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
-        c->string_sideways_factor*sine_of_scaled_rotation_by_cosine_of_scaled_rotation_by_string_sideways;
-    vec sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation =
-        correlated(of->cosine_of_scaled_rotation, bar->sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
-        k);
-    vec cosine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation =
-        correlated(of->sine_of_scaled_rotation, bar->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, k);
     bar->string_pull[k] = (-by_rate_of_normal_velocity);
-    vec combination_by_string_pull = correlated(of->strings_stiffness_law.result, bar->string_pull, k);
-    vec strings_stiffness_law_by_string_pull = correlated(of->combination, bar->string_pull, k);
-    bar->constant[2] += of->combination[k]*combination_by_string_pull;
+    vec combination_2_by_string_pull = correlated(of->strings_stiffness_law.result, bar->string_pull, k);
+    vec strings_stiffness_law_by_string_pull = correlated(of->combination_2, bar->string_pull, k);
+    bar->constant[2] += of->combination_2[k]*combination_2_by_string_pull;
     bar->strings_stiffness_law[k] = c->string_sideways_factor*strings_stiffness_law_by_string_sideways +
         c->weight*strings_stiffness_law_by_string_pull;
     bar->constant[3] += d->strings_stiffness_law.by_string_ratio[k]*bar->strings_stiffness_law[k];
     vec strings_stiffness_law_offset_squared = correlated(d->strings_stiffness_law.by_offset_squared,
         bar->strings_stiffness_law, k);
-    vec by_combination = c->weight*combination_by_string_pull;
-    bar->constant[4] += of->gap[k]*by_combination;
+    vec by_combination_2 = c->weight*combination_2_by_string_pull;
+    bar->constant[4] += of->gap[k]*by_combination_2;
     vec by_offset_squared = strings_stiffness_law_offset_squared;
     bar->constant[5] += of->gap_squared[k]*by_offset_squared;
-    bar->distance_by_sine_of_scaled_rotation_squared[k] = 4.0*by_offset_squared;
-    vec distance_by_distance_by_sine_of_scaled_rotation_squared =
-        correlated(of->sine_of_scaled_rotation_squared, bar->distance_by_sine_of_scaled_rotation_squared, k);
-    vec sine_of_scaled_rotation_squared_by_distance_by_sine_of_scaled_rotation_squared =
-        correlated(of->distance, bar->distance_by_sine_of_scaled_rotation_squared, k);
-    bar->sine_of_scaled_rotation_squared[k] = 8.0*by_combination +
-        sine_of_scaled_rotation_squared_by_distance_by_sine_of_scaled_rotation_squared;
-    vec by_sine_of_scaled_rotation_squared = correlated(of->sine_of_scaled_rotation,
-        bar->sine_of_scaled_rotation_squared, k);
-    bar->cosine_of_scaled_rotation[k] =
-        2.0*cosine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation;
-    vec by_cosine_of_scaled_rotation = correlated(of->sine_of_scaled_rotation, bar->cosine_of_scaled_rotation,
-        k);
-    bar->sine_of_scaled_rotation[k] =
-        2.0*sine_of_scaled_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation +
-        2.0*by_sine_of_scaled_rotation_squared;
-    vec by_sine_of_scaled_rotation = correlated(of->cosine_of_scaled_rotation, bar->sine_of_scaled_rotation,
-        k);
-    vec by_scaled_rotation = (-by_cosine_of_scaled_rotation) + by_sine_of_scaled_rotation;
+    bar->distance_by_combination[k] = 4.0*by_offset_squared;
+    vec distance_by_distance_by_combination = correlated(of->combination, bar->distance_by_combination, k);
+    vec combination_by_distance_by_combination = correlated(of->distance, bar->distance_by_combination, k);
+    vec by_combination = 8.0*by_combination_2 + combination_by_distance_by_combination;
+    bar->cosine_of_rotation[k] = (-0.5)*by_combination;
+    vec by_cosine_of_rotation = correlated(of->sine_of_rotation, bar->cosine_of_rotation, k);
+    bar->sine_of_rotation[k] = c->string_sideways_factor*sine_of_rotation_by_string_sideways;
+    vec by_sine_of_rotation = correlated(of->cosine_of_rotation, bar->sine_of_rotation, k);
     bar->gap_squared[k] = c->offset_squared_per_gap_squared*by_offset_squared;
     vec by_gap_squared = correlated(of->gap, bar->gap_squared, k);
     vec by_bridge_force = (-by_rate_of_normal_velocity);
@@ -191,7 +170,7 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     bar->constant[11] += of->distance[k]*distance_by_centrifugal_force;
     bar->orbital_rate_squared[k] = c->centrifugal_force_factor*orbital_rate_squared_by_centrifugal_force;
     vec by_orbital_rate_squared = correlated(of->orbital_rate, bar->orbital_rate_squared, k);
-    bar->shear_force[k] = 0.3125*shear_force_by_rate_of_spin + by_combination_2;
+    bar->shear_force[k] = 0.3125*shear_force_by_rate_of_spin + by_combination_3;
     vec slip_by_shear_force = correlated(of->shear_log_factor_law.result, bar->shear_force, k);
     vec shear_log_factor_law_by_shear_force = correlated(of->slip, bar->shear_force, k);
     bar->constant[12] += shear*of->slip[k]*slip_by_shear_force;
@@ -206,17 +185,17 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     bar->distance_squared[k] = (-by_orbital_rate);
     vec by_distance_squared = correlated(of->distance, bar->distance_squared, k);
     vec by_distance = (-distance_by_rate_of_orbital_momentum) + arm_lever_law_distance +
-        distance_by_distance_by_sine_of_scaled_rotation_squared +
-        c->centrifugal_force_factor*distance_by_centrifugal_force + 2.0*by_distance_squared;
+        distance_by_distance_by_combination + c->centrifugal_force_factor*distance_by_centrifugal_force +
+        2.0*by_distance_squared;
     bar->constant[4] += of->gap[k]*by_distance;
-    w[GAP] = of_sum[GAP]*power + c->aspect*by_combination + 2.0*by_gap_squared +
+    w[GAP] = of_sum[GAP]*power + c->aspect*by_combination_2 + 2.0*by_gap_squared +
         c->scaled_gap_per_gap*by_scaled_gap + film_resistance_law_gap + shear_log_factor_law_gap +
         c->aspect*by_distance;
     w[NORMAL_VELOCITY] = of_sum[NORMAL_VELOCITY]*power + after_gap +
         film*c->film_force_factor*normal_velocity_by_film_force;
     w[ORBITAL_MOMENTUM] = of_sum[ORBITAL_MOMENTUM]*power + bar->orbital_rate[k];
     w[SPIN] = of_sum[SPIN]*power + (-by_slip);
-    w[ROTATION] = of_sum[ROTATION]*power + 0.5*by_scaled_rotation;
+    w[ROTATION] = of_sum[ROTATION]*power + (-by_cosine_of_rotation) + by_sine_of_rotation;
 }
 
 /* From derivatives by the constants of the recurrences to those by the groups. */
@@ -242,9 +221,9 @@ static inline void along_constants(const constants *v, const vec *constant, vec 
 typedef struct {
     vec film_force_by_gap_factor;
     vec offset_squared_by_gap_per_gap;
-    vec offset_squared_by_gap_per_sine_of_scaled_rotation_squared;
-    vec combination_3_per_gap;
-    vec combination_3_per_sine_of_scaled_rotation_squared;
+    vec offset_squared_by_gap_per_combination;
+    vec combination_4_per_gap;
+    vec combination_4_per_combination;
     vec centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared;
     vec centrifugal_force_by_aspect_per_centrifugal_force;
     vec offset_squared_by_aspect_per_gap_squared;
@@ -253,7 +232,7 @@ typedef struct {
     vec shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip;
     vec string_sideways_by_gap_factor;
     vec shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
-    vec string_sideways_by_obliquity_factor;
+    vec string_sideways_by_obliquity_per_string_sideways;
     vec normal_velocity_by_gap_per_orbital_rate_squared;
     vec normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius;
     vec normal_velocity_by_normal_velocity_per_film_resistance_law;
@@ -283,9 +262,9 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
 {
     c->film_force_by_gap_factor = 1.0/v->stokes;
     c->offset_squared_by_gap_per_gap = 0.5*(v->aspect*v->aspect);
-    c->offset_squared_by_gap_per_sine_of_scaled_rotation_squared = 4.0*v->aspect;
-    c->combination_3_per_gap = v->aspect*v->weight;
-    c->combination_3_per_sine_of_scaled_rotation_squared = 8.0*v->weight;
+    c->offset_squared_by_gap_per_combination = 4.0*v->aspect;
+    c->combination_4_per_gap = v->aspect*v->weight;
+    c->combination_4_per_combination = 8.0*v->weight;
     c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared =
         -0.1875*v->aspect*(v->obliquity*v->obliquity);
     c->centrifugal_force_by_aspect_per_centrifugal_force = 1.0/v->aspect;
@@ -297,7 +276,7 @@ static inline void prepare_slopes(slope_constants *c, const constants *v)
     c->string_sideways_by_gap_factor = 16.0*v->weight/v->obliquity;
     c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance =
         -2.6666666666666665*v->aspect/v->stokes;
-    c->string_sideways_by_obliquity_factor = -16.0*v->weight/(v->obliquity*v->obliquity);
+    c->string_sideways_by_obliquity_per_string_sideways = -1.0/v->obliquity;
     c->normal_velocity_by_gap_per_orbital_rate_squared =
         -0.1875*(v->aspect*v->aspect)*(v->obliquity*v->obliquity);
     c->normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius =
@@ -373,25 +352,28 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     vec film_force_by_gap[TERMS];
     vec offset_squared_by_gap[TERMS];
     vec strings_stiffness_by_gap[TERMS];
-    vec combination_3[TERMS];
-    vec strings_stiffness_by_gap_by_combination_3[TERMS];
+    vec combination_4[TERMS];
+    vec strings_stiffness_by_gap_by_combination_4[TERMS];
     vec string_pull_by_gap[TERMS];
+    vec scaled_rotation[TERMS];
+    vec sine_of_scaled_rotation[TERMS], slope_of_scaled_rotation[TERMS];
+    vec cosine_of_scaled_rotation[TERMS];
     vec distance_by_sine_of_scaled_rotation[TERMS];
     vec offset_squared_by_rotation[TERMS];
     vec strings_stiffness_by_rotation[TERMS];
-    vec strings_stiffness_by_rotation_by_combination_3[TERMS];
+    vec strings_stiffness_by_rotation_by_combination_4[TERMS];
     vec strings_stiffness_law_by_sine_of_scaled_rotation[TERMS];
     vec strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
     vec string_pull_by_rotation[TERMS];
     vec bridge_force_by_aspect[TERMS];
     vec gap_by_orbital_rate_squared[TERMS];
     vec centrifugal_force_by_aspect[TERMS];
-    vec gap_by_sine_of_scaled_rotation_squared[TERMS];
+    vec gap_by_combination[TERMS];
     vec offset_squared_by_aspect[TERMS];
     vec strings_stiffness_by_aspect[TERMS];
-    vec combination_4[TERMS];
-    vec gap_by_combination_4[TERMS];
-    vec strings_stiffness_by_aspect_by_sine_of_scaled_rotation_squared[TERMS];
+    vec combination_5[TERMS];
+    vec gap_by_combination_5[TERMS];
+    vec strings_stiffness_by_aspect_by_combination[TERMS];
     vec string_pull_by_aspect[TERMS];
     vec string_pull_by_string_ratio[TERMS];
     vec orbital_rate_by_shear_log_factor_law[TERMS];
@@ -400,9 +382,7 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     vec shear_log_factor_law_by_gap_by_slip[TERMS];
     vec shear_force_by_gap[TERMS];
     vec string_sideways_by_gap[TERMS];
-    vec strings_stiffness_by_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
-    vec sine_of_rotation[TERMS], slope_of_rotation[TERMS];
-    vec cosine_of_rotation[TERMS];
+    vec strings_stiffness_by_rotation_by_sine_of_rotation[TERMS];
     vec strings_stiffness_law_by_cosine_of_rotation[TERMS];
     vec string_sideways_by_rotation[TERMS];
     vec shear_log_factor_law_by_aspect_by_slip[TERMS];
@@ -417,12 +397,12 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     vec arm_lever_by_aspect[TERMS];
     vec orbital_rate_over_distance[TERMS];
     vec over_orbital_rate_over_distance;
-    vec combination_5[TERMS];
-    vec distance_by_combination_5[TERMS];
-    vec shear_log_factor_law_over_distance[TERMS];
-    vec over_shear_log_factor_law_over_distance;
     vec combination_6[TERMS];
     vec distance_by_combination_6[TERMS];
+    vec shear_log_factor_law_over_distance[TERMS];
+    vec over_shear_log_factor_law_over_distance;
+    vec combination_7[TERMS];
+    vec distance_by_combination_7[TERMS];
     vec gap_by_shear_force[TERMS];
     vec gap_by_string_sideways[TERMS];
     vec arm_lever_law_by_distance_by_shear_force[TERMS];
@@ -449,28 +429,32 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
         of->normal_velocity, k);)
     EACH_TERM(offset_squared_by_gap[k] = c->offset_squared_by_gap_per_gap*of->gap[k] +
-        c->offset_squared_by_gap_per_sine_of_scaled_rotation_squared*of->sine_of_scaled_rotation_squared[k];)
+        c->offset_squared_by_gap_per_combination*of->combination[k];)
     EACH_TERM(strings_stiffness_by_gap[k] = product(strings_stiffness_law.by_offset_squared,
         offset_squared_by_gap, k);)
-    EACH_TERM(combination_3[k] = c->combination_3_per_gap*of->gap[k] +
-        c->combination_3_per_sine_of_scaled_rotation_squared*of->sine_of_scaled_rotation_squared[k];)
-    EACH_TERM(strings_stiffness_by_gap_by_combination_3[k] = product(strings_stiffness_by_gap, combination_3,
+    EACH_TERM(combination_4[k] = c->combination_4_per_gap*of->gap[k] +
+        c->combination_4_per_combination*of->combination[k];)
+    EACH_TERM(strings_stiffness_by_gap_by_combination_4[k] = product(strings_stiffness_by_gap, combination_4,
         k);)
-    EACH_TERM(string_pull_by_gap[k] = c->combination_3_per_gap*of->strings_stiffness_law.result[k] +
-        strings_stiffness_by_gap_by_combination_3[k];)
-    EACH_TERM(distance_by_sine_of_scaled_rotation[k] = product(of->distance, of->sine_of_scaled_rotation, k);)
-    EACH_TERM(offset_squared_by_rotation[k] = 4.0*product(of->cosine_of_scaled_rotation,
+    EACH_TERM(string_pull_by_gap[k] = c->combination_4_per_gap*of->strings_stiffness_law.result[k] +
+        strings_stiffness_by_gap_by_combination_4[k];)
+    EACH_TERM(scaled_rotation[k] = 0.5*of->rotation[k];)
+    EACH_TERM(circular(scaled_rotation, slope_of_scaled_rotation, sine_of_scaled_rotation,
+        cosine_of_scaled_rotation, k);)
+    /* cosine_of_scaled_rotation comes with its sine */
+    EACH_TERM(distance_by_sine_of_scaled_rotation[k] = product(of->distance, sine_of_scaled_rotation, k);)
+    EACH_TERM(offset_squared_by_rotation[k] = 4.0*product(cosine_of_scaled_rotation,
         distance_by_sine_of_scaled_rotation, k);)
     EACH_TERM(strings_stiffness_by_rotation[k] = product(strings_stiffness_law.by_offset_squared,
         offset_squared_by_rotation, k);)
-    EACH_TERM(strings_stiffness_by_rotation_by_combination_3[k] = product(combination_3,
+    EACH_TERM(strings_stiffness_by_rotation_by_combination_4[k] = product(combination_4,
         strings_stiffness_by_rotation, k);)
     EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation[k] = product(of->strings_stiffness_law.result,
-        of->sine_of_scaled_rotation, k);)
+        sine_of_scaled_rotation, k);)
     EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
-        product(of->cosine_of_scaled_rotation, strings_stiffness_law_by_sine_of_scaled_rotation, k);)
-    EACH_TERM(string_pull_by_rotation[k] = strings_stiffness_by_rotation_by_combination_3[k] +
-        c->combination_3_per_sine_of_scaled_rotation_squared*strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k];)
+        product(cosine_of_scaled_rotation, strings_stiffness_law_by_sine_of_scaled_rotation, k);)
+    EACH_TERM(string_pull_by_rotation[k] = strings_stiffness_by_rotation_by_combination_4[k] +
+        c->combination_4_per_combination*strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k];)
     EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate,
         of->shear_log_factor_law.result, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law_over_distance[k] =
@@ -482,18 +466,15 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*orbital_rate_by_shear_log_factor_law_over_distance[k]
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_gap_by_slip[k];)
-    EACH_TERM(string_sideways_by_gap[k] =
-        c->string_sideways_by_gap_factor*product(of->sine_of_scaled_rotation_by_cosine_of_scaled_rotation,
+    EACH_TERM(string_sideways_by_gap[k] = c->string_sideways_by_gap_factor*product(of->sine_of_rotation,
         strings_stiffness_by_gap, k);)
-    EACH_TERM(strings_stiffness_by_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
-        product(of->sine_of_scaled_rotation_by_cosine_of_scaled_rotation, strings_stiffness_by_rotation, k);)
-    EACH_TERM(circular(of->rotation, slope_of_rotation, sine_of_rotation, cosine_of_rotation, k);)
-    /* cosine_of_rotation comes with its sine */
+    EACH_TERM(strings_stiffness_by_rotation_by_sine_of_rotation[k] = product(of->sine_of_rotation,
+        strings_stiffness_by_rotation, k);)
     EACH_TERM(strings_stiffness_law_by_cosine_of_rotation[k] = product(of->strings_stiffness_law.result,
-        cosine_of_rotation, k);)
+        of->cosine_of_rotation, k);)
     EACH_TERM(string_sideways_by_rotation[k] =
-        c->string_sideways_by_gap_factor*strings_stiffness_by_rotation_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k]
-        + c->string_sideways_by_gap_factor*strings_stiffness_law_by_cosine_of_rotation[k];)
+        c->string_sideways_by_gap_factor*strings_stiffness_by_rotation_by_sine_of_rotation[k] +
+        c->string_sideways_by_gap_factor*strings_stiffness_law_by_cosine_of_rotation[k];)
     EACH_TERM(s->normal_velocity_by_gap[k] =
         c->normal_velocity_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] +
         c->normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k]
@@ -505,10 +486,10 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     EACH_TERM(s->normal_velocity_by_orbital_momentum[k] =
         c->normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
     EACH_TERM(s->normal_velocity_by_rotation[k] = -string_pull_by_rotation[k];)
-    EACH_TERM(combination_5[k] = -shear_force_by_gap[k] - string_sideways_by_gap[k];)
-    EACH_TERM(distance_by_combination_5[k] = product(of->distance, combination_5, k);)
+    EACH_TERM(combination_6[k] = -shear_force_by_gap[k] - string_sideways_by_gap[k];)
+    EACH_TERM(distance_by_combination_6[k] = product(of->distance, combination_6, k);)
     EACH_TERM(s->orbital_momentum_by_gap[k] = c->orbital_momentum_by_gap_per_shear_force*of->shear_force[k] +
-        c->orbital_momentum_by_gap_per_shear_force*of->string_sideways[k] + distance_by_combination_5[k];)
+        c->orbital_momentum_by_gap_per_shear_force*of->string_sideways[k] + distance_by_combination_6[k];)
     EACH_TERM(shear_log_factor_law_over_distance[k] = quotient(of->shear_log_factor_law.result, of->distance,
         shear_log_factor_law_over_distance, &over_shear_log_factor_law_over_distance, k);)
     EACH_TERM(s->orbital_momentum_by_orbital_momentum[k] =
@@ -545,19 +526,18 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         EACH_TERM(centrifugal_force_by_aspect[k] =
         c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*gap_by_orbital_rate_squared[k] +
         c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];)
-        EACH_TERM(gap_by_sine_of_scaled_rotation_squared[k] = product(of->gap,
-        of->sine_of_scaled_rotation_squared, k);)
+        EACH_TERM(gap_by_combination[k] = product(of->gap, of->combination, k);)
         EACH_TERM(offset_squared_by_aspect[k] = c->offset_squared_by_aspect_per_gap_squared*of->gap_squared[k]
-        + 4.0*gap_by_sine_of_scaled_rotation_squared[k];)
+        + 4.0*gap_by_combination[k];)
         EACH_TERM(strings_stiffness_by_aspect[k] = product(strings_stiffness_law.by_offset_squared,
         offset_squared_by_aspect, k);)
-        EACH_TERM(combination_4[k] = c->combination_3_per_gap*strings_stiffness_by_aspect[k] +
+        EACH_TERM(combination_5[k] = c->combination_4_per_gap*strings_stiffness_by_aspect[k] +
         v->weight*of->strings_stiffness_law.result[k];)
-        EACH_TERM(gap_by_combination_4[k] = product(of->gap, combination_4, k);)
-        EACH_TERM(strings_stiffness_by_aspect_by_sine_of_scaled_rotation_squared[k] =
-        product(of->sine_of_scaled_rotation_squared, strings_stiffness_by_aspect, k);)
-        EACH_TERM(string_pull_by_aspect[k] = gap_by_combination_4[k] +
-        c->combination_3_per_sine_of_scaled_rotation_squared*strings_stiffness_by_aspect_by_sine_of_scaled_rotation_squared[k];)
+        EACH_TERM(gap_by_combination_5[k] = product(of->gap, combination_5, k);)
+        EACH_TERM(strings_stiffness_by_aspect_by_combination[k] = product(of->combination,
+        strings_stiffness_by_aspect, k);)
+        EACH_TERM(string_pull_by_aspect[k] = gap_by_combination_5[k] +
+        c->combination_4_per_combination*strings_stiffness_by_aspect_by_combination[k];)
         EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product(shear_log_factor_law.by_aspect,
         of->slip, k);)
         EACH_TERM(gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);)
@@ -573,16 +553,16 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];)
         EACH_TERM(string_sideways_by_aspect[k] =
-        c->string_sideways_by_gap_factor*product(strings_stiffness_by_aspect, sine_of_rotation, k);)
+        c->string_sideways_by_gap_factor*product(of->sine_of_rotation, strings_stiffness_by_aspect, k);)
         EACH_TERM(arm_lever_by_aspect[k] = product(arm_lever_law.by_distance, of->gap, k);)
         EACH_TERM(s->normal_velocity_by_aspect[k] =
         c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k] +
         centrifugal_force_by_aspect[k] - string_pull_by_aspect[k];)
-        EACH_TERM(combination_6[k] = -shear_force_by_aspect[k] - string_sideways_by_aspect[k];)
-        EACH_TERM(distance_by_combination_6[k] = product(of->distance, combination_6, k);)
+        EACH_TERM(combination_7[k] = -shear_force_by_aspect[k] - string_sideways_by_aspect[k];)
+        EACH_TERM(distance_by_combination_7[k] = product(of->distance, combination_7, k);)
         EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
         EACH_TERM(gap_by_string_sideways[k] = product(of->gap, of->string_sideways, k);)
-        EACH_TERM(s->orbital_momentum_by_aspect[k] = distance_by_combination_6[k] - gap_by_shear_force[k] -
+        EACH_TERM(s->orbital_momentum_by_aspect[k] = distance_by_combination_7[k] - gap_by_shear_force[k] -
         gap_by_string_sideways[k];)
         EACH_TERM(arm_lever_by_aspect_by_shear_force[k] = product(of->shear_force, arm_lever_by_aspect, k);)
         EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
@@ -607,8 +587,7 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         EACH_TERM(s->centrifugal_force_by_obliquity[k] =
         c->centrifugal_force_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];)
         EACH_TERM(string_sideways_by_obliquity[k] =
-        c->string_sideways_by_obliquity_factor*product(of->strings_stiffness_law.result, sine_of_rotation,
-        k);)
+        c->string_sideways_by_obliquity_per_string_sideways*of->string_sideways[k];)
         EACH_TERM(s->orbital_momentum_by_obliquity[k] = -product(of->distance, string_sideways_by_obliquity,
         k);)
         EACH_TERM(s->rotation_by_obliquity[k] =
@@ -624,9 +603,10 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     }
     if (asked & (1u << BY_STRING_RATIO)) {
         EACH_TERM(string_pull_by_string_ratio[k] = v->weight*product(strings_stiffness_law.by_string_ratio,
-        of->combination, k);)
+        of->combination_2, k);)
         EACH_TERM(string_sideways_by_string_ratio[k] =
-        c->string_sideways_by_gap_factor*product(strings_stiffness_law.by_string_ratio, sine_of_rotation, k);)
+        c->string_sideways_by_gap_factor*product(strings_stiffness_law.by_string_ratio, of->sine_of_rotation,
+        k);)
         EACH_TERM(s->normal_velocity_by_string_ratio[k] = -string_pull_by_string_ratio[k];)
         EACH_TERM(s->orbital_momentum_by_string_ratio[k] = -product(of->distance,
         string_sideways_by_string_ratio, k);)

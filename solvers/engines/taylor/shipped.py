@@ -94,7 +94,8 @@ def _name(variant: Variant, instructions: InstructionSet) -> str:
 
 def _compilation(variant: Variant, instructions: InstructionSet) -> tuple[str, tuple[str, ...]]:
     """Text and flags of a variant for an instruction set, whose lanes replace those of this machine."""
-    fitting = replace(variant, lanes=instructions.lanes) if variant.lanes == lanes() else variant
+    of_machine = replace(variant, lanes=lanes()) == variant
+    fitting = replace(variant, lanes=instructions.lanes) if of_machine else variant
     emitted = emitted_headers(fitting)
     assert emitted is not None  # of the library's laws
     return source(fitting, emitted), flags(fitting, instructions)

@@ -16,9 +16,10 @@ from .layout import MORE_RESULTS, MOST_STEPS, SHOWN, SHOWN_IN_SPACE, declaration
 
 # No -ffast-math: NaN and infinity are compared. Products may be fused with sums; sqrt does not set errno.
 # -w: the tests compile every file with -Wall -Wextra -Werror; warnings of a newer compiler should not reach users.
-FLAGS = ("-O2", "-funroll-loops", "-fno-math-errno", "-ffp-contract=fast", "-fPIC", "-shared", "-std=gnu11", "-w")
+_COMMON = ("-fno-math-errno", "-ffp-contract=fast", "-fPIC", "-shared", "-std=gnu11", "-w")
+FLAGS = ("-O2", "-funroll-loops", *_COMMON)
 # With the ledger or the trajectory: compiles faster, runs about 5 % slower (docs/engineering/kernel.md).
-RECORD_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *FLAGS[2:])
+RECORD_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *_COMMON)
 _ONCE = "#pragma once"
 # What only kernels of models with declared events contain is taken out of the others' text, and so out of their digest.
 _OWN_EVENTS = re.compile(r"#if OWN_EVENTS\n.*?^#endif /\* OWN_EVENTS \*/\n", re.MULTILINE | re.DOTALL)
@@ -37,7 +38,7 @@ class Variant:
         ledger: with the energy ledger; the structure must keep the spin.
         trajectory: every step is recorded.
         limit: a collision may be interrupted at a time.
-        lanes: collisions side by side, 1, 2, 4 or 8; as many as the processor has room for.
+        lanes: collisions side by side, 1, 2, 4 or 8; as many as the processor has room for, with the ledger at most 4.
     """
 
     choice: ModelKey
@@ -53,6 +54,8 @@ class Variant:
 
     def __post_init__(self) -> None:
         """Reset options without effect, so that equal kernels are compiled once."""
+        if self.ledger:  # mostly of one collision, where wide vectors cost more than they bring
+            object.__setattr__(self, "lanes", min(self.lanes, 4))
         structure = self.choice.structure
         if structure.startswith("head_on") or "strings" in structure:  # nothing turns, or the rotation is a state
             object.__setattr__(self, "rotation", False)

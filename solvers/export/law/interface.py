@@ -82,7 +82,7 @@ def _function(kind: str, name: str, parameters: str) -> str:
         if not each.startswith("*"):
             declared.append((type_name, f"{_KINDS[type_name]}, value", bare))
             continue
-        changed = type_name == "law_particle" or name == "law_advance"
+        changed = type_name in ("law_particle", "law_pair_history") or name == "law_advance"
         intent = "in" if type_ != type_name else "inout" if changed else "out"
         array = "(count)" if counted and type_name != "law_material" else ""
         declared.append((type_name, f"type({type_name}), intent({intent})", f"{bare}{array}"))

@@ -6,7 +6,7 @@ from .comments import comment
 from .kernels import only_in_a_plane
 from .material import Result
 
-ROOTS = ("space_rows.h",)
+ROOTS = ("space_rows.h", "held.h")
 """Files of the kernel with vectors, besides those of every kernel."""
 TYPES = ("ends.h",)
 """Files with the types that kernels and callers exchange."""
@@ -38,6 +38,43 @@ PARTICLE = (
     ("double", "spin", (3,), "rad/s; of a wall not used"),
 )
 """Members of `law_particle`."""
+MOTION = (
+    ("double", "position", (3,), "m, from the first centre to the second"),
+    ("double", "velocity", (3,), "m/s, of the second centre relative to the first"),
+    ("double", "spins", (2, 3), "rad/s, angular velocities"),
+    ("double", "forces", (2, 3), "N, on each of all but this contact; zero where they are not known"),
+    ("double", "torques", (2, 3), "N m, on each of all but this contact"),
+)
+"""Members of `law_pair_motion`."""
+HISTORY = (
+    ("int", "joined", (), "1 while there is a contact, else 0"),
+    ("int", "rebound", (), "the first rebound criterion met, LAW_NO_REBOUND if none"),
+    ("double", "gap", (), "m, of the contact"),
+    ("double", "smallest_gap", (), "m, so far"),
+    ("double", "speed", (), "m/s, normal approach speed at initial contact"),
+    ("double", "time", (), "s, since initial contact"),
+    ("double", "lead", (), "m/s, by which the host's velocity brings its gap back to that of the contact"),
+    ("double", "spare", (), "J, that the contact has taken so far; what `lead` needs comes from it"),
+)
+"""Members of `law_pair_history`."""
+HAPPENINGS = (
+    ("BEGINS", "the films touch; a bridge forms"),
+    ("REBOUNDS", "a rebound criterion is met"),
+    ("RESTS", "the pair is held in solid contact"),
+    ("LEAVES_FILM", "the gap rises beyond the film"),
+    ("SEPARATES", "the contact ends; a bridge ruptures"),
+)
+"""Events of a step."""
+FORCE = (
+    ("int", "status", (), "LAW_OK, or why there is no answer"),
+    ("int", "events", (), "the sum of what happens: LAW_BEGINS, LAW_REBOUNDS ..."),
+    ("int", "outcome", (), "at separation as in law_collision, else LAW_UNDECIDED"),
+    ("double", "force", (3,), "N, on the second particle; the first has its opposite"),
+    ("double", "torques", (2, 3), "N m, on each"),
+    ("double", "gap", (), "m, at the end of the step"),
+    ("double", "restitution", (), "normal velocity at separation over that of the approach; NaN before"),
+)
+"""Members of `law_pair_force`."""
 RESULTS = (
     Result(150, "NO_DIRECTION", "the normal is zero or not finite: the particles are at one place, or nowhere"),
     Result(151, "NOT_A_NUMBER", "a velocity or a spin is not finite"),
@@ -45,6 +82,8 @@ RESULTS = (
     Result(153, "OUT_OF_RANGE", "velocities and spins are too large, too small, or too far from each other"),
     Result(154, "NOT_IN_CONTACT", "the particles are not at contact distance within `tolerance`, or pass each other"),
     Result(155, "BAD_TOLERANCE", "tolerance must be a number from 0"),
+    Result(156, "BAD_STEP", "the length of a step must be a positive number, s"),
+    Result(157, "BAD_HISTORY", "the history of the pair is none that a call has left: begin with zeros"),
 )
 """Statuses of pairs."""
 Members = tuple[tuple[str, str, tuple[int, ...], str], ...]
@@ -52,7 +91,17 @@ Members = tuple[tuple[str, str, tuple[int, ...], str], ...]
 
 def callers(scene: Scene) -> tuple[str, ...]:
     """C files behind the kernels."""
-    return "planar_end.h", "beside_wall.h" if scene.wall else "two_spheres.h", "in_space.h", "particles.h"
+    forces = () if no_forces(scene) else ("force.h",)
+    return "planar_end.h", "beside_wall.h" if scene.wall else "two_spheres.h", "in_space.h", "particles.h", *forces
+
+
+def no_forces(scene: Scene) -> str:
+    """Why a scene has no forces for time steps; empty if it has."""
+    if scene.wall:
+        return "partner.wall: only of two spheres"
+    return (
+        "particles.friction: only without friction of the dry contact" if scene.particles.friction is not None else ""
+    )
 
 
 def bodies(scene: Scene) -> str:
@@ -68,7 +117,7 @@ def declarations(scene: Scene) -> list[str]:
     why = only_in_a_plane(scene)
     if why:
         sentence = f"There are no collisions in space (law_collide_pair) of this scene: {why}."
-        return [*comment(sentence), "#define LAW_IN_SPACE 0", ""]
+        return [*comment(sentence), "#define LAW_IN_SPACE 0", "#define LAW_FORCES 0", ""]
     lines = [
         *comment("There are collisions in space."),
         "#define LAW_IN_SPACE 1",
@@ -100,7 +149,51 @@ def declarations(scene: Scene) -> list[str]:
         "    const law_material *material, law_particle *first, law_particle *second, double tolerance, double rtol,",
         "    int budget, law_pair_after *after);",
     ]
-    return [*lines, ""]
+    return [*lines, "", *_forces(scene)]
+
+
+def _forces(scene: Scene) -> list[str]:
+    """What the header says of forces for time steps."""
+    why = no_forces(scene)
+    if why:
+        return [*comment(f"There are no forces for time steps (law_contact_force): {why}."), "#define LAW_FORCES 0", ""]
+    return [
+        *comment("There are forces for time steps."),
+        "#define LAW_FORCES 1",
+        "",
+        *comment(
+            "Two particles where a force is asked for: positions of a time t, velocities and spins of half a step "
+            "before it. Forces and torques are those of all else from half a step before to half a step after."
+        ),
+        *_structure("law_pair_motion", MOTION),
+        *comment(
+            "What a host keeps of a pair: zeros where there is no contact. It has no pointers, and may be copied, sent "
+            "and written to a file."
+        ),
+        *_structure("law_pair_history", HISTORY),
+        *comment("What happens in a step, added up."),
+        "enum {",
+        *(f"    LAW_{name} = {1 << k}, /* {what} */" for k, (name, what) in enumerate(HAPPENINGS)),
+        "};",
+        "",
+        *comment("What the contact does to the pair."),
+        *_structure("law_pair_force", FORCE),
+        *comment(
+            "The force of a pair for one step of the host, from `dt`/2 before the positions to `dt`/2 after them; "
+            "apply it all that time. The torques balance its lever arms at these positions: momentum and angular "
+            "momentum are kept to rounding. Returns found->status; without an answer the history stays as it is."
+        ),
+        "int law_contact_force(",
+        "    const law_material *material, const law_pair_motion *motion, double dt, law_pair_history *history,",
+        "    law_pair_force *found);",
+        "",
+        *comment(
+            "Puts a contact in place, at a gap between solid contact and rupture: a bridge that is there beforehand. "
+            "`speed`, m/s, is the approach that the elastic length goes by. Returns a status."
+        ),
+        "int law_contact_join(const law_material *material, double gap, double speed, law_pair_history *history);",
+        "",
+    ]
 
 
 def _before(scene: Scene) -> str:

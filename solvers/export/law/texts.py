@@ -63,6 +63,31 @@ class _Numbers:
         return cls(of_material, of_impact, entries, (*statuses, *in_space))
 
 
+@dataclass(frozen=True)
+class LawSource:
+    """A law before it has the scene's name: `law_` is its prefix, and the C file includes "law.h".
+
+    Arguments:
+        header: text of the header, without the comment at its head.
+        c: text of the C file.
+        entries: of a pair, with the scene's values.
+        impact: of a collision.
+    """
+
+    header: str
+    c: str
+    entries: tuple[Number, ...]
+    impact: tuple[Number, ...]
+
+
+def source(scene: Scene, rtol: float = RTOL) -> LawSource:
+    """The C of a scene's law; InputError if one of its laws has no recurrence."""
+    law_kernels = kernels(scene, rtol)
+    numbers = _Numbers.of(scene, law_kernels)
+    declared = header(scene, numbers.material, numbers.impact, numbers.entries, numbers.statuses)
+    return LawSource(declared, _law(scene, law_kernels, numbers), numbers.entries, numbers.impact)
+
+
 def law_name(scene: Scene) -> str:
     """The prefix of a scene's law and the name of its files, other than those of its neighbours and prefixes within it.
 
@@ -81,13 +106,12 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
         InputError: a law of the scene has no recurrence.
         ComputationError: no engine can compute the test vectors.
     """
-    name = law_name(scene)
-    law_kernels = kernels(scene, rtol)
-    numbers = _Numbers.of(scene, law_kernels)
-    declared = header(scene, numbers.material, numbers.impact, numbers.entries, numbers.statuses)
+    name, law_kernels = law_name(scene), kernels(scene, rtol)
+    law = source(scene, rtol)
+    declared = law.header
     files = {
         f"{name}.h": _head(scene, law_kernels) + declared,
-        f"{name}.c": _law(scene, law_kernels, numbers),
+        f"{name}.c": law.c,
         f"{name}.f90": fortran(declared).replace("@NAME@", name),
         "vectors.h": table(scene, law_kernels),
     }

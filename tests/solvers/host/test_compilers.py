@@ -38,6 +38,7 @@ def anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[pytest.Mon
     monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / "cache"))
     monkeypatch.setenv("WETDOUBLET_NO_COMPILER", "")  # so that it is restored
     monkeypatch.delenv("WETDOUBLET_NO_COMPILER")
+    monkeypatch.setitem(sys.modules, "ziglang", None)  # as if not installed
     compiler.cache_clear()
     yield monkeypatch
     compiler.cache_clear()

@@ -266,6 +266,7 @@ def test_without_a_compiler(monkeypatch, capfd):
     fast = by_casadi.run(request, machine_code=True)
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setitem(sys.modules, "ziglang", None)  # as if not installed
     by_casadi.locate.__globals__["locator"].cache_clear()
     compiler.cache_clear()
     try:

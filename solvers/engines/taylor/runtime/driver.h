@@ -98,7 +98,8 @@ static void end_sticks(queue *q, lanes *l, fixed *f)
         sticks_for_good(q, l, f, lane, CHATTER_PROVES);
 #endif
 #if SPACE && PROOF_BY_ENERGY
-    mask late = l->alive & ((l->steps & (INTERVAL - 1)) == INTERVAL - 1);
+    mask doubled = ((l->steps & (l->steps + 1)) == 0) & (l->steps > 8); /* soon and ever more rarely, then at intervals */
+    mask late = l->alive & (doubled | ((l->steps & (INTERVAL - 1)) == INTERVAL - 1));
     EACH_OF(lane, bits(late) ? bits(late & tumbles(&f->c, l->y, &f->b, q->rtol)) : 0)
         sticks_for_good(q, l, f, lane, 0);
 #endif

@@ -121,19 +121,20 @@ OUTLINE void look(first_event *first, mask close, const vec *a, vec target, vec 
         vec low = splat(0.0), high = splat(1.0), t = (place + from/(from - to))*(1.0/ORDER);
         mask moves = one; /* converged lanes stay unchanged, so that results do not depend on neighbouring lanes */
         for (int count = 0; count < 60 && bits(moves); count++) {
-            vec value = g[ORDER], slope = splat(0.0);
+            vec value = g[ORDER], slope = splat(0.0), bend = splat(0.0);
             for (int k = ORDER - 1; k >= 0; k--) {
+                bend = bend*t + slope;
                 slope = slope*t + value;
                 value = value*t + g[k];
             }
             mask before = value > 0.0;
             low = choose(before, t, low);
             high = choose(before, high, t);
-            vec newton = t - value/slope;
-            mask inside = (newton >= low) & (newton <= high);
-            vec next = choose(inside, newton, 0.5*(low + high));
-            /* Newton converges quadratically: after a step of 1e-9 the error is about 1e-17 */
-            mask arrived = (inside & (vec_abs(next - t) <= 1e-9*next)) | (high - low <= 4e-16*high);
+            vec halley = t - value*slope/(slope*slope - value*bend);
+            mask inside = (halley >= low) & (halley <= high);
+            vec next = choose(inside, halley, 0.5*(low + high));
+            /* the iteration converges cubically: after a step of 1e-6 the error is about 1e-18 */
+            mask arrived = (inside & (vec_abs(next - t) <= 1e-6*next)) | (high - low <= 4e-16*high);
             t = choose(moves, next, t);
             moves &= NOT(arrived);
         }

@@ -76,21 +76,42 @@ static inline void turn_along(series *s, const axes *w, int k)
         for (int part = 0; part < 3; part++)
             a[first + part][k + 1] -= swept(w, &a[first][k], TERMS, part)*(1.0/(k + 1));
 }
-#define TURN(k) if (turning) turn_along(s, turning, k);
+#define TURN(k) if (turning) turn_along(w, turning, k);
 #else
 #define TURN(k)
 #endif
 
-#define TERM(k) if (k < ORDER) { coefficients(s, c, film, shear, moving, k); TURN(k) }
+#define TERM(k) if (k < ORDER) { coefficients(w, c, film, shear, moving, k); TURN(k) }
 #define GLASS_TERM(k) if (k <= ORDER) glass_coefficients(s, c, k);
 
+/* Series of the states from their first coefficients. Unless others are read later, they are local: most of their
+ * coefficients then stay in registers.
+ */
 #if SPACE
-OUTLINE void expand(series *s, const constants *c, vec film, vec shear, mask moving, const axes *turning)
+SCHEDULED OUTLINE void expand(series *restrict s, const constants *c, vec film, vec shear, mask moving, const axes *turning)
 #else
-OUTLINE void expand(series *s, const constants *c, vec film, vec shear, mask moving)
+SCHEDULED OUTLINE void expand(series *restrict s, const constants *c, vec film, vec shear, mask moving)
 #endif
 {
+#if GRADIENTS || OWN_EVENTS || RUBS
+    series *w = s;
     EVERY(TERM)
+#else
+    series local, *w = &local;
+    vec (*a)[TERMS] = (vec (*)[TERMS])s, (*b)[TERMS] = (vec (*)[TERMS])w;
+    UNROLL
+    for (int state = 0; state < STATES; state++)
+        b[state][0] = a[state][0];
+    EVERY(TERM)
+    UNROLL
+    for (int state = 0; state < STATES; state++)
+        UNROLL
+        for (int k = 1; k <= ORDER; k++)
+            a[state][k] = b[state][k];
+    UNROLL
+    for (int k = 0; k < ORDER; k++)
+        s->acceleration[k] = w->acceleration[k];
+#endif
     s->acceleration[ORDER] = splat(0.0); /* not computed at this order */
 }
 

@@ -30,6 +30,12 @@
 #define OUTLINE static
 #define UNROLL
 #endif
+/* Long code without branches: gcc arranges it before registers are assigned, which x86 has too few of by default. */
+#if defined(__GNUC__) && !defined(__clang__)
+#define SCHEDULED __attribute__((optimize("schedule-insns", "sched-pressure")))
+#else
+#define SCHEDULED
+#endif
 /* True or no program; C99 has no static assertions. */
 #define STATIC_ASSERT(condition) extern char static_assertion[(condition) ? 1 : -1]
 

@@ -21,6 +21,8 @@ V3 = "abm avx2 bmi1 bmi2 f16c fma movbe"
 V4 = f"{V3} avx512bw avx512cd avx512dq avx512f avx512vl"
 COLLIDED = """
 import pathlib, sys
+
+sys.modules["ziglang"] = None  # as if not installed
 import wetdoublet as wd
 from wetdoublet.solvers.engines.taylor import machine
 

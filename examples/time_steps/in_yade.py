@@ -1,0 +1,92 @@
+"""Wet spheres in YADE by the exported force, beside the law over a map of speeds and angles.
+
+    python in_yade.py "yade -n -x"      this Python has `wetdoublet`
+
+`Forces` is what a script for YADE takes: `PyRunner(command="forces()", iterPeriod=1)` between ForceResetter and
+NewtonIntegrator asks the law for every pair within reach, one after the other, and adds forces and torques.
+"""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from beside import arrival, main
+from law import Force, History, Law, Motion
+
+
+class Forces:
+    """The law as a force in YADE, of spheres of the law's own size."""
+
+    def __init__(self, world: Any, law: Law) -> None:
+        self.world, self.law, self.ended = world, law, {}
+        self.pairs: dict[tuple[int, int], History] = {}
+
+    def __call__(self) -> None:
+        """Positions of now, velocities of half a step before, as YADE has them here."""
+        dt, motion, found, reach = self.world.dt, Motion(), Force(), self.law.contact_distance()
+        states = {body.id: body.state for body in self.world.bodies}
+        v = {k: np.array(state.vel) for k, state in states.items()}
+        spin = {k: np.array(state.angVel) for k, state in states.items()}
+        for other in sorted(states):
+            for one in range(other):
+                history = self.pairs.setdefault((one, other), History())
+                apart, moving = np.array(states[other].pos - states[one].pos), v[other] - v[one]
+                if not history.joined and np.linalg.norm(apart) > reach + dt * np.linalg.norm(moving):
+                    continue
+                motion.position[:], motion.velocity[:] = apart, moving
+                motion.spins[0][:], motion.spins[1][:] = spin[one], spin[other]
+                self.law.force(motion, dt, history, found)
+                if found.outcome >= 0:
+                    self.ended[one, other] = (found.outcome, found.restitution)
+                for k, sign, turning in ((one, -1.0, found.torques[0]), (other, 1.0, found.torques[1])):
+                    push, turn = sign * np.array(found.force), np.array(turning)
+                    self.world.forces.addF(k, tuple(push))
+                    self.world.forces.addT(k, tuple(turn))
+                    v[k] += dt / states[k].mass * push
+                    spin[k] += dt / states[k].inertia[0] * turn
+
+
+def in_yade(job: dict[str, Any]) -> list[dict[str, Any]]:
+    """The collisions of a job."""
+    import builtins
+
+    import yade
+    from yade.utils import sphere
+    from yade.wrapper import ForceResetter, FrictMat, NewtonIntegrator, PyRunner
+
+    law, rows, world = Law(Path(job["folder"]), job["name"]), [], yade.Omega()
+    radius, mass = 2 * law.material.reduced_radius, 2 * law.material.reduced_mass
+    for speed, angle, dt in job["collisions"]:
+        apart, v = arrival(law, speed, angle, dt)
+        world.reset()
+        world.materials.append(FrictMat(density=mass / (4 / 3 * np.pi * radius**3)))
+        for place, velocity in ((0 * v, -0.5 * v), (apart, 0.5 * v)):
+            ball = sphere(tuple(place), radius, material=world.materials[0])
+            world.bodies.append(ball)
+            ball.state.vel = tuple(velocity)
+        builtins.forces = forces = Forces(world, law)
+        runner = PyRunner(command="import builtins; builtins.forces()", iterPeriod=1)
+        world.engines = [ForceResetter(), runner, NewtonIntegrator(damping=0)]
+        world.dt = dt
+        balls = [body.state for body in world.bodies]
+
+        def sums(balls: Any = balls) -> np.ndarray:
+            momentum = sum(each.mass * np.array(each.vel) for each in balls)
+            turning = sum(each.inertia[0] * np.array(each.angVel) for each in balls)
+            turning = turning + sum(each.mass * np.cross(each.pos, each.vel) for each in balls)
+            return np.concatenate([momentum, turning])
+
+        first = sums()
+        for _ in range(job["steps"]):
+            world.step()
+            if forces.ended:
+                break
+        outcome, restitution = forces.ended.get((0, 1), (0, 0.0))
+        off = np.abs(sums() - first) / (mass * np.linalg.norm(v) * np.repeat([1.0, 2 * radius], 3))
+        rows.append({"outcome": outcome, "restitution": restitution, "off": float(off.max())})
+    return rows
+
+
+if __name__ == "__main__":
+    sys.exit(main(in_yade, __file__))

@@ -1,0 +1,134 @@
+// The pair along one collision: rows of the law, interpolated; straight lines behind a separation.
+import { Law, ROW, type Impact } from "./law";
+import { eventWords } from "./text";
+import type { Scene } from "./scene";
+
+export interface Geometry {
+  radius: number;
+  partner: number; // 0 beside a wall
+  reduced: number;
+  film: number;
+  volume: number; // 0 without a bridge
+  share: number; // distance of the first centre from the centre of mass, of that between the centres
+  masses: [number, number];
+}
+
+export interface Frame {
+  time: number;
+  gap: number;
+  velocity: number;
+  angle: number;
+  rate: number;
+  spins: [number, number];
+  turned: [number, number];
+  slid: number;
+  apart: boolean;
+}
+
+export interface PairEvent {
+  time: number;
+  words: string;
+}
+
+export function geometry(law: Law, scene: Scene): Geometry {
+  const reduced = law.quantity("reduced_radius");
+  const mass = law.quantity("reduced_mass");
+  const or = (value: number, other: number): number => (Number.isNaN(value) ? other : value);
+  const common = { reduced, film: law.quantity("film_thickness"), volume: or(law.quantity("volume"), 0) * (2 * reduced) ** 3 };
+  if (scene.wall) return { ...common, radius: reduced, partner: 0, share: 0, masses: [mass, 0] };
+  const k = or(law.quantity("radius_ratio"), 1);
+  const q = or(law.quantity("mass_ratio"), 1);
+  const masses: [number, number] = [(mass * (1 + q)) / q, mass * (1 + q)];
+  return { ...common, radius: (reduced * (1 + k)) / k, partner: reduced * (1 + k), share: q / (1 + q), masses };
+}
+
+export class Trajectory {
+  readonly end: number;
+  readonly separated: boolean;
+  readonly tau: number;
+  readonly events: PairEvent[] = [];
+  readonly columns: { time: number[]; gap: number[]; velocity: number[]; rotation: number[] };
+  private readonly turned: [Float64Array, Float64Array];
+
+  constructor(
+    private readonly rows: Float64Array,
+    events: Float64Array,
+    readonly geometry: Geometry,
+    readonly impact: Impact,
+    private readonly scene: Scene,
+  ) {
+    const n = rows.length / ROW;
+    const column = (k: number): number[] => Array.from({ length: n }, (_, i) => rows[i * ROW + k]!);
+    this.columns = { time: column(0), gap: column(1), velocity: column(2), rotation: column(3) };
+    this.end = n ? rows[(n - 1) * ROW]! : 0;
+    this.separated = n > 0 && rows[n * ROW - 1]! % 10 === 3;
+    this.tau = geometry.film / impact.speed;
+    for (let k = 0; k < events.length; k += 3)
+      this.events.push({ time: events[k]!, words: eventWords(events[k + 1]!, events[k + 2]!, scene.strings) });
+    // the doublet's angle is the integrator's; only the slip is integrated here, by the trapezoidal rule
+    this.turned = [new Float64Array(n), new Float64Array(n)];
+    for (const s of [0, 1] as const)
+      for (let i = 1; i < n; i++) {
+        const slip = (j: number): number => rows[j * ROW + 5 + s]! - (scene.wall ? 0 : rows[j * ROW + 4]!);
+        const turn = scene.wall ? 0 : rows[i * ROW + 3]! - rows[(i - 1) * ROW + 3]!;
+        this.turned[s][i] = this.turned[s][i - 1]! + turn + ((slip(i) + slip(i - 1)) / 2) * (rows[i * ROW]! - rows[(i - 1) * ROW]!);
+      }
+  }
+
+  /** Sum of the radii and a gap. */
+  distance(gap: number): number {
+    return this.geometry.radius + this.geometry.partner + gap;
+  }
+
+  at(time: number): Frame {
+    const n = this.rows.length / ROW;
+    let low = 0;
+    let high = n - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.rows[middle * ROW]! <= time) low = middle;
+      else high = middle;
+    }
+    const [from, to] = [this.rows[low * ROW]!, this.rows[high * ROW]!];
+    const f = to > from ? Math.min(Math.max((time - from) / (to - from), 0), 1) : 1;
+    const mix = (a: number, b: number): number => a + (b - a) * f;
+    const value = (k: number): number => mix(this.rows[low * ROW + k]!, this.rows[high * ROW + k]!);
+    const turned = this.turned.map((each) => mix(each[low]!, each[high]!)) as [number, number];
+    const frame: Frame = {
+      time, gap: value(1), velocity: value(2), angle: value(3), rate: value(4), spins: [value(5), value(6)], turned, slid: 0, apart: false,
+    };
+    const beyond = time - this.end;
+    if (beyond <= 0 || !this.separated || this.scene.strings) return frame;
+    const distance = this.distance(frame.gap);
+    const [x, y] = [distance + frame.velocity * beyond, this.scene.wall ? 0 : frame.rate * distance * beyond];
+    return {
+      ...frame,
+      gap: Math.hypot(x, y) - this.geometry.radius - this.geometry.partner,
+      angle: frame.angle + Math.atan2(y, x),
+      turned: [turned[0] + frame.spins[0] * beyond, turned[1] + frame.spins[1] * beyond],
+      apart: true,
+    };
+  }
+
+  /** Shares of the initial kinetic energy: along the line of centres, orbital or along the wall, of the spins. */
+  energies(frame: Frame): [number, number, number] {
+    const parts = (one: Frame): [number, number, number] => {
+      const { masses, radius, partner } = this.geometry;
+      const mass = this.scene.wall ? masses[0] : (masses[0] * masses[1]) / (masses[0] + masses[1]);
+      const spin = (k: 0 | 1, r: number): number => 0.2 * masses[k] * (r * one.spins[k]) ** 2;
+      const across = one.rate * this.distance(one.gap);
+      return [0.5 * mass * one.velocity ** 2, 0.5 * mass * across ** 2, spin(0, radius) + spin(1, partner)];
+    };
+    const first = parts(this.at(0));
+    const total = first[0] + first[1] + first[2];
+    return parts(frame).map((each) => each / total) as [number, number, number];
+  }
+}
+
+/** Radius of the liquid between the surfaces, taken as parabolas: of the bridge, else of what the films fill. */
+export function wettedRadius(g: Geometry, gap: number): number {
+  const radius = 2 * g.reduced;
+  if (!g.volume) return Math.sqrt(radius * Math.max(g.film - gap, 0));
+  const square = radius * (Math.sqrt(gap * gap + (2 * g.volume) / (Math.PI * radius)) - gap);
+  return Math.min(Math.sqrt(square), 0.9 * Math.min(g.radius, g.partner || g.radius));
+}

@@ -1,0 +1,82 @@
+"""The page's parts that need neither a browser nor a compiler for WebAssembly."""
+
+import hashlib
+import math
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from wetdoublet.solvers import InputError, Scene
+from wetdoublet.solvers.explorer.knobs import knobs
+from wetdoublet.solvers.explorer.module import module
+from wetdoublet.solvers.explorer.page_of_scene import explore
+from wetdoublet.solvers.export.law.texts import LawSource, source
+
+ROOM = Path(__file__).parents[3] / "solvers" / "explorer"
+BUILT = ("page.css", "page.js", "worker.js")
+
+
+def test_the_bundle_is_that_of_its_sources():
+    """The digest that the build writes is of the sources and of what they are built to."""
+    digest = hashlib.sha256()
+    sources = sorted(each for each in (ROOM / "page").iterdir() if each.suffix in (".ts", ".css", ".json", ".mjs"))
+    for path in (*sources, *(ROOM / "built" / name for name in BUILT)):
+        digest.update(f"{path.name}\0".encode() + path.read_bytes() + b"\0")
+    assert (ROOM / "built" / "DIGEST").read_text().strip() == digest.hexdigest()
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not (ROOM / "page" / "node_modules").is_dir(), reason="needs `npm ci` in solvers/explorer/page")
+def test_the_bundle_is_built_again_byte_for_byte(tmp_path: Path):
+    """By esbuild of the version that package-lock.json has."""
+    node = shutil.which("node")
+    assert node is not None
+    subprocess.run([node, "build.mjs", str(tmp_path)], cwd=ROOM / "page", check=True)
+    for name in (*BUILT, "DIGEST"):
+        assert (tmp_path / name).read_bytes() == (ROOM / "built" / name).read_bytes(), name
+
+
+def test_the_bundle_names_no_address():
+    """Nothing but the names of XML's namespaces and of the library's licence looks like one."""
+    for name in BUILT:
+        text = (ROOM / "built" / name).read_text()
+        found = {each.split('"')[0].split("`")[0].split("'")[0] for each in text.split("http")[1:]}
+        assert all(each.startswith(("://www.w3.org/", "s://github.com/leeoniya/uPlot")) for each in found), found
+
+
+def test_without_a_compiler_the_extra_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    """One line that says what to install."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setitem(sys.modules, "ziglang", None)
+    with pytest.raises(InputError, match=r"wetdoublet\[explorer\]"):
+        module(LawSource("", "int nothing;\n", (), ()))
+
+
+def test_a_scene_without_an_impact_is_refused():
+    """Before anything is compiled."""
+    given = tuple(each for each in Scene.load("granulation").given if not each[0].startswith("impact."))
+    with pytest.raises(InputError, match=r"impact\.stokes"):
+        explore(Scene("", given))
+
+
+@pytest.mark.parametrize("name", ["granulation", "lactose-pvp", "pendulum"])
+def test_knobs_have_the_scenes_numbers_and_units(name: str):
+    """What a knob sets is the scene's own number, within its slider; every number of the law but one has a knob."""
+    scene = Scene.load(name)
+    law = source(scene)
+    entries = {each.name: each.value for each in law.entries}
+    made = knobs(scene, law.entries, law.impact)
+    for each in made:
+        assert each["value"] is None or each["low"] <= each["value"] <= each["high"], each["name"]
+        for member in each["members"]:
+            si = each["never"] if each["value"] is None else each["value"] * each["factor"]
+            assert si == pytest.approx(entries[member], rel=1e-15), member
+    assert {*entries} - {member for each in made for member in each["members"]} <= {"liquid_density"}
+    texts = {each["name"]: f"{each['value']:g} {each['unit']}" for each in made if each["value"] is not None}
+    given = dict(scene.given)
+    assert texts["liquid.viscosity"] == given["liquid.viscosity"]
+    angle = next(each for each in made if each["name"] == "impact.angle")
+    assert math.radians(angle["value"]) == pytest.approx(scene.angle, rel=1e-15)
