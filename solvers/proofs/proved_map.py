@@ -99,7 +99,7 @@ def prove_map(
     Example:
         >>> import numpy as np
         >>> from wetdoublet.solvers import prove_map
-        >>> few = prove_map("granulation", stokes=[0.2, 0.3], angle=np.radians([20, 30]), depth=4)
+        >>> few = prove_map("granulation", stokes=[0.2, 0.21], angle=np.radians([20, 21]), depth=8)
         >>> few.shares["undecided"] < 0.2
         True
     """
