@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .boundaries.boundary import Atlas, Boundaries, atlas, boundary
     from .collision.collide import collide
     from .collision.result import Collision
+    from .engines.interval.prove import Proof, prove
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .explorer.page_of_scene import Explorer, explore
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
     from .many.regime_map import regime_map
     from .planning.design import design
     from .planning.result import Design
+    from .proofs.proved_boundary import ProvedBoundary, prove_boundary
+    from .proofs.proved_map import ProvedMap, prove_map
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
     from .sensitivity.critical import critical
@@ -58,6 +61,9 @@ _NAMES = {
     "many.regime_map": "regime_map",
     "planning.design": "design",
     "planning.result": "Design",
+    "engines.interval.prove": "Proof prove",
+    "proofs.proved_boundary": "ProvedBoundary prove_boundary",
+    "proofs.proved_map": "ProvedMap prove_map",
     "scene.scene": "Scene",
     "sensitivity.boundaries": "BoundarySensitivities boundary_sensitivities",
     "sensitivity.critical": "critical",
@@ -76,10 +82,11 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()
 
 __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
-    "Design", "Explorer", "Fit", "InputError", "ModelWarning", "Scene", "Sensitivities", "Table", "WetDoubletError",
-    "atlas", "band", "boundary", "boundary_sensitivities", "check_data", "collide", "collide_many", "collide_pair",
-    "collision_averages", "compare_models", "compile_kernels", "critical", "design", "explore", "fit", "gradients_many",
-    "log_likelihood", "pair_gradients", "plot", "regime_map", "sensitivities", "sobol_indices", "table", "tracks",
+    "Design", "Explorer", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap", "Scene",
+    "Sensitivities", "Table", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
+    "collide", "collide_many", "collide_pair", "collision_averages", "compare_models", "compile_kernels", "critical",
+    "design", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove",
+    "prove_boundary", "prove_map", "regime_map", "sensitivities", "sobol_indices", "table", "tracks",
     "trajectory_sensitivities",
 ]  # fmt: skip
 

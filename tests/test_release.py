@@ -11,7 +11,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from wetdoublet.solvers.engines.taylor.machine import SETS
+from wetdoublet.solvers.engines.machine import SETS
 
 yaml = pytest.importorskip("yaml")
 ROOT = Path(__file__).resolve().parents[1]

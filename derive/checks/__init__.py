@@ -54,6 +54,6 @@ def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
     yield from _of("laws", "restitution", "certificate", "pendulum_certificate", "attraction_certificate")
     yield from _of("orbital_momentum_certificate", "slow_manifold")
     yield from force_falls([*film, *shear], last=1)  # inside the film
-    yield from _of("approach_certificate", "spin_down_certificate")
+    yield from _of("approach_certificate", "spin_down_certificate", "enclosure")
     yield from certificates(laws)
     yield from _of("partners", "space")

@@ -16,6 +16,7 @@ from ..vocabulary.quantities import normal_velocity
 from .casadi import modules
 from .casadi.automaton import provenance
 from .casadi.printer import EmissionError
+from .interval import header as interval
 from .taylor.automaton import automaton_header, effects_header
 from .taylor.header import Beside, structure_header
 from .taylor.law_header import law_header
@@ -44,14 +45,18 @@ def user_structure_text(source: str, model: str, name: str) -> str:
     return modules.structure_module(user_model.extended(derive(named(name))), own_names(user_model))
 
 
-def structure_header_text(name: str) -> str:
-    """Text of a structure's C header for the kernel; `#error` and a sentence if it has none."""
-    return _or_error(lambda: structure_header(derive(named(name))))
+def header_text(kind: str, name: str) -> str:
+    """Text of a C header; `#error` and a sentence if there is none.
 
-
-def structure_tangent_text(name: str) -> str:
-    """Text of the C header of a structure's tangent; `#error` and a sentence if it has none."""
-    return _or_error(lambda: tangent_header(derive(named(name))))
+    Arguments:
+        kind: its folder below `generated`: "taylor", "taylor/tangent" or "interval" of structures, "interval/laws".
+        name: of the structure's module or the law's.
+    """
+    if kind == "interval/laws":
+        (law,) = (law for laws in LAWS.values() for law in laws.values() if law.module == name)
+        return _or_error(lambda: interval.law_header(law))
+    emit = {"taylor": structure_header, "taylor/tangent": tangent_header, "interval": interval.structure_header}[kind]
+    return _or_error(lambda: emit(derive(named(name))))
 
 
 def user_structure_header_text(source: str, model: str, name: str, tangent: bool = False) -> str:

@@ -20,6 +20,7 @@ from .casadi.printer import Printer
 from .casadi.references import references_module
 from .document.automaton import DIAGRAM, automaton_page
 from .document.diagram import diagram
+from .interval import header as interval
 from .provenance import PROVENANCE, law_digest, model_digest
 from .taylor.automaton import automaton_header, criteria_header, effects_header, proofs_header
 from .taylor.guards import guards_header
@@ -28,6 +29,7 @@ from .taylor.law_header import law_header
 from .taylor.law_slopes import slopes_header
 from .taylor.tangent import tangent_header
 
+_ENCLOSED = ("film_finite", "glass_literal", "shear_immersed", "bridge_mikami")  # the others on first use
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 
 
@@ -71,6 +73,8 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
     }
     for slot, laws in LAWS.items():
         for law in laws.values():
+            if law.module in _ENCLOSED:
+                files[f"interval/laws/{law.module}.h"] = interval.law_header(law)
             files[f"laws/{law.module}.py"] = modules.law_module(law)
             files[f"taylor/laws/{law.module}.h"] = law_header(law)
             files[f"taylor/tangent/laws/{law.module}.h"] = slopes_header(law)
@@ -80,6 +84,8 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
     for model in models:
         structure = model.structure
         files[f"{structure.name}.py"] = modules.structure_module(model, shared=shared)
+        if structure in structures() and structure.reduced:
+            files[f"interval/{structure.name}.h"] = interval.structure_header(model)
         if structure in structures():
             headers[f"taylor/{structure.name}.h"] = structure_header(model)
             headers[f"taylor/tangent/{structure.name}.h"] = tangent_header(model)

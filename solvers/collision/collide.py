@@ -5,8 +5,9 @@ from pathlib import Path as FilePath
 
 from ...generated.automaton import STICK
 from ..engines.settings import UNTIL, Budget, casadi_steps, check_engine, check_rtol
+from ..errors import ComputationError
 from ..host.arguments import check_flag
-from ..model.dimensionless import nondimensionalise
+from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .by_kernel import Undecided, collision
@@ -25,6 +26,7 @@ def collide(
     ledger: bool = True,
     trajectory: bool = False,
     until: float | str | None = None,
+    proof: bool = False,
 ) -> Collision:
     """Collide two wet particles.
 
@@ -42,13 +44,15 @@ def collide(
         trajectory: keep the trajectory as an xarray Dataset.
         until: time after initial contact, s or a string with its unit. A stick is integrated up to this time, beyond
             its proof; its outcome stays, its events and energy run up to this time.
+        proof: enclose the collision as well, so that `result.proof` proves the outcome, or says why not.
 
     Returns:
         The Collision.
 
     Raises:
         InputError: a field or option is not acceptable.
-        ComputationError: the trajectory could not be completed; says in which phase, when and at what state.
+        ComputationError: the trajectory could not be completed; says in which phase, when and at what state. Or the
+            proof contradicts it.
 
     Warns:
         ModelWarning: the scene leaves the range of validity of a law.
@@ -60,11 +64,39 @@ def collide(
     """
     rtol, requested = check_rtol(rtol), check_engine(engine)
     ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
+    check_flag(proof, "proof")
     last = None if until is None else UNTIL.number(until)
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     v0, theta0 = loaded.need_impact()
     dimensionless = nondimensionalise(loaded, v0, theta0)
     warn(loaded)
+    result = _integrated(loaded, dimensionless, rtol, requested, ledger, trajectory, last)
+    return _proved(result, loaded) if proof else result
+
+
+def _proved(result: Collision, scene: Scene) -> Collision:
+    """The result with the proof of its outcome, or with the reason why there is none."""
+    from ..engines.interval.prove import prove
+
+    proof = prove(scene)
+    if proof and proof.outcome != result.outcome:
+        raise ComputationError(
+            f"the collision is computed as {result.outcome} and proved to be {proof.outcome}",
+            advice="use a smaller rtol; the proof holds",
+        )
+    return replace(result, proof=proof, certified=result.certified or proof.outcome == STICK)
+
+
+def _integrated(
+    loaded: Scene,
+    dimensionless: DimensionlessGroups,
+    rtol: float,
+    requested: str | None,
+    ledger: bool,
+    trajectory: bool,
+    last: float | None,
+) -> Collision:
+    """The collision by the engine that is requested, or by the first that can."""
     if requested not in (None, "taylor"):
         from .by_casadi import by_casadi
 

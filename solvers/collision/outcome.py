@@ -12,6 +12,8 @@ from ..scene.scene import Scene
 if TYPE_CHECKING:
     import xarray
 
+    from ..engines.interval.prove import Proof
+
 UNITS = {
     "restitution": "1", "tangential_restitution": "1", "slip_restitution": "1",
     "rotation": "rad", "contact_time": "s", "smallest_gap": "m",
@@ -114,11 +116,12 @@ class Outcome:
         rotation: angle turned by the line of centres until separation, rad.
         until: for a stick, the time at which integration stopped, s.
         decided: for a stick, the time at which it was certain, s: `until`, unless it was followed on.
-        certified: True if a certificate proves the stick.
+        certified: True if a certificate, or the enclosure from the initial data on, proves the stick.
         reversal: the first rebound criterion met, if any.
         rtol: relative tolerance that was asked for.
         engine_reason: why the Taylor kernel did not answer; "" where it did, or another engine was requested.
         trajectory: Dataset over `time`, if requested.
+        proof: what the enclosure of the collision proves, if requested.
     """
 
     outcome: str
@@ -151,6 +154,7 @@ class Outcome:
     engine_reason: str = field(default="", compare=False)
     scene: Scene = field(repr=False, compare=False)
     trajectory: xarray.Dataset | None = field(default=None, repr=False, compare=False)
+    proof: Proof | None = field(default=None, repr=False, compare=False)
 
     @property
     def validity(self) -> tuple[str, ...]:
@@ -178,4 +182,7 @@ class Outcome:
         result |= {"engine": self.engine, "steps": self.steps, "rtol": self.rtol, "validity": list(self.validity)}
         if self.engine_reason:
             result["engine_reason"] = self.engine_reason
+        if self.proof is not None:
+            names = ("proved", "outcome", "restitution", "reason", "smallest_gap", "rebounds", "steps")
+            result["proof"] = {name: value for name, value in self.proof.to_dict().items() if name in names}
         return result | {"units": {key: UNITS[key] for key in result if key in UNITS}} | origin(self.scene)

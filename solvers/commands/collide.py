@@ -13,12 +13,14 @@ def command(
     rtol: options.Rtol,
     engine: options.Engine,
     until: Annotated[float | None, UNTIL.number],
+    proof: bool,
     output: options.Shown,
 ) -> None:
     """Compute one collision of the two particles of SCENE.
 
     Options:
         --until TIME: Follow a stick on after its proof, as "5 ms" after initial contact.
+        --proof: Enclose the collision as well, so that its outcome is proved, or it is said why not.
     """
     scene = request.scene()
     scene.need_impact()
@@ -26,4 +28,4 @@ def command(
     from ..collision.collide import collide
 
     trajectory = output.picture is not None
-    output.show(collide(scene, trajectory=trajectory, **passed(rtol=rtol, engine=engine, until=until)))
+    output.show(collide(scene, trajectory=trajectory, proof=proof, **passed(rtol=rtol, engine=engine, until=until)))

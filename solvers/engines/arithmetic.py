@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ...generated import scaling
 from ..host.compiler import compiler, more_flags
-from .taylor.machine import described, lanes
+from .machine import described, lanes
 from .taylor.shipped import shipped_digest
 
 _NONE = "none"

@@ -103,14 +103,14 @@ def header(path: str) -> str:
     """
     if committed(path):
         return _INCLUDED.sub(lambda shared: _read(f"taylor/{shared[1]}").partition("*/\n")[2], _read(path))
-    name, tangent = Path(path).stem, "tangent" in Path(path).parts
+    kind, name = path.removesuffix(".h").rsplit("/", 1)
 
     def derived() -> str:
-        from ...derive.emit.one import structure_header_text, structure_tangent_text  # imports sympy
+        from ...derive.emit.one import header_text  # imports sympy
 
-        return (structure_tangent_text if tangent else structure_header_text)(name)
+        return header_text(kind, name)
 
-    return derived_once(f"{'tangent' if tangent else 'kernel'}-{name}.h", derived)
+    return derived_once(f"{kind.replace('/', '-')}-{name}.h", derived)
 
 
 def committed(path: str) -> bool:

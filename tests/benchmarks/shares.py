@@ -17,11 +17,11 @@ from itertools import islice
 
 import numpy as np
 from wetdoublet.solvers import Scene
+from wetdoublet.solvers.engines.machine import here
 from wetdoublet.solvers.engines.settings import RTOL, STEPS
 from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, variant_for_many
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
-from wetdoublet.solvers.engines.taylor.machine import here
 from wetdoublet.solvers.engines.taylor.source import emitted_headers, flags, source
 from wetdoublet.solvers.host.compiler import library
 from wetdoublet.solvers.host.user_cache import loaded

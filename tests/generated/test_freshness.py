@@ -86,7 +86,7 @@ import json, sys
 from wetdoublet.derive.emit import one
 from wetdoublet.derive.emit.casadi.modules import scaling_module
 texts = [scaling_module(), *map(one.structure_text, sys.argv[1:])]
-texts += [one.structure_header_text(sys.argv[1]), one.structure_tangent_text(sys.argv[1])]
+texts += [one.header_text(kind, sys.argv[1]) for kind in ('taylor', 'taylor/tangent')]
 json.dump(texts, sys.stdout)
 """
 

@@ -12,8 +12,11 @@ from .c_text import Text
 from .layout import comment, documented
 
 _PER_DISTANCE = q.R / q.x0
-# the distance of the bridge law itself
-_OWN_RUPTURE = _PER_DISTANCE * slot_call("bridge", "rupture_distance", q.volume, q.contact_angle)
+
+
+def own_rupture() -> sp.Expr:
+    """The rupture gap by the distance of the bridge law itself."""
+    return _PER_DISTANCE * slot_call("bridge", "rupture_distance", q.volume, q.contact_angle)
 
 
 def scale_function(model: Model, user_groups: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
@@ -22,14 +25,14 @@ def scale_function(model: Model, user_groups: Mapping[sp.Symbol, sp.Expr]) -> li
     Arguments:
         user_groups: groups of a user's model in SI quantities.
     """
-    expressions = _expressions(model, user_groups)
-    names = [symbol.name for symbol in _quantities(expressions)]
+    expressions = group_expressions(model, user_groups)
+    names = [symbol.name for symbol in group_quantities(expressions)]
     text = Text(_place("c", expressions))
     lines = [f"enum {{ {', '.join(f'SI_{name.upper()}' for name in names)}, QUANTITIES }};"]
     lines += ["const char quantity_names[] =", *(f'    "{name} "' for name in names[:-1]), f'    "{names[-1]}";', ""]
     body = [f"c->{group.name} = {text.vector(value)};" for group, value in expressions.items()]
     if q.rupture_gap in expressions:
-        body += ["#if OWN_RUPTURE", f"c->rupture_gap = {text.vector(_OWN_RUPTURE)};", "#endif"]
+        body += ["#if OWN_RUPTURE", f"c->rupture_gap = {text.vector(own_rupture())};", "#endif"]
     doc = "The groups of a collision from its quantities in SI."
     lines += documented(doc, "static inline void scale(constants *c, const vec *q)", body)
     if q.obliquity not in expressions:
@@ -40,7 +43,7 @@ def scale_function(model: Model, user_groups: Mapping[sp.Symbol, sp.Expr]) -> li
     return lines + documented("Omega, the unit of angular velocities, in rad/s.", head, [f"return {text(value)};"])
 
 
-def _expressions(model: Model, user_groups: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+def group_expressions(model: Model, user_groups: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
     """The groups of a model in SI quantities."""
     definitions = {**group_definitions(), **impact_groups(model.structure.partner), **user_groups}
     return {group: definitions.get(group, group) for group in model.groups}
@@ -52,7 +55,7 @@ def _place(constants: str, expressions: Mapping[sp.Symbol, sp.Expr]) -> Callable
     return lambda symbol: f"{constants}->{symbol.name}" if symbol in known else f"q[SI_{symbol.name.upper()}]"
 
 
-def _quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
+def group_quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
     """The quantities in groups: those of the vocabulary in its order, then those declared by a user."""
     used = set().union(*(expression.free_symbols for expression in expressions.values())) - {q.obliquity}
     result = [one.symbol for one in q.VOCABULARY.values() if one.symbol in used]
@@ -61,9 +64,9 @@ def _quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
 
 def scale_slopes(model: Model, user_groups: Mapping[sp.Symbol, sp.Expr]) -> list[str]:
     """Derivatives of the groups by the quantities in SI, and the groups that each quantity affects."""
-    wanted, shape = _expressions(model, user_groups), (q.volume, q.contact_angle)
+    wanted, shape = group_expressions(model, user_groups), (q.volume, q.contact_angle)
     text = Text(_place("v", wanted))
-    bits: dict[sp.Symbol, int] = dict.fromkeys(_quantities(wanted), 0)
+    bits: dict[sp.Symbol, int] = dict.fromkeys(group_quantities(wanted), 0)
     body = ["(void)v; (void)q;", "memset(slope, 0, sizeof(vec)*GROUPS);", "switch (quantity) {"]
     for symbol in bits:
         body.append(f"case SI_{symbol.name.upper()}:")

@@ -158,19 +158,30 @@ def _clearance(
     moving: tuple[sp.Symbol, ...],
     fixed: tuple[sp.Symbol, ...],
 ) -> list[str]:
-    """`limit - value` times the positive denominator of the value: same sign, without division along a trajectory."""
+    """The C of `clearance`."""
+    expression, positive = clearance(each, intermediates, moving)
+    program, series = cheapest(expression, (), moving)
+    constants = Constants({argument: f"c->{argument.name}" for argument in (*fixed, LIMIT)})
+    doc = f"Limit minus value{', times the positive denominator' if positive else ''}: the sign of the event function."
+    lines = _recurrences(f"{name}_clearance", doc, program, series, constants, moving)
+    return [*_constants(f"{name}_clearance", constants, (*fixed, LIMIT)), *lines]
+
+
+def clearance(
+    each: LawFunction, intermediates: list[Definition], moving: tuple[sp.Symbol, ...]
+) -> tuple[sp.Expr, bool]:
+    """`limit - value` times the positive denominator of the value: same sign, without division along a trajectory.
+
+    Returns:
+        The expression, and whether the denominator is positive; without one it is the difference itself.
+    """
     result = each.result
     for symbol, value in reversed(intermediates):
         result = result.subs(symbol, value)
     over, under = sp.fraction(sp.together(result))
     positive = bool(under.is_positive)
-    clearance = LIMIT * under - over if positive else LIMIT - result
-    clearance = sp.collect(sp.expand(clearance), moving[-1])  # approach*(gap^2 - 1) vanishes exactly at the film's rim
-    program, series = cheapest(clearance, (), moving)
-    constants = Constants({argument: f"c->{argument.name}" for argument in (*fixed, LIMIT)})
-    doc = f"Limit minus value{', times the positive denominator' if positive else ''}: the sign of the event function."
-    lines = _recurrences(f"{name}_clearance", doc, program, series, constants, moving)
-    return [*_constants(f"{name}_clearance", constants, (*fixed, LIMIT)), *lines]
+    margin = LIMIT * under - over if positive else LIMIT - result
+    return sp.collect(sp.expand(margin), moving[-1]), positive  # approach*(gap^2 - 1) vanishes exactly at the rim
 
 
 def antiderivative(force: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:

@@ -14,8 +14,8 @@ from ...host.thread_caches import once
 from ...host.user_cache import found, has, kept, loaded
 from ...model.model import select_model
 from ...scene.scene import Scene
+from ..machine import here
 from .headers import headers, tangents
-from .machine import here
 from .orders import ORDERS
 from .shipped import is_shipped, shipped
 from .source import Variant, emitted_headers, flags, source, stem

@@ -15,7 +15,7 @@ from ...host.cores import usable_cores
 from ...host.remarks import say_once
 from ...host.user_cache import digest_of
 from ...model.key import ModelKey
-from .machine import SETS, InstructionSet, here, lanes
+from ..machine import SETS, InstructionSet, here, lanes
 from .orders import ORDERS, order_for
 from .source import Variant, emitted_headers, flags, source, stem
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 
 from ...host.compiler import more_flags
 from ...model.key import ModelKey
+from ..machine import InstructionSet, lanes
 from .headers import automaton, has_events, headers, tangents
 from .includes import resolved
 from .layout import MORE_RESULTS, MOST_STEPS, SHOWN, SHOWN_IN_SPACE, declarations
-from .machine import InstructionSet, lanes
 
 # No -ffast-math: NaN and infinity are compared. Products may be fused with sums; sqrt does not set errno.
 # -w: the tests compile every file with -Wall -Wextra -Werror; warnings of a newer compiler should not reach users.

@@ -36,7 +36,7 @@ SHOWN: dict[str, tuple[str, ...]] = {
 }
 DRAWN = {"collide", "sensitivity", "sensitivity band", "map", "boundary", "critical", "fit", "table"}
 SILENT = {  # why the others show no speed
-    "reproduce": "the paper's figures are over Stokes numbers and angles",
+    "prove": "names in SI and Stokes numbers", "reproduce": "the paper's figures are over Stokes numbers and angles",
     "verify": "residuals of laws", "bench": "CPU times and errors", "export": "functions, whose headers name arguments",
     "generate": "files of equations", "diff": "files of equations", "compile": "digests", "cite": "references",
     "explore": "a page, whose labels say which",

@@ -1,0 +1,66 @@
+"""Bounds of the enclosing engine: one step of a relaxing state between bounds of its rate and of the rate's slope."""
+
+import sympy as sp
+
+from .base import Evidence, check, checks
+
+_h, _s, _r, _y = sp.symbols("h s r y", positive=True)  # distance, steepness, size of the rate, height
+
+
+@checks
+@check("bounds of a panel", "y' = r - s y, y(0) = 0: r h/(1 + s h) <= y(h) <= min(r h, r/s)")
+def relaxation_is_bounded() -> Evidence:
+    """The implicit step is below the exact rise, the line and the level that it tends to are above it.
+
+    The exact rise solves its equation. Each difference, over what is positive, vanishes at s h = 0 with a slope of one
+    sign: with z = s h, e^z - 1 - z and z - 1 + e^-z start at 0 with slopes e^z - 1 and 1 - e^-z.
+    """
+    z = sp.Symbol("z", positive=True)
+    exact = _r * (1 - sp.exp(-_s * _h)) / _s
+    yield exact.diff(_h) - (_r - _s * exact)
+    yield exact.subs(_h, 0)
+    implicit = (exact - _r * _h / (1 + _s * _h)).subs(_h, z / _s)
+    above = sp.exp(z) - 1 - z
+    yield sp.simplify(implicit - _r * sp.exp(-z) * above / (_s * (1 + z)))
+    line = (_r * _h - exact).subs(_h, z / _s)
+    below = z - 1 + sp.exp(-z)
+    yield sp.simplify(line - _r * below / _s)
+    yield from (above.subs(z, 0), below.subs(z, 0))
+    yield from ((above.diff(z) - (sp.exp(z) - 1)), below.diff(z) - (1 - sp.exp(-z)))
+    yield ((sp.exp(z) - 1).is_positive is not False, "e^z - 1 is positive")
+    yield sp.simplify(_r / _s - exact - _r * sp.exp(-_s * _h) / _s)  # the level is above by what is positive
+
+
+@checks
+@check("energy over the gap", "w = u^2/2: dw/dx = du/dt where u > 0, and its slope by w is that by u, over u")
+def gap_replaces_time() -> Evidence:
+    """The chain rule behind the bounds over the gap, for any rate of the normal velocity."""
+    t = sp.Symbol("t")
+    u, x = sp.Function("u")(t), sp.Function("x")(t)
+    w = u**2 / 2
+    over_gap = w.diff(t) / x.diff(t)
+    yield sp.simplify(over_gap.subs(x.diff(t), u) - u.diff(t))
+    rate, speed = sp.Function("a"), sp.Symbol("speed", positive=True)
+    of_w = rate(sp.sqrt(2 * _y)).diff(_y).doit().subs(_y, speed**2 / 2)
+    expected = rate(_s).diff(_s).subs(_s, speed) / speed
+    yield sp.simplify((of_w - expected).doit())
+
+
+@checks
+@check("logarithm by one correction", "d - d^2 <= log(1 + d) <= d for |d| <= 1/2; exp: rest below 2 m^16/16!")
+def remainders_are_bounded() -> Evidence:
+    """The bounds that the runtime's logarithm and exponential use.
+
+    d - log(1 + d) is 0 at 0 with slope d/(1 + d), and log(1 + d) - d + d^2 with slope d (1 + 2 d)/(1 + d): both change
+    their sign at 0 alone within |d| < 1/2, upwards. The rest of exp is a geometric series of ratio below m/17.
+    """
+    d = sp.Symbol("d", real=True)
+    yield sp.simplify((d - sp.log(1 + d)).diff(d) - d / (1 + d))
+    yield sp.simplify((sp.log(1 + d) - d + d**2).diff(d) - d * (1 + 2 * d) / (1 + d))
+    half = sp.Rational(1, 2)
+    yield (bool(1 / (1 - half / 17) < 2), "the geometric series is below twice its first term")
+    yield (bool(2 / sp.factorial(16) < sp.Float("1e-13", 30)), "2/16! is below 1e-13")
+    yield (
+        bool(sp.Rational(33, 10) ** 36 / sp.factorial(36) * 2 < sp.Float("1e-22", 30)),
+        "the rest of sine and cosine",
+    )

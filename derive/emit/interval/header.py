@@ -1,0 +1,250 @@
+"""The C headers of a structure and of a law over intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import sympy as sp
+
+from ...equations.events import CONTACT_GAPS, contact_gap
+from ...equations.model import Model
+from ...physics.forces import FILM, SHEAR
+from ...physics.laws.base import Law, needed, slot_call
+from ...physics.scaling import group_definitions
+from ...physics.structure import Structure
+from ...vocabulary import quantities as q
+from ..casadi.printer import EmissionError
+from ..provenance import header, law_digest, model_digest
+from ..taylor.groups_from_si import group_expressions, group_quantities, own_rupture
+from ..taylor.law_header import COMPARED, LIMIT, clearance, moves
+from ..taylor.layout import comment, documented, function, struct
+from ..taylor.program import Program, cheapest
+from .text import Constants, dual, recurrences
+
+
+def enclosed(structure: Structure) -> bool:
+    """True for structures whose collisions can be enclosed."""
+    plain = not (structure.strings or structure.partner or structure.friction or structure.spread)
+    return (
+        plain
+        and (structure.reduced or structure.bridge or structure.attraction)
+        and (structure.reduced or not structure.oblique)
+    )
+
+
+def law_header(law: Law) -> str:
+    """The C header of a law: its constants, its recurrences, and its functions of constants."""
+    lines = [*comment(header(law_digest(law))), "", *comment(f"{law.slot} law `{law.name}`: {law.meaning}."), ""]
+    for each in law.functions:
+        if each.name == "suction":
+            raise EmissionError("the force has another form while opening")
+        if each.for_proof or each.name == "potential":
+            continue
+        name, intermediates = f"{law.slot}_{each.name}", needed([each.result], each.definitions)[0]
+        moving = tuple(a for a, moved in zip(each.arguments, moves(each.arguments), strict=True) if moved)
+        fixed = [argument for argument in each.arguments if argument not in moving]
+        if not moving:
+            body = [f"dual {s.name} = {dual(value, lambda symbol: symbol.name)};" for s, value in intermediates]
+            head = f"static dual {name}({', '.join(f'dual {argument.name}' for argument in fixed)})"
+            lines += documented(each.doc, head, [*body, f"return {dual(each.result, lambda symbol: symbol.name)};"])
+            continue
+        if (law.slot, each.name) in COMPARED:
+            expression, intermediates, fixed = clearance(each, intermediates, moving)[0], [], [*fixed, LIMIT]
+        else:
+            expression = each.result
+        program, result = cheapest(expression, intermediates, moving)
+        lines += _law_function(name, each.doc, program, result, moving, fixed)
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _law_function(
+    name: str, doc: str, program: Program, result: str | sp.Expr, moving: tuple[sp.Symbol, ...], fixed: list[sp.Symbol]
+) -> list[str]:
+    constants = Constants(fixed)
+    given = {argument.name for argument in moving}
+
+    def where(series: str) -> str:
+        return series if series in given else "result" if series == result else f"&s->{series}"
+
+    lines = recurrences(program, constants, where)
+    if not isinstance(result, str):
+        lines.append(f"s_constant(result, &{constants.name(result)}, k);")
+    elif result in given:
+        raise EmissionError(f"{name} is its own argument")
+    own = [operation.name for operation in program.operations if operation.name != result]
+    members = [f"dual {each};" for each in (*(a.name for a in fixed), *constants.prepared)]
+    series = "".join(f", const series *{argument.name}" for argument in moving)
+    return [
+        *struct(f"{name}_constants", members or ["dual none;"]),
+        *struct(f"{name}_series", [f"series {each};" for each in own] or ["char none;"]),
+        *function(
+            f"static void {name}_prepare({name}_constants *c{''.join(f', dual {a.name}' for a in fixed)})",
+            ["(void)c;", *(f"c->{argument.name} = {argument.name};" for argument in fixed), *constants.assignments()],
+        ),
+        "",
+        *documented(
+            f"{doc} Coefficient k of its series.",
+            f"static void {name}_next({name}_series *s, series *result, const {name}_constants *c{series}, int k)",
+            ["(void)s; (void)c;" + "".join(f" (void){argument.name};" for argument in moving), *lines],
+        ),
+    ]
+
+
+def structure_header(model: Model) -> str:
+    """The C header of a structure.
+
+    Raises:
+        EmissionError: collisions of this structure cannot be enclosed.
+    """
+    shape = model.structure
+    if not enclosed(shape):
+        raise EmissionError(f"collisions of the structure {shape.name} are not enclosed")
+    constants = Constants((*model.groups, FILM, SHEAR))
+    rates = model["right_hand_side"].by_name
+    program = Program.for_outputs(model.states, rates.values(), model.definitions)
+    results = {name: program.result(rate, f"rate_of_{name}") for name, rate in rates.items()}
+    states = [state.name for state in model.states]
+    places = {name: f"&s->state[{name.upper()}]" for name in states}
+
+    def where(series: str) -> str:
+        return places.get(series, f"&s->{series}")
+
+    minus = constants.name(sp.Integer(-1))
+    flow = recurrences(program, constants, where)
+    for name, rate in results.items():
+        source = f"{where(rate)}, NULL" if isinstance(rate, str) else f"NULL, &{constants.name(rate)}"
+        flow.append(f"s_advance({places[name]}, {source}, k);")
+    calls = {each.name: each.call for each in program.operations if each.kind == "call"}
+    prepare = []
+    for name, (slot, call, arguments) in calls.items():
+        still = "".join(f", {constants.name(a)}" for a in arguments if not isinstance(a, str))
+        prepare.append(f"{slot}_{call}_prepare(&c->{name}_constants{still});")
+    prepare.append("glass_pressure_prepare(&c->glass, c->glass_number);")
+    lines = [*comment(header(model_digest(model))), ""]
+    lines += [f"enum {{ {', '.join(name.upper() for name in states)}, STATES }};"]
+    words = ("oblique", "bridge", "attraction")
+    lines += [f"enum {{ {', '.join(f'{word.upper()} = {int(getattr(shape, word))}' for word in words)} }};"]
+    lines += ['#include "series.h"', ""]
+    values = _values(model, constants)
+    members = [
+        f"dual {each};" for each in (*(g.name for g in model.groups), FILM.name, SHEAR.name, *constants.prepared)
+    ]
+    members += [f"{slot}_{call}_constants {name}_constants;" for name, (slot, call, _) in calls.items()]
+    lines += struct("constants", [*members, "glass_pressure_constants glass;"])
+    lines += _scale(model)
+    lines += documented(
+        "Constants from the groups and the region's flags.",
+        "static void prepare(constants *c)",
+        [*constants.assignments(), *prepare],
+    )
+    series = [f"series {each.name};" for each in program.operations]
+    series += [f"{slot}_{call}_series {name}_parts;" for name, (slot, call, _) in calls.items()]
+    lines += struct(
+        "flow", ["series state[STATES];", *series, "series approach, clearance;", "glass_pressure_series glass;"]
+    )
+    lines += documented(
+        "Coefficient k of every series and k + 1 of the states.",
+        "static void advance(flow *s, const constants *c, int k)",
+        flow,
+    )
+    lines += documented(
+        "Coefficient k of the clearance of the glass criterion.",
+        "static void advance_clearance(flow *s, const constants *c, int k)",
+        [
+            f"s_scaled(&s->approach, &s->state[NORMAL_VELOCITY], &{minus}, k);",
+            "glass_pressure_next(&s->glass, &s->clearance, &c->glass, &s->state[GAP], &s->approach, k);",
+        ],
+    )
+    return "\n".join([*lines, *values]).rstrip() + "\n"
+
+
+def _scale(model: Model) -> list[str]:
+    """The groups from quantities in SI; a contact gap whose quantities are absent (NaN) is 0."""
+    expressions = group_expressions(model, {})
+    symbols = group_quantities(expressions)
+    places = {symbol: f"q[SI_{symbol.name.upper()}]" for symbol in symbols}
+    known = {group for group, expression in expressions.items() if group != expression}
+
+    def name(symbol: sp.Symbol) -> str:
+        return f"c->{symbol.name}" if symbol in known else places[symbol]
+
+    body = []
+    for group, expression in expressions.items():
+        text = dual(_over_larger(expression, expressions), name)
+        if group in CONTACT_GAPS.values():
+            absent = " || ".join(f"d_absent({places[s]})" for s in symbols if s in expression.free_symbols)
+            text = f"{absent} ? d_ratio(0.0, 1.0) : {text}"
+        if group == q.rupture_gap:
+            own = dual(own_rupture(), name).replace("bridge_rupture_distance", "BRIDGE_RUPTURE_DISTANCE")
+            text = f"OWN_RUPTURE ? {own} : {text}"
+        body.append(f"c->{group.name} = {text};")
+    names = [*(symbol.name for symbol in symbols), q.stokes.name]
+    lines = [f"enum {{ {', '.join(f'SI_{name.upper()}' for name in names)}, QUANTITIES }};"]
+    lines += [f'static const char quantity_names[] = "{" ".join(names)}";', ""]
+    speed = sp.solve(sp.Eq(group_definitions()[q.stokes], q.stokes), q.v0)[0]
+    text = dual(speed, lambda symbol: f"q[SI_{symbol.name.upper()}]")
+    body = ["if (!d_absent(q[SI_STOKES]))", f"    q[SI_SPEED] = {text};", *body]
+    doc = "The groups of a collision from its quantities in SI; the speed from the Stokes number, if that is given."
+    return lines + documented(doc, "static void scale(constants *c, dual *q)", body)
+
+
+def _over_larger(ratio: sp.Expr, groups: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
+    """A ratio x/T with T = max(x, y) as 1/max(1, y/x), which is exact where y is 0."""
+    over, under = ratio.as_numer_denom()
+    largest = groups.get(under, under)
+    if not (isinstance(largest, sp.Max) and over in largest.args):
+        return ratio
+    return 1 / sp.Max(*(each / over for each in largest.args))
+
+
+def _values(model: Model, constants: Constants) -> list[str]:
+    """Functions of values: levels of the gap, the state at the start and behind a rebound, energies."""
+    shape = model.structure
+    edge = dual(slot_call("shear", "edge", q.aspect), constants.name) if shape.oblique else "d_ratio(1e300, 1.0)"
+    rupture = constants.name(q.rupture_gap) if shape.bridge else "d_ratio(1.0, 1.0)"
+    body = [
+        f"level[CONTACT_GAP] = {dual(contact_gap, constants.name)};",
+        f"level[RUPTURE_GAP] = {rupture};",
+        f"level[TANGENTIAL_EDGE] = {edge};",
+    ]
+    lines = ["enum { CONTACT_GAP, RUPTURE_GAP, TANGENTIAL_EDGE, LEVELS };"]
+    lines += documented("Gaps of events.", "static void levels(const constants *c, dual *level)", body)
+    for name, array in (("start", "y"), ("rebound", "after")):
+        further = ", const dual *y, dual *after" if array == "after" else ", dual *y"
+        targets = {state.name: f"{array}[{state.name.upper()}]" for state in model.states}
+        lines += _value(model, constants, f"static void {name}(const constants *c{further})", model[name], targets)
+    energies = model["energies"]
+    total = {"energy": sp.Add(*energies.by_name.values())}
+    head = "static dual stored_energy(const constants *c, const dual *y)"
+    lines += _value(model, constants, head, energies, {"energy": "return"}, total)
+    head = "static dual least_energy(const constants *c, const dual *y)"
+    if "effective_potential" in model:
+        lines += _value(model, constants, head, model["effective_potential"], {"energy": "return"})
+    else:
+        lines += function(head, ["(void)c; (void)y;", "return d_ratio(0.0, 1.0);"])
+    return lines
+
+
+def _value(
+    model: Model,
+    constants: Constants,
+    head: str,
+    source: object,
+    targets: Mapping[str, str],
+    outputs: Mapping[str, sp.Expr] | None = None,
+) -> list[str]:
+    """A C function of the states `y`; its targets are C text, or "return"."""
+    by_name = source.by_name if outputs is None else outputs  # type: ignore[attr-defined]
+    wanted = {key: sp.sympify(by_name[key]) for key in targets}
+    places = {state: f"y[{state.name.upper()}]" for state in model.states}
+    definitions, _ = needed(list(wanted.values()), model.definitions)
+    local = {symbol: symbol.name for symbol, _ in definitions}
+
+    def name(symbol: sp.Symbol) -> str:
+        return places.get(symbol) or local.get(symbol) or constants.name(symbol)
+
+    body = ["(void)c; (void)y;", *(f"dual {symbol.name} = {dual(value, name)};" for symbol, value in definitions)]
+    for key, value in wanted.items():
+        text = dual(value, name)
+        body.append(f"return {text};" if targets[key] == "return" else f"{targets[key]} = {text};")
+    return documented(source.doc, head, body)  # type: ignore[attr-defined]

@@ -1,0 +1,101 @@
+"""One call of the enclosing engine."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from .build import TERMS, Engine
+
+_RESULTS = 12
+_ALIGNED = 64  # bytes
+Range = tuple[float, float]
+
+
+class Why(IntEnum):
+    """Why a collision was proved or not, as `runtime/entry.h` numbers it."""
+
+    PROVED = 0
+    TOO_MANY_STEPS = 1
+    STEP_TOO_SMALL = 2
+    GRAZE = 3
+    ORDER = 4
+    START = 5
+    TOO_WIDE = 6
+    TOO_MANY_REBOUNDS = 7
+    CHATTER = 8
+
+
+REASONS = {
+    Why.TOO_MANY_STEPS: "the budget of steps is spent",
+    Why.STEP_TOO_SMALL: "the steps become too small",
+    Why.GRAZE: "too near a boundary: an event is barely met or missed",
+    Why.ORDER: "too near a boundary: two events at nearly the same instant",
+    Why.START: "too near a boundary: a criterion is barely met at initial contact",
+    Why.TOO_WIDE: "the set of trajectories becomes too wide",
+    Why.TOO_MANY_REBOUNDS: "the budget of rebounds is spent",
+    Why.CHATTER: "rebounds slower than 1e-9 of the impact rest in contact, which is not enclosed",
+}
+"""What is said of a collision that is not proved."""
+
+
+class Settings(NamedTuple):
+    """How a collision is enclosed.
+
+    Arguments:
+        order: of the series.
+        steps: most steps.
+        funnels: bounds over the gap are tried once the pair opens; they prove the outcome, not the last digits.
+        tolerance: of the remainder of a step.
+        widest: the widest set that is followed, in units of the states.
+        panel: relative width of the panels of these bounds.
+    """
+
+    order: int
+    steps: int
+    funnels: bool
+    tolerance: float
+    widest: float = 0.5
+    panel: float = 0.01
+
+
+SHARP = Settings(16, 20000, False, 1e-15)
+OUTCOME = Settings(16, 20000, True, 1e-15, panel=0.004)
+BOX = Settings(12, 2000, True, 1e-10)
+
+
+class Enclosure(NamedTuple):
+    """What the engine has proved; `outcome` is 0 for nothing, then as in the report: stick, separation, bounce."""
+
+    outcome: int
+    why: Why
+    steps: int
+    rebounds: int
+    restitution: Range
+    smallest_gap: float
+    panels: int
+
+
+def enclose(engine: Engine, ranges: Mapping[str, Range], moving: tuple[str, ...], settings: Settings) -> Enclosure:
+    """Enclose all collisions whose quantities lie in ranges.
+
+    Arguments:
+        ranges: low and high of each quantity, SI; a quantity that is left out is absent.
+        moving: quantities that are followed with derivatives, as many as the engine has parameters.
+    """
+    assert settings.order + 2 <= TERMS
+    pairs = np.array([ranges.get(name, (np.nan, np.nan)) for name in engine.quantities])
+    columns = np.array([moving.index(name) if name in moving else -1 for name in engine.quantities], np.int32)
+    result, numbers = np.empty(_RESULTS), np.array(settings, float)
+    room = getattr(engine.rooms, "room", None)  # of this thread
+    if room is None:
+        room = engine.rooms.room = ctypes.create_string_buffer(engine.room + _ALIGNED)
+    place = -(-ctypes.addressof(room) // _ALIGNED) * _ALIGNED
+    data = (pairs.ctypes.data, columns.ctypes.data, numbers.ctypes.data, place, result.ctypes.data)
+    engine.library.interval_prove(*data)
+    outcome, why, steps, rebounds, _, low, high, gap, panels = result[:9].tolist()
+    return Enclosure(int(outcome), Why(int(why)), int(steps), int(rebounds), (low, high), gap, int(panels))

@@ -1,0 +1,134 @@
+"""`prove`: the outcome of one collision, or of all in a box, by enclosure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ....generated.automaton import OUTCOMES
+from ...formatting.style import LETTERS
+from ...scene.origin import origin
+from ...scene.scene import Scene
+from .build import NotProvable
+from .call import BOX, OUTCOME, REASONS, SHARP, Enclosure, Range, enclose
+from .inputs import Inputs, Within
+
+_REFUSED = "not provable here: "
+
+
+@dataclass(frozen=True, kw_only=True)
+class Proof:
+    """What is proved of a collision, or of every collision in a box.
+
+    Attributes:
+        outcome: "stick", "stick-rotate-separate" or "bounce"; None if nothing is proved.
+        restitution: low and high of e_n, (0, 0) for a stick; None if nothing is proved.
+        reason: why nothing is proved; "" for a proof.
+        smallest_gap: a bound below the gap, m; None if nothing is proved.
+        steps: of the enclosure.
+        ranges: low and high of the quantities that the proof holds for, SI.
+
+    Example:
+        >>> from wetdoublet.solvers import prove
+        >>> bool(prove("granulation", stokes=0.3, angle="20 deg"))
+        True
+    """
+
+    outcome: str | None
+    restitution: Range | None
+    reason: str
+    smallest_gap: float | None
+    steps: int
+    rebounds: int
+    ranges: Mapping[str, Range]
+    scene: Scene
+
+    def __bool__(self) -> bool:
+        return self.outcome is not None
+
+    def __str__(self) -> str:
+        if self.outcome is None or self.restitution is None:
+            lines = [f"{_REFUSED}{self.reason}"]
+        else:
+            low, high = self.restitution
+            lines = [f"proved: {self.outcome} ({LETTERS[self.outcome]})"]
+            lines += [f"restitution e_n between {low:.17g} and {high:.17g}"] if high > 0 else []
+            lines += [f"{self.rebounds} rebounds, {self.steps} steps of the enclosure"]
+        for name, (low, high) in self.ranges.items():
+            if low < high:
+                lines.append(f"for every {name.replace('_', ' ')} between {low:.10g} and {high:.10g} (SI)")
+        return "\n".join(lines)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object of `wetdoublet prove --json`."""
+        return {
+            "proved": self.outcome is not None,
+            "outcome": self.outcome,
+            "restitution": None if self.restitution is None else list(self.restitution),
+            "reason": self.reason,
+            "smallest_gap": self.smallest_gap,
+            "rebounds": self.rebounds,
+            "steps": self.steps,
+            "inputs": {name: list(ends) for name, ends in self.ranges.items()},
+            **origin(self.scene),
+        }
+
+
+def prove(
+    scene: Scene | str | Path,
+    *,
+    stokes: float | str | None = None,
+    speed: float | str | None = None,
+    angle: float | str | None = None,
+    within: Within | None = None,
+) -> Proof:
+    """Prove the outcome of a collision from its initial data on, by interval arithmetic.
+
+    The proof is about the model's equations and the stored numbers. What is not proved says why.
+
+    Arguments:
+        scene: a Scene, a path to a scene file, or a preset's name.
+        stokes: Stokes number of the impact, in place of the scene's.
+        speed: normal speed of the impact instead, m/s or a string with its unit.
+        angle: impact angle, rad or a string with its unit.
+        within: prove the outcome for a whole box: a relative uncertainty of Stokes number (or speed) and angle, or by
+            entry an uncertainty or both ends, as {"liquid.viscosity": ("1.9 Pa s", "2.1 Pa s")}.
+
+    Raises:
+        InputError: an entry, or a box that is empty, reversed or not admissible.
+
+    Example:
+        >>> from wetdoublet.solvers import prove
+        >>> prove("granulation", stokes=0.02, angle="75 deg").outcome
+        'stick-rotate-separate'
+    """
+    loaded = Scene.load(scene).with_impact(stokes, speed, angle)
+    return prove_inputs(Inputs.of(loaded, within))
+
+
+def prove_inputs(inputs: Inputs) -> Proof:
+    """The proof for inputs that are checked."""
+    x0 = inputs.scene.liquid.film_thickness
+    found: Enclosure | None = None
+    try:
+        engine = inputs.engine()
+        for settings in (BOX,) if inputs.moving else (SHARP, OUTCOME):
+            found = enclose(engine, inputs.ranges, inputs.moving, settings)
+            if found.outcome:
+                break
+        reason = REASONS.get(found.why, "") if found else ""
+    except NotProvable as error:
+        reason = str(error)
+    proved = found is not None and found.outcome > 0
+    return Proof(
+        outcome=OUTCOMES[found.outcome - 1] if found and proved else None,
+        restitution=found.restitution if found and proved else None,
+        reason=reason,
+        smallest_gap=found.smallest_gap * x0 if found and proved else None,
+        steps=found.steps if found else 0,
+        rebounds=found.rebounds if found else 0,
+        ranges=inputs.ranges,
+        scene=inputs.scene,
+    )

@@ -1,0 +1,166 @@
+#pragma once
+/* Bounds of the states over the gap while the pair opens (Mueller): w = u^2/2 with dw/dx = a, and y' = f/u for the others.
+ * Each end moves by its own rate on its own face of the box, the other states anywhere within theirs. */
+#include "set.h"
+
+enum { OPENING = STATES - 1 }; /* w, then the states behind the normal velocity */
+
+/* Rates over a box, and each rate's derivative by its own state. */
+static void field(const problem *p, flow *s, const iv *x, iv *rate, iv *own)
+{
+    active = own ? (1u << STATES) - 1 : 0;
+    for (int i = 0; i < STATES; i++) {
+        s->state[i].v[0] = x[i];
+        s->state[i].mask = active & 1u << i;
+        s->state[i].d[i][0] = iv_point(1.0);
+    }
+    advance(s, &p->box, 0);
+    for (int i = 0; i < STATES; i++) {
+        rate[i] = s->state[i].v[1];
+        if (own)
+            own[i] = HAS(&s->state[i], i) ? s->state[i].d[i][1] : iv_point(0.0);
+    }
+}
+
+/* A lower bound, after the distance h >= 0, of y with y(0) >= 0, y' = r + g(y), g(0) = 0, where the slope of g is within
+ * [steep, flat]: of a falling one the line and the level that it tends to, of a rising one the implicit step. `least` is
+ * a bound of the rate over the whole box, for a slope that may be positive (derive/checks/enclosure.py). */
+static double lower_change(iv h, double r, iv slope, double least)
+{
+    const double steep = iv_lo(slope), flat = iv_hi(slope);
+    if (!(flat <= 0.0))
+        return iv_lo(iv_mul(h, iv_point(smaller(least, 0.0))));
+    if (r < 0.0) {
+        double line = iv_lo(iv_mul(h, iv_point(r)));
+        double level = flat < 0.0 ? iv_lo(iv_div(iv_point(r), iv_point(-flat))) : -INFINITY;
+        return larger(line, level);
+    }
+    iv low = iv_point(iv_lo(h));
+    return larger(iv_lo(iv_div(iv_mul(low, iv_point(r)), iv_sub(iv_point(1.0), iv_mul(low, iv_point(steep))))), 0.0);
+}
+
+static iv speed_of(double low, double high)
+{
+    return iv_root(iv_mul(iv_point(2.0), iv_of(low, high)));
+}
+
+typedef struct {
+    double low[OPENING], high[OPENING];
+} bounds;
+
+static void box_of(const bounds *b, iv *x)
+{
+    x[NORMAL_VELOCITY] = speed_of(b->low[0], b->high[0]);
+    for (int i = 1; i < OPENING; i++)
+        x[i + 1] = iv_of(b->low[i], b->high[i]);
+}
+
+/* Bounds after the panel `gap`, whose trajectories start within it at once or along it; false if the guess was too
+ * narrow, which `guess` then is wider. */
+static int cross(const problem *p, flow *s, iv gap, iv h, const bounds *now, bounds *guess, bounds *after)
+{
+    iv x[STATES], rate[STATES], own[STATES], face[STATES];
+    if (!(guess->low[0] > 0.0))
+        return 0;
+    x[GAP] = gap;
+    box_of(guess, x);
+    field(p, s, x, rate, own);
+    const iv over = iv_inverse(x[NORMAL_VELOCITY]);
+    int good = 1;
+    for (int i = 0; i < OPENING; i++) {
+        const iv slope = iv_mul(own[i + 1], over);
+        const iv whole = i ? iv_mul(rate[i + 1], over) : rate[1];
+        for (int up = 0; up < 2; up++) {
+            const double from = up ? now->high[i] : now->low[i];
+            memcpy(face, x, sizeof face);
+            face[i + 1] = i ? iv_point(from) : speed_of(from, from);
+            iv there[STATES];
+            field(p, s, face, there, NULL);
+            iv r = i ? iv_mul(there[i + 1], iv_inverse(face[NORMAL_VELOCITY])) : there[1];
+            if (up) { /* -y */
+                after->high[i] = from - lower_change(h, -iv_hi(r), slope, -iv_hi(whole));
+                good &= larger(from, after->high[i]) < guess->high[i];
+            } else {
+                after->low[i] = -(-from - lower_change(h, iv_lo(r), slope, iv_lo(whole)));
+                good &= smaller(from, after->low[i]) > guess->low[i];
+            }
+            if (!(fabs(up ? after->high[i] : after->low[i]) <= DBL_MAX))
+                return 0;
+        }
+    }
+    if (!good)
+        for (int i = 0; i < OPENING; i++) {
+            double low = smaller(now->low[i], after->low[i]), high = larger(now->high[i], after->high[i]);
+            double room = 0.5*(high - low) + 1e-14*fabs(high);
+            guess->low[i] = i ? smaller(guess->low[i], low - room) : smaller(guess->low[i], larger(low - room, 0.7*low));
+            guess->high[i] = larger(guess->high[i], high + room);
+        }
+    return good;
+}
+
+/* True if every trajectory from the box opens up to the rupture gap; `speed` encloses u there. The region is left as it is
+ * at the end. */
+static int funnel(problem *p, flow *s, const iv *x, region at_start, double panel, iv *speed, long *panels)
+{
+    bounds now, after, guess;
+    const iv w = iv_mul(iv_point(0.5), iv_square(x[NORMAL_VELOCITY])), edge = p->level[TANGENTIAL_EDGE].v;
+    const double last = iv_hi(p->level[RUPTURE_GAP].v), width = panel;
+    region here = at_start;
+    double at = iv_lo(x[GAP]);
+    int start = 1;
+    now.low[0] = iv_lo(w);
+    now.high[0] = iv_hi(w);
+    for (int i = 1; i < OPENING; i++) {
+        now.low[i] = iv_lo(x[i + 1]);
+        now.high[i] = iv_hi(x[i + 1]);
+    }
+    if (!iv_positive(x[NORMAL_VELOCITY]) || !iv_positive(x[GAP]))
+        return 0;
+    for (long n = 0; n < 20000 && now.low[0] > 0.0; n++) {
+        double to = start ? iv_hi(x[GAP]) : at*(1.0 + panel);
+        const double film_end = here.film ? 1.0 : INFINITY;
+        const double shear_end = iv_hi(here.shear) > 0.0 ? iv_lo(here.shear) > 0.0 ? iv_lo(edge) : iv_hi(edge) : INFINITY;
+        if (at >= film_end || at >= shear_end) { /* across an uncertain edge the force is there or not */
+            if (at >= film_end)
+                here.film = 0;
+            if (at >= shear_end)
+                here.shear = at < iv_hi(edge) ? iv_of(0.0, 1.0) : iv_point(0.0);
+            enter_region(p, here);
+            continue;
+        }
+        if (start && to > smaller(film_end, shear_end))
+            return 0;
+        to = start ? to : smaller(smaller(to, last), smaller(film_end, shear_end));
+        const iv gap = iv_of(at, to), length = iv_sub(iv_point(to), iv_point(at));
+        const iv h = start ? iv_of(0.0, iv_hi(length)) : length;
+        for (int i = 0; i < OPENING; i++) {
+            double room = (i ? 0.02 : 0.1)*(panel/0.01 + 0.1)*fabs(now.high[i]) + 0.3*(now.high[i] - now.low[i]);
+            guess.low[i] = i ? now.low[i] - room : larger(now.low[i] - room, 0.7*now.low[i]);
+            guess.high[i] = now.high[i] + room;
+        }
+        int good = 0;
+        for (int trial = 0; trial < 4 && !good; trial++)
+            good = cross(p, s, gap, h, &now, &guess, &after);
+        ++*panels;
+        if (!good) {
+            panel *= 0.5;
+            if (start || panel < 0.01*width)
+                return 0;
+            continue;
+        }
+        if (start || to >= last) /* trajectories start, or end, anywhere within this panel */
+            for (int i = 0; i < OPENING; i++) {
+                after.low[i] = smaller(now.low[i], after.low[i]);
+                after.high[i] = larger(now.high[i], after.high[i]);
+            }
+        now = after;
+        if (to >= last) {
+            *speed = speed_of(now.low[0], now.high[0]);
+            return iv_positive(*speed);
+        }
+        at = to;
+        start = 0;
+        panel = smaller(width, 1.5*panel);
+    }
+    return 0;
+}

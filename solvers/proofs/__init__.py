@@ -1,0 +1,1 @@
+"""Maps and boundaries of outcomes that are proved, for whole boxes of inputs."""

@@ -1,0 +1,19 @@
+"""Cells of a proved map."""
+
+import math
+from typing import NamedTuple
+
+UNDECIDED = -1
+
+
+class Cell(NamedTuple):
+    """A box of Stokes numbers and angles (rad), and the outcome of all its collisions by number; -1 is undecided."""
+
+    stokes: tuple[float, float]
+    angle: tuple[float, float]
+    outcome: int
+
+    @property
+    def area(self) -> float:
+        """Its area over the logarithm of the Stokes number, and the angle."""
+        return math.log(self.stokes[1] / self.stokes[0]) * (self.angle[1] - self.angle[0])

@@ -1,0 +1,157 @@
+"""`prove_map`: a regime map whose cells are proved, by halving those that are not, down to a sliver that is left."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...generated.automaton import OUTCOMES
+from ..engines.interval.build import NotProvable
+from ..engines.interval.call import BOX, enclose
+from ..engines.interval.inputs import Inputs
+from ..errors import ComputationError, InputError
+from ..host.cores import usable_cores
+from ..scene.origin import origin
+from ..scene.scene import Scene
+from .cells import UNDECIDED, Cell
+
+DEPTH = 12  # halvings of a cell
+_MOVING = ("stokes", "angle")
+
+
+@dataclass(frozen=True)
+class ProvedMap:
+    """Cells that cover a rectangle of Stokes numbers and angles, each with one proved outcome, or undecided.
+
+    Attributes:
+        cells: of any size, as far as they had to be halved.
+        proofs: collisions in a box that were enclosed.
+
+    Example:
+        >>> from wetdoublet.solvers import prove_map
+        >>> prove_map("granulation", stokes=[0.3, 0.301], angle=[0.35, 0.351]).shares["bounce"]
+        1.0
+    """
+
+    scene: Scene
+    cells: tuple[Cell, ...]
+    proofs: int
+
+    @property
+    def shares(self) -> dict[str, float]:
+        """The part of the area with each outcome, and "undecided"; over the logarithm of St, and the angle."""
+        areas: Counter[int] = Counter()
+        for cell in self.cells:
+            areas[cell.outcome] += cell.area  # type: ignore[assignment] # counts of a real measure
+        total = sum(areas.values())
+        return {name: areas[k] / total for k, name in (*enumerate(OUTCOMES), (UNDECIDED, "undecided"))}
+
+    def __str__(self) -> str:
+        shown = [f"{100 * part:8.3f} %  {name}" for name, part in self.shares.items()]
+        return "\n".join([f"{len(self.cells)} cells, {self.proofs} boxes enclosed; shares of the area:", *shown])
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object of `wetdoublet prove --map --json`."""
+        words = dict(enumerate(OUTCOMES)) | {UNDECIDED: None}
+        cells = [{"stokes": list(c.stokes), "angle": list(c.angle), "outcome": words[c.outcome]} for c in self.cells]
+        return {"shares": self.shares, "proofs": self.proofs, "cells": cells, **origin(self.scene)}
+
+    def plot(self, path: str | Path | None = None) -> Any:
+        """Draw the cells; returns the matplotlib Figure.
+
+        Arguments:
+            path: file to write (.png, .pdf or .svg); None only draws.
+        """
+        from ..host.pictures import saved
+        from .plot import draw
+
+        return saved(lambda: draw(self.scene.name, self.cells, self.shares), path)
+
+
+def prove_map(
+    scene: Scene | str | Path,
+    *,
+    stokes: Sequence[float],
+    angle: Sequence[float],
+    depth: int = DEPTH,
+    progress: Callable[[int, int], None] | None = None,
+) -> ProvedMap:
+    """Prove the outcome of every impact of a rectangle, cell by cell.
+
+    A cell that is not proved is halved, up to `depth` times; what is left then is undecided, and drawn as such.
+
+    Arguments:
+        scene: a Scene, a path to a scene file, or a preset's name; its impact is not used.
+        stokes: edges of the cells, rising Stokes numbers.
+        angle: edges of the cells, rising angles above 0, rad.
+        progress: called with the numbers of finished and of all cells.
+
+    Raises:
+        InputError: edges that do not rise, or are not admissible.
+        ComputationError: collisions of this scene cannot be enclosed here.
+
+    Example:
+        >>> import numpy as np
+        >>> from wetdoublet.solvers import prove_map
+        >>> few = prove_map("granulation", stokes=[0.2, 0.21], angle=np.radians([20, 21]), depth=8)
+        >>> few.shares["undecided"] < 0.2
+        True
+    """
+    for name, edges in (("stokes", stokes), ("angle", angle)):
+        if len(edges) < 2 or any(not low < high for low, high in itertools.pairwise(edges)):
+            raise InputError(name, list(edges), "at least two rising edges")
+    if isinstance(depth, bool) or not isinstance(depth, int) or not 0 <= depth <= 40:
+        raise InputError("depth", depth, "a whole number from 0 to 40")
+    if not angle[0] > 0:
+        raise InputError("angle", float(angle[0]), "angles above 0, as head-on impacts have a model of their own")
+    loaded = Scene.load(scene).with_impact(stokes=float(stokes[-1]), angle=float(angle[-1]))
+    loaded.with_impact(stokes=float(stokes[0]))
+    inputs = Inputs.of(loaded, {"impact.stokes": 1e-6, "impact.angle": 1e-6})
+    try:
+        engine = inputs.engine()
+    except NotProvable as error:
+        raise ComputationError(f"not provable here: {error}") from None
+    asked = 0
+
+    def outcome(box: Cell) -> int:
+        ranges = inputs.ranges | {"stokes": box.stokes, "angle": box.angle}  # type: ignore[operator]
+        return enclose(engine, ranges, inputs.moving, BOX).outcome - 1
+
+    def decided(cell: Cell, left: int) -> Iterator[tuple[Cell, int]]:
+        number = outcome(cell)
+        if number >= 0 or not left:
+            yield cell._replace(outcome=number), 1
+            return
+        for half in _halves(cell):
+            yield from decided(half, left - 1)
+        yield cell, 0  # an attempt
+
+    def whole(cell: Cell) -> list[tuple[Cell, int]]:
+        return list(decided(cell, depth))
+
+    pairs = [list(zip(map(float, edges), map(float, edges[1:]), strict=False)) for edges in (stokes, angle)]
+    start = [Cell(one, other, UNDECIDED) for one in pairs[0] for other in pairs[1]]
+    cells: list[Cell] = []
+    with ThreadPoolExecutor(usable_cores()) as pool:  # the engine is called without the interpreter's lock
+        for done, found in enumerate(pool.map(whole, start), 1):
+            asked += len(found)
+            cells += [cell for cell, kept in found if kept]
+            if progress is not None:
+                progress(done, len(start))
+    return ProvedMap(loaded, tuple(cells), asked)
+
+
+def _halves(cell: Cell) -> tuple[Cell, Cell]:
+    """Both halves, across the side that changes the collision more: relative widths of St and of tan^2 of the angle."""
+    (low, high), (flat, steep) = cell.stokes, cell.angle
+    middle = 0.5 * (flat + steep)
+    if math.log(high / low) * math.sin(middle) * math.cos(middle) > 2 * (steep - flat):
+        between = math.sqrt(low * high)
+        return cell._replace(stokes=(low, between)), cell._replace(stokes=(between, high))
+    return cell._replace(angle=(flat, middle)), cell._replace(angle=(middle, steep))

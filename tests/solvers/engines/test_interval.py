@@ -1,0 +1,299 @@
+"""The enclosing engine's own arithmetic against exact rationals and 200 digits, with mutants of it; what it refuses."""
+
+import ctypes
+import re
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from wetdoublet.solvers import InputError, Scene, collide, prove
+from wetdoublet.solvers.engines.interval.build import FLAGS, RUNTIME, NotProvable, engine, source
+from wetdoublet.solvers.engines.machine import here
+from wetdoublet.solvers.host.compiler import compiler, library
+from wetdoublet.solvers.host.user_cache import loaded
+from wetdoublet.solvers.model.model import select_model
+
+pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+
+HARNESS = """
+__attribute__((visibility("default"))) void operate(int which, int n, const double *a, double *r)
+{
+    int mode = fegetround();
+    fesetround(FE_UPWARD);
+    set_tables();
+    for (int i = 0; i < n; i++) {
+        iv x = iv_of(a[4*i], a[4*i + 1]), y = iv_of(a[4*i + 2], a[4*i + 3]), z = x, other;
+        switch (which) {
+        case 0: z = iv_add(x, y); break;
+        case 1: z = iv_sub(x, y); break;
+        case 2: z = iv_mul(x, y); break;
+        case 3: z = iv_div(x, y); break;
+        case 4: z = iv_square(x); break;
+        case 5: z = iv_root(x); break;
+        case 6: z = iv_exp(x); break;
+        case 7: z = iv_log(x); break;
+        case 8: iv_circular(x, &z, &other); break;
+        case 9: iv_circular(x, &other, &z); break;
+        }
+        r[2*i] = iv_lo(z);
+        r[2*i + 1] = iv_hi(z);
+    }
+    fesetround(mode);
+}
+"""
+ADD, SUB, MUL, DIV, SQUARE, ROOT, EXP, LOG, SINE, COSINE = range(10)
+EDGES = (0.0, 5e-324, 2.2250738585072014e-308, 1e-160, 1.0, 1 - 2**-53, 1 + 2**-52, 1e160, 1.7976931348623157e308)
+
+
+def compiled(text: str) -> ctypes.CDLL:
+    return loaded(library(text + HARNESS, (*here()[0].flags, *FLAGS)), ctypes.CDLL)
+
+
+@pytest.fixture(scope="module")
+def runtime() -> str:
+    return (RUNTIME / "interval.h").read_text().replace("#pragma once\n", "")
+
+
+@pytest.fixture(scope="module")
+def operations(runtime: str) -> ctypes.CDLL:
+    return compiled(runtime)
+
+
+def operands(count: int, seed: int) -> np.ndarray:
+    """Pairs of intervals: of all magnitudes, points among them, and ends from the edges of the format."""
+    random = np.random.default_rng(seed)
+    sizes = np.ldexp(random.uniform(-1, 1, (count, 4)), random.integers(-40, 40, (count, 4)))
+    edges = np.array([*EDGES, *(-np.array(EDGES))])
+    some = random.random((count, 4)) < 0.2
+    sizes[some] = random.choice(edges, some.sum())
+    points = random.random(count) < 0.3
+    sizes[points, 1], sizes[points, 3] = sizes[points, 0], sizes[points, 2]
+    return np.hstack([np.sort(sizes[:, :2]), np.sort(sizes[:, 2:])])
+
+
+def results(operations: ctypes.CDLL, which: int, pairs: np.ndarray) -> np.ndarray:
+    given, found = np.ascontiguousarray(pairs), np.empty((len(pairs), 2))
+    operations.operate(which, len(pairs), given.ctypes.data_as(ctypes.c_void_p), found.ctypes.data_as(ctypes.c_void_p))
+    return found
+
+
+def violations(operations: ctypes.CDLL, which: int, count: int, seed: int = 1) -> int:
+    """How many results of an exact operation do not hold the exact value of every pair of ends."""
+    pairs = operands(count, seed)
+    found = results(operations, which, pairs)
+    bad = 0
+    for (a, b, c, d), (low, high) in zip(pairs.tolist(), found.tolist(), strict=True):
+        for x in (a, b):
+            for y in (c, d) if which < SQUARE else (0.0,):
+                p, q = Fraction(x), Fraction(y)
+                if which == DIV and q == 0:
+                    continue
+                value = p + q if which == ADD else p - q if which == SUB else p * q if which == MUL else p * p
+                value = p / q if which == DIV else value
+                above = low < np.inf and (low == -np.inf or Fraction(low) <= value)
+                bad += not (above and high > -np.inf and (high == np.inf or value <= Fraction(high)))
+    return bad
+
+
+@pytest.mark.parametrize("which", [ADD, SUB, MUL, DIV, SQUARE])
+def test_rational_operations_hold_the_exact_result(operations: ctypes.CDLL, which: int) -> None:
+    """Sums, differences, products, quotients and squares of 20,000 random and edge operands."""
+    assert violations(operations, which, 20_000) == 0
+
+
+@pytest.mark.slow
+def test_a_million_operands(operations: ctypes.CDLL) -> None:
+    """No violation in 1e6 operands."""
+    assert sum(violations(operations, which, 200_000, seed=7) for which in (ADD, SUB, MUL, DIV, SQUARE)) == 0
+
+
+def test_infinite_ends_stay_enclosed(operations: ctypes.CDLL) -> None:
+    """Unbounded intervals give unbounded ones, zero times the line holds zero, and division by zero is the line."""
+    line = [-np.inf, np.inf]
+    assert results(operations, MUL, np.array([[0.0, 1.0, 1.0, np.inf]])).tolist() == [[0.0, np.inf]]
+    (low, high) = results(operations, MUL, np.array([[0.0, 0.0, *line]]))[0]
+    assert low <= 0 <= high
+    assert results(operations, DIV, np.array([[1.0, 2.0, -1.0, 1.0]])).tolist() == [line]
+    assert results(operations, ADD, np.array([[1.0, np.inf, -np.inf, 0.0]])).tolist() == [line]
+
+
+FUNCTIONS = {ROOT: mpmath.sqrt, EXP: mpmath.exp, LOG: mpmath.log, SINE: mpmath.sin, COSINE: mpmath.cos}
+
+
+@pytest.mark.parametrize("which", FUNCTIONS)
+def test_functions_hold_200_digits_and_are_narrow(operations: ctypes.CDLL, which: int) -> None:
+    """Square root, exponential, logarithm, sine and cosine of 4000 points, to about 4 units of the last digit."""
+    random = np.random.default_rng(which)
+    x = np.exp(random.uniform(-30, 30, 4000)) if which in (ROOT, LOG) else random.uniform(-40, 40, 4000)
+    x = random.uniform(-3.2, 3.2, 4000) if which in (SINE, COSINE) else x
+    if which in (ROOT, LOG):
+        x[:9] = [5e-324, 1e-310, 2.3e-308, 1.7e308, 1.0, 1 - 2**-53, 1 + 2**-52, 0.75, 1.5]
+    if which == EXP:
+        x[:8] = [0.0, 5e-324, -5e-324, 1e-17, 708.9, -699.0, -745.0, 720.0]
+    found = results(operations, which, np.repeat(x[:, None], 4, axis=1))
+    with mpmath.workdps(200):
+        for value, (low, high) in zip(x.tolist(), found.tolist(), strict=True):
+            exact = FUNCTIONS[which](mpmath.mpf(value))
+            assert low <= exact <= high, value
+            if abs(value) < 600 and high < 1e300:
+                unit = 2e-15 if which < SINE else 2e-14
+                assert high - low <= unit * max(abs(high), 1.0 if which >= LOG else 0.0) + 1e-300
+
+
+def test_sine_of_an_interval_holds_its_points(operations: ctypes.CDLL) -> None:
+    """The sine and cosine of intervals hold those of 20 points of each."""
+    random = np.random.default_rng(3)
+    low = random.uniform(-3, 3, 200)
+    pairs = np.column_stack([low, low + random.uniform(0, 0.5, 200), low, low])
+    for which in (SINE, COSINE):
+        found = results(operations, which, pairs)
+        for part in np.linspace(0, 1, 20):
+            values = (np.sin if which == SINE else np.cos)(pairs[:, 0] + part * (pairs[:, 1] - pairs[:, 0]))
+            assert ((found[:, 0] <= values + 1e-15) & (values <= found[:, 1] + 1e-15)).all()
+
+
+MUTANTS = {
+    "sum rounded to nearest": (
+        "return a + b; }", "fesetround(FE_TONEAREST); iv c = a + b; fesetround(FE_UPWARD); return c; }",
+    ),
+    "difference without exchange of ends": ("return a + iv_swap(b); }", "return a - b; }"),
+    "a product of ends dropped": ("larger(-a[0]*b[1], -a[1]*b[0])", "-a[0]*b[1]"),
+    "squares from the wrong side": ("(iv){-near*near, far*far}", "(iv){-(near*near), far*far}"),
+    "quotients of points rounded one way": ("down = -a[1]/b[1];", "down = -(a[1]/b[1]);"),
+}  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", MUTANTS)
+def test_mutants_are_caught(runtime: str, name: str) -> None:
+    """A rounding direction swapped or an end dropped violates containment."""
+    old, new = MUTANTS[name]
+    scalar = runtime.replace("#if defined(__AVX__)\n    const", "#if 0\n    const")
+    assert old in scalar
+    mutant = compiled(scalar.replace(old, new))
+    assert sum(violations(mutant, which, 3000) for which in (ADD, SUB, MUL, DIV, SQUARE)) > 0
+
+
+def test_mutants_of_the_exponential_are_caught(runtime: str) -> None:
+    """A series without its last terms, or ln 2 without its lower part, does not hold the exponential."""
+    for old, new in (("int k = 15;", "int k = 9;"), ("iv_mul(iv_point(n), LN2_LOW)));", "iv_point(0.0)));")):
+        changed = re.sub(re.escape(old), new, runtime)
+        assert changed != runtime
+        x = np.repeat(np.linspace(-20, 20, 400)[:, None], 4, axis=1)
+        found = results(compiled(changed), EXP if "k" in old else LOG, np.abs(x) + 0.1)
+        function = mpmath.exp if "k" in old else mpmath.log
+        inside = [
+            low <= function(mpmath.mpf(v)) <= high
+            for v, (low, high) in zip((np.abs(x) + 0.1)[:, 0], found, strict=True)
+        ]
+        assert not all(inside)
+
+
+def test_the_rounding_mode_is_restored() -> None:
+    """After a proof sums of doubles are rounded to nearest, as before."""
+    assert prove("granulation", stokes=0.3, angle="20 deg").outcome == "bounce"
+    assert (1.0 + 2**-54, -1.0 - 2**-54) == (1.0, -1.0)
+    assert (0.1 + 0.2).hex() == "0x1.3333333333334p-2"
+
+
+def test_a_compiler_that_ignores_rounding_is_refused() -> None:
+    """Code that rounds to nearest all the same fails the test at load."""
+    key = select_model(Scene.load("granulation"), True, fold=True)
+    text = source(key, False, 0).replace("fesetround(FE_UPWARD)", "(void)0")
+    library_here = loaded(library(text, (*here()[0].flags, *FLAGS)), ctypes.CDLL)
+    assert library_here.interval_start() == 0
+    assert engine(key, False, 0).library.interval_start() == 1
+
+
+@pytest.mark.parametrize("changes", [{"model.film": "cavitating"}, {"model.arm": "surface"}])
+def test_laws_without_an_enclosure_are_refused(changes: dict[str, str]) -> None:
+    """A film that cavitates and the surface arm are not provable here, with a reason."""
+    scene = Scene.load("granulation").with_entries(changes).with_impact(stokes=0.1, angle=0.5)
+    proof = prove(scene)
+    assert proof.outcome is None
+    assert proof.reason
+    with pytest.raises(NotProvable):
+        engine(select_model(scene, True, fold=True), False, 0)
+
+
+LAWS = ("mikami", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant", "mikami-log10")
+
+
+def _random_impacts(count: int) -> list[Scene]:
+    random = np.random.default_rng(11)
+    scenes = [Scene.load(name) for name in ("granulation", "granulation-dry-bridge", "pellet-coating")]
+    scenes += [Scene.load("granulation").with_entries({"bridge.law": law}) for law in LAWS]
+    scenes += [
+        Scene.load("granulation").with_entries(each)
+        for each in (
+            {"model.film": "infinite"},
+            {"model.glass": "film-corrected"},
+            {"model.tangential": "film"},
+            {"attraction.hamaker": 1e-19},
+        )
+    ]
+    return [
+        scenes[k % len(scenes)].with_impact(
+            stokes=float(np.exp(random.uniform(np.log(0.02), np.log(2)))), angle=float(random.uniform(0.02, 1.45))
+        )
+        for k in range(count)
+    ]
+
+
+def _agree(scenes: list[Scene]) -> int:
+    """How many are proved; all that are agree with the kernel in outcome and restitution."""
+    proved = 0
+    for scene in scenes:
+        proof, found = prove(scene), collide(scene, ledger=False)
+        if not proof:
+            continue
+        assert proof.restitution is not None
+        low, high = proof.restitution
+        assert (proof.outcome, low - 1e-6 <= found.restitution <= high + 1e-6) == (found.outcome, True), scene
+        proved += 1
+    return proved
+
+
+def test_proofs_agree_with_the_kernel() -> None:
+    """60 random collisions with every enclosed law of bridge, film and glass: all proved, as computed."""
+    assert _agree(_random_impacts(60)) == 60
+
+
+@pytest.mark.slow
+def test_500_proofs_agree_with_the_kernel() -> None:
+    """Of 500 random collisions at least 99.5 % are proved, and none contradicts the kernel."""
+    assert _agree(_random_impacts(500)) >= 498
+
+
+def test_a_box_holds_for_its_points() -> None:
+    """For every viscosity between two: outcome and restitution of points of the box lie in what is proved."""
+    scene = Scene.load("granulation").with_impact(stokes=0.3, angle="20 deg")
+    proof = prove(scene, within={"liquid.viscosity": ("1.9 Pa s", "2.1 Pa s")})
+    assert proof.outcome == "bounce"
+    assert proof.restitution is not None
+    for viscosity in np.linspace(1.9, 2.1, 7):
+        one = collide(scene.with_entries({"liquid.viscosity": float(viscosity)}, hold="stokes"), ledger=False)
+        assert one.outcome == "bounce"
+        assert proof.restitution[0] <= one.restitution <= proof.restitution[1]
+
+
+def test_a_box_across_a_boundary_is_not_proved() -> None:
+    """A box that holds sticks and bounces is undecided, and says why."""
+    proof = prove("granulation", stokes=0.1155, angle="5 deg", within=0.05)
+    assert not proof
+    assert proof.reason
+
+
+@pytest.mark.parametrize(
+    "within",
+    [
+        0.0, -1.0, 2.0, {"liquid.viscosity": (2.0, 1.9)}, {"liquid.viscosity": (2.0, 2.0)}, {"bridge.law": 0.1},
+        {"liquid.viscosity": (-1.0, 2.0)}, {"liquid.colour": 0.1}, {"impact.speed": 0.1},
+    ],
+)  # fmt: skip
+def test_bad_boxes_name_the_entry(within: object) -> None:
+    """Empty, reversed and inadmissible boxes, choices and unknown entries are an InputError that names them."""
+    name = next(iter(within)) if isinstance(within, dict) else "within"
+    with pytest.raises(InputError, match=name):
+        prove("granulation", stokes=0.1, angle=0.5, within=within)  # type: ignore[arg-type]

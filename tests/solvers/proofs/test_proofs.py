@@ -1,0 +1,44 @@
+"""Maps and boundaries of proved outcomes, against collisions."""
+
+import math
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import InputError, collide, prove_boundary, prove_map
+from wetdoublet.solvers.host.compiler import compiler
+
+pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
+
+
+def test_cells_cover_the_rectangle_and_hold_for_their_points() -> None:
+    """The cells add up to the rectangle, and a collision anywhere in a proved cell has its outcome."""
+    found = prove_map("granulation", stokes=[0.1, 0.11, 0.12], angle=np.radians([20, 20.5]), depth=8)
+    whole = math.log(1.2) * math.radians(0.5)
+    assert math.isclose(sum(cell.area for cell in found.cells), whole, rel_tol=1e-9)
+    assert math.isclose(sum(found.shares.values()), 1.0, rel_tol=1e-12)
+    assert found.shares["undecided"] < 0.1
+    random = np.random.default_rng(1)
+    for cell in (found.cells[k] for k in random.integers(0, len(found.cells), 40)):
+        if cell.outcome >= 0:
+            one = collide(
+                "granulation", stokes=random.uniform(*cell.stokes), angle=random.uniform(*cell.angle), ledger=False
+            )
+            assert one.outcome == OUTCOMES[cell.outcome]
+
+
+def test_a_change_lies_between_proved_outcomes() -> None:
+    """Stick from bounce at 10 deg: two proved numbers less than 1e-12 apart; collisions just outside agree."""
+    (change,) = prove_boundary("granulation", angle="10 deg", stokes=(0.08, 0.2)).changes
+    assert change.outcomes == ("stick", "bounce")
+    assert change.width < 1e-12
+    below, above = (collide("granulation", stokes=change.stokes[0] * f, angle="10 deg") for f in (1 - 1e-9, 1 + 1e-9))
+    assert (below.outcome, above.outcome) == change.outcomes
+
+
+@pytest.mark.parametrize("edges", [{"stokes": [0.2, 0.1]}, {"stokes": [0.1]}, {"angle": [0.0, 0.1]}, {"depth": -1}])
+def test_bad_maps_name_what_is_wrong(edges: dict[str, object]) -> None:
+    """Edges that do not rise, head-on angles and a negative depth."""
+    given = {"stokes": [0.1, 0.2], "angle": [0.1, 0.2]} | edges
+    with pytest.raises(InputError, match=next(iter(edges))):
+        prove_map("granulation", **given)  # type: ignore[arg-type]
