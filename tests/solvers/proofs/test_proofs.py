@@ -4,8 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, collide, prove_boundary, prove_map
+from wetdoublet.solvers import InputError, Scene, collide, prove, prove_boundary, prove_map
 from wetdoublet.solvers.host.compiler import compiler
+
+from ...helpers.data import COLLISIONS
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
@@ -42,3 +44,17 @@ def test_bad_maps_name_what_is_wrong(edges: dict[str, object]) -> None:
     given = {"stokes": [0.1, 0.2], "angle": [0.1, 0.2]} | edges
     with pytest.raises(InputError, match=next(iter(edges))):
         prove_map("granulation", **given)  # type: ignore[arg-type]
+
+
+def test_reference_collisions_lie_in_their_enclosures() -> None:
+    """Outcome and restitution of an independent implementation of high precision, wherever there is a proof."""
+    proved = 0
+    for case in COLLISIONS:
+        proof = prove(Scene.from_dict(case["scene"]), **case["impact"])
+        if proof.outcome is not None:
+            proved += 1
+            assert proof.outcome == case["results"]["outcome"]
+            if case["results"]["restitution"]:
+                low, high = proof.restitution
+                assert low <= case["results"]["restitution"] <= high < low + 1e-9
+    assert proved >= 10
