@@ -1,9 +1,6 @@
 """Averages as files of other codes: what is written is what was computed, in forms that those codes read."""
 
 import re
-import shutil
-import subprocess
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,7 +18,7 @@ def averages() -> xr.Dataset:
     return collision_averages("granulation", speeds="maxwell:0.5 m/s", radii=RADII, tolerance=1e-3)
 
 
-def test_openfoam_reads_the_tables(averages: xr.Dataset, tmp_path: Path) -> None:
+def test_openfoam_reads_the_tables(averages: xr.Dataset) -> None:
     """Lists of lists of numbers, in the order of the radii; of one pair the rate as constantCoalescence takes it."""
     text = to_openfoam(averages)
     stick, rate = averages.stick_probability.values, averages.collision_rate.values
@@ -30,13 +27,8 @@ def test_openfoam_reads_the_tables(averages: xr.Dataset, tmp_path: Path) -> None
         rows = [row.split() for row in found.split(") (")]
         assert np.array_equal(np.array(rows, float).reshape(expected.shape), expected)
     one = to_openfoam(averages.isel(radius=[1], partner_radius=[1]))
-    assert f"constantCoalescence\n    {{\n        rate {rate[1, 1] * stick[1, 1]!r};" in one.replace("np.float64", "")
-    if shutil.which("foamDictionary"):
-        (tmp_path / "one.foam").write_text(one)
-        command = ["foamDictionary", "one.foam", "-entry", "efficiency"]
-        environment = {"WM_PROJECT_DIR": "/usr/share/openfoam", "PATH": "/usr/bin"}
-        read = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
-        assert "FATAL" not in read.stderr
+    [constant] = re.findall(r"constantCoalescence\s*\{\s*rate (\S+);", one)
+    assert float(constant) == rate[1, 1] * stick[1, 1]
 
 
 class Storage:
