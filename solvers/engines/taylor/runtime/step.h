@@ -88,9 +88,9 @@ static inline void turn_along(series *s, const axes *w, int k)
  * coefficients then stay in registers.
  */
 #if SPACE
-SCHEDULED OUTLINE void expand(series *restrict s, const constants *c, vec film, vec shear, mask moving, const axes *turning)
+SCHEDULED OUTLINE void expand(series *RESTRICT s, const constants *c, vec film, vec shear, mask moving, const axes *turning)
 #else
-SCHEDULED OUTLINE void expand(series *restrict s, const constants *c, vec film, vec shear, mask moving)
+SCHEDULED OUTLINE void expand(series *RESTRICT s, const constants *c, vec film, vec shear, mask moving)
 #endif
 {
 #if GRADIENTS || OWN_EVENTS || RUBS

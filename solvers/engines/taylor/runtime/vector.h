@@ -21,6 +21,12 @@
 #define HAS_BUILTIN(name) 1
 #endif
 
+#if defined(__cplusplus)
+#define RESTRICT
+#else
+#define RESTRICT restrict
+#endif
+
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline))
 #define OUTLINE static __attribute__((noinline))
