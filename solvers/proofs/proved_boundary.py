@@ -14,7 +14,6 @@ import numpy as np
 from ..engines.interval.inputs import Inputs
 from ..engines.interval.prove import Proof, prove_inputs
 from ..errors import ComputationError, InputError
-from ..formatting.style import LETTERS
 from ..scene.origin import origin
 from ..scene.scene import Scene
 
@@ -54,7 +53,7 @@ class ProvedBoundary:
         lines = [f"at {math.degrees(self.angle):.10g} deg: {len(self.changes)} changes between proved outcomes"]
         for each in self.changes:
             (low, high), (one, other) = each.stokes, each.outcomes
-            named = f"{LETTERS[one]} at St {low:.17g}, {LETTERS[other]} at St {high:.17g}"
+            named = f"{one} at St {low:.17g}, {other} at St {high:.17g}"
             lines.append(f"{named} (relative distance {each.width:.2g})")
         return "\n".join(lines)
 

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from ....generated.automaton import OUTCOMES
-from ...formatting.style import LETTERS
 from ...scene.origin import origin
 from ...scene.scene import Scene
 from .build import NotProvable
@@ -53,7 +52,7 @@ class Proof:
             lines = [f"{_REFUSED}{self.reason}"]
         else:
             low, high = self.restitution
-            lines = [f"proved: {self.outcome} ({LETTERS[self.outcome]})"]
+            lines = [f"proved: {self.outcome}"]
             lines += [f"restitution e_n between {low:.17g} and {high:.17g}"] if high > 0 else []
             lines += [f"{self.rebounds} rebounds, {self.steps} steps of the enclosure"]
         for name, (low, high) in self.ranges.items():

@@ -6,7 +6,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from wetdoublet.solvers.engines.taylor import machine
+from wetdoublet.solvers.engines import machine
 from wetdoublet.solvers.engines.taylor import source as text
 from wetdoublet.solvers.engines.taylor.includes import resolved
 from wetdoublet.solvers.host.compiler import compiler

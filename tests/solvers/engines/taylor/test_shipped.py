@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import Scene, compile_kernels
+from wetdoublet.solvers.engines import machine
 from wetdoublet.solvers.engines.settings import RTOL
-from wetdoublet.solvers.engines.taylor import machine, shipped
+from wetdoublet.solvers.engines.taylor import shipped
 from wetdoublet.solvers.engines.taylor.orders import order_backward
 from wetdoublet.solvers.engines.taylor.tangent import variant_of
 from wetdoublet.solvers.fitting.fit import RTOL as FIT_RTOL
@@ -24,7 +25,7 @@ import pathlib, sys
 
 sys.modules["ziglang"] = None  # as if not installed
 import wetdoublet as wd
-from wetdoublet.solvers.engines.taylor import machine
+from wetdoublet.solvers.engines import machine
 
 if sys.argv[2:]:
     lesser = machine.sets_of(sys.argv[2], [])
