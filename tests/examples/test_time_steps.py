@@ -10,7 +10,7 @@ import pytest
 from ..helpers.exported_law import FOUND
 
 FOLDER = Path(__file__).resolve().parents[2] / "examples" / "time_steps"
-pytestmark = pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")]
 
 
 @pytest.fixture(scope="module")

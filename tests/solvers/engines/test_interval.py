@@ -255,6 +255,7 @@ def _agree(scenes: list[Scene]) -> int:
     return proved
 
 
+@pytest.mark.slow
 def test_proofs_agree_with_the_kernel() -> None:
     """60 random collisions with every enclosed law of bridge, film and glass: all proved, as computed."""
     assert _agree(_random_impacts(60)) == 60

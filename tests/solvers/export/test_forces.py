@@ -13,7 +13,7 @@ from ...helpers.exported_law import COMPILERS, FOUND, Law, written
 from ...helpers.host_of_forces import Host
 from .test_law_in_space import OWN, arrivals
 
-pytestmark = pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")]
 FILM_ALONE = Scene.load("granulation-dry-bridge")
 STRICT = ("-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror", "-march=native")
 COUNT = 200
@@ -329,6 +329,7 @@ def test_no_warnings(compiler: str, folder: Path, law: Law):
         subprocess.run([*command, f"{law.name}.c"], cwd=folder, check=True)
 
 
+@pytest.mark.slow
 def test_what_has_no_forces_says_so(tmp_path: Path):
     """A wall, and friction of the dry contact: the header gives the reason."""
     for entries, why in (

@@ -76,6 +76,7 @@ def test_everything_of_the_header_is_there(folder: Path):
 
 
 @NEED
+@pytest.mark.slow
 def test_numbers_are_those_of_c(folder: Path):
     """Materials, collisions, a contact, pairs and particles in space; the module compiles without a warning."""
     (folder / "all_of_it.f90").write_text(PROGRAM)

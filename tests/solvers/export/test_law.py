@@ -76,7 +76,8 @@ def test_builds_and_checks(compiler: str, pendulum: Path, tmp_path: Path):
 
 
 @NEED
-@pytest.mark.parametrize("scene", ["pendulum", pytest.param("granulation", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("scene", ["pendulum", "granulation"])
+@pytest.mark.slow
 def test_is_exported_without_a_compiler(scene: str, tmp_path: Path):
     """Test vectors then come from CasADi; the law, compiled elsewhere, reproduces them, those of pairs in space too."""
     without = os.environ | {"CC": "", "WETDOUBLET_NO_COMPILER": "1", "WETDOUBLET_CACHE": str(tmp_path / "cache")}

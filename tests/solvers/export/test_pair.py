@@ -98,6 +98,7 @@ def pairs(name: str, made: dict[str, Pairs], folder: Path) -> Pairs:
 @pytest.mark.parametrize(
     "name", [name if name in FEW else pytest.param(name, marks=pytest.mark.slow) for name in SCENES]
 )
+@pytest.mark.slow
 def test_materials_are_those_of_scenes(name: str, made: dict[str, Pairs], tmp_path: Path):
     """Of random entries, to rounding; what a scene refuses is refused, and collisions are those of the scene."""
     own, draw = pairs(name, made, tmp_path / "law"), np.random.default_rng(len(name))
