@@ -6,6 +6,7 @@ from functools import partial
 from typing import Annotated
 
 from ..errors import CheckFailed
+from ..host import files
 from ..scene.schema import FIELDS
 from . import options, texts
 from .bar import Bar
@@ -29,12 +30,13 @@ def command(
     """The speed up to which particles of SCENE stick, and the speed above which they bounce.
 
     SCENE may be a CSV file of materials, one a row; its columns are entries, as `particles.diameter [um]`.
+    With -o FILE.csv the speeds are written as a table.
 
     \b
     Examples:
       wetdoublet critical lactose-pvp
       wetdoublet critical granulation --angle 0:80:9 --uncertainty liquid.viscosity="10 %" --plot critical.png
-      wetdoublet critical materials.csv --json
+      wetdoublet critical materials.csv -o speeds.csv
 
     Options:
         --angle RANGE: Impact angles (degrees): 40, or 20:65:10 [the scene's, or 0].
@@ -53,6 +55,9 @@ def command(
         chosen["wrt"] = "all" if wrt == ["all"] else wrt
     with Bar("materials", "fewer materials or angles take less") as progress:
         found = critical(materials, progress=progress, **chosen)
+    if output.file is not None and output.file.suffix == ".csv":
+        files.write(output.file, found.to_csv())
+        output = options.Output(output.as_json, output.picture)
     output.show(found)
     failed = [one for one in found.rows if one.failed]
     if failed:

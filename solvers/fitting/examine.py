@@ -51,6 +51,7 @@ class Checkup:
     Attributes:
         findings: what is odd; kinds "units", "energy", "restitution", "outlier", "duplicate".
         agreement: share of the impacts that come out as observed with the scene as it is.
+        differing: labels of the impacts that do not.
         telling: entry -> number of impacts that would visibly differ if it were twice or half as large.
         notes: sentences on how the columns were read and what the data lack.
     """
@@ -59,19 +60,27 @@ class Checkup:
     scene: Scene
     findings: tuple[Finding, ...]
     agreement: float
+    differing: tuple[str, ...]
     telling: dict[str, int]
     notes: tuple[str, ...]
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet check --json`."""
         return {
-            "points": self.data.size, "agreement": self.agreement, "findings": [asdict(one) for one in self.findings],
-            "telling": self.telling, "notes": list(self.notes),
+            "points": self.data.size, "agreement": self.agreement, "differing": list(self.differing),
+            "findings": [asdict(one) for one in self.findings], "telling": self.telling, "notes": list(self.notes),
         } | origin(self.scene)  # fmt: skip
 
     def __str__(self) -> str:
-        lines = [*self.notes, f"As the scene is, {self.agreement:.0%} of the impacts come out as observed.", ""]
-        lines += [f"{one.kind}: {one.text}" for one in self.findings] or ["Nothing odd was found."]
+        lines = [*self.notes, f"As the scene is, {self.agreement:.0%} of the impacts come out as observed."]
+        if self.differing and self.agreement >= _POOR:
+            more = " ..." if len(self.differing) > _NAMED else ""
+            lines.append(f"Others do not: {', '.join(self.differing[:_NAMED])}{more}.")
+        lines += ["", *(f"{one.kind}: {one.text}" for one in self.findings)]
+        if not self.findings and self.agreement < _POOR:
+            lines.append("The data contradict the scene as it is: units, the kind of speed or entries may be far off.")
+        elif not self.findings:
+            lines.append("Nothing odd was found.")
         lines += ["", "Impacts that would differ visibly if an entry were half or twice as large (fractions: by 0.1)"]
         lines += aligned([[name, str(count)] for name, count in self.telling.items() if count] or [[""]])
         untold = ", ".join(name for name, count in self.telling.items() if not count)
@@ -103,7 +112,10 @@ def check_data(data: Any, scene: Scene | str | Path) -> Checkup:
     table = read_data(data, loaded)
     seen = _predicted(_as_it_is(loaded, table), table)
     findings = tuple(examine(loaded, table))
-    return Checkup(table, loaded, findings, seen.agreement, _telling(loaded, table, seen), tuple(_notes(table)))
+    differing = tuple(table.label(int(k)) for k in np.flatnonzero(~seen.agrees))
+    return Checkup(
+        table, loaded, findings, seen.agreement, differing, _telling(loaded, table, seen), tuple(_notes(table))
+    )
 
 
 def examine(scene: Scene, data: Measurements) -> list[Finding]:
@@ -138,10 +150,15 @@ class _Predicted:
         return np.full(self.data.size, np.nan) if measured is None else measured[0] - self.restitution
 
     @property
+    def agrees(self) -> np.ndarray:
+        """Mask of the rows whose outcome is that observed, with a restitution within 0.25 if one was measured."""
+        allowed = self.data.allowed[np.arange(self.data.size), self.outcome]
+        return np.asarray((self.outcome >= 0) & allowed & ~(np.abs(self.misfit) > _TOLERATED))
+
+    @property
     def agreement(self) -> float:
-        """Share of the rows whose outcome is that observed, with a restitution within 0.25 if one was measured."""
-        agrees = (self.outcome >= 0) & self.data.allowed[np.arange(self.data.size), self.outcome]
-        return float(np.mean(agrees & ~(np.abs(self.misfit) > _TOLERATED)))
+        """Share of the rows that agree."""
+        return float(np.mean(self.agrees))
 
 
 def _predicted(
@@ -163,6 +180,7 @@ def _units(experiment: Experiment, data: Measurements, share: float) -> list[Fin
         (f"speeds {words}", f"Are these speeds in {unit}?", speed * factor, angle)
         for factor, words, unit in (
             (1e-3, "1000 times smaller", "mm/s"), (1e-2, "100 times smaller", "cm/s"),
+            (1e-1, "10 times smaller", "mm/s, not in cm/s"), (1e1, "10 times larger", "cm/s, not in mm/s"),
             (1e2, "100 times larger", "m/s, not in cm/s"), (1e3, "1000 times larger", "m/s, not in mm/s"),
         )
     ]  # fmt: skip

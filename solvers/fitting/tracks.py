@@ -138,20 +138,28 @@ def tracks(
     films = [str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size
     radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
     reaches = radii, radii + loaded.liquid.film_thickness, radii + loaded.rupture_gap
-    rows, sigmas, remarks, labels = [], [], [], tuple(dict.fromkeys(films))
-    for label in labels:
+    rows, sigmas, remarks, labels, left_out = [], [], [], list[str](), list[InputError]()
+    for label in dict.fromkeys(films):
         which = np.flatnonzero([each == label for each in films])
         which = which[np.argsort(time[which], kind="stable")]
         relative = positions[which, 2:] - positions[which, :2]
         given = None if noise is None else math.sqrt(2) * noise * unit
-        values, sigma, said = _impact(f"impact {label}", time[which], relative, reaches, given, scale_sd)
+        try:
+            values, sigma, said = _impact(f"impact {label}", time[which], relative, reaches, given, scale_sd)
+        except InputError as error:
+            left_out.append(error)
+            remarks.append(f"left out: {error}")
+            continue
+        labels.append(label)
         rows.append(values)
         sigmas.append(sigma / math.sqrt(2))
         remarks += [f"impact {label}: {said}"] if said else []
+    if not rows:
+        raise left_out[0]
     columns = {name: [row[name] for row in rows] for name in rows[0]}
     always = ("speed", "angle", "speed_sd", "angle_sd", "outcome")
     kept = {name: each for name, each in columns.items() if name in always or any(one == one for one in each)}
-    return Tracks(labels, kept, tuple(sigmas), tuple(remarks))
+    return Tracks(tuple(labels), kept, tuple(sigmas), tuple(remarks))
 
 
 def _impact(
@@ -166,7 +174,13 @@ def _impact(
     left = np.append(nearest, nearest + np.flatnonzero(distance[nearest:] <= apart + _CLEAR * sigma))
     first, last = int(met[0]), int(left[-1])
     before, after = np.arange(time.size) < first, np.arange(time.size) > last
-    sticks = not after.any()
+    sticks, within = not after.any(), "two centres that come within the film"
+    if sticks and distance[nearest] > touch + _CLEAR * sigma:
+        problem = f"end {distance[nearest]:.4g} m apart, before the films meet at {touch:.4g} m"
+        raise InputError(f"tracks, {label}", None, within, problem)
+    if sticks and time.size - first < _LEAST:
+        frames = f"at least {_LEAST} frames after the films meet"
+        raise InputError(f"tracks, {label}", None, frames, f"end {time.size - first} frames after it")
     for part, side in ((before, "before the impact"), (after | sticks, "after the separation")):
         if part.sum() < _LEAST:
             problem = f"has {int(part.sum())} {side}"
@@ -177,8 +191,10 @@ def _impact(
     sigma = noise or math.sqrt(sum(one[2] for one in lines) / freedom)
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
     start, velocity = lines[0][0]
-    if abs(start[0] * velocity[1] - start[1] * velocity[0]) >= touch * np.linalg.norm(velocity):
-        raise InputError(f"tracks, {label}", None, "two centres that come within the film", "pass each other")
+    passing = abs(start[0] * velocity[1] - start[1] * velocity[0]) / np.linalg.norm(velocity)
+    if passing >= touch:
+        problem = f"pass each other at {passing:.4g} m, beyond {touch:.4g} m: is the scale or the diameter off?"
+        raise InputError(f"tracks, {label}", None, within, problem)
 
     def results(parameters: np.ndarray) -> np.ndarray:
         lines = (1 + parameters[-1]) * parameters[:-1].reshape(-1, 2, 2)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
@@ -103,13 +105,28 @@ class Critical:
             lines += aligned([["", *where], *([name, *(_slope(one, name) for one in self.rows)] for name in names)])
         return "\n".join(lines)
 
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each material and angle (rad); speeds in m/s."""
-        from ..formatting.frames import frame
-
+    def columns(self) -> dict[str, list[Any]]:
+        """A value for each material and angle (rad) by name; speeds in m/s."""
         names = ("material", "angle", "relative_speed", "low", "high", "speed", "stokes", "to", "bounces_above")
         records = [vars(one) | dict(zip(("low", "high"), one.interval or (None, None))) for one in self.rows]
-        return frame({name: [each[name] for each in records] for name in names})
+        return {name: [each[name] for each in records] for name in names}
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The columns as a DataFrame."""
+        from ..formatting.frames import frame
+
+        return frame(self.columns())
+
+    def to_csv(self) -> str:
+        """A row for each material and angle: speeds in m/s, angles in rad; empty where there is none."""
+        file, columns = io.StringIO(), self.columns()
+        writer = csv.writer(file, lineterminator="\n")
+        units = {"angle": " [rad]"} | dict.fromkeys(
+            ("relative_speed", "low", "high", "speed", "bounces_above"), " [m/s]"
+        )
+        writer.writerow([name + units.get(name, "") for name in columns])
+        writer.writerows(zip(*columns.values(), strict=True))
+        return file.getvalue()
 
     def _repr_html_(self) -> str:
         from ..formatting.notebook import view

@@ -73,6 +73,21 @@ def test_wrong_units_are_asked_about(change, question: str) -> None:
     assert {one.kind for one in others} <= {"restitution"}
 
 
+def test_what_does_not_come_out_is_named_and_no_contradiction_is_nothing_odd() -> None:
+    """A row that the scene contradicts is named; where most are, `Nothing odd` is not said."""
+    seen = {
+        "speed": [0.1, 0.2, 3.0, 4.0, 5.0],
+        "angle": [0.0] * 5,
+        "outcome": ["stick"] * 2 + ["bounce"] * 2 + ["stick"],
+    }
+    one = check_data(seen, "granulation")
+    assert one.differing == ("row 5",)
+    assert "Others do not: row 5." in str(one)
+    none = check_data(seen | {"outcome": ["bounce"] * 2 + ["stick"] * 3}, "granulation")
+    assert none.agreement == 0
+    assert "Nothing odd was found." not in str(none)
+
+
 def test_restitution_that_no_speed_gives() -> None:
     """Head-on nothing exceeds the dry restitution: 0.9 is impossible with 0.7, and a row below is not named."""
     scene = Scene.load("lactose-pvp").with_entries({"particles.dry_restitution": 0.7})

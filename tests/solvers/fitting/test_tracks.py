@@ -102,6 +102,22 @@ def test_the_table_is_read_by_fit(tmp_path: Path) -> None:
     assert one.low < true.liquid.viscosity < one.high
 
 
+def test_a_film_that_ends_before_contact_is_left_out() -> None:
+    """It is no stick: alone it is refused, beside another film it is named and the other one is given."""
+    film, rate, scene, _ = film_of("granulation", 0.2, 30, 0.2, 1)
+    distance = np.hypot(film["x2"] - film["x1"], film["y2"] - film["y1"])
+    end = int(np.argmin(distance)) - 3
+    short = {name: values[:end] for name, values in film.items()}
+    with pytest.raises(InputError, match="before the films meet"):
+        tracks(short, scene, rate=rate, scale=PIXEL)
+    labels = ["whole"] * distance.size + ["short"] * end
+    both = {name: np.concatenate([film[name], short[name]]) for name in film} | {"impact": labels}
+    found = tracks(both, scene, rate=rate, scale=PIXEL)
+    assert found.labels == ("whole",)
+    assert len(found.columns["speed"]) == 1
+    assert any("left out" in each and "impact short" in each for each in found.remarks)
+
+
 def test_what_is_wrong_is_named() -> None:
     """No scale, no rate, a missing column, too short a film, two that pass each other, a wall."""
     film, rate, scene, _ = film_of("granulation", 0.2, 30, 0.2, 1)
