@@ -54,10 +54,9 @@ def is_open(terms: np.ndarray, separated: np.ndarray, rtol: float) -> np.ndarray
 
 
 def named(scene: Scene, terms: np.ndarray) -> dict[str, np.ndarray]:
-    """The terms by name, and the residual; NaN where the scene has no such force."""
+    """The terms by name, without those of forces that the scene does not have, and the residual."""
     result = {name: terms[:, k] for k, name in enumerate(TERMS)} | {"residual": residual(terms)}
-    if scene.attraction is None:
-        result["attraction"] = np.full(len(terms), np.nan)
-    if scene.particles.friction is None:
-        del result["dry_friction"]
+    for name, cause in (("attraction", scene.attraction), ("dry_friction", scene.particles.friction)):
+        if cause is None:
+            del result[name]
     return result
