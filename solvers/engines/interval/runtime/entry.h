@@ -6,7 +6,7 @@ enum { UNPROVED, STICK, ROTATE, BOUNCE };
 enum reason { PROVED, TOO_MANY_STEPS, STEP_TOO_SMALL, GRAZE, ORDER, START, TOO_WIDE, TOO_MANY_REBOUNDS, CHATTER };
 enum event { AT_CONTACT, AT_FILM_IN, AT_FILM_OUT, AT_SHEAR_IN, AT_SHEAR_OUT, AT_RUPTURE, AT_GLASS, EVENTS };
 enum { RESULTS = 12, MOST_REBOUNDS = 200 };
-#define NO_SPEED 1e-9 /* slower rebounds rest in contact (derive/equations/automaton.py), which is not enclosed */
+#define NO_SPEED 1e-9 /* slower rebounds go on towards rest in contact, which is not enclosed */
 
 typedef struct {
     int order, most_steps, funnels; /* funnels: 0 none, 1 tried along the way */
