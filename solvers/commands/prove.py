@@ -34,7 +34,7 @@ def command(
     Examples:
       wetdoublet prove granulation --stokes 0.02 --angle 75
       wetdoublet prove granulation --stokes 0.3 --angle 20 --within liquid.viscosity="1.9:2.1 Pa s"
-      wetdoublet prove granulation --map --stokes log:0.005:0.5:26 --angle 5:85:26 --plot proved.png
+      wetdoublet prove granulation --map --stokes log:0.1:0.5:9 --angle 10:40:7 --plot proved.png
       wetdoublet prove granulation --boundary --stokes 0.05:0.5 --angle 10
 
     Options:
