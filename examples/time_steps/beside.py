@@ -42,7 +42,7 @@ def main(host: Host, script: str) -> int:
             speed, angle = stokes / scene.stokes_per_speed, float(np.radians(degrees))
             found = collide(scene, speed=speed, angle=angle)
             film = float(scene.material["film_thickness"])
-            time = 10 * film / speed if found.outcome == "stick" else found.contact_time
+            time = 10 * film / speed if found.contact_time is None else found.contact_time
             collisions.append([speed, angle, time / STEPS])
             expected.append(found)
     with tempfile.TemporaryDirectory() as folder:

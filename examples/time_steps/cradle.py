@@ -10,6 +10,7 @@ at once.
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 
@@ -17,6 +18,8 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from law import Force, History, Law, Motion, exported
+from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike
 from wetdoublet.solvers import Scene
 
 WORDS = ("fully agglomerated", "cradle", "reverse cradle", "fully separated")
@@ -26,7 +29,7 @@ COLOURS = ("#4c72b0", "#dd8452", "#55a868", "#c44e52")
 class Spheres:
     """Equal wet spheres in space, with a history for each pair."""
 
-    def __init__(self, law: Law, positions: np.ndarray, velocities: np.ndarray) -> None:
+    def __init__(self, law: Law, positions: ArrayLike, velocities: Any) -> None:
         self.law, self.x, self.v = law, np.array(positions, float), np.array(velocities, float)
         self.spin = np.zeros_like(self.x)
         self.mass, self.radius = 2 * law.material.reduced_mass, 2 * law.material.reduced_radius
@@ -97,7 +100,7 @@ def clusters(law: Law, strike: np.ndarray) -> dict[str, float]:
     film, apart = law.material.film_thickness, 4 * law.material.reduced_radius
     near, unit = apart + 0.3 * film, 1.0 / 20
     speed = float(np.linalg.norm(strike))
-    report = {}
+    report: dict[str, float] = {}
     for word, extra in (("sphere", 0), ("doublet", 1)):
         places = [[0, 0, 0], [0, near, 0], [-1.3 * apart, 0.6 * apart, 0], [-1.3 * apart - near, 0.6 * apart, 0]]
         moves = [[0, 0, 0.1 * speed], [0, 0, -0.1 * speed], strike, strike]
@@ -112,7 +115,8 @@ def clusters(law: Law, strike: np.ndarray) -> dict[str, float]:
             spheres.step(unit * film / speed)
             now = spheres.sums()
             worst = [
-                max(w, float(np.abs(a - b).max()) / s) for w, a, b, s in zip(worst, now, first, sizes, strict=False)
+                max(w, float(np.abs(a - b).max()) / s)
+                for w, a, b, s in zip(worst, now[:2], first[:2], sizes, strict=False)
             ]
             most = max(most, now[2] / first[2])
         report |= {f"{word}: momentum": worst[0], f"{word}: angular momentum": worst[1], f"{word}: energy": most}
@@ -154,7 +158,7 @@ def main() -> None:
         ax.set_xlabel("Stokes number of the striker")
         ax.set_ylabel(label)
         ax.set_title("target 0.1 of the film apart" if ax is axes[0] else f"{usual:g} Pa s", fontsize="medium")
-    handles = [plt.Line2D([], [], marker="s", ls="", color=c, label=w) for c, w in zip(COLOURS, WORDS, strict=True)]
+    handles = [Line2D([], [], marker="s", ls="", color=c, label=w) for c, w in zip(COLOURS, WORDS, strict=True)]
     figure.legend(handles=handles, loc="outside lower center", ncols=4)
     figure.savefig(out / "cradle.png", dpi=110)
     law.material.viscosity = usual

@@ -19,7 +19,8 @@ class Forces:
     """The law as a force in LAMMPS: atom_style sphere, fix nve/sphere, one process, no periodic images."""
 
     def __init__(self, host: Any, law: Law) -> None:
-        self.host, self.law, self.ended = host, law, {}
+        self.host, self.law = host, law
+        self.ended: dict[tuple[int, int], Any] = {}
         self.pairs: dict[tuple[int, int], History] = {}
         self.last: tuple[int, np.ndarray, np.ndarray] | None = None
         host.command("fix wet all external pf/callback 1 1")

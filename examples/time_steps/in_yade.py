@@ -19,7 +19,8 @@ class Forces:
     """The law as a force in YADE, of spheres of the law's own size."""
 
     def __init__(self, world: Any, law: Law) -> None:
-        self.world, self.law, self.ended = world, law, {}
+        self.world, self.law = world, law
+        self.ended: dict[tuple[int, int], Any] = {}
         self.pairs: dict[tuple[int, int], History] = {}
 
     def __call__(self) -> None:
@@ -65,7 +66,7 @@ def in_yade(job: dict[str, Any]) -> list[dict[str, Any]]:
             ball = sphere(tuple(place), radius, material=world.materials[0])
             world.bodies.append(ball)
             ball.state.vel = tuple(velocity)
-        builtins.forces = forces = Forces(world, law)
+        vars(builtins)["forces"] = forces = Forces(world, law)
         runner = PyRunner(command="import builtins; builtins.forces()", iterPeriod=1)
         world.engines = [ForceResetter(), runner, NewtonIntegrator(damping=0)]
         world.dt = dt
