@@ -64,7 +64,8 @@ def run(page: Path) -> list[str]:
         lines = [line for language, text in blocks(page) if language != "python" for line in commands(text, language)]
         if any(path.name in line for path in prepared for line in lines) or "--model mine" in " ".join(lines):
             _prepare(prepared, folder, environment)
-        shutil.copy(ROOT / "docs/data/synthetic-steel-spheres.csv", Path(folder) / "impacts.csv")
+        for data, name in DATA.items():
+            shutil.copy(ROOT / "docs/data" / data, Path(folder) / name)
         for path in prepared:
             if f"--new {path.stem} " in " ".join(lines):
                 path.unlink(missing_ok=True)  # the page makes it
@@ -79,6 +80,10 @@ def run(page: Path) -> list[str]:
     return failures
 
 
+DATA = {
+    "synthetic-steel-spheres.csv": "impacts.csv", "synthetic-films.csv": "films.csv", "materials.csv": "materials.csv",
+}  # fmt: skip
+"""Tables of the reader's, and what pages call them."""
 PREAMBLE = "import numpy as np\nst, theta = np.array([0.02, 0.03]), np.array([1.3, 1.3])\n"
 """What snippets take for given: arrays of Stokes numbers and angles."""
 
