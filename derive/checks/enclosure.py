@@ -2,12 +2,11 @@
 
 import sympy as sp
 
-from .base import Evidence, check, checks
+from .base import Evidence, check
 
 _h, _s, _r, _y = sp.symbols("h s r y", positive=True)  # distance, steepness, size of the rate, height
 
 
-@checks
 @check("bounds of a panel", "y' = r - s y, y(0) = 0: r h/(1 + s h) <= y(h) <= min(r h, r/s)")
 def relaxation_is_bounded() -> Evidence:
     """The implicit step is below the exact rise, the line and the level that it tends to are above it.
@@ -31,7 +30,6 @@ def relaxation_is_bounded() -> Evidence:
     yield sp.simplify(_r / _s - exact - _r * sp.exp(-_s * _h) / _s)  # the level is above by what is positive
 
 
-@checks
 @check("energy over the gap", "w = u^2/2: dw/dx = du/dt where u > 0, and its slope by w is that by u, over u")
 def gap_replaces_time() -> Evidence:
     """The chain rule behind the bounds over the gap, for any rate of the normal velocity."""
@@ -46,7 +44,6 @@ def gap_replaces_time() -> Evidence:
     yield sp.simplify((of_w - expected).doit())
 
 
-@checks
 @check("logarithm by one correction", "d - d^2 <= log(1 + d) <= d for |d| <= 1/2; exp: rest below 2 m^16/16!")
 def remainders_are_bounded() -> Evidence:
     """The bounds that the runtime's logarithm and exponential use.

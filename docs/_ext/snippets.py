@@ -81,7 +81,7 @@ def run(page: Path) -> list[str]:
 
 
 DATA = {
-    "synthetic-steel-spheres.csv": "impacts.csv", "synthetic-films.csv": "films.csv", "materials.csv": "materials.csv",
+    "synthetic-steel-spheres.csv": "impacts.csv", "films.csv": "films.csv", "materials.csv": "materials.csv",
 }  # fmt: skip
 """Tables of the reader's, and what pages call them."""
 PREAMBLE = "import numpy as np\nst, theta = np.array([0.02, 0.03]), np.array([1.3, 1.3])\n"

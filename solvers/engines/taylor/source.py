@@ -78,7 +78,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
     Arguments:
         emitted: its emitted headers.
     """
-    slots = dict(variant.choice.laws)
+    slots, own = dict(variant.choice.laws), has_events(variant.choice)
     settings = {
         "LANES": variant.lanes,
         "ORDER": variant.order,
@@ -86,6 +86,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "WITH_ROTATION": int(variant.rotation),
         "OWN_RUPTURE": int(variant.own_rupture),
         "GRADIENTS": int(variant.gradients),
+        "READS_SERIES": int(variant.gradients or own),
         "BACKWARD": int(variant.backward),
         "LIBRARY_LAWS": int(variant.choice.package is None),
         "WITH_LEDGER": int(variant.ledger),
@@ -97,7 +98,6 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
-    own = has_events(variant.choice)
     return {
         **({} if own else {"own_events.h": ""}),
         "settings.h": "\n".join(

@@ -93,7 +93,7 @@ SCHEDULED OUTLINE void expand(series *RESTRICT s, const constants *c, vec film, 
 SCHEDULED OUTLINE void expand(series *RESTRICT s, const constants *c, vec film, vec shear, mask moving)
 #endif
 {
-#if GRADIENTS || OWN_EVENTS || RUBS
+#if READS_SERIES || RUBS
     series *w = s;
     EVERY(TERM)
 #else
