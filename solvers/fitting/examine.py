@@ -77,7 +77,7 @@ class Checkup:
             more = " ..." if len(self.differing) > _NAMED else ""
             lines.append(f"Others do not: {', '.join(self.differing[:_NAMED])}{more}.")
         lines += ["", *(f"{one.kind}: {one.text}" for one in self.findings)]
-        if not self.findings and self.agreement < _POOR:
+        if self.agreement < _POOR and all(one.kind != "units" for one in self.findings):
             lines.append("The data contradict the scene as it is: units, the kind of speed or entries may be far off.")
         elif not self.findings:
             lines.append("Nothing odd was found.")

@@ -216,6 +216,9 @@ def _impact(
     values = dict.fromkeys((*_NAMES, *(f"{name}_sd" for name in _NAMES)), math.nan)
     for name, value, error in zip(_NAMES, results(centre), sd):
         values |= {name: float(value), f"{name}_sd": float(error)}
+    if not sticks and not values["contact_time"] > 0:
+        problem = f"last {values['contact_time']:.3g} s: is the scale or the rate off?"
+        raise InputError(f"tracks, {label}", None, "contacts that take time", problem)
     remark = ""
     if values["angle"] <= _SIDEWAYS * values["angle_sd"] and not sticks:
         values |= dict.fromkeys((*_SIGNED, *(f"{name}_sd" for name in _SIGNED)), math.nan)
@@ -266,5 +269,7 @@ def _numbers(column: Column, si: str, plain: float | None, option: str) -> np.nd
     try:
         numbers = np.array([float(cell) for cell in column.cells])
     except (TypeError, ValueError):
-        raise InputError("tracks", column.name, "numbers in every row", "has a cell that is none") from None
+        numbers = np.array([np.nan])
+    if not np.isfinite(numbers).all():
+        raise InputError("tracks", column.name, "numbers in every row", "has a cell that is none")
     return factor * numbers
