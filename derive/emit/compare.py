@@ -98,7 +98,7 @@ def same(one: sp.Expr, other: sp.Expr) -> bool:
 def _terms(name: str, before: sp.Expr, after: sp.Expr) -> Iterable[Change]:
     old, new = list(sp.Add.make_args(before)), list(sp.Add.make_args(after))
     # equal terms; those that differ in a numeric factor only; those of the same symbols
-    same_factors = lambda one, other: one.as_coeff_Mul()[1] == other.as_coeff_Mul()[1]  # noqa: E731
+    same_factors = lambda one, other: one.as_coeff_Mul()[1] == other.as_coeff_Mul()[1]  # noqa: E731 -- like its neighbours
     for alike in (same, same_factors, lambda one, other: _symbols(one) == _symbols(other)):
         for term in list(old):
             match = next((other for other in new if alike(term, other)), None)

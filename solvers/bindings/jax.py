@@ -16,8 +16,8 @@ from .pointwise import OUTCOME, pointwise
 
 required("jax", "jax")
 import jax  # noqa: E402 # after the check that it is there
-from jax import numpy as jnp  # noqa: E402
-from jax.custom_derivatives import SymbolicZero  # noqa: E402
+from jax import numpy as jnp  # noqa: E402 # as above
+from jax.custom_derivatives import SymbolicZero  # noqa: E402 # as above
 
 __all__ = ["law"]
 

@@ -49,7 +49,7 @@ class Checkup:
     """The result of `check_data`.
 
     Attributes:
-        findings: what is odd; kinds "units", "energy", "restitution", "outlier", "duplicate".
+        findings: what is odd; kinds "units", "energy", "restitution", "outlier", "duplicate", "contradiction".
         agreement: share of the impacts that come out as observed with the scene as it is.
         differing: labels of the impacts that do not.
         telling: entry -> number of impacts that would visibly differ if it were twice or half as large.
@@ -76,11 +76,7 @@ class Checkup:
         if self.differing and self.agreement >= _POOR:
             more = " ..." if len(self.differing) > _NAMED else ""
             lines.append(f"Others do not: {', '.join(self.differing[:_NAMED])}{more}.")
-        lines += ["", *(f"{one.kind}: {one.text}" for one in self.findings)]
-        if self.agreement < _POOR and all(one.kind != "units" for one in self.findings):
-            lines.append("The data contradict the scene as it is: units, the kind of speed or entries may be far off.")
-        elif not self.findings:
-            lines.append("Nothing odd was found.")
+        lines += ["", *([f"{one.kind}: {one.text}" for one in self.findings] or ["Nothing odd was found."])]
         lines += ["", "Impacts that would differ visibly if an entry were half or twice as large (fractions: by 0.1)"]
         lines += aligned([[name, str(count)] for name, count in self.telling.items() if count] or [[""]])
         untold = ", ".join(name for name, count in self.telling.items() if not count)
@@ -111,10 +107,13 @@ def check_data(data: Any, scene: Scene | str | Path) -> Checkup:
     loaded = Scene.load(scene)
     table = read_data(data, loaded)
     seen = _predicted(_as_it_is(loaded, table), table)
-    findings = tuple(examine(loaded, table))
+    findings = examine(loaded, table)
+    if seen.agreement < _POOR and all(one.kind != "units" for one in findings):
+        text = "the data contradict the scene as it is: units, the kind of speed or entries may be far off"
+        findings.append(Finding("contradiction", (), text))
     differing = tuple(table.label(int(k)) for k in np.flatnonzero(~seen.agrees))
     return Checkup(
-        table, loaded, findings, seen.agreement, differing, _telling(loaded, table, seen), tuple(_notes(table))
+        table, loaded, tuple(findings), seen.agreement, differing, _telling(loaded, table, seen), tuple(_notes(table))
     )
 
 

@@ -28,6 +28,8 @@ _NAMES = ("speed", "angle", *_MEASURED)
 _UNITS = {"speed": "m/s", "angle": "deg", "contact_time": "s", "rotation": "deg"}
 _CLEAR = 4.0  # standard deviations of the noise by which a pair is apart
 _LEAST = 4  # frames of a line
+_STRAY = 10.0  # times the usual distance from a line, which a frame of a film that is tracked well does not reach
+_ROUNDING = 1e-9  # of positions, over the distance of the centres
 _SIDEWAYS = 3.0  # standard deviations from which an impact is oblique
 _STEP = 1e-2  # of differences, over the standard deviation of a parameter
 _FASTEST = math.pi / 2  # rotation between two frames from which turns may have been missed
@@ -185,16 +187,24 @@ def _impact(
         if part.sum() < _LEAST:
             problem = f"has {int(part.sum())} {side}"
             raise InputError(f"tracks, {label}", None, f"at least {_LEAST} frames {side}", problem)
-    time = time - time[first]
+    since_first, time = float(time[first]), time - time[first]
     lines = [_line(time, relative, part) for part in ((before,) if sticks else (before, after))]
     freedom = sum(2 * int(each.sum()) - 4 for each in (before, after) if each.any())
     sigma = noise or math.sqrt(sum(one[2] for one in lines) / freedom)
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
-    start, velocity = lines[0][0]
-    passing = abs(start[0] * velocity[1] - start[1] * velocity[0]) / np.linalg.norm(velocity)
-    if passing >= touch:
-        problem = f"pass each other at {passing:.4g} m, beyond {touch:.4g} m: is the scale or the diameter off?"
-        raise InputError(f"tracks, {label}", None, within, problem)
+    places = [(before, touch, lines[0])] + ([] if sticks else [(after, apart, lines[1])])
+    for part, reach, (line, _, _) in places:
+        passing = abs(line[0, 0] * line[1, 1] - line[0, 1] * line[1, 0]) / np.linalg.norm(line[1])
+        if passing >= reach:
+            problem = f"pass each other at {passing:.4g} m, beyond {reach:.4g} m: is the scale or the diameter off?"
+            raise InputError(f"tracks, {label}", None, within, problem)
+        off = np.linalg.norm(relative[part] - line[0] - time[part, None] * line[1], axis=1)
+        worst, usual = int(np.argmax(off)), max(float(np.median(off)), noise or 0.0)
+        if off[worst] > _STRAY * usual + _ROUNDING * touch:
+            problem = (
+                f"{off[worst]:.3g} m off its line at {since_first + time[part][worst]:.6g} s, others {usual:.2g} m"
+            )
+            raise InputError(f"tracks, {label}", None, "positions along straight lines", problem)
 
     def results(parameters: np.ndarray) -> np.ndarray:
         lines = (1 + parameters[-1]) * parameters[:-1].reshape(-1, 2, 2)

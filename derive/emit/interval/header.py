@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import sympy as sp
 
 from ...equations.events import CONTACT_GAPS, contact_gap
+from ...equations.functions import ModelFunction
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import Law, needed, slot_call
@@ -229,12 +230,12 @@ def _value(
     model: Model,
     constants: Constants,
     head: str,
-    source: object,
+    source: ModelFunction,
     targets: Mapping[str, str],
     outputs: Mapping[str, sp.Expr] | None = None,
 ) -> list[str]:
     """A C function of the states `y`; its targets are C text, or "return"."""
-    by_name = source.by_name if outputs is None else outputs  # type: ignore[attr-defined]
+    by_name = source.by_name if outputs is None else outputs
     wanted = {key: sp.sympify(by_name[key]) for key in targets}
     places = {state: f"y[{state.name.upper()}]" for state in model.states}
     definitions, _ = needed(list(wanted.values()), model.definitions)
@@ -247,4 +248,4 @@ def _value(
     for key, value in wanted.items():
         text = dual(value, name)
         body.append(f"return {text};" if targets[key] == "return" else f"{targets[key]} = {text};")
-    return documented(source.doc, head, body)  # type: ignore[attr-defined]
+    return documented(source.doc, head, body)

@@ -4,6 +4,7 @@ import ctypes
 import re
 import threading
 from dataclasses import dataclass, field
+from enum import IntEnum
 from pathlib import Path
 
 from ...host import emitted
@@ -16,11 +17,26 @@ from ..machine import here
 
 RUNTIME = Path(__file__).resolve().parent / "runtime"
 TERMS = 24  # coefficients of a series
+RESULTS = 12
 # Products are not fused and operations not moved across a change of the rounding mode; `interval_start` tests it.
 FLAGS = ("-O2", "-frounding-math", "-ffp-contract=off", "-fno-math-errno", "-fvisibility=hidden", "-fPIC", "-shared",
          "-std=gnu11", "-w")  # fmt: skip
 _LINES = re.compile(r'^#(?:include "[^"]*"|pragma once)\n', re.MULTILINE)
 _ERROR = "#error "
+
+
+class Why(IntEnum):
+    """Why a collision was proved or not, in the engine and here."""
+
+    PROVED = 0
+    TOO_MANY_STEPS = 1
+    STEP_TOO_SMALL = 2
+    GRAZE = 3
+    ORDER = 4
+    START = 5
+    TOO_WIDE = 6
+    TOO_MANY_REBOUNDS = 7
+    CHATTER = 8
 
 
 class NotProvable(Exception):
@@ -58,15 +74,17 @@ def source(choice: ModelKey, own_rupture: bool, parameters: int) -> str:
     states, constants = structure.split('#include "series.h"\n')
     distance = "bridge_rupture_distance" if own_rupture else "d_mul"
     settings = {
-        "PARAMETERS": parameters, "TERMS": TERMS, "OWN_RUPTURE": int(own_rupture), "BRIDGE_RUPTURE_DISTANCE": distance,
+        "PARAMETERS": parameters, "TERMS": TERMS, "RESULTS": RESULTS,
+        "OWN_RUPTURE": int(own_rupture), "BRIDGE_RUPTURE_DISTANCE": distance,
     }  # fmt: skip
     runtime = {name: (RUNTIME / f"{name}.h").read_text() for name in _RUNTIME}
-    parts = [*(f"#define {name} {value}\n" for name, value in settings.items()), states]
+    reasons = f"enum reason {{ {', '.join(Why.__members__)} }};\n"
+    parts = [*(f"#define {name} {value}\n" for name, value in settings.items()), reasons, states]
     parts += [runtime["interval"], runtime["series"], *laws, constants, *(runtime[name] for name in _RUNTIME[2:])]
     return _LINES.sub("", "".join(parts))
 
 
-_RUNTIME = ("interval", "series", "set", "barrier", "funnel", "entry")
+_RUNTIME = ("interval", "series", "set", "barrier", "funnel", "events", "step", "entry")
 
 
 @once

@@ -4,30 +4,14 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Mapping
-from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from .build import TERMS, Engine
+from .build import RESULTS, TERMS, Engine, Why
 
-_RESULTS = 12
 _ALIGNED = 64  # bytes
 Range = tuple[float, float]
-
-
-class Why(IntEnum):
-    """Why a collision was proved or not, as `runtime/entry.h` numbers it."""
-
-    PROVED = 0
-    TOO_MANY_STEPS = 1
-    STEP_TOO_SMALL = 2
-    GRAZE = 3
-    ORDER = 4
-    START = 5
-    TOO_WIDE = 6
-    TOO_MANY_REBOUNDS = 7
-    CHATTER = 8
 
 
 REASONS = {
@@ -90,7 +74,7 @@ def enclose(engine: Engine, ranges: Mapping[str, Range], moving: tuple[str, ...]
     assert settings.order + 2 <= TERMS
     pairs = np.array([ranges.get(name, (np.nan, np.nan)) for name in engine.quantities])
     columns = np.array([moving.index(name) if name in moving else -1 for name in engine.quantities], np.int32)
-    result, numbers = np.empty(_RESULTS), np.array(settings, float)
+    result, numbers = np.empty(RESULTS), np.array(settings, float)
     room = getattr(engine.rooms, "room", None)  # of this thread
     if room is None:
         room = engine.rooms.room = ctypes.create_string_buffer(engine.room + _ALIGNED)

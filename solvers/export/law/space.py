@@ -91,7 +91,7 @@ Members = tuple[tuple[str, str, tuple[int, ...], str], ...]
 
 def callers(scene: Scene) -> tuple[str, ...]:
     """C files behind the kernels."""
-    forces = () if no_forces(scene) else ("force.h",)
+    forces = () if no_forces(scene) else ("substep.h", "whirl.h", "force.h")
     return "planar_end.h", "beside_wall.h" if scene.wall else "two_spheres.h", "in_space.h", "particles.h", *forces
 
 

@@ -85,6 +85,7 @@ def test_what_does_not_come_out_is_named_and_no_contradiction_is_nothing_odd() -
     assert "Others do not: row 5." in str(one)
     none = check_data(seen | {"outcome": ["bounce"] * 2 + ["stick"] * 3}, "granulation")
     assert none.agreement == 0
+    assert none.findings[-1].kind == "contradiction"
     assert "Nothing odd was found." not in str(none)
 
 

@@ -118,6 +118,19 @@ def test_a_film_that_ends_before_contact_is_left_out() -> None:
     assert any("left out" in each and "impact short" in each for each in found.remarks)
 
 
+def test_a_frame_that_is_tracked_wrongly_is_named() -> None:
+    """20 px beside its line, which would widen every uncertainty; so are contacts that would take no time."""
+    film, rate, scene, _ = film_of("granulation", 0.2, 30, 0.2, 1)
+    stray = film | {"y2": np.array(film["y2"])}
+    stray["y2"][5] += 20
+    with pytest.raises(InputError, match="off its line"):
+        tracks(stray, scene, rate=rate, scale=PIXEL)
+    with pytest.raises(InputError, match="is the scale or the"):
+        tracks(film, scene, rate=rate, scale=3 * PIXEL)
+    with pytest.raises(InputError, match="has a cell that is none"):
+        tracks(film | {"x1": [np.nan, *film["x1"][1:]]}, scene, rate=rate, scale=PIXEL)
+
+
 def test_what_is_wrong_is_named() -> None:
     """No scale, no rate, a missing column, too short a film, two that pass each other, a wall."""
     film, rate, scene, _ = film_of("granulation", 0.2, 30, 0.2, 1)
