@@ -16,12 +16,13 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from wetdoublet.generated.automaton import Purpose
-from wetdoublet.solvers import Scene
+from wetdoublet.solvers import InputError, Scene, prove
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
 from wetdoublet.solvers.engines.taylor.in_space import run_in_space
 from wetdoublet.solvers.engines.taylor.record import run_recorded
@@ -183,6 +184,19 @@ def collide_reference(case: dict[str, Any]) -> None:
     assert abs(answer["shown"][0] - expected["restitution"]) < 1e-4
 
 
+def enclose_random(preset: str, count: int) -> None:
+    """Prove random collisions and boxes of a preset, of speeds and angles that no particles have, too."""
+    random = np.random.default_rng(count)
+    extremes = [(1e-300, 1.0), (1e300, 0.5), (1e-8, 1.5707), (1e8, 1e-9)]
+    speeds, angles = np.exp(random.uniform(np.log(1e-4), np.log(30), count)), random.uniform(0.01, 1.55, count)
+    proved = 0
+    for k, (stokes, angle) in enumerate([*extremes, *zip(speeds.tolist(), angles.tolist(), strict=True)]):
+        within = None if k % 2 else float(10 ** random.uniform(-6, -1))
+        with suppress(InputError):
+            proved += bool(prove(preset, stokes=stokes, angle=angle, within=within))
+    assert proved > count / 2
+
+
 def process(what: list[Any], folder: Path) -> subprocess.CompletedProcess[str]:
     """Have a fresh process do it, with the sanitizers and a cache in this folder."""
     environment = os.environ | {
@@ -218,6 +232,8 @@ def _inside(what: list[Any]) -> None:
             for case in REFERENCE:
                 if arguments[0] in (None, case["name"]):
                     collide_reference(case)
+        elif name == "enclosed":
+            enclose_random(*arguments)
         elif not replay(*arguments):
             missing.append(" ".join(map(str, arguments)))
     if missing:

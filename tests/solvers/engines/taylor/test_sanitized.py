@@ -1,4 +1,4 @@
-"""The kernel writes and reads nothing that is not its own, and does nothing that C leaves undefined.
+"""The kernel and the engine of enclosures use no memory that is not theirs, and do nothing that C leaves undefined.
 
 A sample that compiles quickly; `python tests/helpers/sanitized.py` integrates everything.
 """
@@ -19,6 +19,7 @@ SAMPLE: list[list[Any]] = [
     ["random", "film alone", "steps not kept", True, 1000],
     ["random", "granulation", "forwards", False, 1000],
     ["random", "granulation", "backwards", False, 1000],
+    ["enclosed", "granulation", 60],
 ]
 
 
