@@ -8,7 +8,7 @@
 #include "automaton.h"
 #include "state.h"
 
-static const double SHARP = 2e-13; /* tolerances below this are halved: errors of many steps accumulate */
+static const double PER_STEP = 0.5; /* errors of the steps add up: with it e_n keeps rtol times its conditioning */
 #if OBLIQUE
 static const double TIGHTEST = 1e-14;
 #endif
@@ -17,7 +17,7 @@ static const double TIGHTEST = 1e-14;
 static unsigned set_tolerance(const queue *q, fixed *f)
 {
     unsigned beyond = 0;
-    double rtol = q->rtol < SHARP ? 0.5*q->rtol : q->rtol;
+    double rtol = PER_STEP*q->rtol;
     f->tolerance = splat(rtol);
     f->rest = splat(SLOW);
 #if OBLIQUE
