@@ -42,7 +42,7 @@ LOOP = """
 void one_by_one(const {name}_material *m, const {name}_impact *impacts, long count, {name}_collision *found)
 {{
     for (long k = 0; k < count; k++)
-        {name}_collide(m, impacts + k, 1e-9, found + k);
+        {name}_collide(m, impacts + k, 1e-9, 0, found + k);
 }}
 """
 
