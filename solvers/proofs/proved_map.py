@@ -9,20 +9,25 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from ...generated.automaton import OUTCOMES
+import numpy as np
+
+from ...generated.automaton import OUTCOMES, ROTATE
 from ..engines.interval.build import NotProvable
 from ..engines.interval.call import BOX, enclose
 from ..engines.interval.inputs import Inputs
 from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
+from ..many.collide_many import collide_many
 from ..scene.origin import origin
 from ..scene.scene import Scene
 from .cells import UNDECIDED, Cell
 
 DEPTH = 12  # halvings of a cell
 _MOVING = ("stokes", "angle")
+_POINTS = 6  # collisions along each side of a cell that say where a proof is worth a try
+_ROTATE = OUTCOMES.index(ROTATE)
 
 
 @dataclass(frozen=True)
@@ -117,22 +122,23 @@ def prove_map(
         engine = inputs.engine()
     except NotProvable as error:
         raise ComputationError(f"not provable here: {error}") from None
+    guide = _Guide.of(loaded, stokes, angle)
     asked = 0
 
-    def outcome(box: Cell) -> int:
-        ranges = inputs.ranges | {"stokes": box.stokes, "angle": box.angle}  # type: ignore[operator]
-        return enclose(engine, ranges, inputs.moving, BOX).outcome - 1
+    def decided(cell: Cell, left: int) -> Iterator[tuple[Cell, bool]]:
+        expected = guide.expected(cell)
+        if expected is not None or not left:
+            ranges = inputs.ranges | {"stokes": cell.stokes, "angle": cell.angle}  # type: ignore[operator]
+            settings = BOX._replace(funnels=1) if expected == _ROTATE else BOX
+            number = enclose(engine, ranges, inputs.moving, settings).outcome - 1
+            yield cell._replace(outcome=number), number >= 0 or not left
+            if number >= 0:
+                return
+        if left:
+            for half in _halves(cell):
+                yield from decided(half, left - 1)
 
-    def decided(cell: Cell, left: int) -> Iterator[tuple[Cell, int]]:
-        number = outcome(cell)
-        if number >= 0 or not left:
-            yield cell._replace(outcome=number), 1
-            return
-        for half in _halves(cell):
-            yield from decided(half, left - 1)
-        yield cell, 0  # an attempt
-
-    def whole(cell: Cell) -> list[tuple[Cell, int]]:
+    def whole(cell: Cell) -> list[tuple[Cell, bool]]:
         return list(decided(cell, depth))
 
     pairs = [list(zip(map(float, edges), map(float, edges[1:]), strict=False)) for edges in (stokes, angle)]
@@ -145,6 +151,32 @@ def prove_map(
             if progress is not None:
                 progress(done, len(start))
     return ProvedMap(loaded, tuple(cells), asked)
+
+
+class _Guide(NamedTuple):
+    """Outcomes of collisions on a grid; they prove nothing, but no box is tried that holds two of them."""
+
+    stokes: np.ndarray
+    angle: np.ndarray
+    outcome: np.ndarray
+
+    @classmethod
+    def of(cls, scene: Scene, stokes: Sequence[float], angle: Sequence[float]) -> _Guide:
+        parts = (np.arange(_POINTS) + 0.5) / _POINTS
+        rows = np.exp([a + (b - a) * parts for a, b in itertools.pairwise(np.log(stokes))]).ravel()
+        columns = np.concatenate([a + (b - a) * parts for a, b in itertools.pairwise(angle)])
+        return cls(
+            rows, columns, collide_many(scene, stokes=rows[:, None], angle=columns, of=("outcome",)).outcome.values
+        )
+
+    def expected(self, cell: Cell) -> int | None:
+        """The outcome of the grid's points in a cell, or of the one next to it; None where there are two."""
+        (low, high), (left, right) = (
+            np.searchsorted(each, ends) for each, ends in ((self.stokes, cell.stokes), (self.angle, cell.angle))
+        )
+        last, end = (size - 1 for size in self.outcome.shape)
+        inside = self.outcome[min(low, last) : max(high, low + 1), min(left, end) : max(right, left + 1)]
+        return int(inside.flat[0]) if np.ptp(inside) == 0 else None
 
 
 def _halves(cell: Cell) -> tuple[Cell, Cell]:

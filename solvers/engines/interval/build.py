@@ -84,7 +84,7 @@ def source(choice: ModelKey, own_rupture: bool, parameters: int) -> str:
     return _LINES.sub("", "".join(parts))
 
 
-_RUNTIME = ("interval", "series", "set", "barrier", "funnel", "events", "step", "entry")
+_RUNTIME = ("interval", "series", "set", "barrier", "funnel", "events", "approach", "step", "entry")
 
 
 @once

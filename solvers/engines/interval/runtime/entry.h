@@ -24,7 +24,8 @@ static int begin(proof *w)
 static void prove(proof *w, const options *o)
 {
     int since = 1 << 20, wait = 3;
-    if (!begin(w))
+    double slow = 0.2; /* approach at which a turn is looked for */
+    if (!begin(w) || (o->funnels > 1 && !w->rebounds && approach(w, o)))
         return;
     while (w->steps < o->most_steps) {
         iv x[STATES], speed;
@@ -42,6 +43,15 @@ static void prove(proof *w, const options *o)
         if (w->wall.known && below_barrier(&w->p, &w->wall, x)) {
             end(w, STICK, PROVED);
             return;
+        }
+        if (PARAMETERS && o->funnels && !w->rebounds && iv_lo(x[NORMAL_VELOCITY]) < 0.0 &&
+            -iv_lo(x[NORMAL_VELOCITY]) < slow && in_shear(w)) {
+            const region here = w->here;
+            slow = -0.7*iv_lo(x[NORMAL_VELOCITY]);
+            if (turns_apart(w, x, o->panel))
+                return;
+            w->here = here;
+            enter_region(&w->p, here);
         }
         if (o->funnels && ++since > wait && iv_positive(x[NORMAL_VELOCITY]) &&
             iv_hi(x[GAP]) < iv_lo(w->p.level[RUPTURE_GAP].v)) {

@@ -1,6 +1,7 @@
 #pragma once
-/* Bounds of the states over the gap while the pair opens (Mueller): w = u^2/2 with dw/dx = a, and y' = f/u for the others.
- * Each end moves by its own rate on its own face of the box, the other states anywhere within theirs. */
+/* Bounds of the states over the distance that the gap has passed, opening or closing (Mueller): w = u^2/2 with dw/dx = a,
+ * and dy/ds = f/|u| for the others. Each end moves by its own rate on its own face of the box, the other states anywhere
+ * within theirs. */
 #include "set.h"
 
 enum { OPENING = STATES - 1 }; /* w, then the states behind the normal velocity */
@@ -48,35 +49,42 @@ typedef struct {
     double low[OPENING], high[OPENING];
 } bounds;
 
-static void box_of(const bounds *b, iv *x)
+enum direction { APART, TOGETHER };
+
+static iv along(enum direction way, iv x)
 {
-    x[NORMAL_VELOCITY] = speed_of(b->low[0], b->high[0]);
+    return way == TOGETHER ? iv_neg(x) : x;
+}
+
+static void box_of(enum direction way, const bounds *b, iv *x)
+{
+    x[NORMAL_VELOCITY] = along(way, speed_of(b->low[0], b->high[0]));
     for (int i = 1; i < OPENING; i++)
         x[i + 1] = iv_of(b->low[i], b->high[i]);
 }
 
 /* Bounds after the panel `gap`, whose trajectories start within it at once or along it; false if the guess was too
  * narrow, which `guess` then is wider. */
-static int cross(const problem *p, flow *s, iv gap, iv h, const bounds *now, bounds *guess, bounds *after)
+static int cross(enum direction way, const problem *p, flow *s, iv gap, iv h, const bounds *now, bounds *guess, bounds *after)
 {
     iv x[STATES], rate[STATES], own[STATES], face[STATES];
     if (!(guess->low[0] > 0.0))
         return 0;
     x[GAP] = gap;
-    box_of(guess, x);
+    box_of(way, guess, x);
     field(p, s, x, rate, own);
-    const iv over = iv_inverse(x[NORMAL_VELOCITY]);
+    const iv over = iv_inverse(along(way, x[NORMAL_VELOCITY]));
     int good = 1;
     for (int i = 0; i < OPENING; i++) {
         const iv slope = iv_mul(own[i + 1], over);
-        const iv whole = i ? iv_mul(rate[i + 1], over) : rate[1];
+        const iv whole = i ? iv_mul(rate[i + 1], over) : along(way, rate[1]);
         for (int up = 0; up < 2; up++) {
             const double from = up ? now->high[i] : now->low[i];
             memcpy(face, x, sizeof face);
-            face[i + 1] = i ? iv_point(from) : speed_of(from, from);
+            face[i + 1] = i ? iv_point(from) : along(way, speed_of(from, from));
             iv there[STATES];
             field(p, s, face, there, NULL);
-            iv r = i ? iv_mul(there[i + 1], iv_inverse(face[NORMAL_VELOCITY])) : there[1];
+            iv r = i ? iv_mul(there[i + 1], iv_inverse(along(way, face[NORMAL_VELOCITY]))) : along(way, there[1]);
             if (up) { /* -y */
                 after->high[i] = from - lower_change(h, -iv_hi(r), slope, -iv_hi(whole));
                 good &= larger(from, after->high[i]) < guess->high[i];
@@ -98,11 +106,27 @@ static int cross(const problem *p, flow *s, iv gap, iv h, const bounds *now, bou
     return good;
 }
 
+/* Bounds after a panel, by a few guesses of those within it. */
+static int crosses(enum direction way, const problem *p, flow *s, iv gap, iv h, double panel, const bounds *now, bounds *after)
+{
+    bounds guess;
+    for (int i = 0; i < OPENING; i++) {
+        double room = (i ? 0.02 : 0.1)*(panel/0.01 + 0.1)*larger(fabs(now->high[i]), fabs(now->low[i])) +
+            0.3*(now->high[i] - now->low[i]);
+        guess.low[i] = i ? now->low[i] - room : larger(now->low[i] - room, 0.7*now->low[i]);
+        guess.high[i] = now->high[i] + room;
+    }
+    for (int trial = 0; trial < 4; trial++)
+        if (cross(way, p, s, gap, h, now, &guess, after))
+            return 1;
+    return 0;
+}
+
 /* True if every trajectory from the box opens up to the rupture gap; `speed` encloses u there. The region is left as it is
  * at the end. */
 static int funnel(problem *p, flow *s, const iv *x, region at_start, double panel, iv *speed, long *panels)
 {
-    bounds now, after, guess;
+    bounds now, after;
     const iv w = iv_mul(iv_point(0.5), iv_square(x[NORMAL_VELOCITY])), edge = p->level[TANGENTIAL_EDGE].v;
     const double last = iv_hi(p->level[RUPTURE_GAP].v), width = panel;
     region here = at_start;
@@ -116,7 +140,7 @@ static int funnel(problem *p, flow *s, const iv *x, region at_start, double pane
     }
     if (!iv_positive(x[NORMAL_VELOCITY]) || !iv_positive(x[GAP]))
         return 0;
-    for (long n = 0; n < 20000 && now.low[0] > 0.0; n++) {
+    for (long n = 0; n < 12.0/width && now.low[0] > 0.0; n++) {
         double to = start ? iv_hi(x[GAP]) : at*(1.0 + panel);
         const double film_end = here.film ? 1.0 : INFINITY;
         const double shear_end = iv_hi(here.shear) > 0.0 ? iv_lo(here.shear) > 0.0 ? iv_lo(edge) : iv_hi(edge) : INFINITY;
@@ -133,16 +157,8 @@ static int funnel(problem *p, flow *s, const iv *x, region at_start, double pane
         to = start ? to : smaller(smaller(to, last), smaller(film_end, shear_end));
         const iv gap = iv_of(at, to), length = iv_sub(iv_point(to), iv_point(at));
         const iv h = start ? iv_of(0.0, iv_hi(length)) : length;
-        for (int i = 0; i < OPENING; i++) {
-            double room = (i ? 0.02 : 0.1)*(panel/0.01 + 0.1)*fabs(now.high[i]) + 0.3*(now.high[i] - now.low[i]);
-            guess.low[i] = i ? now.low[i] - room : larger(now.low[i] - room, 0.7*now.low[i]);
-            guess.high[i] = now.high[i] + room;
-        }
-        int good = 0;
-        for (int trial = 0; trial < 4 && !good; trial++)
-            good = cross(p, s, gap, h, &now, &guess, &after);
         ++*panels;
-        if (!good) {
+        if (!crosses(APART, p, s, gap, h, panel, &now, &after)) {
             panel *= 0.5;
             if (start || panel < 0.01*width)
                 return 0;

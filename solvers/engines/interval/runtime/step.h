@@ -1,6 +1,6 @@
 #pragma once
 /* A step of a proof, up to the next event and across it. */
-#include "events.h"
+#include "approach.h"
 
 /* A box that the motion does not leave within a step, and the length of that step; K terms are known over `x`. */
 static int a_priori(proof *w, const options *o, const iv *x, double width, iv *box, iv *power)
