@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import ComputationError
 from .free_entries import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE, FreeEntries
-from .likelihood import Likelihood
+from .joint import Joint
 from .optimise import Objective, Optimum, maximum_with_aiming, rough_maximum, whitening
 from .scatter import COARSE, Resolution
 
@@ -50,7 +50,7 @@ class End:
     wall: bool = False
 
 
-def intervals(likelihood: Likelihood, free: FreeEntries, best: Optimum) -> tuple[Optimum, list[list[End]]]:
+def intervals(likelihood: Joint, free: FreeEntries, best: Optimum) -> tuple[Optimum, list[list[End]]]:
     """The maximum, and for each entry the ends of its interval below and above.
 
     A more likely point that is met on the way becomes the maximum.

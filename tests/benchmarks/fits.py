@@ -3,7 +3,9 @@
 `python -m tests.benchmarks.fits 200 --seed 1 -o fits.jsonl` draws scenes near the presets, impacts of which some stick,
 and measurements with the scatter and noise that the likelihood assumes, starts each fit from the preset's values, and
 prints in how many intervals the truth lies. A verdict is right if the fit of the same impacts without scatter and noise
-gives it. With `--read FILE` it only prints the summary of what was written.
+gives it. With `--liquids 3` each experiment is a joint fit: three scenes that differ in viscosity and share the other
+entries, a table of 10 to 20 impacts of each, and the noise of the restitution, which is free, is not as the data say.
+With `--read FILE` it only prints the summary of what was written.
 """
 
 from __future__ import annotations
@@ -24,6 +26,47 @@ from tests.helpers.synthetic import drawn
 from .near_presets import ANGLES, ENTRIES, NOISE, drawn_truth, repeat, window_of
 
 ROWS = (20, 60)
+OWN, SHARED_NOISE, TABLE, APART = "liquid.viscosity", "noise.restitution", (10, 20), np.log(2.0)
+
+
+def joint(seed: int, liquids: int) -> dict[str, object]:
+    """One experiment with several liquids, and its fit."""
+    random = np.random.default_rng(seed)
+    while True:
+        preset, truth = drawn_truth(random, ENTRIES[0])
+        truth = dict([*(each for each in truth.items() if each[0] != OWN)][:1])
+        values = preset.entries[OWN] * np.exp(random.uniform(-APART, APART, liquids))
+        try:
+            scenes = [preset.with_si(truth | {OWN: value}) for value in values.tolist()]
+            windows = [window_of(each) for each in scenes]
+        except InputError:
+            continue
+        if all(windows):
+            break
+    noise, scatter, factor = (
+        random.uniform(*NOISE),
+        random.uniform(*NOISE),
+        float(np.exp(random.uniform(-APART, APART))),
+    )
+    tables = []
+    for k, (scene, window) in enumerate(zip(scenes, windows, strict=True)):
+        rows = int(random.integers(TABLE[0], TABLE[1] + 1))
+        speed = np.exp(random.uniform(*np.log(window), rows)) / scene.stokes_per_speed
+        plan = Measurements(
+            speed, random.uniform(*ANGLES, rows), scatter * speed, np.full(rows, np.radians(random.uniform(0.5, 2.0))),
+            np.full(rows, UNKNOWN), {"restitution": (np.ones(rows), np.full(rows, noise))},
+        )  # fmt: skip
+        data = drawn(scene, plan, liquids * seed + k)
+        tables.append(data.noisier({"restitution": 1 / factor}))
+    own = {f"{OWN}@{k + 1}": value for k, value in enumerate(values.tolist())}
+    free = [OWN, *truth] + [SHARED_NOISE] * any(each.separated.any() for each in tables)
+    told: dict[str, object] = {"seed": seed, "preset": preset.name, "rows": [each.size for each in tables]}
+    told["truth"] = own | truth | {SHARED_NOISE: factor}
+    start, wall = time.process_time(), time.perf_counter()
+    found = fit([preset] * liquids, tables, free, own=OWN)
+    told["seconds"], told["wall"] = time.process_time() - start, time.perf_counter() - wall
+    told["remarks"] = found.remarks
+    return told | {"estimates": {name: asdict(each) for name, each in found.estimates.items()}, "expected": ""}
 
 
 def experiment(seed: int) -> dict[str, object]:
@@ -102,4 +145,7 @@ def summary(runs: list[dict]) -> str:
 
 
 if __name__ == "__main__":
-    repeat(__doc__, 20, lambda seed, _: experiment(seed), summary)
+    repeat(
+        __doc__, 20, lambda seed, asked: experiment(seed) if asked.liquids == 1 else joint(seed, int(asked.liquids)),
+        summary, {"liquids": 1},
+    )  # fmt: skip
