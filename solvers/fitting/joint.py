@@ -130,7 +130,7 @@ def problem(
         raise InputError("data", f"{count} sets of impacts", f"one for each of the {len(sources)} scenes")
     scenes = [Scene.load(each) for each in sources]
     measured = [
-        read_data(each, first, f"data {k + 1}" if several else "data")
+        read_data(each, first, f"data {k + 1}" if len(sources) > 1 else "data")
         for k, (each, first) in enumerate(zip(tables, scenes, strict=True))
     ]
     times = Counter(each.name for each in scenes)
@@ -168,10 +168,13 @@ def problem(
 
 
 def _groups(own: Any, chosen: Sequence[str], labels: Sequence[str]) -> dict[str, Sequence[str]]:
-    """Entry that is not shared -> label of its value in each scene."""
-    groups = dict(own) if isinstance(own, Mapping) else dict.fromkeys(check_names(own, chosen, "own"), labels)
+    """Entry that is not shared -> label of its value in each scene; an empty one stands for the scenes' own."""
+    groups: dict[str, Any] = (
+        dict(own) if isinstance(own, Mapping) else dict.fromkeys(check_names(own, chosen, "own"), labels)
+    )
     for name, each in groups.items():
         check_names(name, chosen, "own")
+        groups[name] = each = each or labels
         if isinstance(each, str) or len(each) != len(labels):
             raise InputError(f"own {name}", each, f"a label for each of the {len(labels)} scenes")
     return groups
