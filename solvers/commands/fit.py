@@ -21,6 +21,7 @@ def command(
     own: tuple[str, ...],
     prior: options.Priors,
     over: list[str] | None,
+    predict: options.Picture,
     write: Annotated[Path | None, partial(check_file, label="", suffixes=(".toml",))],
     report: options.Folder,
     measured: options.MeasuredRequests,
@@ -48,11 +49,14 @@ def command(
             each scene, of which equal ones share; repeatable.
         --compare NAMES (over): Also fit every other bridge.law, model.film or model.glass, and compare them by AIC and
             cross-validation.
+        --predict FILE.png: Draw the probability of sticking around the impacts, with the uncertainty of the estimates;
+            of several scenes FILE-1.png, FILE-2.png, ...
         --write FILE.toml: Write the fitted scene, intervals as comments; of several FILE-1.toml, FILE-2.toml, ...
         --report DIR: Write report.md, report.html and their picture.
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..fitting.compare import check_choices, compare_models
     from ..fitting.fit import fit
+    from ..host.pictures import plot
 
     options.check_apart(output.file, write, "--write")
     if free is None:
@@ -76,6 +80,10 @@ def command(
     output.put(text, record)
     if fitted.rows.contradicted and (output.as_json or output.file is not None):
         click.echo(fitted.remarks[0], err=True)  # a table on standard output says so itself
+    if predict is not None:
+        for k in range(len(scenes)):
+            file = predict.with_stem(f"{predict.stem}-{k + 1}") if len(scenes) > 1 else predict
+            plot(fitted.predict(part=k), file)
     if write is not None:
         fitted.write(write)
     if report is not None:

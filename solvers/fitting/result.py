@@ -14,6 +14,7 @@ from ...generated.automaton import OUTCOMES
 from ..errors import InputError
 from ..formatting.markdown import aligned
 from ..host import files
+from ..host.arguments import check_whole
 from ..host.outputs import check_file, check_folder
 from ..host.pictures import plot
 from ..scene.held import NAMES
@@ -27,6 +28,7 @@ from .optimise import Objective
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray
 
     from ..formatting.document import Block
 
@@ -241,6 +243,41 @@ class Fit:
             path: file to write (.png, .pdf or .svg); None only draws.
         """
         return plot(self, path)
+
+    def predict(
+        self,
+        *,
+        speed: Any = None,
+        relative_speed: Any = None,
+        angle: Any = None,
+        part: int = 0,
+        samples: int = 256,
+        seed: int = 0,
+    ) -> xarray.Dataset:
+        """Probabilities of the outcomes over speed and angle, with the uncertainty of the estimates.
+
+        Arguments:
+            speed, relative_speed: normal speeds, or magnitudes of the relative velocity, m/s; one of them. None: around
+                the scene's impacts.
+            angle: impact angles, rad; likewise.
+            part: index of the scene, if there are several.
+            samples: weighted draws of the entries.
+            seed: of the draws.
+
+        Returns:
+            Dataset: `probability` over (outcome, angle, speed); that of an impact at just this speed and angle. The
+            attribute `effective_draws` says how many equally weighted draws are worth as much. Its
+            `.wetdoublet.plot("map.png")` draws it.
+
+        Raises:
+            InputError: a wrong argument.
+            ComputationError: the likelihood leaves next to none of the draws.
+        """
+        from .predictive import draws, predicted
+
+        values, weight = draws(self.objective, self.best, check_whole(samples, "samples", 32, 4096), seed)
+        one = self.parts[check_whole(part, "part", 0, len(self.parts) - 1)]
+        return predicted(one, self.free.names, values, weight, speed, relative_speed, angle)
 
     def write(self, path: str | Path) -> None:
         """Write the fitted scene as TOML, with the intervals as comments; of several NAME-1.toml, NAME-2.toml, ..."""
