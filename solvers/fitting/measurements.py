@@ -16,7 +16,7 @@ from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..changes.experiment import Rows, check_derivatives
 from ..errors import InputError, did_you_mean
 from ..scene import units
-from ..scene.columns import DECIMAL_COMMA, Column, columns_of
+from ..scene.columns import DECIMAL_COMMA, Column, columns_of, row_name
 from ..scene.held import NAMES
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
@@ -242,8 +242,7 @@ class _Table:
         return True
 
     def _where(self, row: int, name: str) -> str:
-        line = f" (line {self.lines[row]})" if self.lines[row] != row + 1 else ""
-        return f"{self.label}, row {row + 1}{line}, column {name}"
+        return f"{self.label}, {row_name(row + 1, self.lines[row])}, column {name}"
 
     def _refuse(self, bad: np.ndarray, name: str, values: Any, accepted: str, problem: str = "") -> None:
         """Raise InputError for the first row of a mask."""
@@ -313,7 +312,7 @@ class _Table:
                 (outcome == _STICK) & (np.abs(values) > 0), "restitution", values, accepted, "contradicts the outcome"
             )
         observed = {name: (np.where(outcome == _STICK, np.nan, values), sd) for name, (values, sd) in observed.items()}
-        labels = tuple(f"row {row + 1}" for row in range(self.size))
+        labels = tuple(row_name(k, line) for k, line in enumerate(self.lines, 1))
         data = Measurements(
             speed, angle, speed_sd, angle_sd, outcome.astype(np.int8), observed, columns, of_speed == "relative_speed",
             (), labels,

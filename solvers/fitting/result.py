@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from ..formatting.document import Block
 
-_WIDE = 4.0  # ratio of the ends of an interval from which it is told as a factor
+_WIDE = 2.0  # ratio of the ends of an interval from which it is told as a factor
 _PULLING = 12  # rows of the data in the report
 
 CONTRADICTED = (
