@@ -7,12 +7,13 @@ the matrix of Gauss and Newton is close to the information matrix.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import LinearConstraint, least_squares, minimize
-from scipy.stats import qmc
+from scipy.stats import qmc, t
 
 from ..errors import ComputationError
 from .free_entries import FreeEntries, Normalisation, Prior
@@ -20,6 +21,7 @@ from .joint import Joint
 from .likelihood import Evaluation, Likelihood
 from .scatter import COARSE, Resolution
 
+DROP = 1.920729410347062  # half the 95 % quantile of chi-squared with one degree of freedom
 _STARTS = 16  # quasi-random points at which the likelihood is evaluated
 _FOLLOWED = 3  # of these, the number from which an optimum is sought
 _NEIGHBOURHOOD = np.log(10.0)  # largest distance of these points from the scene's values, in logarithms
@@ -103,6 +105,19 @@ class Objective:
         rates = self.free.rates(self.free.values(inner))
         gradient: np.ndarray = self._possible(inner).scores.sum(axis=0) * rates - misfits * slopes
         return gradient
+
+    @property
+    def drop(self) -> float:
+        """The log-likelihood from the maximum to the end of a 95 % interval.
+
+        Half the quantile of chi-squared with one degree of freedom; where the noise is fitted that of Student's t, with
+        as many degrees of freedom as there are results more than other entries.
+        """
+        counts = [each.prior.count for each in self.free.entries if isinstance(each.prior, Normalisation)]
+        if not counts:
+            return DROP
+        freedom = max(sum(counts) - self.free.size + len(counts), 1)
+        return sum(counts) / 2 * math.log1p(float(t.ppf(0.975, freedom)) ** 2 / freedom)
 
     def information(self, inner: np.ndarray) -> np.ndarray:
         """The information matrix of rows and priors in the variables of the search (Gauss-Newton)."""

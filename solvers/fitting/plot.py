@@ -18,7 +18,7 @@ from ..scene.held import AXIS_LABELS
 from .free_entries import unit_shown
 from .joint import Part, home
 from .optimise import whitening
-from .profiles import DROP, profile_point
+from .profiles import profile_point
 from .result import Fit
 
 _GRID = 40  # points of the map along each axis
@@ -205,14 +205,14 @@ def _profile(axes: Axes, fit: Fit, k: int) -> None:
     order = np.argsort(places)
     values = np.array([entry.outer(at) for at in np.array(places)[order]]) / size
     axes.plot(values, np.array(heights)[order], "-", color=_LINES[0], marker=".", markersize=4)
-    axes.axhline(-DROP, color=NOTE, linewidth=0.8, linestyle="--")
+    axes.axhline(-objective.drop, color=NOTE, linewidth=0.8, linestyle="--")
     for bound in (estimate.low, estimate.high):
         if bound is not None:
             axes.axvline(bound / size, color=NOTE, linewidth=0.8)
     axes.axvline(estimate.value / size, color=INK, linewidth=0.8)
     if entry.log and values.max() > 20 * values.min():
         axes.set_xscale("log")
-    axes.set_ylim(max(min(min(heights), -DROP) * 1.1, -5.0), 0.4)
+    axes.set_ylim(max(min(min(heights), -objective.drop) * 1.1, min(-5.0, -1.5 * objective.drop)), 0.4)
     axes.set_xlabel(
         f"{entry.name.removeprefix('noise.').rpartition('.')[2].replace('_', ' ')}" + (f" ({unit})" if unit else "")
     )

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from scipy.stats import t as student
 from wetdoublet.solvers import InputError, Scene, collide_many, fit, log_likelihood
 from wetdoublet.solvers.fitting.measurements import Measurements
 
@@ -78,8 +79,10 @@ def test_noise_is_that_of_the_residuals():
     estimate = found.estimates[NOISE]
     assert estimate.value == pytest.approx(rms, rel=5e-3)
 
+    least = 6 * np.log1p(student.ppf(0.975, 12) ** 2 / 12)  # Student's t for 12 values
+
     def drop(f: float) -> float:
-        return 12 * (np.log(f / rms) + (rms / f) ** 2 / 2 - 0.5) - 1.9207
+        return 12 * (np.log(f / rms) + (rms / f) ** 2 / 2 - 0.5) - least
 
     # ends are found to 2 % of the root of the drop, of which a noise of 12 values moves 20 %
     assert estimate.low == pytest.approx(brentq(drop, 0.3 * rms, rms), rel=0.01)
