@@ -109,7 +109,7 @@ def test_the_synthetic_data_are_those_of_their_script():
         assert text.startswith("# Synthetic")
 
 
-@pytest.mark.parametrize(("name", "arguments"), [("fit", ("SCENE", "DATA.csv")), ("verify", ())])
+@pytest.mark.parametrize(("name", "arguments"), [("check", ("SCENE", "DATA.csv")), ("verify", ())])
 def test_required_arguments_are_called_so(name, arguments, monkeypatch):
     """On the commands page SCENE is required and [SCENE] optional, although click itself requires neither."""
     monkeypatch.syspath_prepend(ROOT / "docs/_ext")

@@ -119,6 +119,11 @@ class CollisionRegressor:
         return Tags(estimator_type="regressor", target_tags=TargetTags(required=True), regressor_tags=RegressorTags())
 
     def _named(self, X: Any) -> dict[str, np.ndarray]:
+        if hasattr(X, "toarray") or np.iscomplexobj(X):
+            kind = "Sparse" if hasattr(X, "toarray") else "Complex"
+            raise InputError(
+                "X", type(X).__name__, "a dense array of real numbers", f"is refused: {kind} data not supported"
+            )
         values = np.asarray(X, dtype=float)
         if values.ndim != 2 or values.shape[1] != len(self.columns):
             raise InputError("X", f"shape {values.shape}", f"(impacts, {len(self.columns)}): {', '.join(self.columns)}")

@@ -17,17 +17,20 @@ from .signature import as_command, passed
 
 @as_command("Entries of a scene from measured impacts, with what the data cannot tell.")
 def command(
-    data: str | None,
     free: list[str] | None,
+    own: tuple[str, ...],
     prior: options.Priors,
     over: list[str] | None,
+    predict: options.Picture,
     write: Annotated[Path | None, partial(check_file, label="", suffixes=(".toml",))],
     report: options.Folder,
-    request: options.HeldRequest,
+    measured: options.MeasuredRequests,
     rtol: options.Rtol,
     output: options.Shown,
 ) -> None:
     """Estimate entries of SCENE from the impacts in DATA.csv; the scene's own values are a first guess.
+
+    Several scenes, each followed by its data, share the entries that are not --own.
 
     \b
     The first line of DATA.csv names its columns:
@@ -36,35 +39,51 @@ def command(
     Examples:
       wetdoublet fit granulation impacts.csv --free particles.roughness,liquid.viscosity --plot fit.png
       wetdoublet fit scene.toml impacts.csv --free liquid.viscosity --prior liquid.viscosity="2 Pa s +- 10 %"
+      wetdoublet fit oil.toml oil.csv water.toml water.csv --free particles.roughness,liquid.viscosity,noise.restitution
+        --own liquid.viscosity
 
     Options:
-        DATA.csv (data):
-        --free NAMES: Entries to estimate, as particles.roughness,liquid.viscosity.
+        --free NAMES: Entries to estimate, as particles.roughness,liquid.viscosity; noise.restitution is a factor of
+            the standard deviations in the data.
+        --own NAME: A free entry of which each scene has a value of its own, or NAME=LABEL,LABEL,... with a label for
+            each scene, of which equal ones share; repeatable.
         --compare NAMES (over): Also fit every other bridge.law, model.film or model.glass, and compare them by AIC and
             cross-validation.
-        --write FILE.toml: Write the fitted scene, intervals as comments.
+        --predict FILE.png: Draw the probability of sticking around the impacts, with the uncertainty of the estimates;
+            of several scenes FILE-1.png, FILE-2.png, ...
+        --write FILE.toml: Write the fitted scene, intervals as comments; of several FILE-1.toml, FILE-2.toml, ...
         --report DIR: Write report.md, report.html and their picture.
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..fitting.compare import check_choices, compare_models
     from ..fitting.fit import fit
+    from ..host.pictures import plot
 
     options.check_apart(output.file, write, "--write")
     if free is None:
         raise InputError("--free", None, "entries to estimate, as --free particles.roughness,liquid.viscosity")
-    if data is None:
+    if any(data is None for _, data in measured):
         raise InputError("DATA.csv", None, "a CSV file with a row for each impact")
-    scene = request.scene(remark=True)
-    choices = None if over is None else check_choices(scene, over)
+    scenes, tables = [request.scene(remark=True) for request, _ in measured], [data for _, data in measured]
+    if over is not None and len(scenes) > 1:
+        raise InputError("--compare", ",".join(over), "one scene with --compare", "is given for several scenes")
+    choices = None if over is None else check_choices(scenes[0], over)
     chosen = passed(prior=prior or None, rtol=rtol)
+    groups = {
+        name: labels.split(",") if labels else labels for name, _, labels in (each.partition("=") for each in own)
+    }
     with Bar("evaluations", "fewer free entries or rows take less", factor=3.0) as progress:
-        fitted = fit(scene, data, free, progress=progress, **chosen)
+        fitted = fit(scenes, tables, free, own=groups, progress=progress, **chosen)
     text, record = str(fitted), fitted.to_dict()
     if choices is not None:
-        comparison = compare_models(scene, data, free, over=choices, **chosen)
+        comparison = compare_models(scenes[0], tables[0], free, over=choices, **chosen)
         text, record = f"{text}\n\n{comparison}", record | {"comparison": comparison.to_dict()}
     output.put(text, record)
     if fitted.rows.contradicted and (output.as_json or output.file is not None):
         click.echo(fitted.remarks[0], err=True)  # a table on standard output says so itself
+    if predict is not None:
+        for k in range(len(scenes)):
+            file = predict.with_stem(f"{predict.stem}-{k + 1}") if len(scenes) > 1 else predict
+            plot(fitted.predict(part=k), file)
     if write is not None:
         fitted.write(write)
     if report is not None:

@@ -183,17 +183,27 @@ def _several(source: Sequence[str], **options: Any) -> list[SceneRequest]:
     return [SceneRequest.check(each, **options) for each in source or (None,)]
 
 
+def _measured(source: Sequence[str], **options: Any) -> list[tuple[SceneRequest, str | None]]:
+    """Scenes, each with the file of its impacts."""
+    requests = _several(source[::2], **options)
+    return list(zip(requests, [*source[1::2], None][: len(requests)], strict=True))
+
+
 Request = Annotated[SceneRequest, _group(_BESIDE, *_IMPACT)]
 OptionalRequest = Annotated[SceneRequest, _group(_BESIDE, *_IMPACT, source=Option("[SCENE]"))]
 NamedRequest = Annotated[SceneRequest, _group(_BESIDE, *_IMPACT, source=Option("[NAME]"))]
 VariedRequest = Annotated[SceneRequest, _group(SceneRequest.check, *_IMPACT)]
 """For a command that varies entries itself, which --hold concerns as well."""
-HeldRequest = Annotated[SceneRequest, _group(SceneRequest.check, "source", "changes", "hold", "model")]
 EntriesRequest = Annotated[SceneRequest, _group(SceneRequest.check, "source", "changes", "model")]
 SeveralRequests = Annotated[
     list[SceneRequest],
     _group(_several, *(name for name in _IMPACT if name != "hold"), source=Option("SCENE...", settings={"nargs": -1})),
 ]
+MeasuredRequests = Annotated[
+    list[tuple[SceneRequest, str | None]],
+    _group(_measured, "changes", "hold", "model",
+           source=Option("SCENE DATA.csv [SCENE DATA.csv ...]", settings={"nargs": -1})),
+]  # fmt: skip
 Changes = Annotated[dict[str, str], replace(_OPTIONS["changes"], read=lambda texts: typed(assigned(_CHANGE, texts)))]
 """Entries of --set, unchecked; they apply to a scene that is read later."""
 Uncertainty = Annotated[

@@ -16,8 +16,8 @@ from ..host.cores import usable_cores
 from ..host.workers import in_workers
 from ..scene.scene import Scene
 from .fit import RTOL
-from .free_entries import FreeEntries, free_entries, in_unit
-from .likelihood import Likelihood
+from .free_entries import FreeEntries, in_unit
+from .joint import Joint, Part, problem
 from .measurements import Measurements, read_data
 from .optimise import Objective, Optimum, maximum_with_aiming, optimise
 from .scatter import Resolution
@@ -166,30 +166,31 @@ def _candidate(
 ) -> Candidate:  # fmt: skip
     if isinstance(scene, InputError):
         raise scene
-    entries = free_entries(scene, free, data, prior, rtol)
-    likelihood = Likelihood(scene, entries.names, data, rtol)
+    (part,), entries = problem(scene, data, free, prior, (), rtol)
+    likelihood = Joint((part,), entries.names, rtol)
     best = optimise(likelihood, entries)
-    evaluation = Objective(likelihood, entries, Resolution()).at(best.inner)
-    assert evaluation is not None
-    predicted = _predicted(scene, data, entries, best, folds, rtol, seed) if folds > 1 else None
-    return Candidate(
-        name, evaluation.value, 2 * entries.size - 2 * evaluation.value, predicted, entries.named(best.inner)
-    )
+    height = Objective(likelihood, entries, Resolution()).log_likelihood(best.inner)
+    predicted = _predicted(part, entries, prior, best, folds, rtol, seed) if folds > 1 else None
+    return Candidate(name, height, 2 * entries.size - 2 * height, predicted, entries.named(best.inner))
 
 
 def _predicted(
-    scene: Scene, data: Measurements, free: FreeEntries, best: Optimum, folds: int, rtol: float, seed: int
+    part: Part, free: FreeEntries, prior: Mapping[str, str] | None, best: Optimum, folds: int, rtol: float, seed: int
 ) -> float:
     """Mean log-likelihood of a row under the scene that is fitted to the rows of the other folds."""
+    data = part.data
+
+    def objective(rows: np.ndarray) -> Objective:
+        parts, own = problem(part.scene, data.part(rows), free.names, prior, (), rtol)
+        return Objective(Joint(parts, free.names, rtol), own, Resolution())
+
     order = np.random.default_rng(seed).permutation(data.size)
     total = 0.0
     for k in range(folds):
         left = np.sort(order[k::folds])
         kept = np.setdiff1d(order, left)
-        fitted = maximum_with_aiming(Likelihood(scene, free.names, data.part(kept), rtol), free, best.inner)
-        test = Likelihood(scene, free.names, data.part(left), rtol)
-        test.aim(free.values(fitted.inner))
-        evaluation = test(free.values(fitted.inner))
-        assert evaluation is not None  # the values are possible for all rows
-        total += evaluation.value
+        train, test = objective(kept), objective(left)
+        fitted = maximum_with_aiming(train.likelihood, train.free, best.inner)
+        test.likelihood.aim(free.values(fitted.inner))
+        total += test.log_likelihood(fitted.inner)
     return total / data.size

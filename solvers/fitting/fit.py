@@ -17,9 +17,10 @@ from ..host.progress import Estimated, Progress
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .examine import examine
-from .free_entries import IDENTIFIED, NOT_AT_ALL, FreeEntries, combinations, free_entries, in_unit
-from .likelihood import KNEE, Evaluation, Likelihood
-from .measurements import UNKNOWN, Measurements, read_data
+from .free_entries import IDENTIFIED, NOT_AT_ALL, FreeEntries, Prior, combinations
+from .joint import Joint, Part, problem, worded
+from .likelihood import KNEE, Evaluation
+from .measurements import UNKNOWN, Measurements
 from .optimise import Objective, Optimum, maximum_with_aiming, optimise, whitening
 from .profiles import End, intervals, judged
 from .result import CONTRADICTED, Estimate, Fit, RowDiagnostics
@@ -36,24 +37,30 @@ _COARSE = 0.05  # error of the log-likelihood by quadrature that is remarked on
 
 
 def fit(
-    scene: Scene | str | Path,
+    scene: Scene | str | Path | Sequence[Scene | str | Path],
     data: Any,
     free: Sequence[str] | str,
     *,
     prior: Mapping[str, str] | None = None,
+    own: Sequence[str] | str | Mapping[str, Sequence[str]] = (),
     rtol: float = RTOL,
     starts: int = 16,
     seed: int = 0,
     progress: Progress | None = None,
 ) -> Fit:
-    """Estimate entries of a scene from measured impacts.
+    """Estimate entries of a scene from measured impacts, or of several scenes together.
 
     Arguments:
-        scene: a Scene, a path or a preset's name; its values of the free entries are a first guess.
-        data: a CSV file, a DataFrame, a Dataset, a mapping of columns, or Measurements (see `read_data`).
-        free: entries to estimate, by dotted name.
+        scene: a Scene, a path or a preset's name, or a list of these; its values of the free entries are a first guess.
+        data: a CSV file, a DataFrame, a Dataset, a mapping of columns, or Measurements (see `read_data`); of several
+            scenes a list of these.
+        free: entries to estimate, by dotted name; also "noise.restitution" (or another result that was measured),
+            "noise.speed" and "noise.angle": factors of the standard deviations in the data.
         prior: what is known of free entries, as {"particles.roughness": "2 um +- 20 %"}: Gaussian in the logarithm
             where the standard deviation is in %, else in the entry.
+        own: free entries of which each scene has a value of its own, NAME@LABEL in the result; all others are shared by
+            the scenes that have them. A mapping gives a label for each scene, {"liquid.viscosity": ["oil", "oil",
+            "water"]}, and equal labels share. Else the label is the scene's name, or its number if that is not unique.
         rtol: relative tolerance of the collisions.
         starts: quasi-random points from which the best are followed, beside the scene's own values.
         seed: of these points.
@@ -76,18 +83,17 @@ def fit(
         >>> found.estimates["liquid.viscosity"].verdict
         'identified'
     """
-    first = Scene.load(scene)
     rtol = check_rtol(rtol)
     check_function(progress, "progress")
-    table = read_data(data, first)
-    entries = free_entries(first, free, table, prior, rtol)
-    warn(first)
-    likelihood = Likelihood(first, entries.names, table, rtol)
+    parts, entries = problem(scene, data, free, prior, own, rtol)
+    for each in parts:
+        warn(each.scene)
+    likelihood = Joint(parts, entries.names, rtol)
     work, best = Estimated(progress, _EVALUATIONS + _PER_PAIR * entries.size**2), None
     work.start()
     likelihood.tell = work.add
     try:
-        odd = examine(first, table)
+        odd = [examine(each.scene, each.data) for each in parts]
         best = optimise(likelihood, entries, starts, seed)
         contradicts = _is_contradicted(likelihood, entries, best)
         if contradicts:
@@ -98,13 +104,15 @@ def fit(
             ends = [[End(best.inner, open=True)] * 2 for _ in entries.entries]
         else:
             best, ends = intervals(likelihood, entries, best)
-        about = [one.text for one in odd if contradicts or one.kind in ("outlier", "duplicate")]
-        table = replace(table, remarks=(*(f"Before the fit: {text}" for text in about), *table.remarks))
-        result = _result(first, table, likelihood, entries, best, ends)
+        for k, (each, findings) in enumerate(zip(parts, odd, strict=True)):
+            about = [one.text for one in findings if contradicts or one.kind in ("outlier", "duplicate")]
+            remarks = (*(f"Before the fit: {text}" for text in about), *each.data.remarks)
+            parts = (*parts[:k], replace(each, data=replace(each.data, remarks=remarks)), *parts[k + 1 :])
+        result = _result(parts, likelihood, entries, best, ends)
     except KeyboardInterrupt as interrupt:
         if best is None or str(interrupt):
             raise
-        values = ", ".join(f"{name} = {in_unit(first, name, one)}" for name, one in entries.named(best.inner).items())
+        values = ", ".join(f"{name} = {worded(parts, name, one)}" for name, one in entries.named(best.inner).items())
         raise KeyboardInterrupt(f"interrupted: most likely are {values}; the intervals are not computed") from None
     finally:
         del likelihood.tell
@@ -112,21 +120,22 @@ def fit(
     return result
 
 
-def _is_contradicted(likelihood: Likelihood, free: FreeEntries, best: Optimum) -> bool:
+def _is_contradicted(likelihood: Joint, free: FreeEntries, best: Optimum) -> bool:
     """Whether even at the most likely values at least half of the impacts contradict the model."""
     evaluation = likelihood(free.values(best.inner))
     assert evaluation is not None  # the optimum is possible
-    return bool(2 * np.count_nonzero(evaluation.plain - likelihood.constant < -KNEE) >= likelihood.data.size)
+    return bool(2 * np.count_nonzero(evaluation.plain - likelihood.constant < -KNEE) >= likelihood.size)
 
 
 def log_likelihood(
-    scene: Scene | str | Path, data: Any, free: Sequence[str] | str, *, prior: Mapping[str, str] | None = None,
+    scene: Scene | str | Path | Sequence[Scene | str | Path], data: Any, free: Sequence[str] | str, *,
+    prior: Mapping[str, str] | None = None, own: Sequence[str] | str | Mapping[str, Sequence[str]] = (),
     rtol: float = RTOL, resolution: Resolution | None = None,
 ) -> LogLikelihood:  # fmt: skip
     """The log-density of a fit and its gradient as a plain function, for samplers and optimisers of one's own.
 
     Arguments:
-        scene, data, free, prior, rtol: as of `fit`. The lines through the scatter are turned for the scene's values.
+        scene, data, free, prior, own, rtol: as of `fit`. Lines through the scatter are turned for the scene's values.
         resolution: of the integrals.
 
     Returns:
@@ -140,10 +149,8 @@ def log_likelihood(
         >>> sorted(gradient)
         ['liquid.viscosity']
     """
-    first = Scene.load(scene)
-    table = read_data(data, first)
-    entries = free_entries(first, free, table, prior, check_rtol(rtol))
-    likelihood = Likelihood(first, entries.names, table, rtol)
+    parts, entries = problem(scene, data, free, prior, own, check_rtol(rtol))
+    likelihood = Joint(parts, entries.names, rtol)
     likelihood.aim(entries.values(entries.start))
     return LogLikelihood(Objective(likelihood, entries, resolution or Resolution(approximate=False)))
 
@@ -164,17 +171,20 @@ class LogLikelihood:
         return self.objective.log_density(by_name)
 
 
-def _result(
-    first: Scene, data: Measurements, likelihood: Likelihood, free: FreeEntries, best: Optimum, ends: list[list[End]]
-) -> Fit:
+def _result(parts: tuple[Part, ...], likelihood: Joint, free: FreeEntries, best: Optimum, ends: list[list[End]]) -> Fit:
+    data = parts[0].data
+    if len(parts) > 1:
+        data = Measurements.joined([each.data for each in parts], [each.label for each in parts])
     objective, inner = Objective(likelihood, free, Resolution()), best.inner
     white, values = whitening(objective, inner), free.values(inner)
     evaluation = objective.at(inner)
     assert evaluation is not None  # the estimates are possible
-    rows = _rows(likelihood, evaluation, evaluation.scores * free.rates(values) @ white)
+    rows = _rows(likelihood, values, evaluation, evaluation.scores * free.rates(values) @ white)
     verdicts = [NOT_AT_ALL if rows.contradicted else judged(objective, inner, k, both) for k, both in enumerate(ends)]
     if _only_outcome(data) is not None:
-        bounded = [verdict == IDENTIFIED and each.prior is None for verdict, each in zip(verdicts, free.entries)]
+        bounded = [
+            verdict == IDENTIFIED and not isinstance(each.prior, Prior) for verdict, each in zip(verdicts, free.entries)
+        ]
         verdicts = [NOT_AT_ALL if each else verdict for each, verdict in zip(bounded, verdicts)]
     estimates = {}
     for k, name in enumerate(free.names):
@@ -185,14 +195,13 @@ def _result(
     finer = likelihood(values, Resolution().doubled())
     error = np.nan if finer is None else finer.value - evaluation.value
     others = tuple((free.named(each.inner), each.value) for each in best.others)
-    remarks = [*data.remarks, *_remarks(first, data, rows, evaluation.undecided, error, others)]
+    remarks = [*data.remarks, *_remarks(parts, data, rows, evaluation.undecided, error, others)]
     if rows.contradicted:
         remarks.insert(0, CONTRADICTED)
-    if any(each.prior is not None for each in free.entries):
+    if any(isinstance(each.prior, Prior) for each in free.entries):
         remarks.append("Intervals and verdicts are those of the likelihood times the priors.")
     return Fit(
-        first.with_si({name: each.value for name, each in estimates.items()}), first, data, estimates,
-        evaluation.value, covariance / np.outer(spread, spread),
+        parts, data, estimates, objective.log_likelihood(inner), covariance / np.outer(spread, spread),
         () if rows.contradicted else combinations(free, objective.information(inner), verdicts),
         tuple(remarks), rows, float(error), others,
         objective, tuple((below.inner, above.inner) for below, above in ends),
@@ -205,19 +214,22 @@ def _only_outcome(data: Measurements) -> str | None:
     return None if len(codes) > 1 or UNKNOWN in codes or data.separated.any() else OUTCOMES[codes.pop()]
 
 
-def _rows(likelihood: Likelihood, evaluation: Evaluation, white_scores: np.ndarray) -> RowDiagnostics:
-    residual = {}
-    for name in likelihood.measured:
-        values, sd = likelihood.data.observed[name]
+def _rows(
+    likelihood: Joint, values: np.ndarray, evaluation: Evaluation, white_scores: np.ndarray
+) -> RowDiagnostics:  # fmt: skip
+    parts = [part.noisier(own) for part, own in zip(likelihood.parts, likelihood.values(values), strict=True)]
+    noisy, residual = Measurements.joined(parts, [""] * len(parts)).observed, {}
+    for name, mean in evaluation.mean.items():
+        measured, sd = noisy[name]
         with np.errstate(invalid="ignore"):
-            residual[name] = (values - evaluation.mean[name]) / np.hypot(sd, evaluation.spread[name])
+            residual[name] = (measured - mean) / np.hypot(sd, evaluation.spread[name])
     relative = evaluation.plain - likelihood.constant
     pull = np.linalg.norm(white_scores, axis=1)
     return RowDiagnostics(evaluation.probability, evaluation.mean, residual, relative, pull)
 
 
 def _remarks(
-    first: Scene, data: Measurements, rows: RowDiagnostics, undecided: np.ndarray, error: float,
+    parts: tuple[Part, ...], data: Measurements, rows: RowDiagnostics, undecided: np.ndarray, error: float,
     others: tuple[tuple[dict[str, float], float], ...],
 ) -> list[str]:  # fmt: skip
     remarks = []
@@ -244,14 +256,14 @@ def _remarks(
             rms = float(np.sqrt((known**2).mean()))
             remarks.append(
                 f"Residuals of {name} are {rms:.2g} times what scatter and noise allow: the model does not fit, or "
-                "they are larger than given. The intervals are then too narrow."
+                f"they are larger than given. The intervals are then too narrow; free noise.{name} estimates the noise."
             )
     if not abs(error) < _COARSE:
         remarks.append(
             f"The integrals over the scatter are uncertain: the log-likelihood changes by {error:.2g} with finer ones."
         )
     if others:
-        values = ", ".join(f"{name} = {in_unit(first, name, value)}" for name, value in others[0][0].items())
+        values = ", ".join(f"{name} = {worded(parts, name, value)}" for name, value in others[0][0].items())
         remarks.append(
             f"The likelihood has {len(others) + 1} separate maxima. At the next, {values}, the log-likelihood is "
             f"{others[0][1]:.3f}."

@@ -30,6 +30,8 @@ _BETTER = 10.0  # a combination is reported if it is known better than its entri
 _RANGE = 1e3  # factor to either side of the scene's value within which a positive entry is looked for
 _SPAN = {FRACTION: (0.0, 1.0), PART: (1e-6, 1.0), POISSON: (-0.999, 0.5), WETTING_ANGLE: (0.0, math.pi / 2)}
 _BISECTIONS = 40
+NOISE = "noise."
+"""Before the name of a result, or of speed or angle: a factor of its standard deviations, as a free entry."""
 _SEPARATOR = re.compile(r"\s*(?:\+-|\+/-|±)\s*")
 
 
@@ -49,6 +51,29 @@ class Prior:
 
 
 @dataclass(frozen=True)
+class Normalisation:
+    """What a noise f adds to the log-likelihood, -count log(f), as one more of the squares that a fit minimises.
+
+    Attributes:
+        count: number of the measured values.
+        low: least noise; there the square is 1.
+    """
+
+    count: int
+    low: float
+
+    @property
+    def offset(self) -> float:
+        """The log-likelihood of a square of 0."""
+        return 0.5 - self.count * math.log(self.low)
+
+    def misfit(self, value: float) -> tuple[float, float]:
+        """The root of the square, and its derivative by the value."""
+        root = math.sqrt(1 + 2 * self.count * math.log(value / self.low))
+        return root, self.count / (value * root)
+
+
+@dataclass(frozen=True)
 class FreeEntry:
     """An entry to be estimated.
 
@@ -63,7 +88,7 @@ class FreeEntry:
     log: bool
     low: float
     high: float
-    prior: Prior | None = None
+    prior: Prior | Normalisation | None = None
 
     def inner(self, value: float) -> float:
         """The variable of the search."""
@@ -261,6 +286,8 @@ def _product(powers: Mapping[str, float]) -> str:
 
 def unit_shown(scene: Scene, name: str) -> tuple[str, float]:
     """The unit in which the scene gives an entry, and its size in SI; empty and 1 for a plain number."""
+    if name.startswith(NOISE):
+        return "", 1.0
     si = "m^3" if scene.ways.volume == "absolute" and name == "bridge.volume" else scene.fields[name].unit
     if si is None:
         return "", 1.0

@@ -8,8 +8,8 @@ Derivatives are taken at a fixed interpolation variable: the points of a segment
 roots cancel.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,7 +18,8 @@ from ..engines.settings import RTOL
 from ..errors import InputError
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
-from .measurements import Measurements, rows_of
+from .free_entries import NOISE
+from .measurements import SCATTER, Measurements, rows_of
 from .rare_outcomes import RARE, beyond_reach
 from .scatter import Resolution, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals
 
@@ -31,6 +32,7 @@ deviations) contradicts the model; from there its log-likelihood falls with the 
 
 _BEYOND = 6.0  # standard deviations of noise and angle beyond which a restitution is impossible
 _NAMED = 8  # rows in a message
+_SIDES = -0.02, 0.02  # relative steps of the differences by the scatter
 _USUAL = Resolution().lines * Resolution().nodes
 _FIXED, _EXACT = 0.3, 3.0  # cost of an evaluation that does not depend on its nodes; factor of exact derivatives
 _Terms = tuple[np.ndarray, np.ndarray, np.ndarray]  # rows, logarithms of positive terms, derivatives of these
@@ -66,7 +68,7 @@ class Likelihood:
     """The log-likelihood of measurements as a function of the free entries' values.
 
     Arguments:
-        scene, names, data: the scene, its free entries, and the rows.
+        scene, names, data: the scene, its free entries, after them the noise that is free, and the rows.
         rtol: relative tolerance of the integrations.
 
     Attributes:
@@ -76,7 +78,9 @@ class Likelihood:
     tell: Callable[[float], None] = staticmethod(lambda _cost: None)
 
     def __init__(self, scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float = RTOL) -> None:
-        self.data, self.names = data, names
+        self.data, self.names, self.size = data, names, data.size
+        self.noise = tuple(name.removeprefix(NOISE) for name in names if name.startswith(NOISE))
+        names = names[: len(names) - len(self.noise)]
         check_energy(scene, names, data)
         self.measured = tuple(name for name, (values, _) in data.observed.items() if np.isfinite(values).any())
         self.experiments = rows_of(scene, names, data, rtol)
@@ -96,7 +100,7 @@ class Likelihood:
         Raises:
             InputError: these values make the scene of a row impossible.
         """
-        experiment, data = self.experiment_at(values), self.data
+        experiment, data = self.experiment_at(values), self.noisier(values)
         if not ((data.speed_sd > 0) & (data.angle_sd > 0)).any():
             return
         distance, normal = nearest_normals(experiment, data)
@@ -121,11 +125,11 @@ class Likelihood:
 
         A change counts if it is larger than `tolerance`.
         """
-        experiment, size = self.experiment_at(values), self.data.size
+        experiment, size, noise = self.experiment_at(values), self.size, self._factors(values)
         self.line_factors = np.ones(size, int)
-        now, open_ = self.evaluate(experiment, Resolution()).rows, np.ones(size, bool)
+        now, open_ = self.evaluate(experiment, Resolution(), noise).rows, np.ones(size, bool)
         for factor in FINER:
-            fine = self.evaluate(experiment, Resolution(), np.where(open_, factor, 0)).rows
+            fine = self.evaluate(experiment, Resolution(), noise, np.where(open_, factor, 0)).rows
             open_ &= np.abs(fine - now) > tolerance
             self.line_factors[open_], now = factor, fine
             if not open_.any():
@@ -133,7 +137,7 @@ class Likelihood:
 
     def experiment_at(self, values: np.ndarray) -> Experiment:
         """The experiment with these values of the free entries; InputError if they make a row's scene impossible."""
-        experiment = self.experiments.at(values)
+        experiment = self._experiment(values)
         if experiment is None:
             named = ", ".join(f"{name} = {value:.6g}" for name, value in zip(self.names, values, strict=True))
             raise InputError("free", named, "values that the scene may have together", "make a scene impossible")
@@ -141,16 +145,38 @@ class Likelihood:
 
     def __call__(self, values: np.ndarray, resolution: Resolution | None = None) -> Evaluation | None:
         """The log-likelihoods at these values; None where they make the scene impossible."""
-        experiment = self.experiments.at(values)
-        return None if experiment is None else self.evaluate(experiment, resolution or Resolution())
+        experiment, resolution, noise = self._experiment(values), resolution or Resolution(), self._factors(values)
+        if experiment is None:
+            return None
+        found = self.evaluate(experiment, resolution, noise)
+        for k, name in enumerate(self.noise, len(experiment.rows.names)):
+            if name in SCATTER:  # the lines move with it
+                sides = [self.evaluate(experiment, resolution, noise | {name: noise[name] * (1 + h)}) for h in _SIDES]
+                found.scores[:, k] = (sides[1].rows - sides[0].rows) / (_SIDES[1] - _SIDES[0]) / noise[name]
+        return found
 
-    def evaluate(self, experiment: Experiment, resolution: Resolution, factors: np.ndarray | None = None) -> Evaluation:
-        """The log-likelihoods of all rows in an experiment.
+    def _experiment(self, values: np.ndarray) -> Experiment | None:
+        return self.experiments.at(values[: len(self.experiments.names)])
+
+    def noisier(self, values: np.ndarray) -> Measurements:
+        """The rows with the standard deviations at these values."""
+        return self.data.noisier(self._factors(values))
+
+    def _factors(self, values: np.ndarray) -> dict[str, float]:
+        """The noise: result, speed or angle -> factor of its standard deviations."""
+        return dict(zip(self.noise, values[len(self.experiments.names) :].tolist()))
+
+    def evaluate(
+        self, experiment: Experiment, resolution: Resolution, noise: Mapping[str, float],
+        factors: np.ndarray | None = None,
+    ) -> Evaluation:  # fmt: skip
+        """The log-likelihoods of all rows in an experiment, without derivatives by the scatter in speed and angle.
 
         Arguments:
+            noise: factors of standard deviations.
             factors: (rows,), in place of the `line_factors` that `refine` chose; 0 leaves a row out.
         """
-        data, size = self.data, self.data.size
+        data, size = self.data.noisier(noise), self.size
         if factors is None:
             factors = self.line_factors if resolution.lines > 1 else np.ones(size, int)
         lines = ScatterLines.through(data, self.direction, resolution.lines * factors)
@@ -173,18 +199,19 @@ class Likelihood:
         results = dense_part.results(experiment, lines, ends[:, which], self.measured, resolution)
         for part, mapping, value, slope in results:
             at_ends = ends[:, which[part]]
-            terms.append(self._integrals(dense_part.part(part), at_ends, mapping, value, slope, moments))
-        rows, scores = _sums(terms, size)
+            terms.append(self._integrals(dense_part.part(part), noise, at_ends, mapping, value, slope, moments))
+        rows, scores = _sums(terms, size, len(self.names))
         rare = np.flatnonzero((probability < RARE) & (factors > 0))
         if rare.size:
-            moves = np.zeros(scores.shape)  # of the logarithm of the probability
+            moves = np.zeros((size, by_free.shape[1]))  # of the logarithm of the probability
             np.add.at(moves, segments.row, (segments.weight * mass)[:, None] * by_free)
             moves /= np.maximum(probability, 1e-300)[:, None]
+            as_given = replace(data, observed=self.data.observed)  # not with the noise: its derivative is 0 there
             log, slope = beyond_reach(
-                experiment, data, rare, self.direction, self.measured, resolution, probability[rare], moves[rare]
+                experiment, as_given, rare, self.direction, self.measured, resolution, probability[rare], moves[rare]
             )
             missing = log > rows[rare]
-            rows[rare[missing]], scores[rare[missing]] = log[missing], slope[missing]
+            rows[rare[missing]], scores[rare[missing]] = log[missing], _widened(slope[missing], len(self.names))
         relative = float(factors.mean()) * resolution.lines * resolution.nodes / _USUAL
         self.tell((_FIXED + (1 - _FIXED) * relative) * (1.0 if resolution.approximate else _EXACT))
         limited, factor = limit(rows)
@@ -199,8 +226,8 @@ class Likelihood:
         )  # fmt: skip
 
     def _integrals(
-        self, segments: Segments, ends: np.ndarray, mapping: SegmentMap, value: np.ndarray, slope: np.ndarray,
-        moments: dict[str, np.ndarray],
+        self, segments: Segments, noise: Mapping[str, float], ends: np.ndarray, mapping: SegmentMap, value: np.ndarray,
+        slope: np.ndarray, moments: dict[str, np.ndarray],
     ) -> _Terms:  # fmt: skip
         """The integrals of densities over segments of one kind; the moments of the results are added to `moments`."""
         row = segments.row
@@ -210,15 +237,17 @@ class Likelihood:
         y = segments.low[:, None] + length * mapping.at_points
         scatter = -(y**2) / 2 - np.log(2 * np.pi) / 2 + np.log(length * mapping.rate * mapping.weight)
         exponent = scatter.copy()
-        pulls = []
+        pulls, squares = [], dict.fromkeys(self.noise, np.zeros(exponent.shape))
         for k, name in enumerate(self.measured):
             measured, sd = (each[row, None] for each in self.data.observed[name])
+            sd = sd * noise.get(name, 1.0)
             at = value[k] @ mapping.interpolate.T
             for power in range(3):
                 np.add.at(moments[name][power], row, segments.weight * (np.exp(scatter) * at**power).sum(axis=1))
             misfit = np.where(np.isfinite(measured), (measured - at) / sd, 0.0)
             exponent -= misfit**2 / 2
             pulls.append(misfit / sd)
+            squares[name] = misfit**2
         exponent[lost] = -np.inf
         top = np.max(exponent, axis=1, keepdims=True, initial=-1e300)
         density = np.exp(exponent - top)
@@ -232,13 +261,21 @@ class Likelihood:
         gradient += ends[0] * (mean_y - mean_gy)[:, None] + ends[1] * mean_gy[:, None]
         for pull, of_result in zip(pulls, slope, strict=True):
             gradient += np.einsum("sn,snp->sp", (share * pull) @ mapping.interpolate, of_result)
+        for name in self.noise:
+            gradient = np.column_stack([gradient, (share * squares[name]).sum(axis=1) / noise[name]])
         kept = integral > 0
         return row[kept], logs[kept], gradient[kept]
 
 
-def _sums(terms: Sequence[_Terms], rows: int) -> tuple[np.ndarray, np.ndarray]:
-    """Logarithms of the sums of terms by row, -1e300 for an empty one, and their derivatives."""
-    row, log, slope = (np.concatenate(each) for each in zip(*terms, strict=True))
+def _widened(slopes: np.ndarray, width: int) -> np.ndarray:
+    """Derivatives with columns of zeros for the noise."""
+    return np.pad(slopes, ((0, 0), (0, width - slopes.shape[1])))
+
+
+def _sums(terms: Sequence[_Terms], rows: int, width: int) -> tuple[np.ndarray, np.ndarray]:
+    """Logarithms of the sums of terms by row, -1e300 for an empty one, and their derivatives, in `width` columns."""
+    row, log = (np.concatenate(each) for each in list(zip(*terms, strict=True))[:2])
+    slope = np.concatenate([_widened(each, width) for *_, each in terms])
     top = np.full(rows, -1e300)
     np.maximum.at(top, row, log)
     term = np.exp(log - top[row])

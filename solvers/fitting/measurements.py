@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from typing import Any
@@ -16,7 +16,7 @@ from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..changes.experiment import Rows, check_derivatives
 from ..errors import InputError, did_you_mean
 from ..scene import units
-from ..scene.columns import DECIMAL_COMMA, Column, columns_of
+from ..scene.columns import DECIMAL_COMMA, Column, columns_of, row_name
 from ..scene.held import NAMES
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
@@ -26,6 +26,8 @@ UNKNOWN = -1
 """Code of an outcome that was not recorded."""
 OBSERVED = ("restitution", "tangential_restitution", "contact_time", "rotation")
 """Results of a collision that may be measured."""
+SCATTER = ("speed", "angle")
+"""What single impacts scatter in."""
 SPEED_SD, ANGLE_SD = 0.02, math.radians(1.0)
 """Scatter of single impacts where the data do not give it: of the speed, relative; of the angle."""
 RESULT_SD = {"restitution": 0.02, "tangential_restitution": 0.02, "contact_time": 0.05, "rotation": math.radians(2.0)}
@@ -130,9 +132,47 @@ class Measurements:
             labels=tuple(self.labels[k] for k in which.tolist()) if self.labels else (),
         )
 
+    @classmethod
+    def joined(cls, parts: Sequence[Measurements], labels: Sequence[str]) -> Measurements:
+        """Several sets as one, for tables and pictures: of mixed kinds of speed the normal one; without other entries.
+
+        Arguments:
+            labels: before the rows' own.
+        """
+        relative, tables = all(each.relative for each in parts), []
+        for each in parts:
+            share = 1.0 if relative else each.normal_speed / each.speed
+            table = {"speed": share * each.speed, "angle": each.angle, "speed_sd": share * each.speed_sd}
+            table |= {"angle_sd": each.angle_sd, "outcome": each.outcome}
+            for name, (values, sd) in each.observed.items():
+                table |= {f"observed {name}": values, f"sd {name}": sd}
+            tables.append(table)
+        one: dict[str, Any] = stacked(tables, [each.size for each in parts])
+        observed = {
+            name: (one.pop(f"observed {name}"), one.pop(f"sd {name}")) for name in OBSERVED if f"sd {name}" in one
+        }
+        about = tuple(f"{label}: {text}" for label, each in zip(labels, parts) for text in each.remarks)
+        rows = tuple(f"{label}, {each.label(k)}" for label, each in zip(labels, parts) for k in range(each.size))
+        return cls(**one, observed=observed, relative=relative, remarks=about, labels=rows)
+
+    def noisier(self, factors: Mapping[str, float]) -> Measurements:
+        """The same with standard deviations of results, and of speed and angle, multiplied by these factors."""
+        own = {f"{name}_sd": factors[name] * getattr(self, f"{name}_sd") for name in SCATTER if name in factors}
+        observed = {name: (values, factors.get(name, 1.0) * sd) for name, (values, sd) in self.observed.items()}
+        return replace(self, observed=observed, **own)
+
     def label(self, row: int) -> str:
         """What names a row in messages."""
         return self.labels[row] if self.labels else f"row {row + 1}"
+
+
+def stacked(tables: Sequence[Mapping[str, np.ndarray]], sizes: Sequence[int]) -> dict[str, np.ndarray]:
+    """Columns of tables of these sizes, one after the other; NaN where a table has no such column."""
+    names = dict.fromkeys(name for each in tables for name in each)
+    return {
+        name: np.concatenate([each.get(name, np.full(size, np.nan)) for each, size in zip(tables, sizes, strict=True)])
+        for name in names
+    }
 
 
 def rows_of(scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float) -> Rows:
@@ -202,8 +242,7 @@ class _Table:
         return True
 
     def _where(self, row: int, name: str) -> str:
-        line = f" (line {self.lines[row]})" if self.lines[row] != row + 1 else ""
-        return f"{self.label}, row {row + 1}{line}, column {name}"
+        return f"{self.label}, {row_name(row + 1, self.lines[row])}, column {name}"
 
     def _refuse(self, bad: np.ndarray, name: str, values: Any, accepted: str, problem: str = "") -> None:
         """Raise InputError for the first row of a mask."""
@@ -273,7 +312,7 @@ class _Table:
                 (outcome == _STICK) & (np.abs(values) > 0), "restitution", values, accepted, "contradicts the outcome"
             )
         observed = {name: (np.where(outcome == _STICK, np.nan, values), sd) for name, (values, sd) in observed.items()}
-        labels = tuple(f"row {row + 1}" for row in range(self.size))
+        labels = tuple(row_name(k, line) for k, line in enumerate(self.lines, 1))
         data = Measurements(
             speed, angle, speed_sd, angle_sd, outcome.astype(np.int8), observed, columns, of_speed == "relative_speed",
             (), labels,

@@ -7,18 +7,21 @@ the matrix of Gauss and Newton is close to the information matrix.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import LinearConstraint, least_squares, minimize
-from scipy.stats import qmc
+from scipy.stats import qmc, t
 
 from ..errors import ComputationError
-from .free_entries import FreeEntries
+from .free_entries import FreeEntries, Normalisation, Prior
+from .joint import Joint
 from .likelihood import Evaluation, Likelihood
 from .scatter import COARSE, Resolution
 
+DROP = 1.920729410347062  # half the 95 % quantile of chi-squared with one degree of freedom
 _STARTS = 16  # quasi-random points at which the likelihood is evaluated
 _FOLLOWED = 3  # of these, the number from which an optimum is sought
 _NEIGHBOURHOOD = np.log(10.0)  # largest distance of these points from the scene's values, in logarithms
@@ -42,7 +45,7 @@ class Objective:
         resolution: resolution of the integrals.
     """
 
-    def __init__(self, likelihood: Likelihood, free: FreeEntries, resolution: Resolution) -> None:
+    def __init__(self, likelihood: Likelihood | Joint, free: FreeEntries, resolution: Resolution) -> None:
         self.likelihood, self.free, self.resolution = likelihood, free, resolution
         self.points: list[np.ndarray] = []  # all that were evaluated
         self.heights: list[float] = []  # `value` there
@@ -68,7 +71,7 @@ class Objective:
         """One residual for each row and each prior; infinite where the scene is impossible."""
         evaluation = self.at(inner)
         if evaluation is None:
-            return np.full(self.likelihood.data.size + self.free.size, np.inf)
+            return np.full(self.likelihood.size + self.free.size, np.inf)
         return np.concatenate([self._roots(evaluation), self._priors(inner)[0]])
 
     def _roots(self, evaluation: Evaluation) -> np.ndarray:
@@ -86,7 +89,15 @@ class Objective:
     def value(self, inner: np.ndarray) -> float:
         """The logarithm of likelihood times prior density, up to a constant; -inf where the scene is impossible."""
         evaluation = self.at(inner)
-        return -np.inf if evaluation is None else evaluation.value - float((self._priors(inner)[0] ** 2).sum()) / 2
+        if evaluation is None:
+            return -np.inf
+        offset = sum(each.prior.offset for each in self.free.entries if isinstance(each.prior, Normalisation))
+        return evaluation.value + offset - float((self._priors(inner)[0] ** 2).sum()) / 2
+
+    def log_likelihood(self, inner: np.ndarray) -> float:
+        """The logarithm of the likelihood alone, with all constants of the densities, where the scene is possible."""
+        return self.value(inner) + sum(float(e) ** 2 for e, each in zip(self._priors(inner)[0], self.free.entries)
+                                       if isinstance(each.prior, Prior)) / 2  # fmt: skip
 
     def gradient(self, inner: np.ndarray) -> np.ndarray:
         """Derivatives of `value`."""
@@ -95,10 +106,26 @@ class Objective:
         gradient: np.ndarray = self._possible(inner).scores.sum(axis=0) * rates - misfits * slopes
         return gradient
 
+    @property
+    def drop(self) -> float:
+        """The log-likelihood from the maximum to the end of a 95 % interval.
+
+        Half the quantile of chi-squared with one degree of freedom; where the noise is fitted that of Student's t, with
+        as many degrees of freedom as there are results more than other entries.
+        """
+        counts = [each.prior.count for each in self.free.entries if isinstance(each.prior, Normalisation)]
+        if not counts:
+            return DROP
+        freedom = max(sum(counts) - self.free.size + len(counts), 1)
+        return sum(counts) / 2 * math.log1p(float(t.ppf(0.975, freedom)) ** 2 / freedom)
+
     def information(self, inner: np.ndarray) -> np.ndarray:
         """The information matrix of rows and priors in the variables of the search (Gauss-Newton)."""
         slopes = self.jacobian(inner)
         information: np.ndarray = slopes.T @ slopes
+        for k, each in enumerate(self.free.entries):
+            if isinstance(each.prior, Normalisation):  # expected: 2 for each value, of which its residual has one
+                information[k, k] += each.prior.count - slopes[self.likelihood.size + k, k] ** 2
         return information
 
     def log_density(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
@@ -143,7 +170,7 @@ class Optimum:
 
 
 def optimise(
-    likelihood: Likelihood, free: FreeEntries, starts: int = _STARTS, seed: int = 0, everywhere: bool = False
+    likelihood: Likelihood | Joint, free: FreeEntries, starts: int = _STARTS, seed: int = 0, everywhere: bool = False
 ) -> Optimum:
     """The most likely of the maxima that several starts lead to; the lines of the likelihood are left turned for it.
 
@@ -176,7 +203,7 @@ def optimise(
     return replace(best, others=tuple(each for each in others if _apart(objective, each, best)))
 
 
-def maximum_with_aiming(likelihood: Likelihood, free: FreeEntries, inner: np.ndarray) -> Optimum:
+def maximum_with_aiming(likelihood: Likelihood | Joint, free: FreeEntries, inner: np.ndarray) -> Optimum:
     """The maximum nearest to a point, with `aim` and `refine` of the likelihood repeated there."""
     for _ in range(_ROUNDS):
         likelihood.aim(free.values(inner))
@@ -244,7 +271,7 @@ def rough_maximum(
 
 
 def _screened(
-    likelihood: Likelihood, free: FreeEntries, starts: int, seed: int, neighbourhood: float
+    likelihood: Likelihood | Joint, free: FreeEntries, starts: int, seed: int, neighbourhood: float
 ) -> list[np.ndarray]:
     """The scene's own values, and the most likely of quasi-random points around them."""
     scene = np.clip(free.start, free.low, free.high)

@@ -1,5 +1,6 @@
 """A fit as a figure: data over the regime map, results with their band, profiles of the likelihood, residuals."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,9 @@ from ..formatting.ticks import plain
 from ..many.collide_many import collide_many
 from ..scene.held import AXIS_LABELS
 from .free_entries import unit_shown
+from .joint import Part, home
 from .optimise import whitening
-from .profiles import DROP, profile_point
+from .profiles import profile_point
 from .result import Fit
 
 _GRID = 40  # points of the map along each axis
@@ -38,14 +40,16 @@ _LABELS = {
 @picture
 def draw(fit: Fit) -> Figure:
     """The four kinds of pictures of a fit in one figure."""
-    free = fit.free
-    figure = Figure(figsize=(11.0, 7.6), layout="constrained")
-    parts: Any = figure.subfigures(2, 1, height_ratios=(1.25, 1.0))
-    top, bottom = parts
-    left, right = top.subplots(1, 2)
-    samples = _samples(fit)
-    _map(left, fit, samples)
-    _results(right, fit, samples)
+    free, count = fit.free, len(fit.parts)
+    figure = Figure(figsize=(11.0, 3.4 + 4.2 * count), layout="constrained")
+    halves: Any = figure.subfigures(2, 1, height_ratios=(1.25 * count, 1.0))
+    top, bottom = halves
+    samples, pairs, at = _samples(fit), top.subplots(count, 2, squeeze=False), 0
+    for (left, right), part in zip(pairs, fit.parts, strict=True):
+        own = samples[:, [free.names.index(part.entries[name]) for name in part.names]]
+        rows = np.arange(at, at := at + part.data.size)
+        _map(left, part, own, fit.rows.contradicting[np.isin(fit.rows.contradicting, rows)] - rows[0])
+        _results(right, part, own, {name: each[rows] for name, each in fit.rows.expected.items()})
     axes = bottom.subplots(1, free.size + 1, width_ratios=[1.0] * free.size + [1.5], squeeze=False)[0]
     for k in range(free.size):
         _profile(axes[k], fit, k)
@@ -76,18 +80,18 @@ def _samples(fit: Fit) -> np.ndarray:
     return np.array([free.values(each) for each in inside])
 
 
-def _collided(fit: Fit, values: np.ndarray, speed: np.ndarray, angle: np.ndarray, of: tuple[str, ...] = ()) -> Any:
-    """Collisions at all points with each of several values of the entries, (values, points)."""
+def _collided(part: Part, values: np.ndarray, speed: np.ndarray, angle: np.ndarray, of: tuple[str, ...] = ()) -> Any:
+    """Collisions at all points with each of several values of the part's entries, (values, points)."""
     count, size = values.shape[0], speed.size
     vary = {}
-    for k, name in enumerate(fit.free.names):
-        vary[name] = fit.first.as_given(name, np.repeat(values[:, k], size))
-    kind: dict[str, Any] = {fit.data.speed_name: np.tile(speed, count)}
-    return collide_many(fit.first, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
+    for k, name in enumerate(part.names):
+        vary[name] = part.scene.as_given(name, np.repeat(values[:, k], size))
+    kind: dict[str, Any] = {part.data.speed_name: np.tile(speed, count)}
+    return collide_many(part.scene, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
 
 
-def _map(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
-    data = fit.data
+def _map(axes: Axes, part: Part, samples: np.ndarray, odd: np.ndarray) -> None:
+    data = part.data
     low, high = data.speed.min(), data.speed.max()
     margin = max((high / low) ** 0.06, 1.05)
     first, last = np.degrees([data.angle.min(), data.angle.max()])
@@ -98,7 +102,7 @@ def _map(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
         speed = np.geomspace(low / margin, high * margin, count)
         angle = np.linspace(limits[0], limits[1], count)
         points = [each.ravel() for each in np.meshgrid(speed, angle, indexing="ij")]
-        outcome = _collided(fit, values, points[0], points[1]).outcome.values.reshape(-1, count, count)
+        outcome = _collided(part, values, points[0], points[1]).outcome.values.reshape(-1, count, count)
         return np.degrees(angle), speed, outcome
 
     degrees, speed, codes = outcomes(samples[:1], _FINE)
@@ -120,7 +124,6 @@ def _map(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
             axes.plot(np.degrees(data.angle[seen]), data.speed[seen], **style, clip_on=False, zorder=3)
             label = f"{LETTERS[OUTCOMES[code]]} observed" if code >= 0 else "outcome not recorded"
             handles.append(Line2D([], [], **style, label=label))
-    odd = fit.rows.contradicting
     if odd.size:
         style = {"color": "#b00020", "marker": "o", "linestyle": "", "markerfacecolor": "none"}
         axes.plot(np.degrees(data.angle[odd]), data.speed[odd], **style, markersize=11, clip_on=False, zorder=3)
@@ -134,13 +137,13 @@ def _map(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
     axes.set_ylabel(AXIS_LABELS[data.speed_name])
     axes.legend(handles=present + handles, fontsize=6.5, loc="best", frameon=True, framealpha=0.9)
     axes.set_title(
-        "impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _caveat(fit), fontsize=9
+        "impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _caveat(part), fontsize=9
     )
 
 
-def _results(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
-    data = fit.data
-    name = next(iter(fit.rows.expected), "")
+def _results(axes: Axes, part: Part, samples: np.ndarray, expected: Mapping[str, np.ndarray]) -> None:
+    data = part.data
+    name = next((each for each in expected if each in data.observed), "")
     if not name:
         axes.axis("off")
         axes.text(0.5, 0.5, "no result was measured beside the outcome", ha="center", va="center", color=NOTE)
@@ -151,7 +154,7 @@ def _results(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
     for colour, group in zip(_LINES, _by_angle(data.angle[rows])):
         group = rows[group]
         angle = float(np.mean(data.angle[group]))
-        values = _collided(fit, samples, speed, np.full(_CURVE, angle), (name,))[name].values.reshape(-1, _CURVE)
+        values = _collided(part, samples, speed, np.full(_CURVE, angle), (name,))[name].values.reshape(-1, _CURVE)
         known = np.isfinite(values).mean(axis=0) > 0.5
         low, high = (np.where(known, each(values, axis=0), np.nan) for each in (np.fmin.reduce, np.fmax.reduce))
         axes.fill_between(speed, low, high, color=colour, alpha=0.25, linewidth=0)
@@ -159,7 +162,7 @@ def _results(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
         axes.errorbar(data.speed[group], measured[group], sd[group], data.speed_sd[group], fmt="o", color=colour,
                       markersize=3.5, elinewidth=0.7)  # fmt: skip
         if data.columns:
-            axes.plot(data.speed[group], fit.rows.expected[name][group], "_", color=colour, markersize=10)
+            axes.plot(data.speed[group], expected[name][group], "_", color=colour, markersize=10)
     axes.set_xscale("log")
     plain(axes.xaxis)
     axes.set_xlabel(AXIS_LABELS[data.speed_name])
@@ -167,12 +170,12 @@ def _results(axes: Axes, fit: Fit, samples: np.ndarray) -> None:
     axes.legend(title="mean angle of the group", fontsize=7, title_fontsize=7)
     dashes = ";\ndashes: the fit with each impact's group entries" if data.columns else ""
     title = "measured, and the fit at the mean angle of each group with its band (95 %)"
-    axes.set_title(title + _caveat(fit) + dashes, fontsize=9)
+    axes.set_title(title + _caveat(part) + dashes, fontsize=9)
 
 
-def _caveat(fit: Fit) -> str:
+def _caveat(part: Part) -> str:
     """The note of a picture for one value of every entry, where entries differ from impact to impact."""
-    names = ", ".join(fit.data.columns)
+    names = ", ".join(part.data.columns)
     return f",\nwith the scene's group {names}" if names else ""
 
 
@@ -187,7 +190,7 @@ def _profile(axes: Axes, fit: Fit, k: int) -> None:
     free, objective, best = fit.free, fit.objective, fit.best
     entry = free.entries[k]
     estimate = fit.estimates[entry.name]
-    unit, size = unit_shown(fit.first, entry.name)
+    unit, size = unit_shown(*home(fit.parts, entry.name))
     top = objective.value(best)
     places, heights = [float(best[k])], [0.0]
     sides = (estimate.low, free.low[k]), (estimate.high, free.high[k])
@@ -202,15 +205,17 @@ def _profile(axes: Axes, fit: Fit, k: int) -> None:
     order = np.argsort(places)
     values = np.array([entry.outer(at) for at in np.array(places)[order]]) / size
     axes.plot(values, np.array(heights)[order], "-", color=_LINES[0], marker=".", markersize=4)
-    axes.axhline(-DROP, color=NOTE, linewidth=0.8, linestyle="--")
+    axes.axhline(-objective.drop, color=NOTE, linewidth=0.8, linestyle="--")
     for bound in (estimate.low, estimate.high):
         if bound is not None:
             axes.axvline(bound / size, color=NOTE, linewidth=0.8)
     axes.axvline(estimate.value / size, color=INK, linewidth=0.8)
     if entry.log and values.max() > 20 * values.min():
         axes.set_xscale("log")
-    axes.set_ylim(max(min(min(heights), -DROP) * 1.1, -5.0), 0.4)
-    axes.set_xlabel(f"{entry.name.partition('.')[2].replace('_', ' ')}" + (f" ({unit})" if unit else ""))
+    axes.set_ylim(max(min(min(heights), -objective.drop) * 1.1, min(-5.0, -1.5 * objective.drop)), 0.4)
+    axes.set_xlabel(
+        f"{entry.name.removeprefix('noise.').rpartition('.')[2].replace('_', ' ')}" + (f" ({unit})" if unit else "")
+    )
     axes.set_title(f"{estimate.verdict} {estimate.precision}".rstrip(), fontsize=8)
 
 

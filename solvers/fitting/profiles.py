@@ -1,7 +1,7 @@
 """Intervals of the free entries from the profile of the likelihood, and the verdicts on them.
 
 The profile at a value of an entry is the largest likelihood over all values of the other entries. The 95 % interval
-ends where the logarithm of the profile is 1.92 below its maximum (chi-squared with one degree of freedom); where the
+ends where the logarithm of the profile is `Objective.drop` below its maximum; where the
 profile is that high at several places, the farthest counts.
 """
 
@@ -12,14 +12,13 @@ import numpy as np
 
 from ..errors import ComputationError
 from .free_entries import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE, FreeEntries
-from .likelihood import Likelihood
+from .joint import Joint
 from .optimise import Objective, Optimum, maximum_with_aiming, rough_maximum, whitening
 from .scatter import COARSE, Resolution
 
-DROP = 1.920729410347062  # half the 95 % quantile of chi-squared with one degree of freedom
 _WITHIN = 0.02  # relative error of the root of twice the drop at an end
 _FLAT = 0.1  # a profile is flat if at its last slope this part of the distance from the maximum is still to go
-_BETTER = 0.05  # of DROP, by which a point must be more likely to replace the maximum
+_BETTER = 0.05  # of the drop, by which a point must be more likely to replace the maximum
 _STEPS = 25
 _NARROW = 1e-6  # width of a bracket in which the profile jumps, relative to the distance of the bound
 _FARTHER = 4.0  # largest factor from one step outwards to the next
@@ -39,7 +38,8 @@ class End:
 
     Attributes:
         inner: in the variables of the search, all entries; where `open`, the farthest point that was evaluated.
-        open: the likelihood does not fall by DROP before the bound of the search, or before the scene is impossible.
+        open: the likelihood does not fall by `Objective.drop` before the bound of the search, or where the scene is
+            impossible.
         better: a point that is more likely than the maximum, if one was met.
         wall: no scene was found beyond; with other values of the other entries there may be one.
     """
@@ -50,7 +50,7 @@ class End:
     wall: bool = False
 
 
-def intervals(likelihood: Likelihood, free: FreeEntries, best: Optimum) -> tuple[Optimum, list[list[End]]]:
+def intervals(likelihood: Joint, free: FreeEntries, best: Optimum) -> tuple[Optimum, list[list[End]]]:
     """The maximum, and for each entry the ends of its interval below and above.
 
     A more likely point that is met on the way becomes the maximum.
@@ -110,7 +110,7 @@ def _end(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.
     bound = free.low[k] if sign < 0 else free.high[k]
     if abs(bound - best[k]) < _AT_BOUND * (free.high[k] - free.low[k]):
         return End(best, True)
-    goal, most = np.sqrt(2 * DROP), abs(bound - best[k])
+    goal, most = np.sqrt(2 * objective.drop), abs(bound - best[k])
     inside, outside = (0.0, 0.0), (np.inf, np.inf)  # distances from the estimate, and roots there
     if after is None:
         white = whitening(objective, best)
@@ -131,7 +131,7 @@ def _end(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.
         start = next((each for each in starts if np.isfinite(objective.value(each))), starts[0])
         point = profile_point(objective, start, k, value)
         height = objective.value(point)
-        if height > top + _BETTER * DROP:
+        if height > top + _BETTER * objective.drop:
             raise _MoreLikely(point)
         possible = bool(np.isfinite(height))
         root = np.sqrt(2 * max(top - height, 0.0)) if possible else np.inf
@@ -169,7 +169,7 @@ def _likely_outside(objective: Objective, best: np.ndarray, k: int, end: End, si
     """The farthest point evaluated so far that is likely enough to lie within the interval and is outside of it."""
     if end.open and not end.wall:
         return None
-    least = objective.value(best) - DROP * (1 - _BETTER)  # first, as it may be evaluated anew
+    least = objective.value(best) - objective.drop * (1 - _BETTER)  # first, as it may be evaluated anew
     points = np.array(objective.points)[np.array(objective.heights) > least]
     excess = sign * (points[:, k] - end.inner[k])
     farthest = int(np.argmax(excess))
@@ -201,9 +201,9 @@ def _from_elsewhere(objective: Objective, best: np.ndarray, k: int, end: End, ot
         if not followed:
             break
         point = max((profile_point(objective, each, k, value) for each in followed), key=objective.value)
-        if objective.value(point) > top + _BETTER * DROP:
+        if objective.value(point) > top + _BETTER * objective.drop:
             raise _MoreLikely(point)
-        if not objective.value(point) > top - DROP * (1 - _BETTER):
+        if not objective.value(point) > top - objective.drop * (1 - _BETTER):
             break
         farther = _end(objective, best, k, sign, point)
         if abs(farther.inner[k] - best[k]) <= abs(value - best[k]):
@@ -235,7 +235,7 @@ def judged(objective: Objective, best: np.ndarray, k: int, ends: Sequence[End]) 
         return IDENTIFIED
     if not all(still_open):
         return ONE_SIDE
-    free, least = objective.free, objective.value(best) - DROP
+    free, least = objective.free, objective.value(best) - objective.drop
     alone = (
         _with(best, k, best[k] + part * (bound[k] - best[k]))
         for bound in (free.low, free.high)

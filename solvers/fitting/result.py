@@ -14,22 +14,25 @@ from ...generated.automaton import OUTCOMES
 from ..errors import InputError
 from ..formatting.markdown import aligned
 from ..host import files
+from ..host.arguments import check_whole
 from ..host.outputs import check_file, check_folder
 from ..host.pictures import plot
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.scene import Scene
-from .free_entries import IDENTIFIED, FreeEntries, in_unit, interval, unit_shown
+from .free_entries import IDENTIFIED, FreeEntries, interval, unit_shown
+from .joint import Part, home, worded
 from .likelihood import KNEE
 from .measurements import Measurements
 from .optimise import Objective
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray
 
     from ..formatting.document import Block
 
-_WIDE = 4.0  # ratio of the ends of an interval from which it is told as a factor
+_WIDE = 2.0  # ratio of the ends of an interval from which it is told as a factor
 _PULLING = 12  # rows of the data in the report
 
 CONTRADICTED = (
@@ -92,9 +95,9 @@ class Fit:
     """The result of `fit`: what was estimated, and how that is shown and written.
 
     Attributes:
-        scene: with the most likely values.
-        first: the scene that was fitted.
-        estimates: by dotted name.
+        parts: the scenes with their first guesses, and their impacts.
+        data: the impacts of all parts.
+        estimates: by dotted name, NAME@LABEL of an entry that is not shared by the scenes.
         log_likelihood: maximum, with all constants of the densities; priors are not part of it.
         correlation: of the estimates in the variables of the search, (entries, entries).
         combinations: sentences on products of powers that the data tell.
@@ -111,8 +114,7 @@ class Fit:
         ['high', 'low', 'value', 'verdict']
     """
 
-    scene: Scene
-    first: Scene
+    parts: tuple[Part, ...]
     data: Measurements
     estimates: Mapping[str, Estimate]
     log_likelihood: float
@@ -124,6 +126,24 @@ class Fit:
     others: tuple[tuple[Mapping[str, float], float], ...]
     objective: Objective = field(repr=False, compare=False)
     ends: tuple[tuple[np.ndarray, np.ndarray], ...] = field(repr=False, compare=False)
+
+    @property
+    def first(self) -> Scene:
+        """The scene that was fitted; the first of several."""
+        return self.parts[0].scene
+
+    @cached_property
+    def scenes(self) -> tuple[Scene, ...]:
+        """The scenes with the most likely values."""
+        return tuple(
+            each.scene.with_si({name: self.estimates[each.entries[name]].value for name in each.names})
+            for each in self.parts
+        )
+
+    @property
+    def scene(self) -> Scene:
+        """The scene with the most likely values; the first of several."""
+        return self.scenes[0]
 
     @property
     def points(self) -> int:
@@ -142,7 +162,7 @@ class Fit:
     def table(self) -> tuple[list[str], list[list[str]]]:
         """Head and rows of the table of estimates."""
         rows = [
-            [name, in_unit(self.first, name, one.value), interval(self.first, name, one.low, one.high),
+            [name, worded(self.parts, name, one.value), interval(*home(self.parts, name), one.low, one.high),
              f"{one.verdict} {one.precision}".rstrip()]
             for name, one in self.estimates.items()
         ]  # fmt: skip
@@ -177,7 +197,12 @@ class Fit:
             "quadrature": self.quadrature,
             "others": [{"values": dict(values), "log_likelihood": height} for values, height in self.others],
             **origin(self.first),
-            "units": {name: self.first.fields[name].unit or "1" for name in names},
+            **({"scenes": [origin(each.scene)["scene"] for each in self.parts]} if len(self.parts) > 1 else {}),
+            "units": {
+                name: scene.fields[entry].unit or "1" if entry in scene.fields else "1"
+                for name in names
+                for scene, entry in (home(self.parts, name),)
+            },
         }
 
     def to_pandas(self) -> pd.DataFrame:
@@ -219,26 +244,69 @@ class Fit:
         """
         return plot(self, path)
 
-    def write(self, path: str | Path) -> None:
-        """Write the fitted scene as TOML, with the intervals as comments."""
-        files.write(check_file(path, "path", (".toml",)), self.to_toml())
+    def predict(
+        self,
+        *,
+        speed: Any = None,
+        relative_speed: Any = None,
+        angle: Any = None,
+        part: int = 0,
+        samples: int = 256,
+        seed: int = 0,
+    ) -> xarray.Dataset:
+        """Probabilities of the outcomes over speed and angle, with the uncertainty of the estimates.
 
-    def to_toml(self) -> str:
-        """The fitted scene as TOML, with intervals and verdicts as comments."""
+        Arguments:
+            speed, relative_speed: normal speeds, or magnitudes of the relative velocity, m/s; one of them. None: around
+                the scene's impacts.
+            angle: impact angles, rad; likewise.
+            part: index of the scene, if there are several.
+            samples: weighted draws of the entries.
+            seed: of the draws.
+
+        Returns:
+            Dataset: `probability` over (outcome, angle, speed); that of an impact at just this speed and angle. The
+            attribute `effective_draws` says how many equally weighted draws are worth as much. Its
+            `.wetdoublet.plot("map.png")` draws it.
+
+        Raises:
+            InputError: a wrong argument.
+            ComputationError: the likelihood leaves next to none of the draws.
+        """
+        from .predictive import draws, predicted
+
+        values, weight = draws(self.objective, self.best, check_whole(samples, "samples", 32, 4096), seed)
+        one = self.parts[check_whole(part, "part", 0, len(self.parts) - 1)]
+        return predicted(one, self.free.names, values, weight, speed, relative_speed, angle)
+
+    def write(self, path: str | Path) -> None:
+        """Write the fitted scene as TOML, with the intervals as comments; of several NAME-1.toml, NAME-2.toml, ..."""
+        file = check_file(path, "path", (".toml",))
+        for k in range(len(self.parts)):
+            numbered = file.with_stem(f"{file.stem}-{k + 1}") if len(self.parts) > 1 else file
+            files.write(numbered, self.to_toml(k))
+
+    def to_toml(self, part: int = 0) -> str:
+        """The fitted scene as TOML, with intervals and verdicts as comments.
+
+        Arguments:
+            part: index of the scene, if there are several.
+        """
+        one = self.parts[part]
         try:
-            scene = self._rounded(6)
+            scene = self._rounded(one, 6)
         except InputError:  # at the edge of what is possible
-            scene = self._rounded(17)
-        rows = self.table()[1]
-        comments = dict(scene.comments) | {name: f"fitted: 95 % {ends}, {verdict}" for name, _, ends, verdict in rows}
+            scene = self._rounded(one, 17)
+        rows = {name: f"fitted: 95 % {ends}, {verdict}" for name, _, ends, verdict in self.table()[1]}
+        comments = dict(scene.comments) | {name: rows[one.entries[name]] for name in one.names}
         return Scene(scene.name, scene.given, tuple(comments.items()), scene.package).to_toml()
 
-    def _rounded(self, digits: int) -> Scene:
+    def _rounded(self, part: Part, digits: int) -> Scene:
         changes: dict[str, float | str] = {}
-        for name, each in self.estimates.items():
-            unit, size = unit_shown(self.first, name)
-            changes[name] = f"{each.value / size:.{digits}g} {unit}" if unit else float(f"{each.value:.{digits}g}")
-        return self.first.with_entries(changes)
+        for name in part.names:
+            value, (unit, size) = self.estimates[part.entries[name]].value, unit_shown(part.scene, name)
+            changes[name] = f"{value / size:.{digits}g} {unit}" if unit else float(f"{value:.{digits}g}")
+        return part.scene.with_entries(changes)
 
     def report(self, folder: str | Path) -> list[Path]:
         """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths."""
@@ -247,7 +315,8 @@ class Fit:
         into = check_folder(folder, "report")
         into.mkdir(parents=True, exist_ok=True)
         self.plot(into / "fit.png")
-        title = f"Fit of {self.points} impacts" + (f" to {self.first.name}" if self.first.name else "")
+        names_of = ", ".join(each.scene.name for each in self.parts if each.scene.name)
+        title = f"Fit of {self.points} impacts" + (f" to {names_of}" if names_of else "")
         names, change = list(self.estimates), f"with twice as fine integrals it changes by {self.quadrature:.2g}"
         blocks: list[Block] = [[CONTRADICTED]] if self.rows.contradicted else []
         shown = "Data over the regime map, results with their band, profiles of the likelihood, and residuals."

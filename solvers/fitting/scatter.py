@@ -261,7 +261,7 @@ class Segments:
         first = 0
         for which, each in maps:
             span, g = slice(first, first + which.size * each.at_nodes.size), each.at_nodes[:, None]
-            first, shape = span.stop, (-1, which.size, each.at_nodes.size)
+            first, shape = span.stop, (len(names), which.size, each.at_nodes.size)
             moves = ends[0, which][:, None] * (1 - g) + ends[1, which][:, None] * g
             slope = (
                 at_nodes.free[:, span].reshape(*shape, moves.shape[-1])

@@ -24,6 +24,7 @@ _HOMES = {  # a variable that only one kind of result has -> what draws it
     "rotation_released": "verify.plot.draw_budget",
     "total_within": "sensitivity.plots.draw_indices",
     "engine": "sensitivity.plots.draw_gradients",
+    "probability": "fitting.predictive_plot.draw",
     "outcome": "many.plot_map.draw",
 }
 _RESULTS = {"Design": "planning.plot.draw", "Fit": "fitting.plot.draw"}  # results that are no Dataset, by class
@@ -34,8 +35,8 @@ def plot(data: Any, path: str | Path | None = None) -> Any:
     """Draw a Dataset that this package has made, read back from a file or not.
 
     Arguments:
-        data: of `collide_many`, `regime_map`, `band`, `gradients_many`, `trajectory_sensitivities`, `sobol_indices` or
-            `restitution_budget`.
+        data: of `collide_many`, `regime_map`, `band`, `gradients_many`, `trajectory_sensitivities`, `sobol_indices`,
+            `Fit.predict` or `restitution_budget`.
         path: file to write (.png, .pdf or .svg); None only draws.
 
     Returns:

@@ -101,8 +101,9 @@ def _from_csv(source: str | Path, label: str) -> tuple[list[Column], list[int]]:
     for k, (row, line) in enumerate(zip(rows, lines, strict=True), 1):
         cells = [cell.split("#")[0] if j == len(row) - 1 else cell for j, cell in enumerate(row)]
         if any(cell.strip() for cell in cells[len(head) :]):
-            extra = f"row {k} (line {line})"
-            raise InputError(f"{label} {source}, {extra}", len(row), f"{len(head)} cells", "cells are too many")
+            raise InputError(
+                f"{label} {source}, {row_name(k, line)}", len(row), f"{len(head)} cells", "cells are too many"
+            )
         cells += [""] * (len(head) - len(cells))
         for column, cell in zip(columns, cells):
             column.cells.append(cell)
@@ -111,6 +112,11 @@ def _from_csv(source: str | Path, label: str) -> tuple[list[Column], list[int]]:
         for column in columns:
             column.cells[:] = [c.replace(",", ".") if DECIMAL_COMMA.fullmatch(c) else c for c in column.cells]
     return columns, lines
+
+
+def row_name(row: int, line: int) -> str:
+    """What names a row from 1 in messages, with its line in the file where that is another number."""
+    return f"row {row} (line {line})" if row != line else f"row {row}"
 
 
 def _header(text: str, label: str) -> tuple[str, str | None]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, did_you_mean
-from ..scene.columns import columns_of
+from ..scene.columns import columns_of, row_name
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS
 
@@ -60,11 +60,11 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         entries = {name: value for name, value in cells.items() if name in FIELDS and value is not None}
         spread = {name.removesuffix(_SD): value for name, value in cells.items() if name.endswith(_SD) and value}
         names = [str(value) for name, value in cells.items() if "." not in name and name != "scene" and value]
-        label = ", ".join(names) or f"row {k + 1}"
+        label = ", ".join(names) or row_name(k + 1, line)
         try:
             scene = _scene(cells.get("scene"), entries).with_entries(changes or {})
         except InputError as error:
-            where = f"materials, {label} (line {line}), {error.field}"
+            where = f"materials, {label}{f' (line {line})' * bool(names)}, {error.field}"
             raise InputError(where, error.value, error.accepted, error.problem) from None
         found.append(Material(label, scene, spread))
     return found

@@ -166,5 +166,5 @@ def test_the_command(tmp_path: Path) -> None:
     file.write_text(CLEAN + CLEAN.split("\n")[2] + "\n", encoding="utf-8")
     done = run("check", file, "pendulum", "--json")
     assert done.exit_code == 1
-    assert "row 2, row 4: the same to the last digit" in done.stderr
+    assert "row 2 (line 3), row 4 (line 5): the same to the last digit" in done.stderr
     assert [one["kind"] for one in json.loads(done.stdout)["findings"]] == ["duplicate"]

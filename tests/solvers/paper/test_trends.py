@@ -93,11 +93,13 @@ def test_viscosity_lowers_restitution_and_the_thickness_that_sticks() -> None:
     assert least[0] > least[1] > least[2]
 
 
-def test_the_criterion_of_ennis() -> None:
+@pytest.mark.parametrize(("thickness", "dry"), [(100e-6, 0.9), (3e-6, 0.35), (0.9e-3, 0.6)])
+def test_the_criterion_of_ennis(thickness: float, dry: float) -> None:
     """St* = (1 + 1/e) ln(h/h_a) of an unbounded film; the finite film of the paper has a lower one."""
-    ennis = (1 + 1 / 0.9) * math.log(100)
-    [unbounded] = critical(PLANE.with_entries({"model.film": "infinite"}), angle=0.0).rows
-    [finite] = critical(PLANE, angle=0.0).rows
+    ennis = (1 + 1 / dry) * math.log(thickness / 1e-6)
+    scene = PLANE.with_entries({"liquid.film_thickness": thickness, "particles.dry_restitution": dry})
+    [unbounded] = critical(scene.with_entries({"model.film": "infinite"}), angle=0.0).rows
+    [finite] = critical(scene, angle=0.0).rows
     # beside a wall the radius is twice the reduced one of two such spheres, which St takes into account
     assert unbounded.stokes == pytest.approx(ennis, rel=1e-7)
     assert finite.stokes < 0.8 * ennis
