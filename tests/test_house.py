@@ -19,9 +19,10 @@ ORDER = (
     "derive.vocabulary", "derive.physics", "derive.equations", "derive.user", "derive.user", "derive.checks",
     "derive.emit", "generated", "solvers.errors", "solvers.host", "solvers.formatting", "solvers.scene",
     "solvers.model", "solvers.certificates", "solvers.engines", "solvers.collision", "solvers.many",
-    "solvers.proofs", "solvers.space", "solvers.changes", "solvers.boundaries", "solvers.sensitivity", "solvers.averages",
-    "solvers.fitting", "solvers.planning", "solvers.verify", "solvers.export", "solvers.explorer", "solvers.tables",
-    "solvers.paper", "solvers.bindings", "solvers.commands", "solvers", "solvers.package", "solvers.__main__",
+    "solvers.proofs", "solvers.space", "solvers.changes", "solvers.boundaries", "solvers.sensitivity",
+    "solvers.averages", "solvers.fitting", "solvers.planning", "solvers.verify", "solvers.export",
+    "solvers.explorer", "solvers.tables", "solvers.paper", "solvers.bindings", "solvers.commands", "solvers",
+    "solvers.package", "solvers.__main__",
 )  # fmt: skip
 
 

@@ -107,6 +107,7 @@ _EXPECTED = {  # reason -> checks of scikit-learn that fail for it
 }
 
 
+@pytest.mark.filterwarnings("ignore:.*BaseEstimator")  # its protocol is implemented without its base class
 def test_scikit_learn_checks_all_but_those_that_cannot_be() -> None:
     """All of `check_estimator` passes, except the checks whose data are no impacts, or that want their own words."""
     checks = pytest.importorskip("sklearn.utils.estimator_checks", reason="scikit-learn is not installed")
