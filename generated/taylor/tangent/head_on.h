@@ -44,6 +44,7 @@ enum { CONSTANTS = 1 };
 /* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
 typedef struct {
     vec constant[CONSTANTS];
+    vec ahead[3];
     vec film_force[TERMS];
     vec film_resistance_law[TERMS];
 } adjoint;
@@ -59,11 +60,14 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     vec after_normal_velocity = only(moving, w[NORMAL_VELOCITY]*next);
     vec by_rate_of_normal_velocity = after_normal_velocity;
     bar->film_force[k] = (-by_rate_of_normal_velocity);
-    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
-    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force,
+        &bar->ahead[0], k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, &bar->ahead[1],
+        k);
     bar->constant[0] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
     bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
-    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law,
+        &bar->ahead[2], k);
     w[GAP] = of_sum[GAP]*power + film_resistance_law_gap;
     w[NORMAL_VELOCITY] = of_sum[NORMAL_VELOCITY]*power + after_gap +
         film*c->film_force_factor*normal_velocity_by_film_force;
@@ -104,11 +108,13 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
 {
     film_resistance_slopes film_resistance_law;
     vec film_force_by_gap[TERMS];
+    vec ahead_of_film_force_by_gap;
     (void)film; (void)shear; (void)c; (void)asked;
     film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap);
-    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
-        of->normal_velocity, k);)
+    EACH_TERM(film_force_by_gap[k] =
+        film*c->film_force_by_gap_factor*product_ahead(film_resistance_law.by_gap, of->normal_velocity,
+        &ahead_of_film_force_by_gap, k);)
     EACH_TERM(s->normal_velocity_by_gap[k] = -film_force_by_gap[k];)
     EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
         film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)

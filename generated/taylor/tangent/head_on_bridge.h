@@ -54,6 +54,7 @@ enum { CONSTANTS = 5 };
 /* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
 typedef struct {
     vec constant[CONSTANTS];
+    vec ahead[4];
     vec bridge_force_law[TERMS];
     vec film_force[TERMS];
     vec film_resistance_law[TERMS];
@@ -73,17 +74,20 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     bar->constant[0] += of->bridge_force_law.result[k]*by_bridge_force;
     bar->bridge_force_law[k] = c->bridge_force_per_bridge_force_law*by_bridge_force;
     vec bridge_force_law_gap_over_radius = correlated(d->bridge_force_law.by_gap_over_radius,
-        bar->bridge_force_law, k);
+        bar->bridge_force_law, &bar->ahead[0], k);
     bar->constant[1] += d->bridge_force_law.by_volume[k]*bar->bridge_force_law[k];
     bar->constant[2] += d->bridge_force_law.by_contact_angle[k]*bar->bridge_force_law[k];
     vec by_scaled_gap = bridge_force_law_gap_over_radius;
     bar->constant[3] += of->gap[k]*by_scaled_gap;
     bar->film_force[k] = (-by_rate_of_normal_velocity);
-    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
-    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force,
+        &bar->ahead[1], k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, &bar->ahead[2],
+        k);
     bar->constant[4] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
     bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
-    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law,
+        &bar->ahead[3], k);
     w[GAP] = of_sum[GAP]*power + c->scaled_gap_per_gap*by_scaled_gap + film_resistance_law_gap;
     w[NORMAL_VELOCITY] = of_sum[NORMAL_VELOCITY]*power + after_gap +
         film*c->film_force_factor*normal_velocity_by_film_force;
@@ -143,21 +147,25 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     film_resistance_slopes film_resistance_law;
     bridge_force_slopes bridge_force_law;
     vec film_force_by_gap[TERMS];
+    vec ahead_of_film_force_by_gap;
     vec bridge_force_by_aspect[TERMS];
+    vec ahead_of_bridge_force_by_aspect;
     (void)film; (void)shear; (void)c; (void)asked;
     film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap);
     bridge_force_slopes_of(&bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
         &v->bridge_force_law, of->scaled_gap);
-    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
-        of->normal_velocity, k);)
+    EACH_TERM(film_force_by_gap[k] =
+        film*c->film_force_by_gap_factor*product_ahead(film_resistance_law.by_gap, of->normal_velocity,
+        &ahead_of_film_force_by_gap, k);)
     EACH_TERM(s->normal_velocity_by_gap[k] =
         c->normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k]
         - film_force_by_gap[k];)
     EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
         film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
     if (asked & (1u << BY_ASPECT)) {
-        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
+        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product_ahead(bridge_force_law.by_gap_over_radius, of->gap,
+        &ahead_of_bridge_force_by_aspect, k);)
         EACH_TERM(s->normal_velocity_by_aspect[k] =
         c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k];)
     }

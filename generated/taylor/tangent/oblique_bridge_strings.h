@@ -74,6 +74,7 @@ enum { CONSTANTS = 13 };
 /* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
 typedef struct {
     vec constant[CONSTANTS];
+    vec ahead[28];
     vec rate_of_spin[TERMS];
     vec rate_of_orbital_momentum[TERMS];
     vec arm_lever_law[TERMS];
@@ -110,80 +111,94 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     vec by_rate_of_rotation = after_rotation;
     bar->constant[0] += of->orbital_rate[k]*by_rate_of_rotation;
     bar->rate_of_spin[k] = after_spin;
-    vec arm_lever_law_by_rate_of_spin = correlated(of->shear_force, bar->rate_of_spin, k);
-    vec shear_force_by_rate_of_spin = correlated(of->arm_lever_law.result, bar->rate_of_spin, k);
+    vec arm_lever_law_by_rate_of_spin = correlated(of->shear_force, bar->rate_of_spin, &bar->ahead[0], k);
+    vec shear_force_by_rate_of_spin = correlated(of->arm_lever_law.result, bar->rate_of_spin, &bar->ahead[1],
+        k);
     bar->rate_of_orbital_momentum[k] = after_orbital_momentum;
     vec distance_by_rate_of_orbital_momentum = correlated(of->combination_3, bar->rate_of_orbital_momentum,
-        k);
+        &bar->ahead[2], k);
     vec combination_3_by_rate_of_orbital_momentum = correlated(of->distance, bar->rate_of_orbital_momentum,
-        k);
+        &bar->ahead[3], k);
     vec by_combination_3 = (-combination_3_by_rate_of_orbital_momentum);
     vec by_rate_of_normal_velocity = after_normal_velocity;
     bar->arm_lever_law[k] = 0.3125*arm_lever_law_by_rate_of_spin;
-    vec arm_lever_law_distance = correlated(d->arm_lever_law.by_distance, bar->arm_lever_law, k);
+    vec arm_lever_law_distance = correlated(d->arm_lever_law.by_distance, bar->arm_lever_law, &bar->ahead[4],
+        k);
     bar->string_sideways[k] = by_combination_3;
-    vec strings_stiffness_law_by_string_sideways = correlated(of->sine_of_rotation, bar->string_sideways, k);
+    vec strings_stiffness_law_by_string_sideways = correlated(of->sine_of_rotation, bar->string_sideways,
+        &bar->ahead[5], k);
     vec sine_of_rotation_by_string_sideways = correlated(of->strings_stiffness_law.result,
-        bar->string_sideways, k);
+        bar->string_sideways, &bar->ahead[6], k);
     bar->constant[1] += of->strings_stiffness_law.result[k]*strings_stiffness_law_by_string_sideways;
     bar->string_pull[k] = (-by_rate_of_normal_velocity);
-    vec combination_2_by_string_pull = correlated(of->strings_stiffness_law.result, bar->string_pull, k);
-    vec strings_stiffness_law_by_string_pull = correlated(of->combination_2, bar->string_pull, k);
+    vec combination_2_by_string_pull = correlated(of->strings_stiffness_law.result, bar->string_pull,
+        &bar->ahead[7], k);
+    vec strings_stiffness_law_by_string_pull = correlated(of->combination_2, bar->string_pull, &bar->ahead[8],
+        k);
     bar->constant[2] += of->combination_2[k]*combination_2_by_string_pull;
     bar->strings_stiffness_law[k] = c->string_sideways_factor*strings_stiffness_law_by_string_sideways +
         c->weight*strings_stiffness_law_by_string_pull;
     bar->constant[3] += d->strings_stiffness_law.by_string_ratio[k]*bar->strings_stiffness_law[k];
     vec strings_stiffness_law_offset_squared = correlated(d->strings_stiffness_law.by_offset_squared,
-        bar->strings_stiffness_law, k);
+        bar->strings_stiffness_law, &bar->ahead[9], k);
     vec by_combination_2 = c->weight*combination_2_by_string_pull;
     bar->constant[4] += of->gap[k]*by_combination_2;
     vec by_offset_squared = strings_stiffness_law_offset_squared;
     bar->constant[5] += of->gap_squared[k]*by_offset_squared;
     bar->distance_by_combination[k] = 4.0*by_offset_squared;
-    vec distance_by_distance_by_combination = correlated(of->combination, bar->distance_by_combination, k);
-    vec combination_by_distance_by_combination = correlated(of->distance, bar->distance_by_combination, k);
+    vec distance_by_distance_by_combination = correlated(of->combination, bar->distance_by_combination,
+        &bar->ahead[10], k);
+    vec combination_by_distance_by_combination = correlated(of->distance, bar->distance_by_combination,
+        &bar->ahead[11], k);
     vec by_combination = 8.0*by_combination_2 + combination_by_distance_by_combination;
     bar->cosine_of_rotation[k] = (-0.5)*by_combination;
-    vec by_cosine_of_rotation = correlated(of->sine_of_rotation, bar->cosine_of_rotation, k);
+    vec by_cosine_of_rotation = correlated(of->sine_of_rotation, bar->cosine_of_rotation, &bar->ahead[12], k);
     bar->sine_of_rotation[k] = c->string_sideways_factor*sine_of_rotation_by_string_sideways;
-    vec by_sine_of_rotation = correlated(of->cosine_of_rotation, bar->sine_of_rotation, k);
+    vec by_sine_of_rotation = correlated(of->cosine_of_rotation, bar->sine_of_rotation, &bar->ahead[13], k);
     bar->gap_squared[k] = c->offset_squared_per_gap_squared*by_offset_squared;
-    vec by_gap_squared = correlated(of->gap, bar->gap_squared, k);
+    vec by_gap_squared = correlated(of->gap, bar->gap_squared, &bar->ahead[14], k);
     vec by_bridge_force = (-by_rate_of_normal_velocity);
     bar->constant[6] += of->bridge_force_law.result[k]*by_bridge_force;
     bar->bridge_force_law[k] = c->bridge_force_per_bridge_force_law*by_bridge_force;
     vec bridge_force_law_gap_over_radius = correlated(d->bridge_force_law.by_gap_over_radius,
-        bar->bridge_force_law, k);
+        bar->bridge_force_law, &bar->ahead[15], k);
     bar->constant[7] += d->bridge_force_law.by_volume[k]*bar->bridge_force_law[k];
     bar->constant[8] += d->bridge_force_law.by_contact_angle[k]*bar->bridge_force_law[k];
     vec by_scaled_gap = bridge_force_law_gap_over_radius;
     bar->constant[9] += of->gap[k]*by_scaled_gap;
     bar->film_force[k] = (-by_rate_of_normal_velocity);
-    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
-    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force,
+        &bar->ahead[16], k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, &bar->ahead[17],
+        k);
     bar->constant[10] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
     bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
-    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law,
+        &bar->ahead[18], k);
     bar->centrifugal_force[k] = by_rate_of_normal_velocity;
-    vec distance_by_centrifugal_force = correlated(of->orbital_rate_squared, bar->centrifugal_force, k);
-    vec orbital_rate_squared_by_centrifugal_force = correlated(of->distance, bar->centrifugal_force, k);
+    vec distance_by_centrifugal_force = correlated(of->orbital_rate_squared, bar->centrifugal_force,
+        &bar->ahead[19], k);
+    vec orbital_rate_squared_by_centrifugal_force = correlated(of->distance, bar->centrifugal_force,
+        &bar->ahead[20], k);
     bar->constant[11] += of->distance[k]*distance_by_centrifugal_force;
     bar->orbital_rate_squared[k] = c->centrifugal_force_factor*orbital_rate_squared_by_centrifugal_force;
-    vec by_orbital_rate_squared = correlated(of->orbital_rate, bar->orbital_rate_squared, k);
+    vec by_orbital_rate_squared = correlated(of->orbital_rate, bar->orbital_rate_squared, &bar->ahead[21], k);
     bar->shear_force[k] = 0.3125*shear_force_by_rate_of_spin + by_combination_3;
-    vec slip_by_shear_force = correlated(of->shear_log_factor_law.result, bar->shear_force, k);
-    vec shear_log_factor_law_by_shear_force = correlated(of->slip, bar->shear_force, k);
+    vec slip_by_shear_force = correlated(of->shear_log_factor_law.result, bar->shear_force, &bar->ahead[22],
+        k);
+    vec shear_log_factor_law_by_shear_force = correlated(of->slip, bar->shear_force, &bar->ahead[23], k);
     bar->constant[12] += shear*of->slip[k]*slip_by_shear_force;
     bar->shear_log_factor_law[k] = shear*c->shear_force_factor*shear_log_factor_law_by_shear_force;
-    vec shear_log_factor_law_gap = correlated(d->shear_log_factor_law.by_gap, bar->shear_log_factor_law, k);
+    vec shear_log_factor_law_gap = correlated(d->shear_log_factor_law.by_gap, bar->shear_log_factor_law,
+        &bar->ahead[24], k);
     bar->constant[4] += d->shear_log_factor_law.by_aspect[k]*bar->shear_log_factor_law[k];
     vec by_slip = shear*c->shear_force_factor*slip_by_shear_force;
     bar->orbital_rate[k] = (c->rate_of_rotation_per_orbital_rate*by_rate_of_rotation +
         2.0*by_orbital_rate_squared + by_slip - beyond(of->distance_squared, bar->orbital_rate,
-        k))*of->over_orbital_rate;
-    vec by_orbital_rate = correlated(of->orbital_rate, bar->orbital_rate, k);
+        &bar->ahead[25], k))*of->over_orbital_rate;
+    vec by_orbital_rate = correlated(of->orbital_rate, bar->orbital_rate, &bar->ahead[26], k);
     bar->distance_squared[k] = (-by_orbital_rate);
-    vec by_distance_squared = correlated(of->distance, bar->distance_squared, k);
+    vec by_distance_squared = correlated(of->distance, bar->distance_squared, &bar->ahead[27], k);
     vec by_distance = (-distance_by_rate_of_orbital_momentum) + arm_lever_law_distance +
         distance_by_distance_by_combination + c->centrifugal_force_factor*distance_by_centrifugal_force +
         2.0*by_distance_squared;
@@ -323,12 +338,18 @@ typedef struct {
     vec orbital_momentum_by_gap[TERMS];
     vec orbital_momentum_by_orbital_momentum[TERMS];
     vec orbital_momentum_by_spin[TERMS];
+    vec ahead_of_orbital_momentum_by_spin;
     vec orbital_momentum_by_rotation[TERMS];
+    vec ahead_of_orbital_momentum_by_rotation;
     vec orbital_momentum_by_stokes[TERMS];
+    vec ahead_of_orbital_momentum_by_stokes;
     vec orbital_momentum_by_aspect[TERMS];
     vec orbital_momentum_by_obliquity[TERMS];
+    vec ahead_of_orbital_momentum_by_obliquity;
     vec orbital_momentum_by_weight[TERMS];
+    vec ahead_of_orbital_momentum_by_weight;
     vec orbital_momentum_by_string_ratio[TERMS];
+    vec ahead_of_orbital_momentum_by_string_ratio;
     vec spin_by_gap[TERMS];
     vec spin_by_orbital_momentum[TERMS];
     vec spin_by_spin[TERMS];
@@ -350,71 +371,114 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     strings_stiffness_slopes strings_stiffness_law;
     arm_lever_slopes arm_lever_law;
     vec film_force_by_gap[TERMS];
+    vec ahead_of_film_force_by_gap;
     vec offset_squared_by_gap[TERMS];
     vec strings_stiffness_by_gap[TERMS];
+    vec ahead_of_strings_stiffness_by_gap;
     vec combination_4[TERMS];
     vec strings_stiffness_by_gap_by_combination_4[TERMS];
+    vec ahead_of_strings_stiffness_by_gap_by_combination_4;
     vec string_pull_by_gap[TERMS];
     vec scaled_rotation[TERMS];
     vec sine_of_scaled_rotation[TERMS], slope_of_scaled_rotation[TERMS];
     vec cosine_of_scaled_rotation[TERMS];
     vec distance_by_sine_of_scaled_rotation[TERMS];
+    vec ahead_of_distance_by_sine_of_scaled_rotation;
     vec offset_squared_by_rotation[TERMS];
+    vec ahead_of_offset_squared_by_rotation;
     vec strings_stiffness_by_rotation[TERMS];
+    vec ahead_of_strings_stiffness_by_rotation;
     vec strings_stiffness_by_rotation_by_combination_4[TERMS];
+    vec ahead_of_strings_stiffness_by_rotation_by_combination_4;
     vec strings_stiffness_law_by_sine_of_scaled_rotation[TERMS];
+    vec ahead_of_strings_stiffness_law_by_sine_of_scaled_rotation;
     vec strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
+    vec ahead_of_strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation;
     vec string_pull_by_rotation[TERMS];
     vec bridge_force_by_aspect[TERMS];
+    vec ahead_of_bridge_force_by_aspect;
     vec gap_by_orbital_rate_squared[TERMS];
+    vec ahead_of_gap_by_orbital_rate_squared;
     vec centrifugal_force_by_aspect[TERMS];
     vec gap_by_combination[TERMS];
+    vec ahead_of_gap_by_combination;
     vec offset_squared_by_aspect[TERMS];
     vec strings_stiffness_by_aspect[TERMS];
+    vec ahead_of_strings_stiffness_by_aspect;
     vec combination_5[TERMS];
     vec gap_by_combination_5[TERMS];
+    vec ahead_of_gap_by_combination_5;
     vec strings_stiffness_by_aspect_by_combination[TERMS];
+    vec ahead_of_strings_stiffness_by_aspect_by_combination;
     vec string_pull_by_aspect[TERMS];
     vec string_pull_by_string_ratio[TERMS];
+    vec ahead_of_string_pull_by_string_ratio;
     vec orbital_rate_by_shear_log_factor_law[TERMS];
+    vec ahead_of_orbital_rate_by_shear_log_factor_law;
     vec orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
     vec over_orbital_rate_by_shear_log_factor_law_over_distance;
+    vec ahead_of_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_log_factor_law_by_gap_by_slip[TERMS];
+    vec ahead_of_shear_log_factor_law_by_gap_by_slip;
     vec shear_force_by_gap[TERMS];
     vec string_sideways_by_gap[TERMS];
+    vec ahead_of_string_sideways_by_gap;
     vec strings_stiffness_by_rotation_by_sine_of_rotation[TERMS];
+    vec ahead_of_strings_stiffness_by_rotation_by_sine_of_rotation;
     vec strings_stiffness_law_by_cosine_of_rotation[TERMS];
+    vec ahead_of_strings_stiffness_law_by_cosine_of_rotation;
     vec string_sideways_by_rotation[TERMS];
     vec shear_log_factor_law_by_aspect_by_slip[TERMS];
+    vec ahead_of_shear_log_factor_law_by_aspect_by_slip;
     vec gap_by_orbital_rate[TERMS];
+    vec ahead_of_gap_by_orbital_rate;
     vec gap_by_orbital_rate_by_shear_log_factor_law[TERMS];
+    vec ahead_of_gap_by_orbital_rate_by_shear_log_factor_law;
     vec gap_by_orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
     vec over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
+    vec ahead_of_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_aspect[TERMS];
     vec string_sideways_by_aspect[TERMS];
+    vec ahead_of_string_sideways_by_aspect;
     vec string_sideways_by_obliquity[TERMS];
     vec string_sideways_by_string_ratio[TERMS];
+    vec ahead_of_string_sideways_by_string_ratio;
     vec arm_lever_by_aspect[TERMS];
+    vec ahead_of_arm_lever_by_aspect;
     vec orbital_rate_over_distance[TERMS];
     vec over_orbital_rate_over_distance;
+    vec ahead_of_orbital_rate_over_distance;
     vec combination_6[TERMS];
     vec distance_by_combination_6[TERMS];
+    vec ahead_of_distance_by_combination_6;
     vec shear_log_factor_law_over_distance[TERMS];
     vec over_shear_log_factor_law_over_distance;
+    vec ahead_of_shear_log_factor_law_over_distance;
     vec combination_7[TERMS];
     vec distance_by_combination_7[TERMS];
+    vec ahead_of_distance_by_combination_7;
     vec gap_by_shear_force[TERMS];
+    vec ahead_of_gap_by_shear_force;
     vec gap_by_string_sideways[TERMS];
+    vec ahead_of_gap_by_string_sideways;
     vec arm_lever_law_by_distance_by_shear_force[TERMS];
+    vec ahead_of_arm_lever_law_by_distance_by_shear_force;
     vec arm_lever_law_by_shear_force_by_gap[TERMS];
+    vec ahead_of_arm_lever_law_by_shear_force_by_gap;
     vec arm_lever_law_by_shear_log_factor_law[TERMS];
+    vec ahead_of_arm_lever_law_by_shear_log_factor_law;
     vec arm_lever_law_by_shear_log_factor_law_over_distance_squared[TERMS];
     vec over_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
+    vec ahead_of_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
     vec arm_lever_by_aspect_by_shear_force[TERMS];
+    vec ahead_of_arm_lever_by_aspect_by_shear_force;
     vec arm_lever_law_by_shear_force_by_aspect[TERMS];
+    vec ahead_of_arm_lever_law_by_shear_force_by_aspect;
     vec inverse_distance_squared[TERMS];
+    vec ahead_of_inverse_distance_squared;
     vec gap_by_orbital_rate_over_distance[TERMS];
     vec over_gap_by_orbital_rate_over_distance;
+    vec ahead_of_gap_by_orbital_rate_over_distance;
     (void)film; (void)shear; (void)c; (void)asked;
     shear_log_factor_slopes_of(&shear_log_factor_law, &c->shear_log_factor_law, &of->shear_log_factor_law,
         &v->shear_log_factor_law, of->gap);
@@ -426,52 +490,58 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         &v->strings_stiffness_law, of->offset_squared);
     arm_lever_slopes_of(&arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
         of->distance);
-    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
-        of->normal_velocity, k);)
+    EACH_TERM(film_force_by_gap[k] =
+        film*c->film_force_by_gap_factor*product_ahead(film_resistance_law.by_gap, of->normal_velocity,
+        &ahead_of_film_force_by_gap, k);)
     EACH_TERM(offset_squared_by_gap[k] = c->offset_squared_by_gap_per_gap*of->gap[k] +
         c->offset_squared_by_gap_per_combination*of->combination[k];)
-    EACH_TERM(strings_stiffness_by_gap[k] = product(strings_stiffness_law.by_offset_squared,
-        offset_squared_by_gap, k);)
+    EACH_TERM(strings_stiffness_by_gap[k] = product_ahead(strings_stiffness_law.by_offset_squared,
+        offset_squared_by_gap, &ahead_of_strings_stiffness_by_gap, k);)
     EACH_TERM(combination_4[k] = c->combination_4_per_gap*of->gap[k] +
         c->combination_4_per_combination*of->combination[k];)
-    EACH_TERM(strings_stiffness_by_gap_by_combination_4[k] = product(strings_stiffness_by_gap, combination_4,
-        k);)
+    EACH_TERM(strings_stiffness_by_gap_by_combination_4[k] = product_ahead(strings_stiffness_by_gap,
+        combination_4, &ahead_of_strings_stiffness_by_gap_by_combination_4, k);)
     EACH_TERM(string_pull_by_gap[k] = c->combination_4_per_gap*of->strings_stiffness_law.result[k] +
         strings_stiffness_by_gap_by_combination_4[k];)
     EACH_TERM(scaled_rotation[k] = 0.5*of->rotation[k];)
     EACH_TERM(circular(scaled_rotation, slope_of_scaled_rotation, sine_of_scaled_rotation,
         cosine_of_scaled_rotation, k);)
     /* cosine_of_scaled_rotation comes with its sine */
-    EACH_TERM(distance_by_sine_of_scaled_rotation[k] = product(of->distance, sine_of_scaled_rotation, k);)
-    EACH_TERM(offset_squared_by_rotation[k] = 4.0*product(cosine_of_scaled_rotation,
-        distance_by_sine_of_scaled_rotation, k);)
-    EACH_TERM(strings_stiffness_by_rotation[k] = product(strings_stiffness_law.by_offset_squared,
-        offset_squared_by_rotation, k);)
-    EACH_TERM(strings_stiffness_by_rotation_by_combination_4[k] = product(combination_4,
-        strings_stiffness_by_rotation, k);)
-    EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation[k] = product(of->strings_stiffness_law.result,
-        sine_of_scaled_rotation, k);)
+    EACH_TERM(distance_by_sine_of_scaled_rotation[k] = product_ahead(of->distance, sine_of_scaled_rotation,
+        &ahead_of_distance_by_sine_of_scaled_rotation, k);)
+    EACH_TERM(offset_squared_by_rotation[k] = 4.0*product_ahead(cosine_of_scaled_rotation,
+        distance_by_sine_of_scaled_rotation, &ahead_of_offset_squared_by_rotation, k);)
+    EACH_TERM(strings_stiffness_by_rotation[k] = product_ahead(strings_stiffness_law.by_offset_squared,
+        offset_squared_by_rotation, &ahead_of_strings_stiffness_by_rotation, k);)
+    EACH_TERM(strings_stiffness_by_rotation_by_combination_4[k] = product_ahead(combination_4,
+        strings_stiffness_by_rotation, &ahead_of_strings_stiffness_by_rotation_by_combination_4, k);)
+    EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation[k] =
+        product_ahead(of->strings_stiffness_law.result, sine_of_scaled_rotation,
+        &ahead_of_strings_stiffness_law_by_sine_of_scaled_rotation, k);)
     EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
-        product(cosine_of_scaled_rotation, strings_stiffness_law_by_sine_of_scaled_rotation, k);)
+        product_ahead(cosine_of_scaled_rotation, strings_stiffness_law_by_sine_of_scaled_rotation,
+        &ahead_of_strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation, k);)
     EACH_TERM(string_pull_by_rotation[k] = strings_stiffness_by_rotation_by_combination_4[k] +
         c->combination_4_per_combination*strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k];)
-    EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate,
-        of->shear_log_factor_law.result, k);)
+    EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product_ahead(of->orbital_rate,
+        of->shear_log_factor_law.result, &ahead_of_orbital_rate_by_shear_log_factor_law, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law_over_distance[k] =
-        quotient(orbital_rate_by_shear_log_factor_law, of->distance,
+        quotient_ahead(orbital_rate_by_shear_log_factor_law, of->distance,
         orbital_rate_by_shear_log_factor_law_over_distance,
-        &over_orbital_rate_by_shear_log_factor_law_over_distance, k);)
-    EACH_TERM(shear_log_factor_law_by_gap_by_slip[k] = product(shear_log_factor_law.by_gap, of->slip, k);)
+        &over_orbital_rate_by_shear_log_factor_law_over_distance,
+        &ahead_of_orbital_rate_by_shear_log_factor_law_over_distance, k);)
+    EACH_TERM(shear_log_factor_law_by_gap_by_slip[k] = product_ahead(shear_log_factor_law.by_gap, of->slip,
+        &ahead_of_shear_log_factor_law_by_gap_by_slip, k);)
     EACH_TERM(shear_force_by_gap[k] =
         shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*orbital_rate_by_shear_log_factor_law_over_distance[k]
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_gap_by_slip[k];)
-    EACH_TERM(string_sideways_by_gap[k] = c->string_sideways_by_gap_factor*product(of->sine_of_rotation,
-        strings_stiffness_by_gap, k);)
-    EACH_TERM(strings_stiffness_by_rotation_by_sine_of_rotation[k] = product(of->sine_of_rotation,
-        strings_stiffness_by_rotation, k);)
-    EACH_TERM(strings_stiffness_law_by_cosine_of_rotation[k] = product(of->strings_stiffness_law.result,
-        of->cosine_of_rotation, k);)
+    EACH_TERM(string_sideways_by_gap[k] = c->string_sideways_by_gap_factor*product_ahead(of->sine_of_rotation,
+        strings_stiffness_by_gap, &ahead_of_string_sideways_by_gap, k);)
+    EACH_TERM(strings_stiffness_by_rotation_by_sine_of_rotation[k] = product_ahead(of->sine_of_rotation,
+        strings_stiffness_by_rotation, &ahead_of_strings_stiffness_by_rotation_by_sine_of_rotation, k);)
+    EACH_TERM(strings_stiffness_law_by_cosine_of_rotation[k] = product_ahead(of->strings_stiffness_law.result,
+        of->cosine_of_rotation, &ahead_of_strings_stiffness_law_by_cosine_of_rotation, k);)
     EACH_TERM(string_sideways_by_rotation[k] =
         c->string_sideways_by_gap_factor*strings_stiffness_by_rotation_by_sine_of_rotation[k] +
         c->string_sideways_by_gap_factor*strings_stiffness_law_by_cosine_of_rotation[k];)
@@ -481,96 +551,116 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         - film_force_by_gap[k] - string_pull_by_gap[k];)
     EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
         film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
-    EACH_TERM(orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance,
-        orbital_rate_over_distance, &over_orbital_rate_over_distance, k);)
+    EACH_TERM(orbital_rate_over_distance[k] = quotient_ahead(of->orbital_rate, of->distance,
+        orbital_rate_over_distance, &over_orbital_rate_over_distance, &ahead_of_orbital_rate_over_distance,
+        k);)
     EACH_TERM(s->normal_velocity_by_orbital_momentum[k] =
         c->normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
     EACH_TERM(s->normal_velocity_by_rotation[k] = -string_pull_by_rotation[k];)
     EACH_TERM(combination_6[k] = -shear_force_by_gap[k] - string_sideways_by_gap[k];)
-    EACH_TERM(distance_by_combination_6[k] = product(of->distance, combination_6, k);)
+    EACH_TERM(distance_by_combination_6[k] = product_ahead(of->distance, combination_6,
+        &ahead_of_distance_by_combination_6, k);)
     EACH_TERM(s->orbital_momentum_by_gap[k] = c->orbital_momentum_by_gap_per_shear_force*of->shear_force[k] +
         c->orbital_momentum_by_gap_per_shear_force*of->string_sideways[k] + distance_by_combination_6[k];)
-    EACH_TERM(shear_log_factor_law_over_distance[k] = quotient(of->shear_log_factor_law.result, of->distance,
-        shear_log_factor_law_over_distance, &over_shear_log_factor_law_over_distance, k);)
+    EACH_TERM(shear_log_factor_law_over_distance[k] = quotient_ahead(of->shear_log_factor_law.result,
+        of->distance, shear_log_factor_law_over_distance, &over_shear_log_factor_law_over_distance,
+        &ahead_of_shear_log_factor_law_over_distance, k);)
     EACH_TERM(s->orbital_momentum_by_orbital_momentum[k] =
         shear*c->orbital_momentum_by_orbital_momentum_per_shear_log_factor_law_over_distance*shear_log_factor_law_over_distance[k];)
     EACH_TERM(s->orbital_momentum_by_spin[k] =
-        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->distance,
-        of->shear_log_factor_law.result, k);)
-    EACH_TERM(s->orbital_momentum_by_rotation[k] = -product(of->distance, string_sideways_by_rotation, k);)
-    EACH_TERM(arm_lever_law_by_distance_by_shear_force[k] = product(arm_lever_law.by_distance,
-        of->shear_force, k);)
-    EACH_TERM(arm_lever_law_by_shear_force_by_gap[k] = product(of->arm_lever_law.result, shear_force_by_gap,
-        k);)
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product_ahead(of->distance,
+        of->shear_log_factor_law.result, &s->ahead_of_orbital_momentum_by_spin, k);)
+    EACH_TERM(s->orbital_momentum_by_rotation[k] = -product_ahead(of->distance, string_sideways_by_rotation,
+        &s->ahead_of_orbital_momentum_by_rotation, k);)
+    EACH_TERM(arm_lever_law_by_distance_by_shear_force[k] = product_ahead(arm_lever_law.by_distance,
+        of->shear_force, &ahead_of_arm_lever_law_by_distance_by_shear_force, k);)
+    EACH_TERM(arm_lever_law_by_shear_force_by_gap[k] = product_ahead(of->arm_lever_law.result,
+        shear_force_by_gap, &ahead_of_arm_lever_law_by_shear_force_by_gap, k);)
     EACH_TERM(s->spin_by_gap[k] =
         c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force*arm_lever_law_by_distance_by_shear_force[k]
         + 0.3125*arm_lever_law_by_shear_force_by_gap[k];)
-    EACH_TERM(arm_lever_law_by_shear_log_factor_law[k] = product(of->arm_lever_law.result,
-        of->shear_log_factor_law.result, k);)
+    EACH_TERM(arm_lever_law_by_shear_log_factor_law[k] = product_ahead(of->arm_lever_law.result,
+        of->shear_log_factor_law.result, &ahead_of_arm_lever_law_by_shear_log_factor_law, k);)
     EACH_TERM(arm_lever_law_by_shear_log_factor_law_over_distance_squared[k] =
-        quotient(arm_lever_law_by_shear_log_factor_law, of->distance_squared,
+        quotient_ahead(arm_lever_law_by_shear_log_factor_law, of->distance_squared,
         arm_lever_law_by_shear_log_factor_law_over_distance_squared,
-        &over_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);)
+        &over_arm_lever_law_by_shear_log_factor_law_over_distance_squared,
+        &ahead_of_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);)
     EACH_TERM(s->spin_by_orbital_momentum[k] =
         shear*c->spin_by_orbital_momentum_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];)
     EACH_TERM(s->spin_by_spin[k] =
         shear*c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law*arm_lever_law_by_shear_log_factor_law[k];)
     EACH_TERM(s->rotation_by_gap[k] =
         c->rotation_by_gap_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
-    EACH_TERM(inverse_distance_squared[k] = reciprocal(of->distance_squared, inverse_distance_squared, k);)
+    EACH_TERM(inverse_distance_squared[k] = reciprocal_ahead(of->distance_squared, inverse_distance_squared,
+        &ahead_of_inverse_distance_squared, k);)
     EACH_TERM(s->rotation_by_orbital_momentum[k] =
         c->rotation_by_orbital_momentum_per_inverse_distance_squared*inverse_distance_squared[k];)
     if (asked & (1u << BY_ASPECT)) {
-        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
-        EACH_TERM(gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);)
+        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product_ahead(bridge_force_law.by_gap_over_radius, of->gap,
+        &ahead_of_bridge_force_by_aspect, k);)
+        EACH_TERM(gap_by_orbital_rate_squared[k] = product_ahead(of->gap, of->orbital_rate_squared,
+        &ahead_of_gap_by_orbital_rate_squared, k);)
         EACH_TERM(centrifugal_force_by_aspect[k] =
         c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*gap_by_orbital_rate_squared[k] +
         c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];)
-        EACH_TERM(gap_by_combination[k] = product(of->gap, of->combination, k);)
+        EACH_TERM(gap_by_combination[k] = product_ahead(of->gap, of->combination,
+        &ahead_of_gap_by_combination, k);)
         EACH_TERM(offset_squared_by_aspect[k] = c->offset_squared_by_aspect_per_gap_squared*of->gap_squared[k]
         + 4.0*gap_by_combination[k];)
-        EACH_TERM(strings_stiffness_by_aspect[k] = product(strings_stiffness_law.by_offset_squared,
-        offset_squared_by_aspect, k);)
+        EACH_TERM(strings_stiffness_by_aspect[k] = product_ahead(strings_stiffness_law.by_offset_squared,
+        offset_squared_by_aspect, &ahead_of_strings_stiffness_by_aspect, k);)
         EACH_TERM(combination_5[k] = c->combination_4_per_gap*strings_stiffness_by_aspect[k] +
         v->weight*of->strings_stiffness_law.result[k];)
-        EACH_TERM(gap_by_combination_5[k] = product(of->gap, combination_5, k);)
-        EACH_TERM(strings_stiffness_by_aspect_by_combination[k] = product(of->combination,
-        strings_stiffness_by_aspect, k);)
+        EACH_TERM(gap_by_combination_5[k] = product_ahead(of->gap, combination_5,
+        &ahead_of_gap_by_combination_5, k);)
+        EACH_TERM(strings_stiffness_by_aspect_by_combination[k] = product_ahead(of->combination,
+        strings_stiffness_by_aspect, &ahead_of_strings_stiffness_by_aspect_by_combination, k);)
         EACH_TERM(string_pull_by_aspect[k] = gap_by_combination_5[k] +
         c->combination_4_per_combination*strings_stiffness_by_aspect_by_combination[k];)
-        EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product(shear_log_factor_law.by_aspect,
-        of->slip, k);)
-        EACH_TERM(gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);)
-        EACH_TERM(gap_by_orbital_rate_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
-        gap_by_orbital_rate, k);)
+        EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product_ahead(shear_log_factor_law.by_aspect,
+        of->slip, &ahead_of_shear_log_factor_law_by_aspect_by_slip, k);)
+        EACH_TERM(gap_by_orbital_rate[k] = product_ahead(of->gap, of->orbital_rate,
+        &ahead_of_gap_by_orbital_rate, k);)
+        EACH_TERM(gap_by_orbital_rate_by_shear_log_factor_law[k] =
+        product_ahead(of->shear_log_factor_law.result, gap_by_orbital_rate,
+        &ahead_of_gap_by_orbital_rate_by_shear_log_factor_law, k);)
         EACH_TERM(gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
-        quotient(gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
+        quotient_ahead(gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
         gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
-        &over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance, k);)
+        &over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
+        &ahead_of_gap_by_orbital_rate_by_shear_log_factor_law_over_distance, k);)
         EACH_TERM(shear_force_by_aspect[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_aspect_by_slip[k]
         +
         shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];)
         EACH_TERM(string_sideways_by_aspect[k] =
-        c->string_sideways_by_gap_factor*product(of->sine_of_rotation, strings_stiffness_by_aspect, k);)
-        EACH_TERM(arm_lever_by_aspect[k] = product(arm_lever_law.by_distance, of->gap, k);)
+        c->string_sideways_by_gap_factor*product_ahead(of->sine_of_rotation, strings_stiffness_by_aspect,
+        &ahead_of_string_sideways_by_aspect, k);)
+        EACH_TERM(arm_lever_by_aspect[k] = product_ahead(arm_lever_law.by_distance, of->gap,
+        &ahead_of_arm_lever_by_aspect, k);)
         EACH_TERM(s->normal_velocity_by_aspect[k] =
         c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k] +
         centrifugal_force_by_aspect[k] - string_pull_by_aspect[k];)
         EACH_TERM(combination_7[k] = -shear_force_by_aspect[k] - string_sideways_by_aspect[k];)
-        EACH_TERM(distance_by_combination_7[k] = product(of->distance, combination_7, k);)
-        EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
-        EACH_TERM(gap_by_string_sideways[k] = product(of->gap, of->string_sideways, k);)
+        EACH_TERM(distance_by_combination_7[k] = product_ahead(of->distance, combination_7,
+        &ahead_of_distance_by_combination_7, k);)
+        EACH_TERM(gap_by_shear_force[k] = product_ahead(of->gap, of->shear_force,
+        &ahead_of_gap_by_shear_force, k);)
+        EACH_TERM(gap_by_string_sideways[k] = product_ahead(of->gap, of->string_sideways,
+        &ahead_of_gap_by_string_sideways, k);)
         EACH_TERM(s->orbital_momentum_by_aspect[k] = distance_by_combination_7[k] - gap_by_shear_force[k] -
         gap_by_string_sideways[k];)
-        EACH_TERM(arm_lever_by_aspect_by_shear_force[k] = product(of->shear_force, arm_lever_by_aspect, k);)
-        EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
-        shear_force_by_aspect, k);)
+        EACH_TERM(arm_lever_by_aspect_by_shear_force[k] = product_ahead(of->shear_force, arm_lever_by_aspect,
+        &ahead_of_arm_lever_by_aspect_by_shear_force, k);)
+        EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product_ahead(of->arm_lever_law.result,
+        shear_force_by_aspect, &ahead_of_arm_lever_law_by_shear_force_by_aspect, k);)
         EACH_TERM(s->spin_by_aspect[k] = 0.3125*arm_lever_by_aspect_by_shear_force[k] +
         0.3125*arm_lever_law_by_shear_force_by_aspect[k];)
-        EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient(gap_by_orbital_rate, of->distance,
-        gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance, k);)
+        EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient_ahead(gap_by_orbital_rate, of->distance,
+        gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance,
+        &ahead_of_gap_by_orbital_rate_over_distance, k);)
         EACH_TERM(s->rotation_by_aspect[k] =
         c->rotation_by_aspect_per_gap_by_orbital_rate_over_distance*gap_by_orbital_rate_over_distance[k] +
         c->rotation_by_aspect_per_orbital_rate*of->orbital_rate[k];)
@@ -588,28 +678,29 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         c->centrifugal_force_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];)
         EACH_TERM(string_sideways_by_obliquity[k] =
         c->string_sideways_by_obliquity_per_string_sideways*of->string_sideways[k];)
-        EACH_TERM(s->orbital_momentum_by_obliquity[k] = -product(of->distance, string_sideways_by_obliquity,
-        k);)
+        EACH_TERM(s->orbital_momentum_by_obliquity[k] = -product_ahead(of->distance,
+        string_sideways_by_obliquity, &s->ahead_of_orbital_momentum_by_obliquity, k);)
         EACH_TERM(s->rotation_by_obliquity[k] =
         c->rotation_by_obliquity_per_orbital_rate*of->orbital_rate[k];)
     }
     if (asked & (1u << BY_STOKES)) {
         EACH_TERM(s->normal_velocity_by_stokes[k] = c->film_force_by_gap_factor*of->bridge_force[k] +
         c->film_force_by_gap_factor*of->film_force[k];)
-        EACH_TERM(s->orbital_momentum_by_stokes[k] = c->film_force_by_gap_factor*product(of->distance,
-        of->shear_force, k);)
+        EACH_TERM(s->orbital_momentum_by_stokes[k] = c->film_force_by_gap_factor*product_ahead(of->distance,
+        of->shear_force, &s->ahead_of_orbital_momentum_by_stokes, k);)
         EACH_TERM(s->spin_by_stokes[k] =
         c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->rate_of_spin[k];)
     }
     if (asked & (1u << BY_STRING_RATIO)) {
-        EACH_TERM(string_pull_by_string_ratio[k] = v->weight*product(strings_stiffness_law.by_string_ratio,
-        of->combination_2, k);)
+        EACH_TERM(string_pull_by_string_ratio[k] =
+        v->weight*product_ahead(strings_stiffness_law.by_string_ratio, of->combination_2,
+        &ahead_of_string_pull_by_string_ratio, k);)
         EACH_TERM(string_sideways_by_string_ratio[k] =
-        c->string_sideways_by_gap_factor*product(strings_stiffness_law.by_string_ratio, of->sine_of_rotation,
-        k);)
+        c->string_sideways_by_gap_factor*product_ahead(strings_stiffness_law.by_string_ratio,
+        of->sine_of_rotation, &ahead_of_string_sideways_by_string_ratio, k);)
         EACH_TERM(s->normal_velocity_by_string_ratio[k] = -string_pull_by_string_ratio[k];)
-        EACH_TERM(s->orbital_momentum_by_string_ratio[k] = -product(of->distance,
-        string_sideways_by_string_ratio, k);)
+        EACH_TERM(s->orbital_momentum_by_string_ratio[k] = -product_ahead(of->distance,
+        string_sideways_by_string_ratio, &s->ahead_of_orbital_momentum_by_string_ratio, k);)
     }
     if (asked & (1u << BY_VOLUME)) {
         EACH_TERM(s->normal_velocity_by_volume[k] =
@@ -619,7 +710,8 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         EACH_TERM(s->normal_velocity_by_weight[k] =
         c->normal_velocity_by_weight_per_string_pull*of->string_pull[k];)
         EACH_TERM(s->orbital_momentum_by_weight[k] =
-        c->normal_velocity_by_weight_per_string_pull*product(of->distance, of->string_sideways, k);)
+        c->normal_velocity_by_weight_per_string_pull*product_ahead(of->distance, of->string_sideways,
+        &s->ahead_of_orbital_momentum_by_weight, k);)
     }
 }
 
