@@ -16,7 +16,7 @@ from ..engines.choice import gradient_engine
 from ..engines.settings import KERNEL_STEPS, RTOL, check_engine
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_backward, order_for
-from ..engines.taylor.tangent import DISTANCES, Carried, run_tangent
+from ..engines.taylor.tangent import CHATTERS, DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
@@ -211,7 +211,10 @@ def _stretch(request: _Request, which: np.ndarray) -> np.ndarray:
         answers[slow], measures[slow] = plain.answers, plain.near
     # nearer than NEAR to a boundary errors are amplified, so these are repeated with tolerances smaller by decades
     is_clear = np.isin(measures[:, 1], tuple(DISTANCES)) & (measures[:, 2] > COMPUTED * least)  # no distance to compute
-    close = (answers["outcome"] > 0) & ~far & ((near > COMPUTED * least) | (is_clear & (near >= least)))
+    separated = (answers["outcome"] > 0) & ~far & (measures[:, 1] != CHATTERS)
+    close = separated & ((near > COMPUTED * least) | (is_clear & (near >= least)))
+    refusable = np.isin(measures[:, 1], tuple(DISTANCES)) & (near < least)
+    close[_alike_beside(request, which, answers, np.flatnonzero(separated & ~close & ~refusable))] = True
     decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, near, NEAR))), 0.0)
     for decade in np.unique(decades[close]):
         part = which[close & (decades == decade)]
@@ -263,15 +266,22 @@ def _sticks(request: _Request, which: np.ndarray, answers: np.ndarray, by_energy
     """Mask of sticks without a boundary nearby, tested as in `boundary_distance`."""
     stuck = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
     far = stuck & (answers["status"] == Status.PROVED_AT_TOUCH) & by_energy
-    checked = np.flatnonzero(stuck & ~far)
+    far[_alike_beside(request, which, answers, np.flatnonzero(stuck & ~far))] = True
+    return np.asarray(far)
+
+
+def _alike_beside(request: _Request, which: np.ndarray, answers: np.ndarray, checked: np.ndarray) -> np.ndarray:
+    """Those of the collisions in `checked` that go the same way up to the limit on both sides: no boundary is between."""
     least = limit(request.rtol)
     for factor in (1 - least, 1 + least):
         if checked.size:
             aside = _without(request, which[checked], min(request.rtol, 1e-10), factor).answers
-            stays = (aside["outcome"] == OUTCOMES.index(STICKS)) & (aside["status"] <= LAST_ANSWER)
-            stuck[checked[~stays]] = False
-            checked = checked[stays]
-    return np.asarray(stuck)
+            here, alike = answers[checked], aside["status"] <= LAST_ANSWER
+            alike &= aside["outcome"] == here["outcome"]
+            for name in ("reversal", "events"):  # of a stick only the outcome counts
+                alike &= (aside[name] == here[name]) | (here["outcome"] == OUTCOMES.index(STICKS))
+            checked = checked[alike]
+    return checked
 
 
 def _alone(request: _Request, k: int, hold: str, engine: str) -> None:
