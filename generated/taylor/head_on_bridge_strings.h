@@ -174,7 +174,6 @@ typedef struct {
 #endif
     film_resistance_series film_resistance_law;
     vec film_force[PASSING(ORDER) + 1];
-    vec ahead_of_film_force;
     vec scaled_gap[TERMS];
     bridge_force_series bridge_force_law;
     vec bridge_force[PASSING(ORDER) + 1];
@@ -182,13 +181,10 @@ typedef struct {
     vec offset_squared[TERMS];
     strings_stiffness_series strings_stiffness_law;
     vec string_pull[PASSING(ORDER) + 1];
-    vec ahead_of_string_pull;
     vec rate_of_normal_velocity[PASSING(ORDER) + 1];
     vec rate_of_capillary[PASSING(ORDER) + 1];
-    vec ahead_of_rate_of_capillary;
 #if WITH_LEDGER
     vec rate_of_normal_loss[TERMS];
-    vec ahead_of_rate_of_normal_loss;
 #endif
     vec acceleration[TERMS]; /* of the gap, also while it is held */
     vec approach[TERMS];
@@ -201,21 +197,19 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
 {
     (void)film; (void)shear;
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[PASSING(k)] = film*c->film_force_factor*product_ahead(s->normal_velocity,
-        s->film_resistance_law.result, &s->ahead_of_film_force, k);
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->normal_velocity,
+        s->film_resistance_law.result, k);
     s->scaled_gap[k] = c->scaled_gap_per_gap*s->gap[k];
     bridge_force_next(&s->bridge_force_law, &c->bridge_force_law, s->scaled_gap, k);
     s->bridge_force[PASSING(k)] = c->bridge_force_per_bridge_force_law*s->bridge_force_law.result[k];
     s->gap_squared[PASSING(k)] = square(s->gap, k);
     s->offset_squared[k] = c->offset_squared_per_gap_squared*s->gap_squared[PASSING(k)];
     strings_stiffness_next(&s->strings_stiffness_law, &c->strings_stiffness_law, s->offset_squared, k);
-    s->string_pull[PASSING(k)] = c->string_pull_factor*product_ahead(s->gap, s->strings_stiffness_law.result,
-        &s->ahead_of_string_pull, k);
+    s->string_pull[PASSING(k)] = c->string_pull_factor*product(s->gap, s->strings_stiffness_law.result, k);
     s->rate_of_normal_velocity[PASSING(k)] = -s->bridge_force[PASSING(k)] - s->film_force[PASSING(k)] -
         s->string_pull[PASSING(k)];
 #if CAPILLARY_STATE
-    s->rate_of_capillary[PASSING(k)] = product_ahead(s->normal_velocity, s->bridge_force,
-        &s->ahead_of_rate_of_capillary, k);
+    s->rate_of_capillary[PASSING(k)] = product(s->normal_velocity, s->bridge_force, k);
 #endif
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->normal_velocity[k]*next;
@@ -225,8 +219,7 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->capillary_work[k + 1] = s->rate_of_capillary[PASSING(k)]*next;
 #endif
 #if WITH_LEDGER
-    s->rate_of_normal_loss[k] = product_ahead(s->film_force, s->normal_velocity,
-        &s->ahead_of_rate_of_normal_loss, k);
+    s->rate_of_normal_loss[k] = product(s->film_force, s->normal_velocity, k);
     s->normal_loss[k + 1] = s->rate_of_normal_loss[k]*next;
 #endif
 }

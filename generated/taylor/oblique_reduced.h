@@ -139,21 +139,16 @@ typedef struct {
     vec distance_squared[TERMS];
     vec orbital_rate[TERMS];
     vec over_orbital_rate;
-    vec ahead_of_orbital_rate;
     vec spin[PASSING(ORDER) + 1];
     vec slip[TERMS];
     shear_log_factor_series shear_log_factor_law;
     vec shear_force[TERMS];
-    vec ahead_of_shear_force;
     vec orbital_rate_squared[TERMS];
     vec centrifugal_force[PASSING(ORDER) + 1];
-    vec ahead_of_centrifugal_force;
     film_resistance_series film_resistance_law;
     vec film_force[PASSING(ORDER) + 1];
-    vec ahead_of_film_force;
     vec rate_of_normal_velocity[PASSING(ORDER) + 1];
     vec rate_of_orbital_momentum[PASSING(ORDER) + 1];
-    vec ahead_of_rate_of_orbital_momentum;
     vec rate_of_rotation[PASSING(ORDER) + 1];
     vec acceleration[TERMS]; /* of the gap, also while it is held */
     vec approach[TERMS];
@@ -167,23 +162,21 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     (void)film; (void)shear;
     s->distance[k] = k == 0 ? c->aspect*s->gap[k] + 4.0 : c->aspect*s->gap[k];
     s->distance_squared[k] = square(s->distance, k);
-    s->orbital_rate[k] = quotient_ahead(s->orbital_momentum, s->distance_squared, s->orbital_rate,
-        &s->over_orbital_rate, &s->ahead_of_orbital_rate, k);
+    s->orbital_rate[k] = quotient(s->orbital_momentum, s->distance_squared, s->orbital_rate,
+        &s->over_orbital_rate, k);
     s->spin[PASSING(k)] = k == 0 ? -0.15625*s->orbital_momentum[k] + c->spin_offset :
         -0.15625*s->orbital_momentum[k];
     s->slip[k] = s->orbital_rate[k] - s->spin[PASSING(k)];
     shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
-    s->shear_force[k] = shear*c->shear_force_factor*product_ahead(s->slip, s->shear_log_factor_law.result,
-        &s->ahead_of_shear_force, k);
+    s->shear_force[k] = shear*c->shear_force_factor*product(s->slip, s->shear_log_factor_law.result, k);
     s->orbital_rate_squared[k] = square(s->orbital_rate, k);
-    s->centrifugal_force[PASSING(k)] = c->centrifugal_force_factor*product_ahead(s->distance,
-        s->orbital_rate_squared, &s->ahead_of_centrifugal_force, k);
+    s->centrifugal_force[PASSING(k)] = c->centrifugal_force_factor*product(s->distance,
+        s->orbital_rate_squared, k);
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[PASSING(k)] = film*c->film_force_factor*product_ahead(s->normal_velocity,
-        s->film_resistance_law.result, &s->ahead_of_film_force, k);
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->normal_velocity,
+        s->film_resistance_law.result, k);
     s->rate_of_normal_velocity[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->film_force[PASSING(k)];
-    s->rate_of_orbital_momentum[PASSING(k)] = -product_ahead(s->distance, s->shear_force,
-        &s->ahead_of_rate_of_orbital_momentum, k);
+    s->rate_of_orbital_momentum[PASSING(k)] = -product(s->distance, s->shear_force, k);
     s->rate_of_rotation[PASSING(k)] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->normal_velocity[k]*next;
@@ -311,20 +304,15 @@ typedef struct {
     vec combination[TERMS];
     shear_log_factor_series shear_log_factor_law;
     vec combination_by_shear_log_factor_law[TERMS];
-    vec ahead_of_combination_by_shear_log_factor_law;
     vec combination_by_shear_log_factor_law_over_distance[TERMS];
     vec over_combination_by_shear_log_factor_law_over_distance;
-    vec ahead_of_combination_by_shear_log_factor_law_over_distance;
     vec relaxation[TERMS];
     vec combination_2[TERMS];
     vec distance_squared_over_combination_2[TERMS];
     vec over_distance_squared_over_combination_2;
-    vec ahead_of_distance_squared_over_combination_2;
     vec rigid[TERMS];
     vec distance_squared_by_distance[TERMS];
-    vec ahead_of_distance_squared_by_distance;
     vec inverse_distance_squared_by_distance[TERMS];
-    vec ahead_of_inverse_distance_squared_by_distance;
     vec centrifugal[TERMS];
     vec attractions[TERMS];
 } slow_series;
@@ -338,24 +326,19 @@ INLINE void slow_coefficients(slow_series *s, const constants *c, int k)
     s->distance_squared[k] = square(s->distance, k);
     s->combination[k] = k == 0 ? 5.0*s->distance_squared[k] + 32.0 : 5.0*s->distance_squared[k];
     shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
-    s->combination_by_shear_log_factor_law[k] = product_ahead(s->combination, s->shear_log_factor_law.result,
-        &s->ahead_of_combination_by_shear_log_factor_law, k);
-    s->combination_by_shear_log_factor_law_over_distance[k] =
-        quotient_ahead(s->combination_by_shear_log_factor_law, s->distance,
-        s->combination_by_shear_log_factor_law_over_distance,
-        &s->over_combination_by_shear_log_factor_law_over_distance,
-        &s->ahead_of_combination_by_shear_log_factor_law_over_distance, k);
+    s->combination_by_shear_log_factor_law[k] = product(s->combination, s->shear_log_factor_law.result, k);
+    s->combination_by_shear_log_factor_law_over_distance[k] = quotient(s->combination_by_shear_log_factor_law,
+        s->distance, s->combination_by_shear_log_factor_law_over_distance,
+        &s->over_combination_by_shear_log_factor_law_over_distance, k);
     s->relaxation[k] =
         c->relaxation_per_combination_by_shear_log_factor_law_over_distance*s->combination_by_shear_log_factor_law_over_distance[k];
     s->combination_2[k] = k == 0 ? s->distance_squared[k] + 6.4 : s->distance_squared[k];
-    s->distance_squared_over_combination_2[k] = quotient_ahead(s->distance_squared, s->combination_2,
-        s->distance_squared_over_combination_2, &s->over_distance_squared_over_combination_2,
-        &s->ahead_of_distance_squared_over_combination_2, k);
+    s->distance_squared_over_combination_2[k] = quotient(s->distance_squared, s->combination_2,
+        s->distance_squared_over_combination_2, &s->over_distance_squared_over_combination_2, k);
     s->rigid[k] = c->momentum*s->distance_squared_over_combination_2[k];
-    s->distance_squared_by_distance[k] = product_ahead(s->distance, s->distance_squared,
-        &s->ahead_of_distance_squared_by_distance, k);
-    s->inverse_distance_squared_by_distance[k] = reciprocal_ahead(s->distance_squared_by_distance,
-        s->inverse_distance_squared_by_distance, &s->ahead_of_inverse_distance_squared_by_distance, k);
+    s->distance_squared_by_distance[k] = product(s->distance, s->distance_squared, k);
+    s->inverse_distance_squared_by_distance[k] = reciprocal(s->distance_squared_by_distance,
+        s->inverse_distance_squared_by_distance, k);
     s->centrifugal[k] = c->centrifugal_force_factor*s->inverse_distance_squared_by_distance[k];
     s->attractions[k] = k == 0 ? splat(0.0) : splat(0.0);
 }

@@ -208,48 +208,35 @@ typedef struct {
     vec distance_squared[TERMS];
     vec orbital_rate[TERMS];
     vec over_orbital_rate;
-    vec ahead_of_orbital_rate;
     vec slip[TERMS];
     shear_log_factor_series shear_log_factor_law;
     vec shear_force[TERMS];
-    vec ahead_of_shear_force;
     vec orbital_rate_squared[TERMS];
     vec centrifugal_force[PASSING(ORDER) + 1];
-    vec ahead_of_centrifugal_force;
     film_resistance_series film_resistance_law;
     vec film_force[PASSING(ORDER) + 1];
-    vec ahead_of_film_force;
     vec gap_squared[PASSING(ORDER) + 1];
     vec sine_of_rotation[TERMS], slope_of_rotation[TERMS];
     vec cosine_of_rotation[TERMS];
     vec combination[TERMS];
     vec distance_by_combination[PASSING(ORDER) + 1];
-    vec ahead_of_distance_by_combination;
     vec offset_squared[TERMS];
     vec combination_2[TERMS];
     strings_stiffness_series strings_stiffness_law;
     vec string_pull[PASSING(ORDER) + 1];
-    vec ahead_of_string_pull;
     vec string_sideways[PASSING(ORDER) + 1];
-    vec ahead_of_string_sideways;
     arm_lever_series arm_lever_law;
     vec rate_of_normal_velocity[PASSING(ORDER) + 1];
     vec combination_3[TERMS];
     vec rate_of_orbital_momentum[PASSING(ORDER) + 1];
-    vec ahead_of_rate_of_orbital_momentum;
     vec rate_of_spin[PASSING(ORDER) + 1];
-    vec ahead_of_rate_of_spin;
     vec rate_of_rotation[PASSING(ORDER) + 1];
 #if WITH_LEDGER
     vec rate_of_normal_loss[TERMS];
-    vec ahead_of_rate_of_normal_loss;
     vec distance_by_orbital_rate[TERMS];
-    vec ahead_of_distance_by_orbital_rate;
     vec arm_lever_law_by_spin[TERMS];
-    vec ahead_of_arm_lever_law_by_spin;
     vec combination_4[TERMS];
     vec rate_of_tangential_loss[TERMS];
-    vec ahead_of_rate_of_tangential_loss;
 #endif
     vec acceleration[TERMS]; /* of the gap, also while it is held */
     vec approach[TERMS];
@@ -263,40 +250,35 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     (void)film; (void)shear;
     s->distance[k] = k == 0 ? c->aspect*s->gap[k] + 4.0 : c->aspect*s->gap[k];
     s->distance_squared[k] = square(s->distance, k);
-    s->orbital_rate[k] = quotient_ahead(s->orbital_momentum, s->distance_squared, s->orbital_rate,
-        &s->over_orbital_rate, &s->ahead_of_orbital_rate, k);
+    s->orbital_rate[k] = quotient(s->orbital_momentum, s->distance_squared, s->orbital_rate,
+        &s->over_orbital_rate, k);
     s->slip[k] = s->orbital_rate[k] - s->spin[k];
     shear_log_factor_next(&s->shear_log_factor_law, &c->shear_log_factor_law, s->gap, k);
-    s->shear_force[k] = shear*c->shear_force_factor*product_ahead(s->slip, s->shear_log_factor_law.result,
-        &s->ahead_of_shear_force, k);
+    s->shear_force[k] = shear*c->shear_force_factor*product(s->slip, s->shear_log_factor_law.result, k);
     s->orbital_rate_squared[k] = square(s->orbital_rate, k);
-    s->centrifugal_force[PASSING(k)] = c->centrifugal_force_factor*product_ahead(s->distance,
-        s->orbital_rate_squared, &s->ahead_of_centrifugal_force, k);
+    s->centrifugal_force[PASSING(k)] = c->centrifugal_force_factor*product(s->distance,
+        s->orbital_rate_squared, k);
     film_resistance_next(&s->film_resistance_law, &c->film_resistance_law, s->gap, k);
-    s->film_force[PASSING(k)] = film*c->film_force_factor*product_ahead(s->normal_velocity,
-        s->film_resistance_law.result, &s->ahead_of_film_force, k);
+    s->film_force[PASSING(k)] = film*c->film_force_factor*product(s->normal_velocity,
+        s->film_resistance_law.result, k);
     s->gap_squared[PASSING(k)] = square(s->gap, k);
     circular(s->rotation, s->slope_of_rotation, s->sine_of_rotation, s->cosine_of_rotation, k);
     /* cosine_of_rotation comes with its sine */
     s->combination[k] = k == 0 ? -0.5*s->cosine_of_rotation[k] + 0.5 : -0.5*s->cosine_of_rotation[k];
-    s->distance_by_combination[PASSING(k)] = product_ahead(s->distance, s->combination,
-        &s->ahead_of_distance_by_combination, k);
+    s->distance_by_combination[PASSING(k)] = product(s->distance, s->combination, k);
     s->offset_squared[k] = c->offset_squared_per_gap_squared*s->gap_squared[PASSING(k)] +
         4.0*s->distance_by_combination[PASSING(k)];
     s->combination_2[k] = c->aspect*s->gap[k] + 8.0*s->combination[k];
     strings_stiffness_next(&s->strings_stiffness_law, &c->strings_stiffness_law, s->offset_squared, k);
-    s->string_pull[PASSING(k)] = c->weight*product_ahead(s->combination_2, s->strings_stiffness_law.result,
-        &s->ahead_of_string_pull, k);
-    s->string_sideways[PASSING(k)] = c->string_sideways_factor*product_ahead(s->sine_of_rotation,
-        s->strings_stiffness_law.result, &s->ahead_of_string_sideways, k);
+    s->string_pull[PASSING(k)] = c->weight*product(s->combination_2, s->strings_stiffness_law.result, k);
+    s->string_sideways[PASSING(k)] = c->string_sideways_factor*product(s->sine_of_rotation,
+        s->strings_stiffness_law.result, k);
     arm_lever_next(&s->arm_lever_law, &c->arm_lever_law, s->distance, k);
     s->rate_of_normal_velocity[PASSING(k)] = s->centrifugal_force[PASSING(k)] - s->film_force[PASSING(k)] -
         s->string_pull[PASSING(k)];
     s->combination_3[k] = s->shear_force[k] + s->string_sideways[PASSING(k)];
-    s->rate_of_orbital_momentum[PASSING(k)] = -product_ahead(s->distance, s->combination_3,
-        &s->ahead_of_rate_of_orbital_momentum, k);
-    s->rate_of_spin[PASSING(k)] = 0.3125*product_ahead(s->shear_force, s->arm_lever_law.result,
-        &s->ahead_of_rate_of_spin, k);
+    s->rate_of_orbital_momentum[PASSING(k)] = -product(s->distance, s->combination_3, k);
+    s->rate_of_spin[PASSING(k)] = 0.3125*product(s->shear_force, s->arm_lever_law.result, k);
     s->rate_of_rotation[PASSING(k)] = c->rate_of_rotation_per_orbital_rate*s->orbital_rate[k];
     double next = 1.0/(k + 1);
     s->gap[k + 1] = s->normal_velocity[k]*next;
@@ -306,15 +288,12 @@ INLINE void coefficients(series *s, const constants *c, vec film, vec shear, mas
     s->spin[k + 1] = s->rate_of_spin[PASSING(k)]*next;
     s->rotation[k + 1] = s->rate_of_rotation[PASSING(k)]*next;
 #if WITH_LEDGER
-    s->rate_of_normal_loss[k] = product_ahead(s->film_force, s->normal_velocity,
-        &s->ahead_of_rate_of_normal_loss, k);
-    s->distance_by_orbital_rate[k] = product_ahead(s->distance, s->orbital_rate,
-        &s->ahead_of_distance_by_orbital_rate, k);
-    s->arm_lever_law_by_spin[k] = product_ahead(s->arm_lever_law.result, s->spin,
-        &s->ahead_of_arm_lever_law_by_spin, k);
+    s->rate_of_normal_loss[k] = product(s->film_force, s->normal_velocity, k);
+    s->distance_by_orbital_rate[k] = product(s->distance, s->orbital_rate, k);
+    s->arm_lever_law_by_spin[k] = product(s->arm_lever_law.result, s->spin, k);
     s->combination_4[k] = s->distance_by_orbital_rate[k] - 2.0*s->arm_lever_law_by_spin[k];
-    s->rate_of_tangential_loss[k] = c->ledger.rate_of_tangential_loss_factor*product_ahead(s->shear_force,
-        s->combination_4, &s->ahead_of_rate_of_tangential_loss, k);
+    s->rate_of_tangential_loss[k] = c->ledger.rate_of_tangential_loss_factor*product(s->shear_force,
+        s->combination_4, k);
     s->normal_loss[k + 1] = s->rate_of_normal_loss[k]*next;
     s->tangential_loss[k + 1] = s->rate_of_tangential_loss[k]*next;
 #endif

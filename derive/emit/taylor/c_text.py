@@ -119,8 +119,8 @@ def _roots_together(node: sp.Mul) -> list[sp.Expr]:
 # C text of the recurrence of an operation and of its value at order zero: `{0}`, `{1}` are its operands, `whole` is
 # its own series; `over`, `slope` and `inner` are auxiliary series (functions of `engines/taylor/runtime/series.h`).
 _RECURRENCES = {
-    "square": "square({0}, k)", "reciprocal": "reciprocal_ahead({0}, {whole}, {ahead}, k)",
-    "quotient": "quotient_ahead({0}, {1}, {whole}, {over}, {ahead}, k)", "sqrt": "root({0}, {whole}, {over}, k)",
+    "square": "square({0}, k)", "reciprocal": "reciprocal({0}, {whole}, k)",
+    "quotient": "quotient({0}, {1}, {whole}, {over}, k)", "sqrt": "root({0}, {whole}, {over}, k)",
     "power": "power({0}, {whole}, {factor}, {over}, k)", "exp": "exponential({0}, {inner}, {whole}, k)",
     "log": "logarithm({0}, {whole}, {slope}, {over}, k)",
 }  # fmt: skip
@@ -281,8 +281,6 @@ class Recurrences:
             lines.append("vec " + ", ".join(f"{name}[{size}]" for name in arrays) + ";")
             if operation.kind in ("quotient", "sqrt", "log", "power"):
                 lines.append(f"vec over_{operation.name};")
-            if operation.kind in ("product", "reciprocal", "quotient"):
-                lines.append(f"vec ahead_of_{operation.name};")
         return list(dict.fromkeys(lines))
 
     def lines(self) -> list[str]:
@@ -307,13 +305,12 @@ class Recurrences:
                 each.name: age for age, each in enumerate(self.program.operations)
             }  # series that the program does not compute come first
             older, newer = (self.array(part) for part in sorted(operation.series, key=lambda part: ages.get(part, -1)))
-            return f"{target} = {_times(factors[0])}product_ahead({older}, {newer}, &{place}ahead_of_{name}, k);"
+            return f"{target} = {_times(factors[0])}product({older}, {newer}, k);"
         if kind in _RECURRENCES:
             inner = f"{place}slope_of_{operation.series[0]}"
             over, slope = f"&{place}over_{name}", f"{place}slope_of_{name}"
             recurrence = _RECURRENCES[kind].format(
-                *series, whole=whole, over=over, slope=slope, inner=inner, factor=factors[0] if factors else "",
-                ahead=f"&{place}ahead_of_{name}",
+                *series, whole=whole, over=over, slope=slope, inner=inner, factor=factors[0] if factors else ""
             )
             return f"{target} = {recurrence};"
         if kind == "sine":

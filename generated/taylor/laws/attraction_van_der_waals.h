@@ -16,7 +16,6 @@ static inline void attraction_force_prepare(attraction_force_constants *c)
 typedef struct {
     vec gap_squared[TERMS];
     vec result[TERMS];
-    vec ahead_of_result;
 } attraction_force_series;
 
 /* Attraction over A a/(6 x0^2). Coefficient k of its series; products of series: 1.5. */
@@ -25,7 +24,7 @@ INLINE void attraction_force_next(attraction_force_series *s, const attraction_f
 {
     (void)gap; (void)c;
     s->gap_squared[k] = square(gap, k);
-    s->result[k] = reciprocal_ahead(s->gap_squared, s->result, &s->ahead_of_result, k);
+    s->result[k] = reciprocal(s->gap_squared, s->result, k);
 }
 
 /* Attraction over A a/(6 x0^2). */

@@ -23,7 +23,6 @@ typedef struct {
     vec over_cylinder_reach;
     vec gap_over_radius_over_cylinder_reach[TERMS];
     vec over_gap_over_radius_over_cylinder_reach;
-    vec ahead_of_gap_over_radius_over_cylinder_reach;
     vec combination_2[TERMS];
     vec result[TERMS];
 } bridge_force_series;
@@ -37,9 +36,8 @@ INLINE void bridge_force_next(bridge_force_series *s, const bridge_force_constan
     s->combination[k] = k == 0 ? s->gap_over_radius_squared[k] + c->combination_offset :
         s->gap_over_radius_squared[k];
     s->cylinder_reach[k] = root(s->combination, s->cylinder_reach, &s->over_cylinder_reach, k);
-    s->gap_over_radius_over_cylinder_reach[k] = quotient_ahead(gap_over_radius, s->cylinder_reach,
-        s->gap_over_radius_over_cylinder_reach, &s->over_gap_over_radius_over_cylinder_reach,
-        &s->ahead_of_gap_over_radius_over_cylinder_reach, k);
+    s->gap_over_radius_over_cylinder_reach[k] = quotient(gap_over_radius, s->cylinder_reach,
+        s->gap_over_radius_over_cylinder_reach, &s->over_gap_over_radius_over_cylinder_reach, k);
     s->combination_2[k] = k == 0 ? -s->gap_over_radius_over_cylinder_reach[k] + 1.0 :
         -s->gap_over_radius_over_cylinder_reach[k];
     s->result[k] = c->result_per_combination_2*s->combination_2[k];

@@ -26,7 +26,6 @@ typedef struct {
     vec over_half_filling_angle;
     vec gap_over_radius_over_cylinder_reach[TERMS];
     vec over_gap_over_radius_over_cylinder_reach;
-    vec ahead_of_gap_over_radius_over_cylinder_reach;
     vec combination_3[TERMS];
     vec sine_of_half_filling_angle[TERMS], slope_of_half_filling_angle[TERMS];
     vec cosine_of_half_filling_angle[TERMS];
@@ -34,7 +33,6 @@ typedef struct {
     vec sine_of_combination_4[TERMS], slope_of_combination_4[TERMS];
     vec cosine_of_combination_4[TERMS];
     vec sine_of_half_filling_angle_by_sine_of_combination_4[TERMS];
-    vec ahead_of_sine_of_half_filling_angle_by_sine_of_combination_4;
     vec result[TERMS];
 } bridge_force_series;
 
@@ -49,9 +47,8 @@ INLINE void bridge_force_next(bridge_force_series *s, const bridge_force_constan
     s->cylinder_reach[k] = root(s->combination, s->cylinder_reach, &s->over_cylinder_reach, k);
     s->combination_2[k] = s->cylinder_reach[k] - gap_over_radius[k];
     s->half_filling_angle[k] = root(s->combination_2, s->half_filling_angle, &s->over_half_filling_angle, k);
-    s->gap_over_radius_over_cylinder_reach[k] = quotient_ahead(gap_over_radius, s->cylinder_reach,
-        s->gap_over_radius_over_cylinder_reach, &s->over_gap_over_radius_over_cylinder_reach,
-        &s->ahead_of_gap_over_radius_over_cylinder_reach, k);
+    s->gap_over_radius_over_cylinder_reach[k] = quotient(gap_over_radius, s->cylinder_reach,
+        s->gap_over_radius_over_cylinder_reach, &s->over_gap_over_radius_over_cylinder_reach, k);
     s->combination_3[k] = k == 0 ? -s->gap_over_radius_over_cylinder_reach[k] + 1.0 :
         -s->gap_over_radius_over_cylinder_reach[k];
     circular(s->half_filling_angle, s->slope_of_half_filling_angle, s->sine_of_half_filling_angle,
@@ -61,8 +58,8 @@ INLINE void bridge_force_next(bridge_force_series *s, const bridge_force_constan
     circular(s->combination_4, s->slope_of_combination_4, s->sine_of_combination_4,
         s->cosine_of_combination_4, k);
     /* cosine_of_combination_4 comes with its sine */
-    s->sine_of_half_filling_angle_by_sine_of_combination_4[k] = product_ahead(s->sine_of_half_filling_angle,
-        s->sine_of_combination_4, &s->ahead_of_sine_of_half_filling_angle_by_sine_of_combination_4, k);
+    s->sine_of_half_filling_angle_by_sine_of_combination_4[k] = product(s->sine_of_half_filling_angle,
+        s->sine_of_combination_4, k);
     s->result[k] = c->result_per_combination_3*s->combination_3[k] +
         2.0*s->sine_of_half_filling_angle_by_sine_of_combination_4[k];
 }

@@ -20,7 +20,6 @@ typedef struct {
     vec scaled_gap_squared[TERMS];
     vec combination[TERMS];
     vec inverse_combination[TERMS];
-    vec ahead_of_inverse_combination;
     vec result[TERMS];
 } bridge_force_series;
 
@@ -33,8 +32,7 @@ INLINE void bridge_force_next(bridge_force_series *s, const bridge_force_constan
     s->scaled_gap_squared[k] = square(s->scaled_gap, k);
     s->combination[k] = k == 0 ? 2.5*s->scaled_gap_squared[k] + 1.05*s->scaled_gap[k] + 1.0 :
         2.5*s->scaled_gap_squared[k] + 1.05*s->scaled_gap[k];
-    s->inverse_combination[k] = reciprocal_ahead(s->combination, s->inverse_combination,
-        &s->ahead_of_inverse_combination, k);
+    s->inverse_combination[k] = reciprocal(s->combination, s->inverse_combination, k);
     s->result[k] = c->result_per_inverse_combination*s->inverse_combination[k];
 }
 

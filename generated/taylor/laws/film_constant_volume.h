@@ -25,11 +25,9 @@ typedef struct {
     vec combination_2_squared[TERMS];
     vec combination_2_squared_over_gap[TERMS];
     vec over_combination_2_squared_over_gap;
-    vec ahead_of_combination_2_squared_over_gap;
     vec rim_squared[TERMS];
     vec result[TERMS];
     vec over_result;
-    vec ahead_of_result;
 } film_resistance_series;
 
 /* Normal film force over 6 pi mu a^2 u/x0. Coefficient k of its series; products of series: 4. */
@@ -42,12 +40,10 @@ INLINE void film_resistance_next(film_resistance_series *s, const film_resistanc
     s->rim[k] = root(s->combination, s->rim, &s->over_rim, k);
     s->combination_2[k] = gap[k] - s->rim[k];
     s->combination_2_squared[k] = square(s->combination_2, k);
-    s->combination_2_squared_over_gap[k] = quotient_ahead(s->combination_2_squared, gap,
-        s->combination_2_squared_over_gap, &s->over_combination_2_squared_over_gap,
-        &s->ahead_of_combination_2_squared_over_gap, k);
+    s->combination_2_squared_over_gap[k] = quotient(s->combination_2_squared, gap,
+        s->combination_2_squared_over_gap, &s->over_combination_2_squared_over_gap, k);
     s->rim_squared[k] = square(s->rim, k);
-    s->result[k] = quotient_ahead(s->combination_2_squared_over_gap, s->rim_squared, s->result,
-        &s->over_result, &s->ahead_of_result, k);
+    s->result[k] = quotient(s->combination_2_squared_over_gap, s->rim_squared, s->result, &s->over_result, k);
 }
 
 /* Normal film force over 6 pi mu a^2 u/x0. */

@@ -14,7 +14,6 @@ static inline void film_resistance_prepare(film_resistance_constants *c)
 
 typedef struct {
     vec inverse_gap[TERMS];
-    vec ahead_of_inverse_gap;
     vec result[TERMS];
 } film_resistance_series;
 
@@ -24,7 +23,7 @@ INLINE void film_resistance_next(film_resistance_series *s, const film_resistanc
     *gap, int k)
 {
     (void)gap; (void)c;
-    s->inverse_gap[k] = reciprocal_ahead(gap, s->inverse_gap, &s->ahead_of_inverse_gap, k);
+    s->inverse_gap[k] = reciprocal(gap, s->inverse_gap, k);
     s->result[k] = k == 0 ? gap[k] + s->inverse_gap[k] + (-2.0) : gap[k] + s->inverse_gap[k];
 }
 

@@ -15,7 +15,6 @@ static inline void film_resistance_prepare(film_resistance_constants *c)
 
 typedef struct {
     vec result[TERMS];
-    vec ahead_of_result;
 } film_resistance_series;
 
 /* Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1). Coefficient k of its series;
@@ -24,7 +23,7 @@ INLINE void film_resistance_next(film_resistance_series *s, const film_resistanc
     *gap, int k)
 {
     (void)gap; (void)c;
-    s->result[k] = reciprocal_ahead(gap, s->result, &s->ahead_of_result, k);
+    s->result[k] = reciprocal(gap, s->result, k);
 }
 
 /* Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1). */

@@ -16,7 +16,6 @@ typedef struct {
     vec gap_squared[TERMS];
     vec combination[TERMS];
     vec approach_by_combination[TERMS];
-    vec ahead_of_approach_by_combination;
     vec result[TERMS];
 } glass_pressure_clearance_series;
 
@@ -28,8 +27,7 @@ INLINE void glass_pressure_clearance_next(glass_pressure_clearance_series *s, co
     (void)gap; (void)approach; (void)c;
     s->gap_squared[k] = square(gap, k);
     s->combination[k] = k == 0 ? s->gap_squared[k] + (-1.0) : s->gap_squared[k];
-    s->approach_by_combination[k] = product_ahead(approach, s->combination,
-        &s->ahead_of_approach_by_combination, k);
+    s->approach_by_combination[k] = product(approach, s->combination, k);
     s->result[k] = s->approach_by_combination[k] + c->limit*s->gap_squared[k];
 }
 

@@ -21,7 +21,6 @@ typedef struct {
     vec combination_2[TERMS];
     vec result[TERMS];
     vec over_result;
-    vec ahead_of_result;
 } strings_rise_series;
 
 /* Height gained by each sphere over a. Coefficient k of its series; products of series: 1.5. */
@@ -32,8 +31,7 @@ INLINE void strings_rise_next(strings_rise_series *s, const strings_rise_constan
     s->combination[k] = k == 0 ? -offset_squared[k] + c->combination_offset : -offset_squared[k];
     s->root_of_combination[k] = root(s->combination, s->root_of_combination, &s->over_root_of_combination, k);
     s->combination_2[k] = k == 0 ? s->root_of_combination[k] + c->string_ratio : s->root_of_combination[k];
-    s->result[k] = quotient_ahead(offset_squared, s->combination_2, s->result, &s->over_result,
-        &s->ahead_of_result, k);
+    s->result[k] = quotient(offset_squared, s->combination_2, s->result, &s->over_result, k);
 }
 
 /* Height gained by each sphere over a. */
@@ -60,7 +58,6 @@ typedef struct {
     vec root_of_combination[TERMS];
     vec over_root_of_combination;
     vec result[TERMS];
-    vec ahead_of_result;
 } strings_stiffness_series;
 
 /* Horizontal restoring force over weight and swing d/a: a/sqrt(l^2 - d^2). Coefficient k of its series;
@@ -71,7 +68,7 @@ INLINE void strings_stiffness_next(strings_stiffness_series *s, const strings_st
     (void)offset_squared; (void)c;
     s->combination[k] = k == 0 ? -offset_squared[k] + c->combination_offset : -offset_squared[k];
     s->root_of_combination[k] = root(s->combination, s->root_of_combination, &s->over_root_of_combination, k);
-    s->result[k] = reciprocal_ahead(s->root_of_combination, s->result, &s->ahead_of_result, k);
+    s->result[k] = reciprocal(s->root_of_combination, s->result, k);
 }
 
 /* Horizontal restoring force over weight and swing d/a: a/sqrt(l^2 - d^2). */

@@ -147,25 +147,21 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     film_resistance_slopes film_resistance_law;
     bridge_force_slopes bridge_force_law;
     vec film_force_by_gap[TERMS];
-    vec ahead_of_film_force_by_gap;
     vec bridge_force_by_aspect[TERMS];
-    vec ahead_of_bridge_force_by_aspect;
     (void)film; (void)shear; (void)c; (void)asked;
     film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap);
     bridge_force_slopes_of(&bridge_force_law, &c->bridge_force_law, &of->bridge_force_law,
         &v->bridge_force_law, of->scaled_gap);
-    EACH_TERM(film_force_by_gap[k] =
-        film*c->film_force_by_gap_factor*product_ahead(film_resistance_law.by_gap, of->normal_velocity,
-        &ahead_of_film_force_by_gap, k);)
+    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
+        of->normal_velocity, k);)
     EACH_TERM(s->normal_velocity_by_gap[k] =
         c->normal_velocity_by_gap_per_bridge_force_law_by_gap_over_radius*bridge_force_law.by_gap_over_radius[k]
         - film_force_by_gap[k];)
     EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
         film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
     if (asked & (1u << BY_ASPECT)) {
-        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product_ahead(bridge_force_law.by_gap_over_radius, of->gap,
-        &ahead_of_bridge_force_by_aspect, k);)
+        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
         EACH_TERM(s->normal_velocity_by_aspect[k] =
         c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k];)
     }

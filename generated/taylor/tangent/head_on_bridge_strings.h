@@ -190,18 +190,13 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     bridge_force_slopes bridge_force_law;
     strings_stiffness_slopes strings_stiffness_law;
     vec film_force_by_gap[TERMS];
-    vec ahead_of_film_force_by_gap;
     vec offset_squared_by_strings_stiffness_law_by_offset_squared[TERMS];
-    vec ahead_of_offset_squared_by_strings_stiffness_law_by_offset_squared;
     vec string_pull_by_gap[TERMS];
     vec bridge_force_by_aspect[TERMS];
-    vec ahead_of_bridge_force_by_aspect;
     vec strings_stiffness_by_aspect[TERMS];
     vec gap_by_strings_stiffness_by_aspect[TERMS];
-    vec ahead_of_gap_by_strings_stiffness_by_aspect;
     vec string_pull_by_aspect[TERMS];
     vec string_pull_by_string_ratio[TERMS];
-    vec ahead_of_string_pull_by_string_ratio;
     (void)film; (void)shear; (void)c; (void)asked;
     film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap);
@@ -209,12 +204,10 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         &v->bridge_force_law, of->scaled_gap);
     strings_stiffness_slopes_of(&strings_stiffness_law, &c->strings_stiffness_law, &of->strings_stiffness_law,
         &v->strings_stiffness_law, of->offset_squared);
-    EACH_TERM(film_force_by_gap[k] =
-        film*c->film_force_by_gap_factor*product_ahead(film_resistance_law.by_gap, of->normal_velocity,
-        &ahead_of_film_force_by_gap, k);)
-    EACH_TERM(offset_squared_by_strings_stiffness_law_by_offset_squared[k] = product_ahead(of->offset_squared,
-        strings_stiffness_law.by_offset_squared,
-        &ahead_of_offset_squared_by_strings_stiffness_law_by_offset_squared, k);)
+    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
+        of->normal_velocity, k);)
+    EACH_TERM(offset_squared_by_strings_stiffness_law_by_offset_squared[k] = product(of->offset_squared,
+        strings_stiffness_law.by_offset_squared, k);)
     EACH_TERM(string_pull_by_gap[k] =
         c->string_pull_by_gap_per_offset_squared_by_strings_stiffness_law_by_offset_squared*offset_squared_by_strings_stiffness_law_by_offset_squared[k]
         + c->string_pull_by_gap_per_strings_stiffness_law*of->strings_stiffness_law.result[k];)
@@ -224,12 +217,10 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
         film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
     if (asked & (1u << BY_ASPECT)) {
-        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product_ahead(bridge_force_law.by_gap_over_radius, of->gap,
-        &ahead_of_bridge_force_by_aspect, k);)
+        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
         EACH_TERM(strings_stiffness_by_aspect[k] =
         c->strings_stiffness_by_aspect_per_offset_squared_by_strings_stiffness_law_by_offset_squared*offset_squared_by_strings_stiffness_law_by_offset_squared[k];)
-        EACH_TERM(gap_by_strings_stiffness_by_aspect[k] = product_ahead(of->gap, strings_stiffness_by_aspect,
-        &ahead_of_gap_by_strings_stiffness_by_aspect, k);)
+        EACH_TERM(gap_by_strings_stiffness_by_aspect[k] = product(of->gap, strings_stiffness_by_aspect, k);)
         EACH_TERM(string_pull_by_aspect[k] =
         c->string_pull_by_gap_per_strings_stiffness_law*gap_by_strings_stiffness_by_aspect[k] +
         c->string_pull_by_aspect_per_string_pull*of->string_pull[k];)
@@ -251,8 +242,8 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     }
     if (asked & (1u << BY_STRING_RATIO)) {
         EACH_TERM(string_pull_by_string_ratio[k] =
-        c->string_pull_by_gap_per_strings_stiffness_law*product_ahead(of->gap,
-        strings_stiffness_law.by_string_ratio, &ahead_of_string_pull_by_string_ratio, k);)
+        c->string_pull_by_gap_per_strings_stiffness_law*product(of->gap,
+        strings_stiffness_law.by_string_ratio, k);)
         EACH_TERM(s->normal_velocity_by_string_ratio[k] = -string_pull_by_string_ratio[k];)
     }
     if (asked & (1u << BY_VOLUME)) {

@@ -222,7 +222,6 @@ typedef struct {
     vec orbital_momentum_by_gap[TERMS];
     vec orbital_momentum_by_orbital_momentum[TERMS];
     vec orbital_momentum_by_spin[TERMS];
-    vec ahead_of_orbital_momentum_by_spin;
     vec orbital_momentum_by_stokes[TERMS];
     vec orbital_momentum_by_aspect[TERMS];
     vec spin_by_gap[TERMS];
@@ -244,59 +243,36 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     film_resistance_slopes film_resistance_law;
     arm_lever_slopes arm_lever_law;
     vec film_force_by_gap[TERMS];
-    vec ahead_of_film_force_by_gap;
     vec gap_by_orbital_rate_squared[TERMS];
-    vec ahead_of_gap_by_orbital_rate_squared;
     vec orbital_rate_by_shear_log_factor_law[TERMS];
-    vec ahead_of_orbital_rate_by_shear_log_factor_law;
     vec orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
     vec over_orbital_rate_by_shear_log_factor_law_over_distance;
-    vec ahead_of_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_log_factor_law_by_gap_by_slip[TERMS];
-    vec ahead_of_shear_log_factor_law_by_gap_by_slip;
     vec shear_force_by_gap[TERMS];
     vec shear_log_factor_law_by_aspect_by_slip[TERMS];
-    vec ahead_of_shear_log_factor_law_by_aspect_by_slip;
     vec gap_by_orbital_rate[TERMS];
-    vec ahead_of_gap_by_orbital_rate;
     vec gap_by_orbital_rate_by_shear_log_factor_law[TERMS];
-    vec ahead_of_gap_by_orbital_rate_by_shear_log_factor_law;
     vec gap_by_orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
     vec over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
-    vec ahead_of_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_aspect[TERMS];
     vec arm_lever_by_aspect[TERMS];
-    vec ahead_of_arm_lever_by_aspect;
     vec orbital_rate_over_distance[TERMS];
     vec over_orbital_rate_over_distance;
-    vec ahead_of_orbital_rate_over_distance;
     vec distance_by_shear_force_by_gap[TERMS];
-    vec ahead_of_distance_by_shear_force_by_gap;
     vec shear_log_factor_law_over_distance[TERMS];
     vec over_shear_log_factor_law_over_distance;
-    vec ahead_of_shear_log_factor_law_over_distance;
     vec distance_by_shear_force_by_aspect[TERMS];
-    vec ahead_of_distance_by_shear_force_by_aspect;
     vec gap_by_shear_force[TERMS];
-    vec ahead_of_gap_by_shear_force;
     vec arm_lever_law_by_distance_by_shear_force[TERMS];
-    vec ahead_of_arm_lever_law_by_distance_by_shear_force;
     vec arm_lever_law_by_shear_force_by_gap[TERMS];
-    vec ahead_of_arm_lever_law_by_shear_force_by_gap;
     vec arm_lever_law_by_shear_log_factor_law[TERMS];
-    vec ahead_of_arm_lever_law_by_shear_log_factor_law;
     vec arm_lever_law_by_shear_log_factor_law_over_distance_squared[TERMS];
     vec over_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
-    vec ahead_of_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
     vec arm_lever_by_aspect_by_shear_force[TERMS];
-    vec ahead_of_arm_lever_by_aspect_by_shear_force;
     vec arm_lever_law_by_shear_force_by_aspect[TERMS];
-    vec ahead_of_arm_lever_law_by_shear_force_by_aspect;
     vec inverse_distance_squared[TERMS];
-    vec ahead_of_inverse_distance_squared;
     vec gap_by_orbital_rate_over_distance[TERMS];
     vec over_gap_by_orbital_rate_over_distance;
-    vec ahead_of_gap_by_orbital_rate_over_distance;
     (void)film; (void)shear; (void)c; (void)asked;
     shear_log_factor_slopes_of(&shear_log_factor_law, &c->shear_log_factor_law, &of->shear_log_factor_law,
         &v->shear_log_factor_law, of->gap);
@@ -304,18 +280,15 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         &v->film_resistance_law, of->gap);
     arm_lever_slopes_of(&arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
         of->distance);
-    EACH_TERM(film_force_by_gap[k] =
-        film*c->film_force_by_gap_factor*product_ahead(film_resistance_law.by_gap, of->normal_velocity,
-        &ahead_of_film_force_by_gap, k);)
-    EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product_ahead(of->orbital_rate,
-        of->shear_log_factor_law.result, &ahead_of_orbital_rate_by_shear_log_factor_law, k);)
+    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
+        of->normal_velocity, k);)
+    EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate,
+        of->shear_log_factor_law.result, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law_over_distance[k] =
-        quotient_ahead(orbital_rate_by_shear_log_factor_law, of->distance,
+        quotient(orbital_rate_by_shear_log_factor_law, of->distance,
         orbital_rate_by_shear_log_factor_law_over_distance,
-        &over_orbital_rate_by_shear_log_factor_law_over_distance,
-        &ahead_of_orbital_rate_by_shear_log_factor_law_over_distance, k);)
-    EACH_TERM(shear_log_factor_law_by_gap_by_slip[k] = product_ahead(shear_log_factor_law.by_gap, of->slip,
-        &ahead_of_shear_log_factor_law_by_gap_by_slip, k);)
+        &over_orbital_rate_by_shear_log_factor_law_over_distance, k);)
+    EACH_TERM(shear_log_factor_law_by_gap_by_slip[k] = product(shear_log_factor_law.by_gap, of->slip, k);)
     EACH_TERM(shear_force_by_gap[k] =
         shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*orbital_rate_by_shear_log_factor_law_over_distance[k]
         +
@@ -325,37 +298,33 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         film_force_by_gap[k];)
     EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
         film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
-    EACH_TERM(orbital_rate_over_distance[k] = quotient_ahead(of->orbital_rate, of->distance,
-        orbital_rate_over_distance, &over_orbital_rate_over_distance, &ahead_of_orbital_rate_over_distance,
-        k);)
+    EACH_TERM(orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance,
+        orbital_rate_over_distance, &over_orbital_rate_over_distance, k);)
     EACH_TERM(s->normal_velocity_by_orbital_momentum[k] =
         c->normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
-    EACH_TERM(distance_by_shear_force_by_gap[k] = product_ahead(of->distance, shear_force_by_gap,
-        &ahead_of_distance_by_shear_force_by_gap, k);)
+    EACH_TERM(distance_by_shear_force_by_gap[k] = product(of->distance, shear_force_by_gap, k);)
     EACH_TERM(s->orbital_momentum_by_gap[k] = c->orbital_momentum_by_gap_per_shear_force*of->shear_force[k] -
         distance_by_shear_force_by_gap[k];)
-    EACH_TERM(shear_log_factor_law_over_distance[k] = quotient_ahead(of->shear_log_factor_law.result,
-        of->distance, shear_log_factor_law_over_distance, &over_shear_log_factor_law_over_distance,
-        &ahead_of_shear_log_factor_law_over_distance, k);)
+    EACH_TERM(shear_log_factor_law_over_distance[k] = quotient(of->shear_log_factor_law.result, of->distance,
+        shear_log_factor_law_over_distance, &over_shear_log_factor_law_over_distance, k);)
     EACH_TERM(s->orbital_momentum_by_orbital_momentum[k] =
         shear*c->orbital_momentum_by_orbital_momentum_per_shear_log_factor_law_over_distance*shear_log_factor_law_over_distance[k];)
     EACH_TERM(s->orbital_momentum_by_spin[k] =
-        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product_ahead(of->distance,
-        of->shear_log_factor_law.result, &s->ahead_of_orbital_momentum_by_spin, k);)
-    EACH_TERM(arm_lever_law_by_distance_by_shear_force[k] = product_ahead(arm_lever_law.by_distance,
-        of->shear_force, &ahead_of_arm_lever_law_by_distance_by_shear_force, k);)
-    EACH_TERM(arm_lever_law_by_shear_force_by_gap[k] = product_ahead(of->arm_lever_law.result,
-        shear_force_by_gap, &ahead_of_arm_lever_law_by_shear_force_by_gap, k);)
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->distance,
+        of->shear_log_factor_law.result, k);)
+    EACH_TERM(arm_lever_law_by_distance_by_shear_force[k] = product(arm_lever_law.by_distance,
+        of->shear_force, k);)
+    EACH_TERM(arm_lever_law_by_shear_force_by_gap[k] = product(of->arm_lever_law.result, shear_force_by_gap,
+        k);)
     EACH_TERM(s->spin_by_gap[k] =
         c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force*arm_lever_law_by_distance_by_shear_force[k]
         + 0.3125*arm_lever_law_by_shear_force_by_gap[k];)
-    EACH_TERM(arm_lever_law_by_shear_log_factor_law[k] = product_ahead(of->arm_lever_law.result,
-        of->shear_log_factor_law.result, &ahead_of_arm_lever_law_by_shear_log_factor_law, k);)
+    EACH_TERM(arm_lever_law_by_shear_log_factor_law[k] = product(of->arm_lever_law.result,
+        of->shear_log_factor_law.result, k);)
     EACH_TERM(arm_lever_law_by_shear_log_factor_law_over_distance_squared[k] =
-        quotient_ahead(arm_lever_law_by_shear_log_factor_law, of->distance_squared,
+        quotient(arm_lever_law_by_shear_log_factor_law, of->distance_squared,
         arm_lever_law_by_shear_log_factor_law_over_distance_squared,
-        &over_arm_lever_law_by_shear_log_factor_law_over_distance_squared,
-        &ahead_of_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);)
+        &over_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);)
     EACH_TERM(s->spin_by_orbital_momentum[k] =
         shear*c->spin_by_orbital_momentum_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];)
     EACH_TERM(s->spin_by_spin[k] =
@@ -364,52 +333,42 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     EACH_TERM(s->turned_by_gap[k] =
         c->turned_by_gap_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
 #endif
-    EACH_TERM(inverse_distance_squared[k] = reciprocal_ahead(of->distance_squared, inverse_distance_squared,
-        &ahead_of_inverse_distance_squared, k);)
+    EACH_TERM(inverse_distance_squared[k] = reciprocal(of->distance_squared, inverse_distance_squared, k);)
 #if TURNING_STATE
     EACH_TERM(s->turned_by_orbital_momentum[k] =
         c->turned_by_orbital_momentum_per_inverse_distance_squared*inverse_distance_squared[k];)
 #endif
     if (asked & (1u << BY_ASPECT)) {
-        EACH_TERM(gap_by_orbital_rate_squared[k] = product_ahead(of->gap, of->orbital_rate_squared,
-        &ahead_of_gap_by_orbital_rate_squared, k);)
+        EACH_TERM(gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);)
         EACH_TERM(s->centrifugal_force_by_aspect[k] =
         c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*gap_by_orbital_rate_squared[k] +
         c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];)
-        EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product_ahead(shear_log_factor_law.by_aspect,
-        of->slip, &ahead_of_shear_log_factor_law_by_aspect_by_slip, k);)
-        EACH_TERM(gap_by_orbital_rate[k] = product_ahead(of->gap, of->orbital_rate,
-        &ahead_of_gap_by_orbital_rate, k);)
-        EACH_TERM(gap_by_orbital_rate_by_shear_log_factor_law[k] =
-        product_ahead(of->shear_log_factor_law.result, gap_by_orbital_rate,
-        &ahead_of_gap_by_orbital_rate_by_shear_log_factor_law, k);)
+        EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product(shear_log_factor_law.by_aspect,
+        of->slip, k);)
+        EACH_TERM(gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);)
+        EACH_TERM(gap_by_orbital_rate_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
+        gap_by_orbital_rate, k);)
         EACH_TERM(gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
-        quotient_ahead(gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
+        quotient(gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
         gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
-        &over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
-        &ahead_of_gap_by_orbital_rate_by_shear_log_factor_law_over_distance, k);)
+        &over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance, k);)
         EACH_TERM(shear_force_by_aspect[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_aspect_by_slip[k]
         +
         shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];)
-        EACH_TERM(arm_lever_by_aspect[k] = product_ahead(arm_lever_law.by_distance, of->gap,
-        &ahead_of_arm_lever_by_aspect, k);)
-        EACH_TERM(distance_by_shear_force_by_aspect[k] = product_ahead(of->distance, shear_force_by_aspect,
-        &ahead_of_distance_by_shear_force_by_aspect, k);)
-        EACH_TERM(gap_by_shear_force[k] = product_ahead(of->gap, of->shear_force,
-        &ahead_of_gap_by_shear_force, k);)
+        EACH_TERM(arm_lever_by_aspect[k] = product(arm_lever_law.by_distance, of->gap, k);)
+        EACH_TERM(distance_by_shear_force_by_aspect[k] = product(of->distance, shear_force_by_aspect, k);)
+        EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
         EACH_TERM(s->orbital_momentum_by_aspect[k] = -distance_by_shear_force_by_aspect[k] -
         gap_by_shear_force[k];)
-        EACH_TERM(arm_lever_by_aspect_by_shear_force[k] = product_ahead(of->shear_force, arm_lever_by_aspect,
-        &ahead_of_arm_lever_by_aspect_by_shear_force, k);)
-        EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product_ahead(of->arm_lever_law.result,
-        shear_force_by_aspect, &ahead_of_arm_lever_law_by_shear_force_by_aspect, k);)
+        EACH_TERM(arm_lever_by_aspect_by_shear_force[k] = product(of->shear_force, arm_lever_by_aspect, k);)
+        EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
+        shear_force_by_aspect, k);)
         EACH_TERM(s->spin_by_aspect[k] = 0.3125*arm_lever_by_aspect_by_shear_force[k] +
         0.3125*arm_lever_law_by_shear_force_by_aspect[k];)
-        EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient_ahead(gap_by_orbital_rate, of->distance,
-        gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance,
-        &ahead_of_gap_by_orbital_rate_over_distance, k);)
+        EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient(gap_by_orbital_rate, of->distance,
+        gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance, k);)
 #if TURNING_STATE
         EACH_TERM(s->turned_by_aspect[k] =
         c->turned_by_aspect_per_gap_by_orbital_rate_over_distance*gap_by_orbital_rate_over_distance[k] +

@@ -338,18 +338,12 @@ typedef struct {
     vec orbital_momentum_by_gap[TERMS];
     vec orbital_momentum_by_orbital_momentum[TERMS];
     vec orbital_momentum_by_spin[TERMS];
-    vec ahead_of_orbital_momentum_by_spin;
     vec orbital_momentum_by_rotation[TERMS];
-    vec ahead_of_orbital_momentum_by_rotation;
     vec orbital_momentum_by_stokes[TERMS];
-    vec ahead_of_orbital_momentum_by_stokes;
     vec orbital_momentum_by_aspect[TERMS];
     vec orbital_momentum_by_obliquity[TERMS];
-    vec ahead_of_orbital_momentum_by_obliquity;
     vec orbital_momentum_by_weight[TERMS];
-    vec ahead_of_orbital_momentum_by_weight;
     vec orbital_momentum_by_string_ratio[TERMS];
-    vec ahead_of_orbital_momentum_by_string_ratio;
     vec spin_by_gap[TERMS];
     vec spin_by_orbital_momentum[TERMS];
     vec spin_by_spin[TERMS];
@@ -371,114 +365,71 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     strings_stiffness_slopes strings_stiffness_law;
     arm_lever_slopes arm_lever_law;
     vec film_force_by_gap[TERMS];
-    vec ahead_of_film_force_by_gap;
     vec offset_squared_by_gap[TERMS];
     vec strings_stiffness_by_gap[TERMS];
-    vec ahead_of_strings_stiffness_by_gap;
     vec combination_4[TERMS];
     vec strings_stiffness_by_gap_by_combination_4[TERMS];
-    vec ahead_of_strings_stiffness_by_gap_by_combination_4;
     vec string_pull_by_gap[TERMS];
     vec scaled_rotation[TERMS];
     vec sine_of_scaled_rotation[TERMS], slope_of_scaled_rotation[TERMS];
     vec cosine_of_scaled_rotation[TERMS];
     vec distance_by_sine_of_scaled_rotation[TERMS];
-    vec ahead_of_distance_by_sine_of_scaled_rotation;
     vec offset_squared_by_rotation[TERMS];
-    vec ahead_of_offset_squared_by_rotation;
     vec strings_stiffness_by_rotation[TERMS];
-    vec ahead_of_strings_stiffness_by_rotation;
     vec strings_stiffness_by_rotation_by_combination_4[TERMS];
-    vec ahead_of_strings_stiffness_by_rotation_by_combination_4;
     vec strings_stiffness_law_by_sine_of_scaled_rotation[TERMS];
-    vec ahead_of_strings_stiffness_law_by_sine_of_scaled_rotation;
     vec strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[TERMS];
-    vec ahead_of_strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation;
     vec string_pull_by_rotation[TERMS];
     vec bridge_force_by_aspect[TERMS];
-    vec ahead_of_bridge_force_by_aspect;
     vec gap_by_orbital_rate_squared[TERMS];
-    vec ahead_of_gap_by_orbital_rate_squared;
     vec centrifugal_force_by_aspect[TERMS];
     vec gap_by_combination[TERMS];
-    vec ahead_of_gap_by_combination;
     vec offset_squared_by_aspect[TERMS];
     vec strings_stiffness_by_aspect[TERMS];
-    vec ahead_of_strings_stiffness_by_aspect;
     vec combination_5[TERMS];
     vec gap_by_combination_5[TERMS];
-    vec ahead_of_gap_by_combination_5;
     vec strings_stiffness_by_aspect_by_combination[TERMS];
-    vec ahead_of_strings_stiffness_by_aspect_by_combination;
     vec string_pull_by_aspect[TERMS];
     vec string_pull_by_string_ratio[TERMS];
-    vec ahead_of_string_pull_by_string_ratio;
     vec orbital_rate_by_shear_log_factor_law[TERMS];
-    vec ahead_of_orbital_rate_by_shear_log_factor_law;
     vec orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
     vec over_orbital_rate_by_shear_log_factor_law_over_distance;
-    vec ahead_of_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_log_factor_law_by_gap_by_slip[TERMS];
-    vec ahead_of_shear_log_factor_law_by_gap_by_slip;
     vec shear_force_by_gap[TERMS];
     vec string_sideways_by_gap[TERMS];
-    vec ahead_of_string_sideways_by_gap;
     vec strings_stiffness_by_rotation_by_sine_of_rotation[TERMS];
-    vec ahead_of_strings_stiffness_by_rotation_by_sine_of_rotation;
     vec strings_stiffness_law_by_cosine_of_rotation[TERMS];
-    vec ahead_of_strings_stiffness_law_by_cosine_of_rotation;
     vec string_sideways_by_rotation[TERMS];
     vec shear_log_factor_law_by_aspect_by_slip[TERMS];
-    vec ahead_of_shear_log_factor_law_by_aspect_by_slip;
     vec gap_by_orbital_rate[TERMS];
-    vec ahead_of_gap_by_orbital_rate;
     vec gap_by_orbital_rate_by_shear_log_factor_law[TERMS];
-    vec ahead_of_gap_by_orbital_rate_by_shear_log_factor_law;
     vec gap_by_orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
     vec over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
-    vec ahead_of_gap_by_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_force_by_aspect[TERMS];
     vec string_sideways_by_aspect[TERMS];
-    vec ahead_of_string_sideways_by_aspect;
     vec string_sideways_by_obliquity[TERMS];
     vec string_sideways_by_string_ratio[TERMS];
-    vec ahead_of_string_sideways_by_string_ratio;
     vec arm_lever_by_aspect[TERMS];
-    vec ahead_of_arm_lever_by_aspect;
     vec orbital_rate_over_distance[TERMS];
     vec over_orbital_rate_over_distance;
-    vec ahead_of_orbital_rate_over_distance;
     vec combination_6[TERMS];
     vec distance_by_combination_6[TERMS];
-    vec ahead_of_distance_by_combination_6;
     vec shear_log_factor_law_over_distance[TERMS];
     vec over_shear_log_factor_law_over_distance;
-    vec ahead_of_shear_log_factor_law_over_distance;
     vec combination_7[TERMS];
     vec distance_by_combination_7[TERMS];
-    vec ahead_of_distance_by_combination_7;
     vec gap_by_shear_force[TERMS];
-    vec ahead_of_gap_by_shear_force;
     vec gap_by_string_sideways[TERMS];
-    vec ahead_of_gap_by_string_sideways;
     vec arm_lever_law_by_distance_by_shear_force[TERMS];
-    vec ahead_of_arm_lever_law_by_distance_by_shear_force;
     vec arm_lever_law_by_shear_force_by_gap[TERMS];
-    vec ahead_of_arm_lever_law_by_shear_force_by_gap;
     vec arm_lever_law_by_shear_log_factor_law[TERMS];
-    vec ahead_of_arm_lever_law_by_shear_log_factor_law;
     vec arm_lever_law_by_shear_log_factor_law_over_distance_squared[TERMS];
     vec over_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
-    vec ahead_of_arm_lever_law_by_shear_log_factor_law_over_distance_squared;
     vec arm_lever_by_aspect_by_shear_force[TERMS];
-    vec ahead_of_arm_lever_by_aspect_by_shear_force;
     vec arm_lever_law_by_shear_force_by_aspect[TERMS];
-    vec ahead_of_arm_lever_law_by_shear_force_by_aspect;
     vec inverse_distance_squared[TERMS];
-    vec ahead_of_inverse_distance_squared;
     vec gap_by_orbital_rate_over_distance[TERMS];
     vec over_gap_by_orbital_rate_over_distance;
-    vec ahead_of_gap_by_orbital_rate_over_distance;
     (void)film; (void)shear; (void)c; (void)asked;
     shear_log_factor_slopes_of(&shear_log_factor_law, &c->shear_log_factor_law, &of->shear_log_factor_law,
         &v->shear_log_factor_law, of->gap);
@@ -490,58 +441,52 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         &v->strings_stiffness_law, of->offset_squared);
     arm_lever_slopes_of(&arm_lever_law, &c->arm_lever_law, &of->arm_lever_law, &v->arm_lever_law,
         of->distance);
-    EACH_TERM(film_force_by_gap[k] =
-        film*c->film_force_by_gap_factor*product_ahead(film_resistance_law.by_gap, of->normal_velocity,
-        &ahead_of_film_force_by_gap, k);)
+    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
+        of->normal_velocity, k);)
     EACH_TERM(offset_squared_by_gap[k] = c->offset_squared_by_gap_per_gap*of->gap[k] +
         c->offset_squared_by_gap_per_combination*of->combination[k];)
-    EACH_TERM(strings_stiffness_by_gap[k] = product_ahead(strings_stiffness_law.by_offset_squared,
-        offset_squared_by_gap, &ahead_of_strings_stiffness_by_gap, k);)
+    EACH_TERM(strings_stiffness_by_gap[k] = product(strings_stiffness_law.by_offset_squared,
+        offset_squared_by_gap, k);)
     EACH_TERM(combination_4[k] = c->combination_4_per_gap*of->gap[k] +
         c->combination_4_per_combination*of->combination[k];)
-    EACH_TERM(strings_stiffness_by_gap_by_combination_4[k] = product_ahead(strings_stiffness_by_gap,
-        combination_4, &ahead_of_strings_stiffness_by_gap_by_combination_4, k);)
+    EACH_TERM(strings_stiffness_by_gap_by_combination_4[k] = product(strings_stiffness_by_gap, combination_4,
+        k);)
     EACH_TERM(string_pull_by_gap[k] = c->combination_4_per_gap*of->strings_stiffness_law.result[k] +
         strings_stiffness_by_gap_by_combination_4[k];)
     EACH_TERM(scaled_rotation[k] = 0.5*of->rotation[k];)
     EACH_TERM(circular(scaled_rotation, slope_of_scaled_rotation, sine_of_scaled_rotation,
         cosine_of_scaled_rotation, k);)
     /* cosine_of_scaled_rotation comes with its sine */
-    EACH_TERM(distance_by_sine_of_scaled_rotation[k] = product_ahead(of->distance, sine_of_scaled_rotation,
-        &ahead_of_distance_by_sine_of_scaled_rotation, k);)
-    EACH_TERM(offset_squared_by_rotation[k] = 4.0*product_ahead(cosine_of_scaled_rotation,
-        distance_by_sine_of_scaled_rotation, &ahead_of_offset_squared_by_rotation, k);)
-    EACH_TERM(strings_stiffness_by_rotation[k] = product_ahead(strings_stiffness_law.by_offset_squared,
-        offset_squared_by_rotation, &ahead_of_strings_stiffness_by_rotation, k);)
-    EACH_TERM(strings_stiffness_by_rotation_by_combination_4[k] = product_ahead(combination_4,
-        strings_stiffness_by_rotation, &ahead_of_strings_stiffness_by_rotation_by_combination_4, k);)
-    EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation[k] =
-        product_ahead(of->strings_stiffness_law.result, sine_of_scaled_rotation,
-        &ahead_of_strings_stiffness_law_by_sine_of_scaled_rotation, k);)
+    EACH_TERM(distance_by_sine_of_scaled_rotation[k] = product(of->distance, sine_of_scaled_rotation, k);)
+    EACH_TERM(offset_squared_by_rotation[k] = 4.0*product(cosine_of_scaled_rotation,
+        distance_by_sine_of_scaled_rotation, k);)
+    EACH_TERM(strings_stiffness_by_rotation[k] = product(strings_stiffness_law.by_offset_squared,
+        offset_squared_by_rotation, k);)
+    EACH_TERM(strings_stiffness_by_rotation_by_combination_4[k] = product(combination_4,
+        strings_stiffness_by_rotation, k);)
+    EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation[k] = product(of->strings_stiffness_law.result,
+        sine_of_scaled_rotation, k);)
     EACH_TERM(strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k] =
-        product_ahead(cosine_of_scaled_rotation, strings_stiffness_law_by_sine_of_scaled_rotation,
-        &ahead_of_strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation, k);)
+        product(cosine_of_scaled_rotation, strings_stiffness_law_by_sine_of_scaled_rotation, k);)
     EACH_TERM(string_pull_by_rotation[k] = strings_stiffness_by_rotation_by_combination_4[k] +
         c->combination_4_per_combination*strings_stiffness_law_by_sine_of_scaled_rotation_by_cosine_of_scaled_rotation[k];)
-    EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product_ahead(of->orbital_rate,
-        of->shear_log_factor_law.result, &ahead_of_orbital_rate_by_shear_log_factor_law, k);)
+    EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate,
+        of->shear_log_factor_law.result, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law_over_distance[k] =
-        quotient_ahead(orbital_rate_by_shear_log_factor_law, of->distance,
+        quotient(orbital_rate_by_shear_log_factor_law, of->distance,
         orbital_rate_by_shear_log_factor_law_over_distance,
-        &over_orbital_rate_by_shear_log_factor_law_over_distance,
-        &ahead_of_orbital_rate_by_shear_log_factor_law_over_distance, k);)
-    EACH_TERM(shear_log_factor_law_by_gap_by_slip[k] = product_ahead(shear_log_factor_law.by_gap, of->slip,
-        &ahead_of_shear_log_factor_law_by_gap_by_slip, k);)
+        &over_orbital_rate_by_shear_log_factor_law_over_distance, k);)
+    EACH_TERM(shear_log_factor_law_by_gap_by_slip[k] = product(shear_log_factor_law.by_gap, of->slip, k);)
     EACH_TERM(shear_force_by_gap[k] =
         shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*orbital_rate_by_shear_log_factor_law_over_distance[k]
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_gap_by_slip[k];)
-    EACH_TERM(string_sideways_by_gap[k] = c->string_sideways_by_gap_factor*product_ahead(of->sine_of_rotation,
-        strings_stiffness_by_gap, &ahead_of_string_sideways_by_gap, k);)
-    EACH_TERM(strings_stiffness_by_rotation_by_sine_of_rotation[k] = product_ahead(of->sine_of_rotation,
-        strings_stiffness_by_rotation, &ahead_of_strings_stiffness_by_rotation_by_sine_of_rotation, k);)
-    EACH_TERM(strings_stiffness_law_by_cosine_of_rotation[k] = product_ahead(of->strings_stiffness_law.result,
-        of->cosine_of_rotation, &ahead_of_strings_stiffness_law_by_cosine_of_rotation, k);)
+    EACH_TERM(string_sideways_by_gap[k] = c->string_sideways_by_gap_factor*product(of->sine_of_rotation,
+        strings_stiffness_by_gap, k);)
+    EACH_TERM(strings_stiffness_by_rotation_by_sine_of_rotation[k] = product(of->sine_of_rotation,
+        strings_stiffness_by_rotation, k);)
+    EACH_TERM(strings_stiffness_law_by_cosine_of_rotation[k] = product(of->strings_stiffness_law.result,
+        of->cosine_of_rotation, k);)
     EACH_TERM(string_sideways_by_rotation[k] =
         c->string_sideways_by_gap_factor*strings_stiffness_by_rotation_by_sine_of_rotation[k] +
         c->string_sideways_by_gap_factor*strings_stiffness_law_by_cosine_of_rotation[k];)
@@ -551,116 +496,96 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         - film_force_by_gap[k] - string_pull_by_gap[k];)
     EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
         film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
-    EACH_TERM(orbital_rate_over_distance[k] = quotient_ahead(of->orbital_rate, of->distance,
-        orbital_rate_over_distance, &over_orbital_rate_over_distance, &ahead_of_orbital_rate_over_distance,
-        k);)
+    EACH_TERM(orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance,
+        orbital_rate_over_distance, &over_orbital_rate_over_distance, k);)
     EACH_TERM(s->normal_velocity_by_orbital_momentum[k] =
         c->normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
     EACH_TERM(s->normal_velocity_by_rotation[k] = -string_pull_by_rotation[k];)
     EACH_TERM(combination_6[k] = -shear_force_by_gap[k] - string_sideways_by_gap[k];)
-    EACH_TERM(distance_by_combination_6[k] = product_ahead(of->distance, combination_6,
-        &ahead_of_distance_by_combination_6, k);)
+    EACH_TERM(distance_by_combination_6[k] = product(of->distance, combination_6, k);)
     EACH_TERM(s->orbital_momentum_by_gap[k] = c->orbital_momentum_by_gap_per_shear_force*of->shear_force[k] +
         c->orbital_momentum_by_gap_per_shear_force*of->string_sideways[k] + distance_by_combination_6[k];)
-    EACH_TERM(shear_log_factor_law_over_distance[k] = quotient_ahead(of->shear_log_factor_law.result,
-        of->distance, shear_log_factor_law_over_distance, &over_shear_log_factor_law_over_distance,
-        &ahead_of_shear_log_factor_law_over_distance, k);)
+    EACH_TERM(shear_log_factor_law_over_distance[k] = quotient(of->shear_log_factor_law.result, of->distance,
+        shear_log_factor_law_over_distance, &over_shear_log_factor_law_over_distance, k);)
     EACH_TERM(s->orbital_momentum_by_orbital_momentum[k] =
         shear*c->orbital_momentum_by_orbital_momentum_per_shear_log_factor_law_over_distance*shear_log_factor_law_over_distance[k];)
     EACH_TERM(s->orbital_momentum_by_spin[k] =
-        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product_ahead(of->distance,
-        of->shear_log_factor_law.result, &s->ahead_of_orbital_momentum_by_spin, k);)
-    EACH_TERM(s->orbital_momentum_by_rotation[k] = -product_ahead(of->distance, string_sideways_by_rotation,
-        &s->ahead_of_orbital_momentum_by_rotation, k);)
-    EACH_TERM(arm_lever_law_by_distance_by_shear_force[k] = product_ahead(arm_lever_law.by_distance,
-        of->shear_force, &ahead_of_arm_lever_law_by_distance_by_shear_force, k);)
-    EACH_TERM(arm_lever_law_by_shear_force_by_gap[k] = product_ahead(of->arm_lever_law.result,
-        shear_force_by_gap, &ahead_of_arm_lever_law_by_shear_force_by_gap, k);)
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->distance,
+        of->shear_log_factor_law.result, k);)
+    EACH_TERM(s->orbital_momentum_by_rotation[k] = -product(of->distance, string_sideways_by_rotation, k);)
+    EACH_TERM(arm_lever_law_by_distance_by_shear_force[k] = product(arm_lever_law.by_distance,
+        of->shear_force, k);)
+    EACH_TERM(arm_lever_law_by_shear_force_by_gap[k] = product(of->arm_lever_law.result, shear_force_by_gap,
+        k);)
     EACH_TERM(s->spin_by_gap[k] =
         c->spin_by_gap_per_arm_lever_law_by_distance_by_shear_force*arm_lever_law_by_distance_by_shear_force[k]
         + 0.3125*arm_lever_law_by_shear_force_by_gap[k];)
-    EACH_TERM(arm_lever_law_by_shear_log_factor_law[k] = product_ahead(of->arm_lever_law.result,
-        of->shear_log_factor_law.result, &ahead_of_arm_lever_law_by_shear_log_factor_law, k);)
+    EACH_TERM(arm_lever_law_by_shear_log_factor_law[k] = product(of->arm_lever_law.result,
+        of->shear_log_factor_law.result, k);)
     EACH_TERM(arm_lever_law_by_shear_log_factor_law_over_distance_squared[k] =
-        quotient_ahead(arm_lever_law_by_shear_log_factor_law, of->distance_squared,
+        quotient(arm_lever_law_by_shear_log_factor_law, of->distance_squared,
         arm_lever_law_by_shear_log_factor_law_over_distance_squared,
-        &over_arm_lever_law_by_shear_log_factor_law_over_distance_squared,
-        &ahead_of_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);)
+        &over_arm_lever_law_by_shear_log_factor_law_over_distance_squared, k);)
     EACH_TERM(s->spin_by_orbital_momentum[k] =
         shear*c->spin_by_orbital_momentum_per_arm_lever_law_by_shear_log_factor_law_over_distance_squared*arm_lever_law_by_shear_log_factor_law_over_distance_squared[k];)
     EACH_TERM(s->spin_by_spin[k] =
         shear*c->spin_by_spin_per_arm_lever_law_by_shear_log_factor_law*arm_lever_law_by_shear_log_factor_law[k];)
     EACH_TERM(s->rotation_by_gap[k] =
         c->rotation_by_gap_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
-    EACH_TERM(inverse_distance_squared[k] = reciprocal_ahead(of->distance_squared, inverse_distance_squared,
-        &ahead_of_inverse_distance_squared, k);)
+    EACH_TERM(inverse_distance_squared[k] = reciprocal(of->distance_squared, inverse_distance_squared, k);)
     EACH_TERM(s->rotation_by_orbital_momentum[k] =
         c->rotation_by_orbital_momentum_per_inverse_distance_squared*inverse_distance_squared[k];)
     if (asked & (1u << BY_ASPECT)) {
-        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product_ahead(bridge_force_law.by_gap_over_radius, of->gap,
-        &ahead_of_bridge_force_by_aspect, k);)
-        EACH_TERM(gap_by_orbital_rate_squared[k] = product_ahead(of->gap, of->orbital_rate_squared,
-        &ahead_of_gap_by_orbital_rate_squared, k);)
+        EACH_TERM(bridge_force_by_aspect[k] = 0.5*product(bridge_force_law.by_gap_over_radius, of->gap, k);)
+        EACH_TERM(gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);)
         EACH_TERM(centrifugal_force_by_aspect[k] =
         c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*gap_by_orbital_rate_squared[k] +
         c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];)
-        EACH_TERM(gap_by_combination[k] = product_ahead(of->gap, of->combination,
-        &ahead_of_gap_by_combination, k);)
+        EACH_TERM(gap_by_combination[k] = product(of->gap, of->combination, k);)
         EACH_TERM(offset_squared_by_aspect[k] = c->offset_squared_by_aspect_per_gap_squared*of->gap_squared[k]
         + 4.0*gap_by_combination[k];)
-        EACH_TERM(strings_stiffness_by_aspect[k] = product_ahead(strings_stiffness_law.by_offset_squared,
-        offset_squared_by_aspect, &ahead_of_strings_stiffness_by_aspect, k);)
+        EACH_TERM(strings_stiffness_by_aspect[k] = product(strings_stiffness_law.by_offset_squared,
+        offset_squared_by_aspect, k);)
         EACH_TERM(combination_5[k] = c->combination_4_per_gap*strings_stiffness_by_aspect[k] +
         v->weight*of->strings_stiffness_law.result[k];)
-        EACH_TERM(gap_by_combination_5[k] = product_ahead(of->gap, combination_5,
-        &ahead_of_gap_by_combination_5, k);)
-        EACH_TERM(strings_stiffness_by_aspect_by_combination[k] = product_ahead(of->combination,
-        strings_stiffness_by_aspect, &ahead_of_strings_stiffness_by_aspect_by_combination, k);)
+        EACH_TERM(gap_by_combination_5[k] = product(of->gap, combination_5, k);)
+        EACH_TERM(strings_stiffness_by_aspect_by_combination[k] = product(of->combination,
+        strings_stiffness_by_aspect, k);)
         EACH_TERM(string_pull_by_aspect[k] = gap_by_combination_5[k] +
         c->combination_4_per_combination*strings_stiffness_by_aspect_by_combination[k];)
-        EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product_ahead(shear_log_factor_law.by_aspect,
-        of->slip, &ahead_of_shear_log_factor_law_by_aspect_by_slip, k);)
-        EACH_TERM(gap_by_orbital_rate[k] = product_ahead(of->gap, of->orbital_rate,
-        &ahead_of_gap_by_orbital_rate, k);)
-        EACH_TERM(gap_by_orbital_rate_by_shear_log_factor_law[k] =
-        product_ahead(of->shear_log_factor_law.result, gap_by_orbital_rate,
-        &ahead_of_gap_by_orbital_rate_by_shear_log_factor_law, k);)
+        EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product(shear_log_factor_law.by_aspect,
+        of->slip, k);)
+        EACH_TERM(gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);)
+        EACH_TERM(gap_by_orbital_rate_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
+        gap_by_orbital_rate, k);)
         EACH_TERM(gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k] =
-        quotient_ahead(gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
+        quotient(gap_by_orbital_rate_by_shear_log_factor_law, of->distance,
         gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
-        &over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance,
-        &ahead_of_gap_by_orbital_rate_by_shear_log_factor_law_over_distance, k);)
+        &over_gap_by_orbital_rate_by_shear_log_factor_law_over_distance, k);)
         EACH_TERM(shear_force_by_aspect[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_aspect_by_slip[k]
         +
         shear*c->shear_force_by_aspect_per_gap_by_orbital_rate_by_shear_log_factor_law_over_distance*gap_by_orbital_rate_by_shear_log_factor_law_over_distance[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];)
         EACH_TERM(string_sideways_by_aspect[k] =
-        c->string_sideways_by_gap_factor*product_ahead(of->sine_of_rotation, strings_stiffness_by_aspect,
-        &ahead_of_string_sideways_by_aspect, k);)
-        EACH_TERM(arm_lever_by_aspect[k] = product_ahead(arm_lever_law.by_distance, of->gap,
-        &ahead_of_arm_lever_by_aspect, k);)
+        c->string_sideways_by_gap_factor*product(of->sine_of_rotation, strings_stiffness_by_aspect, k);)
+        EACH_TERM(arm_lever_by_aspect[k] = product(arm_lever_law.by_distance, of->gap, k);)
         EACH_TERM(s->normal_velocity_by_aspect[k] =
         c->normal_velocity_by_aspect_per_bridge_force_by_aspect*bridge_force_by_aspect[k] +
         centrifugal_force_by_aspect[k] - string_pull_by_aspect[k];)
         EACH_TERM(combination_7[k] = -shear_force_by_aspect[k] - string_sideways_by_aspect[k];)
-        EACH_TERM(distance_by_combination_7[k] = product_ahead(of->distance, combination_7,
-        &ahead_of_distance_by_combination_7, k);)
-        EACH_TERM(gap_by_shear_force[k] = product_ahead(of->gap, of->shear_force,
-        &ahead_of_gap_by_shear_force, k);)
-        EACH_TERM(gap_by_string_sideways[k] = product_ahead(of->gap, of->string_sideways,
-        &ahead_of_gap_by_string_sideways, k);)
+        EACH_TERM(distance_by_combination_7[k] = product(of->distance, combination_7, k);)
+        EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
+        EACH_TERM(gap_by_string_sideways[k] = product(of->gap, of->string_sideways, k);)
         EACH_TERM(s->orbital_momentum_by_aspect[k] = distance_by_combination_7[k] - gap_by_shear_force[k] -
         gap_by_string_sideways[k];)
-        EACH_TERM(arm_lever_by_aspect_by_shear_force[k] = product_ahead(of->shear_force, arm_lever_by_aspect,
-        &ahead_of_arm_lever_by_aspect_by_shear_force, k);)
-        EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product_ahead(of->arm_lever_law.result,
-        shear_force_by_aspect, &ahead_of_arm_lever_law_by_shear_force_by_aspect, k);)
+        EACH_TERM(arm_lever_by_aspect_by_shear_force[k] = product(of->shear_force, arm_lever_by_aspect, k);)
+        EACH_TERM(arm_lever_law_by_shear_force_by_aspect[k] = product(of->arm_lever_law.result,
+        shear_force_by_aspect, k);)
         EACH_TERM(s->spin_by_aspect[k] = 0.3125*arm_lever_by_aspect_by_shear_force[k] +
         0.3125*arm_lever_law_by_shear_force_by_aspect[k];)
-        EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient_ahead(gap_by_orbital_rate, of->distance,
-        gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance,
-        &ahead_of_gap_by_orbital_rate_over_distance, k);)
+        EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient(gap_by_orbital_rate, of->distance,
+        gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance, k);)
         EACH_TERM(s->rotation_by_aspect[k] =
         c->rotation_by_aspect_per_gap_by_orbital_rate_over_distance*gap_by_orbital_rate_over_distance[k] +
         c->rotation_by_aspect_per_orbital_rate*of->orbital_rate[k];)
@@ -678,29 +603,28 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         c->centrifugal_force_by_obliquity_per_centrifugal_force*of->centrifugal_force[k];)
         EACH_TERM(string_sideways_by_obliquity[k] =
         c->string_sideways_by_obliquity_per_string_sideways*of->string_sideways[k];)
-        EACH_TERM(s->orbital_momentum_by_obliquity[k] = -product_ahead(of->distance,
-        string_sideways_by_obliquity, &s->ahead_of_orbital_momentum_by_obliquity, k);)
+        EACH_TERM(s->orbital_momentum_by_obliquity[k] = -product(of->distance, string_sideways_by_obliquity,
+        k);)
         EACH_TERM(s->rotation_by_obliquity[k] =
         c->rotation_by_obliquity_per_orbital_rate*of->orbital_rate[k];)
     }
     if (asked & (1u << BY_STOKES)) {
         EACH_TERM(s->normal_velocity_by_stokes[k] = c->film_force_by_gap_factor*of->bridge_force[k] +
         c->film_force_by_gap_factor*of->film_force[k];)
-        EACH_TERM(s->orbital_momentum_by_stokes[k] = c->film_force_by_gap_factor*product_ahead(of->distance,
-        of->shear_force, &s->ahead_of_orbital_momentum_by_stokes, k);)
+        EACH_TERM(s->orbital_momentum_by_stokes[k] = c->film_force_by_gap_factor*product(of->distance,
+        of->shear_force, k);)
         EACH_TERM(s->spin_by_stokes[k] =
         c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->rate_of_spin[k];)
     }
     if (asked & (1u << BY_STRING_RATIO)) {
-        EACH_TERM(string_pull_by_string_ratio[k] =
-        v->weight*product_ahead(strings_stiffness_law.by_string_ratio, of->combination_2,
-        &ahead_of_string_pull_by_string_ratio, k);)
+        EACH_TERM(string_pull_by_string_ratio[k] = v->weight*product(strings_stiffness_law.by_string_ratio,
+        of->combination_2, k);)
         EACH_TERM(string_sideways_by_string_ratio[k] =
-        c->string_sideways_by_gap_factor*product_ahead(strings_stiffness_law.by_string_ratio,
-        of->sine_of_rotation, &ahead_of_string_sideways_by_string_ratio, k);)
+        c->string_sideways_by_gap_factor*product(strings_stiffness_law.by_string_ratio, of->sine_of_rotation,
+        k);)
         EACH_TERM(s->normal_velocity_by_string_ratio[k] = -string_pull_by_string_ratio[k];)
-        EACH_TERM(s->orbital_momentum_by_string_ratio[k] = -product_ahead(of->distance,
-        string_sideways_by_string_ratio, &s->ahead_of_orbital_momentum_by_string_ratio, k);)
+        EACH_TERM(s->orbital_momentum_by_string_ratio[k] = -product(of->distance,
+        string_sideways_by_string_ratio, k);)
     }
     if (asked & (1u << BY_VOLUME)) {
         EACH_TERM(s->normal_velocity_by_volume[k] =
@@ -710,8 +634,7 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         EACH_TERM(s->normal_velocity_by_weight[k] =
         c->normal_velocity_by_weight_per_string_pull*of->string_pull[k];)
         EACH_TERM(s->orbital_momentum_by_weight[k] =
-        c->normal_velocity_by_weight_per_string_pull*product_ahead(of->distance, of->string_sideways,
-        &s->ahead_of_orbital_momentum_by_weight, k);)
+        c->normal_velocity_by_weight_per_string_pull*product(of->distance, of->string_sideways, k);)
     }
 }
 

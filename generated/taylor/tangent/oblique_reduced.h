@@ -204,13 +204,10 @@ typedef struct {
     vec normal_velocity_by_stokes[TERMS];
     vec orbital_momentum_by_gap[TERMS];
     vec orbital_momentum_by_orbital_momentum[TERMS];
-    vec ahead_of_orbital_momentum_by_orbital_momentum;
     vec orbital_momentum_by_stokes[TERMS];
     vec orbital_momentum_by_aspect[TERMS];
     vec orbital_momentum_by_initial_turning[TERMS];
-    vec ahead_of_orbital_momentum_by_initial_turning;
     vec orbital_momentum_by_initial_spin[TERMS];
-    vec ahead_of_orbital_momentum_by_initial_spin;
     vec turned_by_gap[TERMS];
     vec turned_by_orbital_momentum[TERMS];
     vec turned_by_aspect[TERMS];
@@ -224,87 +221,66 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     shear_log_factor_slopes shear_log_factor_law;
     film_resistance_slopes film_resistance_law;
     vec film_force_by_gap[TERMS];
-    vec ahead_of_film_force_by_gap;
     vec gap_by_orbital_rate_squared[TERMS];
-    vec ahead_of_gap_by_orbital_rate_squared;
     vec orbital_rate_by_shear_log_factor_law[TERMS];
-    vec ahead_of_orbital_rate_by_shear_log_factor_law;
     vec orbital_rate_by_shear_log_factor_law_over_distance[TERMS];
     vec over_orbital_rate_by_shear_log_factor_law_over_distance;
-    vec ahead_of_orbital_rate_by_shear_log_factor_law_over_distance;
     vec shear_log_factor_law_by_gap_by_slip[TERMS];
-    vec ahead_of_shear_log_factor_law_by_gap_by_slip;
     vec shear_force_by_gap[TERMS];
     vec inverse_distance_squared[TERMS];
-    vec ahead_of_inverse_distance_squared;
     vec slip_by_orbital_momentum[TERMS];
     vec shear_force_by_orbital_momentum[TERMS];
-    vec ahead_of_shear_force_by_orbital_momentum;
     vec gap_by_orbital_rate[TERMS];
-    vec ahead_of_gap_by_orbital_rate;
     vec gap_by_orbital_rate_over_distance[TERMS];
     vec over_gap_by_orbital_rate_over_distance;
-    vec ahead_of_gap_by_orbital_rate_over_distance;
     vec slip_by_aspect[TERMS];
     vec shear_log_factor_law_by_aspect_by_slip[TERMS];
-    vec ahead_of_shear_log_factor_law_by_aspect_by_slip;
     vec slip_by_aspect_by_shear_log_factor_law[TERMS];
-    vec ahead_of_slip_by_aspect_by_shear_log_factor_law;
     vec shear_force_by_aspect[TERMS];
     vec shear_force_by_initial_turning[TERMS];
     vec orbital_rate_over_distance[TERMS];
     vec over_orbital_rate_over_distance;
-    vec ahead_of_orbital_rate_over_distance;
     vec distance_by_shear_force_by_gap[TERMS];
-    vec ahead_of_distance_by_shear_force_by_gap;
     vec distance_by_shear_force_by_aspect[TERMS];
-    vec ahead_of_distance_by_shear_force_by_aspect;
     vec gap_by_shear_force[TERMS];
-    vec ahead_of_gap_by_shear_force;
     (void)film; (void)shear; (void)c; (void)asked;
     shear_log_factor_slopes_of(&shear_log_factor_law, &c->shear_log_factor_law, &of->shear_log_factor_law,
         &v->shear_log_factor_law, of->gap);
     film_resistance_slopes_of(&film_resistance_law, &c->film_resistance_law, &of->film_resistance_law,
         &v->film_resistance_law, of->gap);
-    EACH_TERM(film_force_by_gap[k] =
-        film*c->film_force_by_gap_factor*product_ahead(film_resistance_law.by_gap, of->normal_velocity,
-        &ahead_of_film_force_by_gap, k);)
-    EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product_ahead(of->orbital_rate,
-        of->shear_log_factor_law.result, &ahead_of_orbital_rate_by_shear_log_factor_law, k);)
+    EACH_TERM(film_force_by_gap[k] = film*c->film_force_by_gap_factor*product(film_resistance_law.by_gap,
+        of->normal_velocity, k);)
+    EACH_TERM(orbital_rate_by_shear_log_factor_law[k] = product(of->orbital_rate,
+        of->shear_log_factor_law.result, k);)
     EACH_TERM(orbital_rate_by_shear_log_factor_law_over_distance[k] =
-        quotient_ahead(orbital_rate_by_shear_log_factor_law, of->distance,
+        quotient(orbital_rate_by_shear_log_factor_law, of->distance,
         orbital_rate_by_shear_log_factor_law_over_distance,
-        &over_orbital_rate_by_shear_log_factor_law_over_distance,
-        &ahead_of_orbital_rate_by_shear_log_factor_law_over_distance, k);)
-    EACH_TERM(shear_log_factor_law_by_gap_by_slip[k] = product_ahead(shear_log_factor_law.by_gap, of->slip,
-        &ahead_of_shear_log_factor_law_by_gap_by_slip, k);)
+        &over_orbital_rate_by_shear_log_factor_law_over_distance, k);)
+    EACH_TERM(shear_log_factor_law_by_gap_by_slip[k] = product(shear_log_factor_law.by_gap, of->slip, k);)
     EACH_TERM(shear_force_by_gap[k] =
         shear*c->shear_force_by_gap_per_orbital_rate_by_shear_log_factor_law_over_distance*orbital_rate_by_shear_log_factor_law_over_distance[k]
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_gap_by_slip[k];)
-    EACH_TERM(inverse_distance_squared[k] = reciprocal_ahead(of->distance_squared, inverse_distance_squared,
-        &ahead_of_inverse_distance_squared, k);)
+    EACH_TERM(inverse_distance_squared[k] = reciprocal(of->distance_squared, inverse_distance_squared, k);)
     EACH_TERM(slip_by_orbital_momentum[k] = k == 0 ? inverse_distance_squared[k] + 0.15625 :
         inverse_distance_squared[k];)
     EACH_TERM(shear_force_by_orbital_momentum[k] =
-        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product_ahead(of->shear_log_factor_law.result,
-        slip_by_orbital_momentum, &ahead_of_shear_force_by_orbital_momentum, k);)
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->shear_log_factor_law.result,
+        slip_by_orbital_momentum, k);)
     EACH_TERM(s->normal_velocity_by_gap[k] =
         c->normal_velocity_by_gap_per_orbital_rate_squared*of->orbital_rate_squared[k] -
         film_force_by_gap[k];)
     EACH_TERM(s->normal_velocity_by_normal_velocity[k] =
         film*c->normal_velocity_by_normal_velocity_per_film_resistance_law*of->film_resistance_law.result[k];)
-    EACH_TERM(orbital_rate_over_distance[k] = quotient_ahead(of->orbital_rate, of->distance,
-        orbital_rate_over_distance, &over_orbital_rate_over_distance, &ahead_of_orbital_rate_over_distance,
-        k);)
+    EACH_TERM(orbital_rate_over_distance[k] = quotient(of->orbital_rate, of->distance,
+        orbital_rate_over_distance, &over_orbital_rate_over_distance, k);)
     EACH_TERM(s->normal_velocity_by_orbital_momentum[k] =
         c->normal_velocity_by_orbital_momentum_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
-    EACH_TERM(distance_by_shear_force_by_gap[k] = product_ahead(of->distance, shear_force_by_gap,
-        &ahead_of_distance_by_shear_force_by_gap, k);)
+    EACH_TERM(distance_by_shear_force_by_gap[k] = product(of->distance, shear_force_by_gap, k);)
     EACH_TERM(s->orbital_momentum_by_gap[k] = c->orbital_momentum_by_gap_per_shear_force*of->shear_force[k] -
         distance_by_shear_force_by_gap[k];)
-    EACH_TERM(s->orbital_momentum_by_orbital_momentum[k] = -product_ahead(of->distance,
-        shear_force_by_orbital_momentum, &s->ahead_of_orbital_momentum_by_orbital_momentum, k);)
+    EACH_TERM(s->orbital_momentum_by_orbital_momentum[k] = -product(of->distance,
+        shear_force_by_orbital_momentum, k);)
 #if TURNING_STATE
     EACH_TERM(s->turned_by_gap[k] =
         c->turned_by_gap_per_orbital_rate_over_distance*orbital_rate_over_distance[k];)
@@ -314,31 +290,26 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
         c->turned_by_orbital_momentum_per_inverse_distance_squared*inverse_distance_squared[k];)
 #endif
     if (asked & (1u << BY_ASPECT)) {
-        EACH_TERM(gap_by_orbital_rate_squared[k] = product_ahead(of->gap, of->orbital_rate_squared,
-        &ahead_of_gap_by_orbital_rate_squared, k);)
+        EACH_TERM(gap_by_orbital_rate_squared[k] = product(of->gap, of->orbital_rate_squared, k);)
         EACH_TERM(s->centrifugal_force_by_aspect[k] =
         c->centrifugal_force_by_aspect_per_gap_by_orbital_rate_squared*gap_by_orbital_rate_squared[k] +
         c->centrifugal_force_by_aspect_per_centrifugal_force*of->centrifugal_force[k];)
-        EACH_TERM(gap_by_orbital_rate[k] = product_ahead(of->gap, of->orbital_rate,
-        &ahead_of_gap_by_orbital_rate, k);)
-        EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient_ahead(gap_by_orbital_rate, of->distance,
-        gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance,
-        &ahead_of_gap_by_orbital_rate_over_distance, k);)
+        EACH_TERM(gap_by_orbital_rate[k] = product(of->gap, of->orbital_rate, k);)
+        EACH_TERM(gap_by_orbital_rate_over_distance[k] = quotient(gap_by_orbital_rate, of->distance,
+        gap_by_orbital_rate_over_distance, &over_gap_by_orbital_rate_over_distance, k);)
         EACH_TERM(slip_by_aspect[k] = k == 0 ? -2.0*gap_by_orbital_rate_over_distance[k] +
         c->slip_by_aspect_offset : -2.0*gap_by_orbital_rate_over_distance[k];)
-        EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product_ahead(shear_log_factor_law.by_aspect,
-        of->slip, &ahead_of_shear_log_factor_law_by_aspect_by_slip, k);)
-        EACH_TERM(slip_by_aspect_by_shear_log_factor_law[k] = product_ahead(of->shear_log_factor_law.result,
-        slip_by_aspect, &ahead_of_slip_by_aspect_by_shear_log_factor_law, k);)
+        EACH_TERM(shear_log_factor_law_by_aspect_by_slip[k] = product(shear_log_factor_law.by_aspect,
+        of->slip, k);)
+        EACH_TERM(slip_by_aspect_by_shear_log_factor_law[k] = product(of->shear_log_factor_law.result,
+        slip_by_aspect, k);)
         EACH_TERM(shear_force_by_aspect[k] =
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*shear_log_factor_law_by_aspect_by_slip[k]
         +
         shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*slip_by_aspect_by_shear_log_factor_law[k]
         + c->centrifugal_force_by_aspect_per_centrifugal_force*of->shear_force[k];)
-        EACH_TERM(distance_by_shear_force_by_aspect[k] = product_ahead(of->distance, shear_force_by_aspect,
-        &ahead_of_distance_by_shear_force_by_aspect, k);)
-        EACH_TERM(gap_by_shear_force[k] = product_ahead(of->gap, of->shear_force,
-        &ahead_of_gap_by_shear_force, k);)
+        EACH_TERM(distance_by_shear_force_by_aspect[k] = product(of->distance, shear_force_by_aspect, k);)
+        EACH_TERM(gap_by_shear_force[k] = product(of->gap, of->shear_force, k);)
         EACH_TERM(s->orbital_momentum_by_aspect[k] = -distance_by_shear_force_by_aspect[k] -
         gap_by_shear_force[k];)
 #if TURNING_STATE
@@ -349,14 +320,14 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     }
     if (asked & (1u << BY_INITIAL_SPIN)) {
         EACH_TERM(s->orbital_momentum_by_initial_spin[k] =
-        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product_ahead(of->distance,
-        of->shear_log_factor_law.result, &s->ahead_of_orbital_momentum_by_initial_spin, k);)
+        shear*c->shear_force_by_gap_per_shear_log_factor_law_by_gap_by_slip*product(of->distance,
+        of->shear_log_factor_law.result, k);)
     }
     if (asked & (1u << BY_INITIAL_TURNING)) {
         EACH_TERM(shear_force_by_initial_turning[k] =
         shear*c->shear_force_by_initial_turning_per_shear_log_factor_law*of->shear_log_factor_law.result[k];)
-        EACH_TERM(s->orbital_momentum_by_initial_turning[k] = -product_ahead(of->distance,
-        shear_force_by_initial_turning, &s->ahead_of_orbital_momentum_by_initial_turning, k);)
+        EACH_TERM(s->orbital_momentum_by_initial_turning[k] = -product(of->distance,
+        shear_force_by_initial_turning, k);)
     }
     if (asked & (1u << BY_OBLIQUITY)) {
         EACH_TERM(s->centrifugal_force_by_obliquity[k] =

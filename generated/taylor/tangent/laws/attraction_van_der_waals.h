@@ -13,9 +13,7 @@ static inline void attraction_force_slope_prepare(attraction_force_slope_constan
 
 typedef struct {
     vec gap_squared_by_gap[TERMS];
-    vec ahead_of_gap_squared_by_gap;
     vec inverse_gap_squared_by_gap[TERMS];
-    vec ahead_of_inverse_gap_squared_by_gap;
     vec by_gap[TERMS];
 } attraction_force_slopes;
 
@@ -25,9 +23,8 @@ INLINE void attraction_force_slopes_of(attraction_force_slopes *restrict s, cons
     *v, const vec *gap)
 {
     (void)gap; (void)of; (void)c; (void)v;
-    EACH_TERM(s->gap_squared_by_gap[k] = product_ahead(of->gap_squared, gap, &s->ahead_of_gap_squared_by_gap,
-        k);)
-    EACH_TERM(s->inverse_gap_squared_by_gap[k] = reciprocal_ahead(s->gap_squared_by_gap,
-        s->inverse_gap_squared_by_gap, &s->ahead_of_inverse_gap_squared_by_gap, k);)
+    EACH_TERM(s->gap_squared_by_gap[k] = product(of->gap_squared, gap, k);)
+    EACH_TERM(s->inverse_gap_squared_by_gap[k] = reciprocal(s->gap_squared_by_gap,
+        s->inverse_gap_squared_by_gap, k);)
     EACH_TERM(s->by_gap[k] = -2.0*s->inverse_gap_squared_by_gap[k];)
 }

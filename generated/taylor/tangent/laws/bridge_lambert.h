@@ -20,21 +20,16 @@ static inline void bridge_force_slope_prepare(bridge_force_slope_constants *c, c
 
 typedef struct {
     vec inverse_cylinder_reach[TERMS];
-    vec ahead_of_inverse_cylinder_reach;
     vec cylinder_reach_squared[TERMS];
     vec gap_over_radius_squared_over_cylinder_reach_squared[TERMS];
     vec over_gap_over_radius_squared_over_cylinder_reach_squared;
-    vec ahead_of_gap_over_radius_squared_over_cylinder_reach_squared;
     vec gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach[TERMS];
     vec over_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach;
-    vec ahead_of_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach;
     vec by_gap_over_radius[TERMS];
     vec gap_over_radius_over_cylinder_reach_squared[TERMS];
     vec over_gap_over_radius_over_cylinder_reach_squared;
-    vec ahead_of_gap_over_radius_over_cylinder_reach_squared;
     vec gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach[TERMS];
     vec over_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach;
-    vec ahead_of_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach;
     vec by_volume[TERMS];
     vec by_contact_angle[TERMS];
 } bridge_force_slopes;
@@ -44,31 +39,26 @@ INLINE void bridge_force_slopes_of(bridge_force_slopes *restrict s, const bridge
     const bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius)
 {
     (void)gap_over_radius; (void)of; (void)c; (void)v;
-    EACH_TERM(s->inverse_cylinder_reach[k] = reciprocal_ahead(of->cylinder_reach, s->inverse_cylinder_reach,
-        &s->ahead_of_inverse_cylinder_reach, k);)
+    EACH_TERM(s->inverse_cylinder_reach[k] = reciprocal(of->cylinder_reach, s->inverse_cylinder_reach, k);)
     EACH_TERM(s->cylinder_reach_squared[k] = square(of->cylinder_reach, k);)
     EACH_TERM(s->gap_over_radius_squared_over_cylinder_reach_squared[k] =
-        quotient_ahead(of->gap_over_radius_squared, s->cylinder_reach_squared,
+        quotient(of->gap_over_radius_squared, s->cylinder_reach_squared,
         s->gap_over_radius_squared_over_cylinder_reach_squared,
-        &s->over_gap_over_radius_squared_over_cylinder_reach_squared,
-        &s->ahead_of_gap_over_radius_squared_over_cylinder_reach_squared, k);)
+        &s->over_gap_over_radius_squared_over_cylinder_reach_squared, k);)
     EACH_TERM(s->gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach[k] =
-        quotient_ahead(s->gap_over_radius_squared_over_cylinder_reach_squared, of->cylinder_reach,
+        quotient(s->gap_over_radius_squared_over_cylinder_reach_squared, of->cylinder_reach,
         s->gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach,
-        &s->over_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach,
-        &s->ahead_of_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach, k);)
+        &s->over_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach, k);)
     EACH_TERM(s->by_gap_over_radius[k] =
         c->by_gap_over_radius_per_inverse_cylinder_reach*s->inverse_cylinder_reach[k] +
         c->by_gap_over_radius_per_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach*s->gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach[k];)
-    EACH_TERM(s->gap_over_radius_over_cylinder_reach_squared[k] = quotient_ahead(gap_over_radius,
+    EACH_TERM(s->gap_over_radius_over_cylinder_reach_squared[k] = quotient(gap_over_radius,
         s->cylinder_reach_squared, s->gap_over_radius_over_cylinder_reach_squared,
-        &s->over_gap_over_radius_over_cylinder_reach_squared,
-        &s->ahead_of_gap_over_radius_over_cylinder_reach_squared, k);)
+        &s->over_gap_over_radius_over_cylinder_reach_squared, k);)
     EACH_TERM(s->gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach[k] =
-        quotient_ahead(s->gap_over_radius_over_cylinder_reach_squared, of->cylinder_reach,
+        quotient(s->gap_over_radius_over_cylinder_reach_squared, of->cylinder_reach,
         s->gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach,
-        &s->over_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach,
-        &s->ahead_of_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach, k);)
+        &s->over_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach, k);)
     EACH_TERM(s->by_volume[k] =
         c->by_volume_per_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach*s->gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach[k];)
     EACH_TERM(s->by_contact_angle[k] = k == 0 ?

@@ -21,51 +21,33 @@ static inline void bridge_force_slope_prepare(bridge_force_slope_constants *c, c
 typedef struct {
     vec gap_over_radius_over_half_filling_angle[TERMS];
     vec over_gap_over_radius_over_half_filling_angle;
-    vec ahead_of_gap_over_radius_over_half_filling_angle;
     vec gap_over_radius_over_half_filling_angle_over_cylinder_reach[TERMS];
     vec over_gap_over_radius_over_half_filling_angle_over_cylinder_reach;
-    vec ahead_of_gap_over_radius_over_half_filling_angle_over_cylinder_reach;
     vec inverse_half_filling_angle[TERMS];
-    vec ahead_of_inverse_half_filling_angle;
     vec half_filling_angle_by_gap_over_radius[TERMS];
     vec half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle[TERMS];
-    vec ahead_of_half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle;
     vec half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle_by_cosine_of_combination_4[TERMS];
-    vec ahead_of_half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle_by_cosine_of_combination_4;
     vec half_filling_angle_by_gap_over_radius_by_sine_of_combination_4[TERMS];
-    vec ahead_of_half_filling_angle_by_gap_over_radius_by_sine_of_combination_4;
     vec half_filling_angle_by_gap_over_radius_by_sine_of_combination_4_by_cosine_of_half_filling_angle[TERMS];
-    vec ahead_of_half_filling_angle_by_gap_over_radius_by_sine_of_combination_4_by_cosine_of_half_filling_angle;
     vec inverse_cylinder_reach[TERMS];
-    vec ahead_of_inverse_cylinder_reach;
     vec cylinder_reach_squared[TERMS];
     vec gap_over_radius_squared_over_cylinder_reach_squared[TERMS];
     vec over_gap_over_radius_squared_over_cylinder_reach_squared;
-    vec ahead_of_gap_over_radius_squared_over_cylinder_reach_squared;
     vec gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach[TERMS];
     vec over_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach;
-    vec ahead_of_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach;
     vec by_gap_over_radius[TERMS];
     vec sine_of_half_filling_angle_by_cosine_of_combination_4[TERMS];
-    vec ahead_of_sine_of_half_filling_angle_by_cosine_of_combination_4;
     vec sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle[TERMS];
-    vec ahead_of_sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle;
     vec sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle_over_cylinder_reach[TERMS];
     vec over_sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle_over_cylinder_reach;
-    vec ahead_of_sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle_over_cylinder_reach;
     vec sine_of_combination_4_by_cosine_of_half_filling_angle[TERMS];
-    vec ahead_of_sine_of_combination_4_by_cosine_of_half_filling_angle;
     vec sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle[TERMS];
-    vec ahead_of_sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle;
     vec sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle_over_cylinder_reach[TERMS];
     vec over_sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle_over_cylinder_reach;
-    vec ahead_of_sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle_over_cylinder_reach;
     vec gap_over_radius_over_cylinder_reach_squared[TERMS];
     vec over_gap_over_radius_over_cylinder_reach_squared;
-    vec ahead_of_gap_over_radius_over_cylinder_reach_squared;
     vec gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach[TERMS];
     vec over_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach;
-    vec ahead_of_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach;
     vec by_volume[TERMS];
     vec by_contact_angle[TERMS];
 } bridge_force_slopes;
@@ -75,49 +57,38 @@ INLINE void bridge_force_slopes_of(bridge_force_slopes *restrict s, const bridge
     const bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius)
 {
     (void)gap_over_radius; (void)of; (void)c; (void)v;
-    EACH_TERM(s->gap_over_radius_over_half_filling_angle[k] = quotient_ahead(gap_over_radius,
+    EACH_TERM(s->gap_over_radius_over_half_filling_angle[k] = quotient(gap_over_radius,
         of->half_filling_angle, s->gap_over_radius_over_half_filling_angle,
-        &s->over_gap_over_radius_over_half_filling_angle,
-        &s->ahead_of_gap_over_radius_over_half_filling_angle, k);)
+        &s->over_gap_over_radius_over_half_filling_angle, k);)
     EACH_TERM(s->gap_over_radius_over_half_filling_angle_over_cylinder_reach[k] =
-        quotient_ahead(s->gap_over_radius_over_half_filling_angle, of->cylinder_reach,
+        quotient(s->gap_over_radius_over_half_filling_angle, of->cylinder_reach,
         s->gap_over_radius_over_half_filling_angle_over_cylinder_reach,
-        &s->over_gap_over_radius_over_half_filling_angle_over_cylinder_reach,
-        &s->ahead_of_gap_over_radius_over_half_filling_angle_over_cylinder_reach, k);)
-    EACH_TERM(s->inverse_half_filling_angle[k] = reciprocal_ahead(of->half_filling_angle,
-        s->inverse_half_filling_angle, &s->ahead_of_inverse_half_filling_angle, k);)
+        &s->over_gap_over_radius_over_half_filling_angle_over_cylinder_reach, k);)
+    EACH_TERM(s->inverse_half_filling_angle[k] = reciprocal(of->half_filling_angle,
+        s->inverse_half_filling_angle, k);)
     EACH_TERM(s->half_filling_angle_by_gap_over_radius[k] =
         0.5*s->gap_over_radius_over_half_filling_angle_over_cylinder_reach[k] -
         0.5*s->inverse_half_filling_angle[k];)
     EACH_TERM(s->half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle[k] =
-        product_ahead(of->sine_of_half_filling_angle, s->half_filling_angle_by_gap_over_radius,
-        &s->ahead_of_half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle, k);)
+        product(of->sine_of_half_filling_angle, s->half_filling_angle_by_gap_over_radius, k);)
     EACH_TERM(s->half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle_by_cosine_of_combination_4[k]
-        = product_ahead(of->cosine_of_combination_4,
-        s->half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle,
-        &s->ahead_of_half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle_by_cosine_of_combination_4,
-        k);)
+        = product(of->cosine_of_combination_4,
+        s->half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle, k);)
     EACH_TERM(s->half_filling_angle_by_gap_over_radius_by_sine_of_combination_4[k] =
-        product_ahead(of->sine_of_combination_4, s->half_filling_angle_by_gap_over_radius,
-        &s->ahead_of_half_filling_angle_by_gap_over_radius_by_sine_of_combination_4, k);)
+        product(of->sine_of_combination_4, s->half_filling_angle_by_gap_over_radius, k);)
     EACH_TERM(s->half_filling_angle_by_gap_over_radius_by_sine_of_combination_4_by_cosine_of_half_filling_angle[k]
-        = product_ahead(of->cosine_of_half_filling_angle,
-        s->half_filling_angle_by_gap_over_radius_by_sine_of_combination_4,
-        &s->ahead_of_half_filling_angle_by_gap_over_radius_by_sine_of_combination_4_by_cosine_of_half_filling_angle,
-        k);)
-    EACH_TERM(s->inverse_cylinder_reach[k] = reciprocal_ahead(of->cylinder_reach, s->inverse_cylinder_reach,
-        &s->ahead_of_inverse_cylinder_reach, k);)
+        = product(of->cosine_of_half_filling_angle,
+        s->half_filling_angle_by_gap_over_radius_by_sine_of_combination_4, k);)
+    EACH_TERM(s->inverse_cylinder_reach[k] = reciprocal(of->cylinder_reach, s->inverse_cylinder_reach, k);)
     EACH_TERM(s->cylinder_reach_squared[k] = square(of->cylinder_reach, k);)
     EACH_TERM(s->gap_over_radius_squared_over_cylinder_reach_squared[k] =
-        quotient_ahead(of->gap_over_radius_squared, s->cylinder_reach_squared,
+        quotient(of->gap_over_radius_squared, s->cylinder_reach_squared,
         s->gap_over_radius_squared_over_cylinder_reach_squared,
-        &s->over_gap_over_radius_squared_over_cylinder_reach_squared,
-        &s->ahead_of_gap_over_radius_squared_over_cylinder_reach_squared, k);)
+        &s->over_gap_over_radius_squared_over_cylinder_reach_squared, k);)
     EACH_TERM(s->gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach[k] =
-        quotient_ahead(s->gap_over_radius_squared_over_cylinder_reach_squared, of->cylinder_reach,
+        quotient(s->gap_over_radius_squared_over_cylinder_reach_squared, of->cylinder_reach,
         s->gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach,
-        &s->over_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach,
-        &s->ahead_of_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach, k);)
+        &s->over_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach, k);)
     EACH_TERM(s->by_gap_over_radius[k] =
         2.0*s->half_filling_angle_by_gap_over_radius_by_sine_of_half_filling_angle_by_cosine_of_combination_4[k]
         +
@@ -125,42 +96,32 @@ INLINE void bridge_force_slopes_of(bridge_force_slopes *restrict s, const bridge
         + c->by_gap_over_radius_per_inverse_cylinder_reach*s->inverse_cylinder_reach[k] +
         c->by_gap_over_radius_per_gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach*s->gap_over_radius_squared_over_cylinder_reach_squared_over_cylinder_reach[k];)
     EACH_TERM(s->sine_of_half_filling_angle_by_cosine_of_combination_4[k] =
-        product_ahead(of->sine_of_half_filling_angle, of->cosine_of_combination_4,
-        &s->ahead_of_sine_of_half_filling_angle_by_cosine_of_combination_4, k);)
+        product(of->sine_of_half_filling_angle, of->cosine_of_combination_4, k);)
     EACH_TERM(s->sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle[k] =
-        product_ahead(s->inverse_half_filling_angle, s->sine_of_half_filling_angle_by_cosine_of_combination_4,
-        &s->ahead_of_sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle, k);)
+        product(s->inverse_half_filling_angle, s->sine_of_half_filling_angle_by_cosine_of_combination_4, k);)
     EACH_TERM(s->sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle_over_cylinder_reach[k]
-        =
-        quotient_ahead(s->sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle,
+        = quotient(s->sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle,
         of->cylinder_reach,
         s->sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle_over_cylinder_reach,
         &s->over_sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle_over_cylinder_reach,
-        &s->ahead_of_sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle_over_cylinder_reach,
         k);)
-    EACH_TERM(s->sine_of_combination_4_by_cosine_of_half_filling_angle[k] =
-        product_ahead(of->sine_of_combination_4, of->cosine_of_half_filling_angle,
-        &s->ahead_of_sine_of_combination_4_by_cosine_of_half_filling_angle, k);)
+    EACH_TERM(s->sine_of_combination_4_by_cosine_of_half_filling_angle[k] = product(of->sine_of_combination_4,
+        of->cosine_of_half_filling_angle, k);)
     EACH_TERM(s->sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle[k] =
-        product_ahead(s->inverse_half_filling_angle, s->sine_of_combination_4_by_cosine_of_half_filling_angle,
-        &s->ahead_of_sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle, k);)
+        product(s->inverse_half_filling_angle, s->sine_of_combination_4_by_cosine_of_half_filling_angle, k);)
     EACH_TERM(s->sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle_over_cylinder_reach[k]
-        =
-        quotient_ahead(s->sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle,
+        = quotient(s->sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle,
         of->cylinder_reach,
         s->sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle_over_cylinder_reach,
         &s->over_sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle_over_cylinder_reach,
-        &s->ahead_of_sine_of_combination_4_by_cosine_of_half_filling_angle_by_inverse_half_filling_angle_over_cylinder_reach,
         k);)
-    EACH_TERM(s->gap_over_radius_over_cylinder_reach_squared[k] = quotient_ahead(gap_over_radius,
+    EACH_TERM(s->gap_over_radius_over_cylinder_reach_squared[k] = quotient(gap_over_radius,
         s->cylinder_reach_squared, s->gap_over_radius_over_cylinder_reach_squared,
-        &s->over_gap_over_radius_over_cylinder_reach_squared,
-        &s->ahead_of_gap_over_radius_over_cylinder_reach_squared, k);)
+        &s->over_gap_over_radius_over_cylinder_reach_squared, k);)
     EACH_TERM(s->gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach[k] =
-        quotient_ahead(s->gap_over_radius_over_cylinder_reach_squared, of->cylinder_reach,
+        quotient(s->gap_over_radius_over_cylinder_reach_squared, of->cylinder_reach,
         s->gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach,
-        &s->over_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach,
-        &s->ahead_of_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach, k);)
+        &s->over_gap_over_radius_over_cylinder_reach_squared_over_cylinder_reach, k);)
     EACH_TERM(s->by_volume[k] =
         0.3183098861837907*s->sine_of_half_filling_angle_by_cosine_of_combination_4_by_inverse_half_filling_angle_over_cylinder_reach[k]
         +

@@ -18,7 +18,6 @@ static inline void bridge_force_slope_prepare(bridge_force_slope_constants *c, c
 typedef struct {
     vec by_gap_over_radius[TERMS];
     vec gap_over_radius_by_exp_of_combination[TERMS];
-    vec ahead_of_gap_over_radius_by_exp_of_combination;
     vec by_volume[TERMS];
     vec by_contact_angle[TERMS];
 } bridge_force_slopes;
@@ -29,8 +28,8 @@ INLINE void bridge_force_slopes_of(bridge_force_slopes *restrict s, const bridge
 {
     (void)gap_over_radius; (void)of; (void)c; (void)v;
     EACH_TERM(s->by_gap_over_radius[k] = v->decay*of->exp_of_combination[k];)
-    EACH_TERM(s->gap_over_radius_by_exp_of_combination[k] = product_ahead(gap_over_radius,
-        of->exp_of_combination, &s->ahead_of_gap_over_radius_by_exp_of_combination, k);)
+    EACH_TERM(s->gap_over_radius_by_exp_of_combination[k] = product(gap_over_radius, of->exp_of_combination,
+        k);)
     EACH_TERM(s->by_volume[k] = k == 0 ?
         c->by_volume_per_gap_over_radius_by_exp_of_combination*s->gap_over_radius_by_exp_of_combination[k] +
         c->offset_by_volume*of->exp_of_combination[k] + c->by_volume_offset :

@@ -68,22 +68,15 @@ static inline void bridge_force_slope_prepare(bridge_force_slope_constants *c, c
 
 typedef struct {
     vec exp_of_combination_2_by_exp_of_combination[TERMS];
-    vec ahead_of_exp_of_combination_2_by_exp_of_combination;
     vec exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[TERMS];
     vec over_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius;
-    vec ahead_of_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius;
     vec log_scaled_gap_by_exp_of_combination_2[TERMS];
-    vec ahead_of_log_scaled_gap_by_exp_of_combination_2;
     vec log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination[TERMS];
-    vec ahead_of_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination;
     vec log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[TERMS];
     vec over_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius;
-    vec ahead_of_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius;
     vec by_gap_over_radius[TERMS];
     vec log_scaled_gap_squared_by_exp_of_combination_2[TERMS];
-    vec ahead_of_log_scaled_gap_squared_by_exp_of_combination_2;
     vec log_scaled_gap_squared_by_exp_of_combination_2_by_exp_of_combination[TERMS];
-    vec ahead_of_log_scaled_gap_squared_by_exp_of_combination_2_by_exp_of_combination;
     vec by_volume[TERMS];
     vec by_contact_angle[TERMS];
 } bridge_force_slopes;
@@ -93,32 +86,28 @@ INLINE void bridge_force_slopes_of(bridge_force_slopes *restrict s, const bridge
     const bridge_force_series *of, const bridge_force_constants *v, const vec *gap_over_radius)
 {
     (void)gap_over_radius; (void)of; (void)c; (void)v;
-    EACH_TERM(s->exp_of_combination_2_by_exp_of_combination[k] = product_ahead(of->exp_of_combination_2,
-        of->exp_of_combination, &s->ahead_of_exp_of_combination_2_by_exp_of_combination, k);)
+    EACH_TERM(s->exp_of_combination_2_by_exp_of_combination[k] = product(of->exp_of_combination_2,
+        of->exp_of_combination, k);)
     EACH_TERM(s->exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k] =
-        quotient_ahead(s->exp_of_combination_2_by_exp_of_combination, gap_over_radius,
+        quotient(s->exp_of_combination_2_by_exp_of_combination, gap_over_radius,
         s->exp_of_combination_2_by_exp_of_combination_over_gap_over_radius,
-        &s->over_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius,
-        &s->ahead_of_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius, k);)
-    EACH_TERM(s->log_scaled_gap_by_exp_of_combination_2[k] = product_ahead(of->log_scaled_gap,
-        of->exp_of_combination_2, &s->ahead_of_log_scaled_gap_by_exp_of_combination_2, k);)
+        &s->over_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius, k);)
+    EACH_TERM(s->log_scaled_gap_by_exp_of_combination_2[k] = product(of->log_scaled_gap,
+        of->exp_of_combination_2, k);)
     EACH_TERM(s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination[k] =
-        product_ahead(of->exp_of_combination, s->log_scaled_gap_by_exp_of_combination_2,
-        &s->ahead_of_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination, k);)
+        product(of->exp_of_combination, s->log_scaled_gap_by_exp_of_combination_2, k);)
     EACH_TERM(s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k] =
-        quotient_ahead(s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination, gap_over_radius,
+        quotient(s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination, gap_over_radius,
         s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius,
-        &s->over_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius,
-        &s->ahead_of_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius, k);)
+        &s->over_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius, k);)
     EACH_TERM(s->by_gap_over_radius[k] =
         c->by_gap_over_radius_per_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius*s->exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k]
         +
         c->by_gap_over_radius_per_log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius*s->log_scaled_gap_by_exp_of_combination_2_by_exp_of_combination_over_gap_over_radius[k];)
-    EACH_TERM(s->log_scaled_gap_squared_by_exp_of_combination_2[k] = product_ahead(of->log_scaled_gap_squared,
-        of->exp_of_combination_2, &s->ahead_of_log_scaled_gap_squared_by_exp_of_combination_2, k);)
+    EACH_TERM(s->log_scaled_gap_squared_by_exp_of_combination_2[k] = product(of->log_scaled_gap_squared,
+        of->exp_of_combination_2, k);)
     EACH_TERM(s->log_scaled_gap_squared_by_exp_of_combination_2_by_exp_of_combination[k] =
-        product_ahead(of->exp_of_combination, s->log_scaled_gap_squared_by_exp_of_combination_2,
-        &s->ahead_of_log_scaled_gap_squared_by_exp_of_combination_2_by_exp_of_combination, k);)
+        product(of->exp_of_combination, s->log_scaled_gap_squared_by_exp_of_combination_2, k);)
     EACH_TERM(s->by_volume[k] = c->by_volume_per_exp_of_combination_2*of->exp_of_combination_2[k] +
         c->by_volume_per_exp_of_combination_2_by_exp_of_combination*s->exp_of_combination_2_by_exp_of_combination[k]
         +

@@ -22,13 +22,10 @@ typedef struct {
     vec combination_3_squared[TERMS];
     vec combination_2_over_combination_3_squared[TERMS];
     vec over_combination_2_over_combination_3_squared;
-    vec ahead_of_combination_2_over_combination_3_squared;
     vec by_gap_over_radius[TERMS];
     vec scaled_gap_by_combination_2[TERMS];
-    vec ahead_of_scaled_gap_by_combination_2;
     vec scaled_gap_by_combination_2_over_combination_3_squared[TERMS];
     vec over_scaled_gap_by_combination_2_over_combination_3_squared;
-    vec ahead_of_scaled_gap_by_combination_2_over_combination_3_squared;
     vec by_volume[TERMS];
     vec by_contact_angle[TERMS];
 } bridge_force_slopes;
@@ -42,19 +39,16 @@ INLINE void bridge_force_slopes_of(bridge_force_slopes *restrict s, const bridge
     EACH_TERM(s->combination_3[k] = k == 0 ? 50.0*of->scaled_gap_squared[k] + 21.0*of->scaled_gap[k] + 20.0 :
         50.0*of->scaled_gap_squared[k] + 21.0*of->scaled_gap[k];)
     EACH_TERM(s->combination_3_squared[k] = square(s->combination_3, k);)
-    EACH_TERM(s->combination_2_over_combination_3_squared[k] = quotient_ahead(s->combination_2,
+    EACH_TERM(s->combination_2_over_combination_3_squared[k] = quotient(s->combination_2,
         s->combination_3_squared, s->combination_2_over_combination_3_squared,
-        &s->over_combination_2_over_combination_3_squared,
-        &s->ahead_of_combination_2_over_combination_3_squared, k);)
+        &s->over_combination_2_over_combination_3_squared, k);)
     EACH_TERM(s->by_gap_over_radius[k] =
         c->by_gap_over_radius_per_combination_2_over_combination_3_squared*s->combination_2_over_combination_3_squared[k];)
-    EACH_TERM(s->scaled_gap_by_combination_2[k] = product_ahead(of->scaled_gap, s->combination_2,
-        &s->ahead_of_scaled_gap_by_combination_2, k);)
+    EACH_TERM(s->scaled_gap_by_combination_2[k] = product(of->scaled_gap, s->combination_2, k);)
     EACH_TERM(s->scaled_gap_by_combination_2_over_combination_3_squared[k] =
-        quotient_ahead(s->scaled_gap_by_combination_2, s->combination_3_squared,
+        quotient(s->scaled_gap_by_combination_2, s->combination_3_squared,
         s->scaled_gap_by_combination_2_over_combination_3_squared,
-        &s->over_scaled_gap_by_combination_2_over_combination_3_squared,
-        &s->ahead_of_scaled_gap_by_combination_2_over_combination_3_squared, k);)
+        &s->over_scaled_gap_by_combination_2_over_combination_3_squared, k);)
     EACH_TERM(s->by_volume[k] =
         c->by_volume_per_scaled_gap_by_combination_2_over_combination_3_squared*s->scaled_gap_by_combination_2_over_combination_3_squared[k];)
     EACH_TERM(s->by_contact_angle[k] =

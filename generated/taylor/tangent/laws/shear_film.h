@@ -13,7 +13,6 @@ static inline void shear_log_factor_slope_prepare(shear_log_factor_slope_constan
 
 typedef struct {
     vec inverse_gap[TERMS];
-    vec ahead_of_inverse_gap;
     vec by_gap[TERMS];
     vec by_aspect[TERMS];
 } shear_log_factor_slopes;
@@ -24,7 +23,7 @@ INLINE void shear_log_factor_slopes_of(shear_log_factor_slopes *restrict s, cons
     *v, const vec *gap)
 {
     (void)gap; (void)of; (void)c; (void)v;
-    EACH_TERM(s->inverse_gap[k] = reciprocal_ahead(gap, s->inverse_gap, &s->ahead_of_inverse_gap, k);)
+    EACH_TERM(s->inverse_gap[k] = reciprocal(gap, s->inverse_gap, k);)
     EACH_TERM(s->by_gap[k] = -s->inverse_gap[k];)
     EACH_TERM(s->by_aspect[k] = k == 0 ? splat(0.0) : splat(0.0);)
 }

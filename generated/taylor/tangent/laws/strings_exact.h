@@ -21,22 +21,17 @@ static inline void strings_rise_slope_prepare(strings_rise_slope_constants *c, c
 
 typedef struct {
     vec offset_squared_by_root_of_combination[TERMS];
-    vec ahead_of_offset_squared_by_root_of_combination;
     vec combination_3[TERMS];
     vec offset_squared_over_combination_3[TERMS];
     vec over_offset_squared_over_combination_3;
-    vec ahead_of_offset_squared_over_combination_3;
     vec combination_4[TERMS];
     vec offset_squared_over_combination_4[TERMS];
     vec over_offset_squared_over_combination_4;
-    vec ahead_of_offset_squared_over_combination_4;
     vec by_string_ratio[TERMS];
     vec combination_5[TERMS];
     vec offset_squared_over_combination_5[TERMS];
     vec over_offset_squared_over_combination_5;
-    vec ahead_of_offset_squared_over_combination_5;
     vec inverse_combination_2[TERMS];
-    vec ahead_of_inverse_combination_2;
     vec by_offset_squared[TERMS];
 } strings_rise_slopes;
 
@@ -45,24 +40,22 @@ INLINE void strings_rise_slopes_of(strings_rise_slopes *restrict s, const string
     const strings_rise_series *of, const strings_rise_constants *v, const vec *offset_squared)
 {
     (void)offset_squared; (void)of; (void)c; (void)v;
-    EACH_TERM(s->offset_squared_by_root_of_combination[k] = product_ahead(offset_squared,
-        of->root_of_combination, &s->ahead_of_offset_squared_by_root_of_combination, k);)
+    EACH_TERM(s->offset_squared_by_root_of_combination[k] = product(offset_squared, of->root_of_combination,
+        k);)
     EACH_TERM(s->combination_3[k] = k == 0 ? c->combination_3_per_offset_squared*offset_squared[k] +
         c->combination_3_per_root_of_combination*of->root_of_combination[k] -
         s->offset_squared_by_root_of_combination[k] + c->combination_3_offset :
         c->combination_3_per_offset_squared*offset_squared[k] +
         c->combination_3_per_root_of_combination*of->root_of_combination[k] -
         s->offset_squared_by_root_of_combination[k];)
-    EACH_TERM(s->offset_squared_over_combination_3[k] = quotient_ahead(offset_squared, s->combination_3,
-        s->offset_squared_over_combination_3, &s->over_offset_squared_over_combination_3,
-        &s->ahead_of_offset_squared_over_combination_3, k);)
+    EACH_TERM(s->offset_squared_over_combination_3[k] = quotient(offset_squared, s->combination_3,
+        s->offset_squared_over_combination_3, &s->over_offset_squared_over_combination_3, k);)
     EACH_TERM(s->combination_4[k] = k == 0 ?
         c->combination_4_per_root_of_combination*of->root_of_combination[k] - offset_squared[k] +
         c->combination_3_per_root_of_combination :
         c->combination_4_per_root_of_combination*of->root_of_combination[k] - offset_squared[k];)
-    EACH_TERM(s->offset_squared_over_combination_4[k] = quotient_ahead(offset_squared, s->combination_4,
-        s->offset_squared_over_combination_4, &s->over_offset_squared_over_combination_4,
-        &s->ahead_of_offset_squared_over_combination_4, k);)
+    EACH_TERM(s->offset_squared_over_combination_4[k] = quotient(offset_squared, s->combination_4,
+        s->offset_squared_over_combination_4, &s->over_offset_squared_over_combination_4, k);)
     EACH_TERM(s->by_string_ratio[k] =
         c->by_string_ratio_per_offset_squared_over_combination_3*s->offset_squared_over_combination_3[k] -
         s->offset_squared_over_combination_4[k];)
@@ -72,11 +65,9 @@ INLINE void strings_rise_slopes_of(strings_rise_slopes *restrict s, const string
         c->combination_5_per_offset_squared*offset_squared[k] +
         c->combination_5_per_root_of_combination*of->root_of_combination[k] -
         2.0*s->offset_squared_by_root_of_combination[k];)
-    EACH_TERM(s->offset_squared_over_combination_5[k] = quotient_ahead(offset_squared, s->combination_5,
-        s->offset_squared_over_combination_5, &s->over_offset_squared_over_combination_5,
-        &s->ahead_of_offset_squared_over_combination_5, k);)
-    EACH_TERM(s->inverse_combination_2[k] = reciprocal_ahead(of->combination_2, s->inverse_combination_2,
-        &s->ahead_of_inverse_combination_2, k);)
+    EACH_TERM(s->offset_squared_over_combination_5[k] = quotient(offset_squared, s->combination_5,
+        s->offset_squared_over_combination_5, &s->over_offset_squared_over_combination_5, k);)
+    EACH_TERM(s->inverse_combination_2[k] = reciprocal(of->combination_2, s->inverse_combination_2, k);)
     EACH_TERM(s->by_offset_squared[k] = s->offset_squared_over_combination_5[k] +
         s->inverse_combination_2[k];)
 }
@@ -94,14 +85,11 @@ static inline void strings_stiffness_slope_prepare(strings_stiffness_slope_const
 
 typedef struct {
     vec offset_squared_by_root_of_combination[TERMS];
-    vec ahead_of_offset_squared_by_root_of_combination;
     vec combination_2[TERMS];
     vec inverse_combination_2[TERMS];
-    vec ahead_of_inverse_combination_2;
     vec by_string_ratio[TERMS];
     vec combination_3[TERMS];
     vec by_offset_squared[TERMS];
-    vec ahead_of_by_offset_squared;
 } strings_stiffness_slopes;
 
 /* Derivatives of strings_stiffness by its arguments; products of series: 3. */
@@ -110,16 +98,14 @@ INLINE void strings_stiffness_slopes_of(strings_stiffness_slopes *restrict s, co
     strings_stiffness_constants *v, const vec *offset_squared)
 {
     (void)offset_squared; (void)of; (void)c; (void)v;
-    EACH_TERM(s->offset_squared_by_root_of_combination[k] = product_ahead(offset_squared,
-        of->root_of_combination, &s->ahead_of_offset_squared_by_root_of_combination, k);)
+    EACH_TERM(s->offset_squared_by_root_of_combination[k] = product(offset_squared, of->root_of_combination,
+        k);)
     EACH_TERM(s->combination_2[k] = c->combination_2_per_root_of_combination*of->root_of_combination[k] -
         s->offset_squared_by_root_of_combination[k];)
-    EACH_TERM(s->inverse_combination_2[k] = reciprocal_ahead(s->combination_2, s->inverse_combination_2,
-        &s->ahead_of_inverse_combination_2, k);)
+    EACH_TERM(s->inverse_combination_2[k] = reciprocal(s->combination_2, s->inverse_combination_2, k);)
     EACH_TERM(s->by_string_ratio[k] =
         c->by_string_ratio_per_inverse_combination_2*s->inverse_combination_2[k];)
     EACH_TERM(s->combination_3[k] = c->combination_3_per_root_of_combination*of->root_of_combination[k] -
         2.0*s->offset_squared_by_root_of_combination[k];)
-    EACH_TERM(s->by_offset_squared[k] = reciprocal_ahead(s->combination_3, s->by_offset_squared,
-        &s->ahead_of_by_offset_squared, k);)
+    EACH_TERM(s->by_offset_squared[k] = reciprocal(s->combination_3, s->by_offset_squared, k);)
 }

@@ -77,60 +77,6 @@ INLINE vec quotient(const vec *a, const vec *b, const vec *q, vec *over, int k)
     return (a[k] - rest(b, q, k))**over;
 }
 
-/* Of two sums the terms a_j b_(k-j), j = from..k-1, and a_j b_(k+1-j), j = from..k: they share their operands, which
- * then are loaded once. */
-INLINE vec two_sums(const vec *a, const vec *b, vec *ahead, int k, int from)
-{
-    vec sum = splat(0.0), next = a[k]*b[1];
-    UNROLL
-    for (int j = k - 1; j >= from; j--) {
-        sum = j == k - 1 ? a[j]*b[k - j] : sum + a[j]*b[k - j];
-        next += a[j]*b[k + 1 - j];
-    }
-    *ahead = next;
-    return sum;
-}
-
-INLINE vec product_ahead(const vec *a, const vec *b, vec *ahead, int k)
-{
-    if (k == 0)
-        return a[0]*b[0];
-    vec sum = a[k]*b[0];
-    if (k == 1)
-        *ahead = a[1]*b[1];
-    else if (k % 2)
-        sum += two_sums(a, b, ahead, k, 1);
-    else
-        sum += *ahead;
-    return sum + a[0]*b[k];
-}
-
-INLINE vec rest_ahead(const vec *b, const vec *q, vec *ahead, int k)
-{
-    if (k == 1)
-        return b[1]*q[0];
-    vec sum = b[k]*q[0];
-    if (k % 2)
-        sum += two_sums(b, q, ahead, k, 2);
-    else if (k > 2)
-        sum += *ahead;
-    return sum + b[1]*q[k - 1];
-}
-
-INLINE vec reciprocal_ahead(const vec *a, const vec *q, vec *ahead, int k)
-{
-    return k == 0 ? 1.0/a[0] : -q[0]*rest_ahead(a, q, ahead, k);
-}
-
-INLINE vec quotient_ahead(const vec *a, const vec *b, const vec *q, vec *over, vec *ahead, int k)
-{
-    if (k == 0) {
-        *over = 1.0/b[0];
-        return a[0]**over;
-    }
-    return (a[k] - rest_ahead(b, q, ahead, k))**over;
-}
-
 INLINE vec root(const vec *a, const vec *q, vec *over, int k)
 {
     if (k == 0) {
