@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 _SOON = 1000  # steps within which most separating collisions end
 _LONG = 10 * KERNEL_STEPS  # steps for creeping collisions (runtime/implicit.h)
+_HINTED = 2  # decades by which the tolerance is smaller where the distance to a boundary is only known to be allowed
 _STRETCH = 4096  # collisions in a block for a thread
 STICK = "a stick: its restitution is 0, and nothing else of it is defined"
 
@@ -184,13 +185,15 @@ def _stretch(request: _Request, which: np.ndarray) -> np.ndarray:
     # for few parameters forward tangents cost no more
     back = request.of == kernel.BACKWARD and len(request.wrt) > kernel.DIRECTIONS
 
-    def run_part(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
+    def run_part(
+        part: np.ndarray, rtol: float, budget: int, backward: bool, nearest: float = 0.0
+    ) -> kernel.Along | None:
         order = (order_backward if backward else order_for)(request.rtol)
         return kernel.gradients_by_kernel(
-            request.impacts(part), request.kind, request.wrt, request.of, rtol, order, budget, backward
+            request.impacts(part), request.kind, request.wrt, request.of, rtol, order, budget, backward, nearest
         )
 
-    answered = run_part(which, request.rtol, _SOON, back)
+    answered = run_part(which, request.rtol, _SOON, back, NEAR)  # what is nearer is repeated
     if answered is None:
         return which
     answers, measures = answered.run.answers, answered.run.near
@@ -214,8 +217,10 @@ def _stretch(request: _Request, which: np.ndarray) -> np.ndarray:
     separated = (answers["outcome"] > 0) & ~far & (measures[:, 1] != CHATTERS)
     close = separated & ((near > COMPUTED * least) | (is_clear & (near >= least)))
     refusable = np.isin(measures[:, 1], tuple(DISTANCES)) & (near < least)
-    close[_alike_beside(request, which, answers, np.flatnonzero(separated & ~close & ~refusable))] = True
-    decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, near, NEAR))), 0.0)
+    hinted = _alike_beside(request, which, answers, np.flatnonzero(separated & ~close & ~refusable))
+    close[hinted] = True
+    decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, np.maximum(near, SHARPEST), NEAR))), 0.0)
+    decades[hinted] += _HINTED
     for decade in np.unique(decades[close]):
         part = which[close & (decades == decade)]
         sharper = min(request.rtol, max(request.rtol * 10.0**-decade, SHARPEST))
