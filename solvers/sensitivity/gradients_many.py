@@ -276,7 +276,7 @@ def _sticks(request: _Request, which: np.ndarray, answers: np.ndarray, by_energy
 
 
 def _alike_beside(request: _Request, which: np.ndarray, answers: np.ndarray, checked: np.ndarray) -> np.ndarray:
-    """Those of the collisions in `checked` that go the same way up to the limit on both sides: no boundary is between."""
+    """Those of `checked` that go the same way up to the limit on both sides, so that no boundary is between."""
     least = limit(request.rtol)
     for factor in (1 - least, 1 + least):
         if checked.size:

@@ -46,7 +46,11 @@ class Adjoint:
 
     def lines(self) -> list[str]:
         """The emitted declarations and functions."""
-        fields = ["vec constant[CONSTANTS];", f"vec ahead[{max(self._ahead, 1)}];", *(f"vec {name}[TERMS];" for name in self._arrays)]
+        fields = [
+            "vec constant[CONSTANTS];",
+            f"vec ahead[{max(self._ahead, 1)}];",
+            *(f"vec {name}[TERMS];" for name in self._arrays),
+        ]
         doc = "Derivatives of a result by the coefficients of the series of a step, and by the constants so far."
         count = f"enum {{ CONSTANTS = {max(len(self._constants), 1)} }};"
         struct_lines = [count, *comment(doc), *struct("adjoint", fields)]
@@ -147,7 +151,9 @@ class Adjoint:
             over, under = operation.series
             self._pull(over, f"{adjoint}[k]")
             self._pull(under, f"(-by_{name})")
-            lines = [f"{adjoint}[k] = ({total} - {self._correlated(self._array(under), adjoint, 'beyond')})*of->over_{name};"]
+            lines = [
+                f"{adjoint}[k] = ({total} - {self._correlated(self._array(under), adjoint, 'beyond')})*of->over_{name};"
+            ]
             return [*lines, f"vec by_{name} = {self._correlated(self._array(name), adjoint)};"]
         lines = [f"{adjoint}[k] = {total};"]
         if kind == "product":
