@@ -70,6 +70,7 @@ def gradients_by_kernel(
     order: int | None = None,
     budget: int = KERNEL_STEPS,
     backward: bool = False,
+    nearest: float = 0.0,
 ) -> Along | None:
     """Derivatives of impacts that are all oblique or all head-on; None without a kernel.
 
@@ -77,11 +78,14 @@ def gradients_by_kernel(
         impacts: impacts of one scene, which differ only in speed and angle.
         order: order of the Taylor series; None for the cheapest at the tolerance.
         backward: differentiate the restitution alone by the adjoint (`run_tangent`).
+        nearest: as for `run_tangent`.
     """
     scene, size = impacts.scene, impacts.angle.size
     angle, oblique = ANGLE if impacts.angle[0] > 0 else 0.0, bool(impacts.oblique[0])
     at = _at_reference(scene, kind, wrt, angle)
-    derivatives = run_tangent(impacts, oblique, rtol, "rotation" in of, tuple(at.moved), order, budget, backward)
+    derivatives = run_tangent(
+        impacts, oblique, rtol, "rotation" in of, tuple(at.moved), order, budget, backward, nearest=nearest
+    )
     if derivatives is None:
         return None
     # the quantities' derivatives are those at the reference, except for speed and angle

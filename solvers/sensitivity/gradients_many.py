@@ -16,7 +16,7 @@ from ..engines.choice import gradient_engine
 from ..engines.settings import KERNEL_STEPS, RTOL, check_engine
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_backward, order_for
-from ..engines.taylor.tangent import DISTANCES, Carried, run_tangent
+from ..engines.taylor.tangent import CHATTERS, DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 _SOON = 1000  # steps within which most separating collisions end
 _LONG = 10 * KERNEL_STEPS  # steps for creeping collisions (runtime/implicit.h)
+_HINTED = 2  # decades by which the tolerance is smaller where the distance to a boundary is only known to be allowed
 _STRETCH = 4096  # collisions in a block for a thread
 STICK = "a stick: its restitution is 0, and nothing else of it is defined"
 
@@ -184,13 +185,15 @@ def _stretch(request: _Request, which: np.ndarray) -> np.ndarray:
     # for few parameters forward tangents cost no more
     back = request.of == kernel.BACKWARD and len(request.wrt) > kernel.DIRECTIONS
 
-    def run_part(part: np.ndarray, rtol: float, budget: int, backward: bool) -> kernel.Along | None:
+    def run_part(
+        part: np.ndarray, rtol: float, budget: int, backward: bool, nearest: float = 0.0
+    ) -> kernel.Along | None:
         order = (order_backward if backward else order_for)(request.rtol)
         return kernel.gradients_by_kernel(
-            request.impacts(part), request.kind, request.wrt, request.of, rtol, order, budget, backward
+            request.impacts(part), request.kind, request.wrt, request.of, rtol, order, budget, backward, nearest
         )
 
-    answered = run_part(which, request.rtol, _SOON, back)
+    answered = run_part(which, request.rtol, _SOON, back, NEAR)  # what is nearer is repeated
     if answered is None:
         return which
     answers, measures = answered.run.answers, answered.run.near
@@ -211,8 +214,13 @@ def _stretch(request: _Request, which: np.ndarray) -> np.ndarray:
         answers[slow], measures[slow] = plain.answers, plain.near
     # nearer than NEAR to a boundary errors are amplified, so these are repeated with tolerances smaller by decades
     is_clear = np.isin(measures[:, 1], tuple(DISTANCES)) & (measures[:, 2] > COMPUTED * least)  # no distance to compute
-    close = (answers["outcome"] > 0) & ~far & ((near > COMPUTED * least) | (is_clear & (near >= least)))
-    decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, near, NEAR))), 0.0)
+    separated = (answers["outcome"] > 0) & ~far & (measures[:, 1] != CHATTERS)
+    close = separated & ((near > COMPUTED * least) | (is_clear & (near >= least)))
+    refusable = np.isin(measures[:, 1], tuple(DISTANCES)) & (near < least)
+    hinted = _alike_beside(request, which, answers, np.flatnonzero(separated & ~close & ~refusable))
+    close[hinted] = True
+    decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, np.maximum(near, SHARPEST), NEAR))), 0.0)
+    decades[hinted] += _HINTED
     for decade in np.unique(decades[close]):
         part = which[close & (decades == decade)]
         sharper = min(request.rtol, max(request.rtol * 10.0**-decade, SHARPEST))
@@ -263,15 +271,22 @@ def _sticks(request: _Request, which: np.ndarray, answers: np.ndarray, by_energy
     """Mask of sticks without a boundary nearby, tested as in `boundary_distance`."""
     stuck = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
     far = stuck & (answers["status"] == Status.PROVED_AT_TOUCH) & by_energy
-    checked = np.flatnonzero(stuck & ~far)
+    far[_alike_beside(request, which, answers, np.flatnonzero(stuck & ~far))] = True
+    return np.asarray(far)
+
+
+def _alike_beside(request: _Request, which: np.ndarray, answers: np.ndarray, checked: np.ndarray) -> np.ndarray:
+    """Those of `checked` that go the same way up to the limit on both sides, so that no boundary is between."""
     least = limit(request.rtol)
     for factor in (1 - least, 1 + least):
         if checked.size:
             aside = _without(request, which[checked], min(request.rtol, 1e-10), factor).answers
-            stays = (aside["outcome"] == OUTCOMES.index(STICKS)) & (aside["status"] <= LAST_ANSWER)
-            stuck[checked[~stays]] = False
-            checked = checked[stays]
-    return np.asarray(stuck)
+            here, alike = answers[checked], aside["status"] <= LAST_ANSWER
+            alike &= aside["outcome"] == here["outcome"]
+            for name in ("reversal", "events"):  # of a stick only the outcome counts
+                alike &= (aside[name] == here[name]) | (here["outcome"] == OUTCOMES.index(STICKS))
+            checked = checked[alike]
+    return checked
 
 
 def _alone(request: _Request, k: int, hold: str, engine: str) -> None:

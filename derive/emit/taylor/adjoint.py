@@ -35,6 +35,7 @@ class Adjoint:
         self._operations = self._contributing()
         self._constants: dict[sp.Expr, int] = {}  # their expressions in the groups, and their places
         self._arrays: list[str] = []
+        self._ahead = 0
         self._steps = self._recurrences()
 
     @property
@@ -45,11 +46,19 @@ class Adjoint:
 
     def lines(self) -> list[str]:
         """The emitted declarations and functions."""
-        fields = ["vec constant[CONSTANTS];", *(f"vec {name}[TERMS];" for name in self._arrays)]
+        fields = [
+            "vec constant[CONSTANTS];",
+            f"vec ahead[{max(self._ahead, 1)}];",
+            *(f"vec {name}[TERMS];" for name in self._arrays),
+        ]
         doc = "Derivatives of a result by the coefficients of the series of a step, and by the constants so far."
         count = f"enum {{ CONSTANTS = {max(len(self._constants), 1)} }};"
         struct_lines = [count, *comment(doc), *struct("adjoint", fields)]
         return [*self._law_slopes(), *struct_lines, *self._function(), *self._along_constants()]
+
+    def _correlated(self, factor: str, adjoint: str, function: str = "correlated") -> str:
+        self._ahead += 1
+        return f"{function}({factor}, {adjoint}, &bar->ahead[{self._ahead - 1}], k)"
 
     def _contributing(self) -> list[Operation]:
         """Operations that the rates of the states depend on, in order."""
@@ -142,8 +151,10 @@ class Adjoint:
             over, under = operation.series
             self._pull(over, f"{adjoint}[k]")
             self._pull(under, f"(-by_{name})")
-            lines = [f"{adjoint}[k] = ({total} - beyond({self._array(under)}, {adjoint}, k))*of->over_{name};"]
-            return [*lines, f"vec by_{name} = correlated({self._array(name)}, {adjoint}, k);"]
+            lines = [
+                f"{adjoint}[k] = ({total} - {self._correlated(self._array(under), adjoint, 'beyond')})*of->over_{name};"
+            ]
+            return [*lines, f"vec by_{name} = {self._correlated(self._array(name), adjoint)};"]
         lines = [f"{adjoint}[k] = {total};"]
         if kind == "product":
             return lines + self._product(operation)
@@ -159,7 +170,7 @@ class Adjoint:
             raise EmissionError(f"no transposed recurrence of {name}, a {kind}")
         beside, term = factors[kind]
         self._pull(part, term)
-        return [*lines, f"vec by_{name} = correlated({self._array(beside)}, {adjoint}, k);"]
+        return [*lines, f"vec by_{name} = {self._correlated(self._array(beside), adjoint)};"]
 
     def _linear(self, operation: Operation, total: str) -> list[str]:
         weight = f"by_{operation.name}"
@@ -176,7 +187,7 @@ class Adjoint:
         first, second = operation.series
         lines = []
         for part, other in ((first, second), (second, first)):
-            lines.append(f"vec {part}_by_{name} = correlated({self._array(other)}, {adjoint}, k);")
+            lines.append(f"vec {part}_by_{name} = {self._correlated(self._array(other), adjoint)};")
             self._pull(part, _scaled(text, f"{part}_by_{name}"))
         return lines + self._accumulate(operation.factors[0], f"{self._array(first)}[k]*{first}_by_{name}")
 
@@ -187,7 +198,7 @@ class Adjoint:
         for argument, value in zip(names, arguments, strict=True):
             slope = f"d->{operation.name}.by_{argument.removeprefix(UNUSED)}"
             if isinstance(value, str):
-                lines.append(f"vec {operation.name}_{argument} = correlated({slope}, {adjoint}, k);")
+                lines.append(f"vec {operation.name}_{argument} = {self._correlated(slope, adjoint)};")
                 self._pull(value, f"{operation.name}_{argument}")
             else:
                 lines += self._accumulate(value, f"{slope}[k]*{adjoint}[k]")

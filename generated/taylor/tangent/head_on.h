@@ -44,6 +44,7 @@ enum { CONSTANTS = 1 };
 /* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
 typedef struct {
     vec constant[CONSTANTS];
+    vec ahead[3];
     vec film_force[TERMS];
     vec film_resistance_law[TERMS];
 } adjoint;
@@ -59,11 +60,14 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     vec after_normal_velocity = only(moving, w[NORMAL_VELOCITY]*next);
     vec by_rate_of_normal_velocity = after_normal_velocity;
     bar->film_force[k] = (-by_rate_of_normal_velocity);
-    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
-    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force,
+        &bar->ahead[0], k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, &bar->ahead[1],
+        k);
     bar->constant[0] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
     bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
-    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law,
+        &bar->ahead[2], k);
     w[GAP] = of_sum[GAP]*power + film_resistance_law_gap;
     w[NORMAL_VELOCITY] = of_sum[NORMAL_VELOCITY]*power + after_gap +
         film*c->film_force_factor*normal_velocity_by_film_force;

@@ -54,6 +54,7 @@ enum { CONSTANTS = 5 };
 /* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
 typedef struct {
     vec constant[CONSTANTS];
+    vec ahead[4];
     vec bridge_force_law[TERMS];
     vec film_force[TERMS];
     vec film_resistance_law[TERMS];
@@ -73,17 +74,20 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     bar->constant[0] += of->bridge_force_law.result[k]*by_bridge_force;
     bar->bridge_force_law[k] = c->bridge_force_per_bridge_force_law*by_bridge_force;
     vec bridge_force_law_gap_over_radius = correlated(d->bridge_force_law.by_gap_over_radius,
-        bar->bridge_force_law, k);
+        bar->bridge_force_law, &bar->ahead[0], k);
     bar->constant[1] += d->bridge_force_law.by_volume[k]*bar->bridge_force_law[k];
     bar->constant[2] += d->bridge_force_law.by_contact_angle[k]*bar->bridge_force_law[k];
     vec by_scaled_gap = bridge_force_law_gap_over_radius;
     bar->constant[3] += of->gap[k]*by_scaled_gap;
     bar->film_force[k] = (-by_rate_of_normal_velocity);
-    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
-    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force,
+        &bar->ahead[1], k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, &bar->ahead[2],
+        k);
     bar->constant[4] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
     bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
-    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law,
+        &bar->ahead[3], k);
     w[GAP] = of_sum[GAP]*power + c->scaled_gap_per_gap*by_scaled_gap + film_resistance_law_gap;
     w[NORMAL_VELOCITY] = of_sum[NORMAL_VELOCITY]*power + after_gap +
         film*c->film_force_factor*normal_velocity_by_film_force;

@@ -52,6 +52,7 @@ enum { CONSTANTS = 4 };
 /* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
 typedef struct {
     vec constant[CONSTANTS];
+    vec ahead[7];
     vec string_pull[TERMS];
     vec strings_stiffness_law[TERMS];
     vec gap_squared[TERMS];
@@ -70,23 +71,27 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     vec after_normal_velocity = only(moving, w[NORMAL_VELOCITY]*next);
     vec by_rate_of_normal_velocity = after_normal_velocity;
     bar->string_pull[k] = (-by_rate_of_normal_velocity);
-    vec gap_by_string_pull = correlated(of->strings_stiffness_law.result, bar->string_pull, k);
-    vec strings_stiffness_law_by_string_pull = correlated(of->gap, bar->string_pull, k);
+    vec gap_by_string_pull = correlated(of->strings_stiffness_law.result, bar->string_pull, &bar->ahead[0],
+        k);
+    vec strings_stiffness_law_by_string_pull = correlated(of->gap, bar->string_pull, &bar->ahead[1], k);
     bar->constant[0] += of->gap[k]*gap_by_string_pull;
     bar->strings_stiffness_law[k] = c->string_pull_factor*strings_stiffness_law_by_string_pull;
     bar->constant[1] += d->strings_stiffness_law.by_string_ratio[k]*bar->strings_stiffness_law[k];
     vec strings_stiffness_law_offset_squared = correlated(d->strings_stiffness_law.by_offset_squared,
-        bar->strings_stiffness_law, k);
+        bar->strings_stiffness_law, &bar->ahead[2], k);
     vec by_offset_squared = strings_stiffness_law_offset_squared;
     bar->constant[2] += of->gap_squared[k]*by_offset_squared;
     bar->gap_squared[k] = c->offset_squared_per_gap_squared*by_offset_squared;
-    vec by_gap_squared = correlated(of->gap, bar->gap_squared, k);
+    vec by_gap_squared = correlated(of->gap, bar->gap_squared, &bar->ahead[3], k);
     bar->film_force[k] = (-by_rate_of_normal_velocity);
-    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
-    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force,
+        &bar->ahead[4], k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, &bar->ahead[5],
+        k);
     bar->constant[3] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
     bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
-    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law,
+        &bar->ahead[6], k);
     w[GAP] = of_sum[GAP]*power + c->string_pull_factor*gap_by_string_pull + 2.0*by_gap_squared +
         film_resistance_law_gap;
     w[NORMAL_VELOCITY] = of_sum[NORMAL_VELOCITY]*power + after_gap +

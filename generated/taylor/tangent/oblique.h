@@ -58,6 +58,7 @@ enum { CONSTANTS = 4 };
 /* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
 typedef struct {
     vec constant[CONSTANTS];
+    vec ahead[17];
     vec rate_of_spin[TERMS];
     vec rate_of_orbital_momentum[TERMS];
     vec arm_lever_law[TERMS];
@@ -83,39 +84,50 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     vec after_orbital_momentum = w[ORBITAL_MOMENTUM]*next;
     vec after_spin = w[SPIN]*next;
     bar->rate_of_spin[k] = after_spin;
-    vec arm_lever_law_by_rate_of_spin = correlated(of->shear_force, bar->rate_of_spin, k);
-    vec shear_force_by_rate_of_spin = correlated(of->arm_lever_law.result, bar->rate_of_spin, k);
+    vec arm_lever_law_by_rate_of_spin = correlated(of->shear_force, bar->rate_of_spin, &bar->ahead[0], k);
+    vec shear_force_by_rate_of_spin = correlated(of->arm_lever_law.result, bar->rate_of_spin, &bar->ahead[1],
+        k);
     bar->rate_of_orbital_momentum[k] = after_orbital_momentum;
-    vec distance_by_rate_of_orbital_momentum = correlated(of->shear_force, bar->rate_of_orbital_momentum, k);
-    vec shear_force_by_rate_of_orbital_momentum = correlated(of->distance, bar->rate_of_orbital_momentum, k);
+    vec distance_by_rate_of_orbital_momentum = correlated(of->shear_force, bar->rate_of_orbital_momentum,
+        &bar->ahead[2], k);
+    vec shear_force_by_rate_of_orbital_momentum = correlated(of->distance, bar->rate_of_orbital_momentum,
+        &bar->ahead[3], k);
     vec by_rate_of_normal_velocity = after_normal_velocity;
     bar->arm_lever_law[k] = 0.3125*arm_lever_law_by_rate_of_spin;
-    vec arm_lever_law_distance = correlated(d->arm_lever_law.by_distance, bar->arm_lever_law, k);
+    vec arm_lever_law_distance = correlated(d->arm_lever_law.by_distance, bar->arm_lever_law, &bar->ahead[4],
+        k);
     bar->film_force[k] = (-by_rate_of_normal_velocity);
-    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
-    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force,
+        &bar->ahead[5], k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, &bar->ahead[6],
+        k);
     bar->constant[0] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
     bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
-    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law,
+        &bar->ahead[7], k);
     bar->centrifugal_force[k] = by_rate_of_normal_velocity;
-    vec distance_by_centrifugal_force = correlated(of->orbital_rate_squared, bar->centrifugal_force, k);
-    vec orbital_rate_squared_by_centrifugal_force = correlated(of->distance, bar->centrifugal_force, k);
+    vec distance_by_centrifugal_force = correlated(of->orbital_rate_squared, bar->centrifugal_force,
+        &bar->ahead[8], k);
+    vec orbital_rate_squared_by_centrifugal_force = correlated(of->distance, bar->centrifugal_force,
+        &bar->ahead[9], k);
     bar->constant[1] += of->distance[k]*distance_by_centrifugal_force;
     bar->orbital_rate_squared[k] = c->centrifugal_force_factor*orbital_rate_squared_by_centrifugal_force;
-    vec by_orbital_rate_squared = correlated(of->orbital_rate, bar->orbital_rate_squared, k);
+    vec by_orbital_rate_squared = correlated(of->orbital_rate, bar->orbital_rate_squared, &bar->ahead[10], k);
     bar->shear_force[k] = 0.3125*shear_force_by_rate_of_spin + (-shear_force_by_rate_of_orbital_momentum);
-    vec slip_by_shear_force = correlated(of->shear_log_factor_law.result, bar->shear_force, k);
-    vec shear_log_factor_law_by_shear_force = correlated(of->slip, bar->shear_force, k);
+    vec slip_by_shear_force = correlated(of->shear_log_factor_law.result, bar->shear_force, &bar->ahead[11],
+        k);
+    vec shear_log_factor_law_by_shear_force = correlated(of->slip, bar->shear_force, &bar->ahead[12], k);
     bar->constant[2] += shear*of->slip[k]*slip_by_shear_force;
     bar->shear_log_factor_law[k] = shear*c->shear_force_factor*shear_log_factor_law_by_shear_force;
-    vec shear_log_factor_law_gap = correlated(d->shear_log_factor_law.by_gap, bar->shear_log_factor_law, k);
+    vec shear_log_factor_law_gap = correlated(d->shear_log_factor_law.by_gap, bar->shear_log_factor_law,
+        &bar->ahead[13], k);
     bar->constant[3] += d->shear_log_factor_law.by_aspect[k]*bar->shear_log_factor_law[k];
     vec by_slip = shear*c->shear_force_factor*slip_by_shear_force;
     bar->orbital_rate[k] = (2.0*by_orbital_rate_squared + by_slip - beyond(of->distance_squared,
-        bar->orbital_rate, k))*of->over_orbital_rate;
-    vec by_orbital_rate = correlated(of->orbital_rate, bar->orbital_rate, k);
+        bar->orbital_rate, &bar->ahead[14], k))*of->over_orbital_rate;
+    vec by_orbital_rate = correlated(of->orbital_rate, bar->orbital_rate, &bar->ahead[15], k);
     bar->distance_squared[k] = (-by_orbital_rate);
-    vec by_distance_squared = correlated(of->distance, bar->distance_squared, k);
+    vec by_distance_squared = correlated(of->distance, bar->distance_squared, &bar->ahead[16], k);
     vec by_distance = (-distance_by_rate_of_orbital_momentum) + arm_lever_law_distance +
         c->centrifugal_force_factor*distance_by_centrifugal_force + 2.0*by_distance_squared;
     bar->constant[3] += of->gap[k]*by_distance;

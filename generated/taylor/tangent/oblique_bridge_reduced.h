@@ -62,6 +62,7 @@ enum { CONSTANTS = 9 };
 /* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
 typedef struct {
     vec constant[CONSTANTS];
+    vec ahead[15];
     vec rate_of_orbital_momentum[TERMS];
     vec bridge_force_law[TERMS];
     vec film_force[TERMS];
@@ -85,45 +86,54 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     vec after_normal_velocity = only(moving, w[NORMAL_VELOCITY]*next);
     vec after_orbital_momentum = w[ORBITAL_MOMENTUM]*next;
     bar->rate_of_orbital_momentum[k] = after_orbital_momentum;
-    vec distance_by_rate_of_orbital_momentum = correlated(of->shear_force, bar->rate_of_orbital_momentum, k);
-    vec shear_force_by_rate_of_orbital_momentum = correlated(of->distance, bar->rate_of_orbital_momentum, k);
+    vec distance_by_rate_of_orbital_momentum = correlated(of->shear_force, bar->rate_of_orbital_momentum,
+        &bar->ahead[0], k);
+    vec shear_force_by_rate_of_orbital_momentum = correlated(of->distance, bar->rate_of_orbital_momentum,
+        &bar->ahead[1], k);
     vec by_rate_of_normal_velocity = after_normal_velocity;
     vec by_bridge_force = (-by_rate_of_normal_velocity);
     bar->constant[0] += of->bridge_force_law.result[k]*by_bridge_force;
     bar->bridge_force_law[k] = c->bridge_force_per_bridge_force_law*by_bridge_force;
     vec bridge_force_law_gap_over_radius = correlated(d->bridge_force_law.by_gap_over_radius,
-        bar->bridge_force_law, k);
+        bar->bridge_force_law, &bar->ahead[2], k);
     bar->constant[1] += d->bridge_force_law.by_volume[k]*bar->bridge_force_law[k];
     bar->constant[2] += d->bridge_force_law.by_contact_angle[k]*bar->bridge_force_law[k];
     vec by_scaled_gap = bridge_force_law_gap_over_radius;
     bar->constant[3] += of->gap[k]*by_scaled_gap;
     bar->film_force[k] = (-by_rate_of_normal_velocity);
-    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
-    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force,
+        &bar->ahead[3], k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, &bar->ahead[4],
+        k);
     bar->constant[4] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
     bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
-    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law,
+        &bar->ahead[5], k);
     bar->centrifugal_force[k] = by_rate_of_normal_velocity;
-    vec distance_by_centrifugal_force = correlated(of->orbital_rate_squared, bar->centrifugal_force, k);
-    vec orbital_rate_squared_by_centrifugal_force = correlated(of->distance, bar->centrifugal_force, k);
+    vec distance_by_centrifugal_force = correlated(of->orbital_rate_squared, bar->centrifugal_force,
+        &bar->ahead[6], k);
+    vec orbital_rate_squared_by_centrifugal_force = correlated(of->distance, bar->centrifugal_force,
+        &bar->ahead[7], k);
     bar->constant[5] += of->distance[k]*distance_by_centrifugal_force;
     bar->orbital_rate_squared[k] = c->centrifugal_force_factor*orbital_rate_squared_by_centrifugal_force;
-    vec by_orbital_rate_squared = correlated(of->orbital_rate, bar->orbital_rate_squared, k);
+    vec by_orbital_rate_squared = correlated(of->orbital_rate, bar->orbital_rate_squared, &bar->ahead[8], k);
     bar->shear_force[k] = (-shear_force_by_rate_of_orbital_momentum);
-    vec slip_by_shear_force = correlated(of->shear_log_factor_law.result, bar->shear_force, k);
-    vec shear_log_factor_law_by_shear_force = correlated(of->slip, bar->shear_force, k);
+    vec slip_by_shear_force = correlated(of->shear_log_factor_law.result, bar->shear_force, &bar->ahead[9],
+        k);
+    vec shear_log_factor_law_by_shear_force = correlated(of->slip, bar->shear_force, &bar->ahead[10], k);
     bar->constant[6] += shear*of->slip[k]*slip_by_shear_force;
     bar->shear_log_factor_law[k] = shear*c->shear_force_factor*shear_log_factor_law_by_shear_force;
-    vec shear_log_factor_law_gap = correlated(d->shear_log_factor_law.by_gap, bar->shear_log_factor_law, k);
+    vec shear_log_factor_law_gap = correlated(d->shear_log_factor_law.by_gap, bar->shear_log_factor_law,
+        &bar->ahead[11], k);
     bar->constant[7] += d->shear_log_factor_law.by_aspect[k]*bar->shear_log_factor_law[k];
     vec by_slip = shear*c->shear_force_factor*slip_by_shear_force;
     vec by_spin = (-by_slip);
     if (k == 0) bar->constant[8] += by_spin;
     bar->orbital_rate[k] = (2.0*by_orbital_rate_squared + by_slip - beyond(of->distance_squared,
-        bar->orbital_rate, k))*of->over_orbital_rate;
-    vec by_orbital_rate = correlated(of->orbital_rate, bar->orbital_rate, k);
+        bar->orbital_rate, &bar->ahead[12], k))*of->over_orbital_rate;
+    vec by_orbital_rate = correlated(of->orbital_rate, bar->orbital_rate, &bar->ahead[13], k);
     bar->distance_squared[k] = (-by_orbital_rate);
-    vec by_distance_squared = correlated(of->distance, bar->distance_squared, k);
+    vec by_distance_squared = correlated(of->distance, bar->distance_squared, &bar->ahead[14], k);
     vec by_distance = (-distance_by_rate_of_orbital_momentum) +
         c->centrifugal_force_factor*distance_by_centrifugal_force + 2.0*by_distance_squared;
     bar->constant[7] += of->gap[k]*by_distance;

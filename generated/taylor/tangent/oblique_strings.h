@@ -65,6 +65,7 @@ enum { CONSTANTS = 9 };
 /* Derivatives of a result by the coefficients of the series of a step, and by the constants so far. */
 typedef struct {
     vec constant[CONSTANTS];
+    vec ahead[27];
     vec rate_of_spin[TERMS];
     vec rate_of_orbital_momentum[TERMS];
     vec arm_lever_law[TERMS];
@@ -100,71 +101,85 @@ INLINE void adjoint_coefficients(adjoint *bar, vec *w, const vec *of_sum, vec po
     vec by_rate_of_rotation = after_rotation;
     bar->constant[0] += of->orbital_rate[k]*by_rate_of_rotation;
     bar->rate_of_spin[k] = after_spin;
-    vec arm_lever_law_by_rate_of_spin = correlated(of->shear_force, bar->rate_of_spin, k);
-    vec shear_force_by_rate_of_spin = correlated(of->arm_lever_law.result, bar->rate_of_spin, k);
+    vec arm_lever_law_by_rate_of_spin = correlated(of->shear_force, bar->rate_of_spin, &bar->ahead[0], k);
+    vec shear_force_by_rate_of_spin = correlated(of->arm_lever_law.result, bar->rate_of_spin, &bar->ahead[1],
+        k);
     bar->rate_of_orbital_momentum[k] = after_orbital_momentum;
     vec distance_by_rate_of_orbital_momentum = correlated(of->combination_3, bar->rate_of_orbital_momentum,
-        k);
+        &bar->ahead[2], k);
     vec combination_3_by_rate_of_orbital_momentum = correlated(of->distance, bar->rate_of_orbital_momentum,
-        k);
+        &bar->ahead[3], k);
     vec by_combination_3 = (-combination_3_by_rate_of_orbital_momentum);
     vec by_rate_of_normal_velocity = after_normal_velocity;
     bar->arm_lever_law[k] = 0.3125*arm_lever_law_by_rate_of_spin;
-    vec arm_lever_law_distance = correlated(d->arm_lever_law.by_distance, bar->arm_lever_law, k);
+    vec arm_lever_law_distance = correlated(d->arm_lever_law.by_distance, bar->arm_lever_law, &bar->ahead[4],
+        k);
     bar->string_sideways[k] = by_combination_3;
-    vec strings_stiffness_law_by_string_sideways = correlated(of->sine_of_rotation, bar->string_sideways, k);
+    vec strings_stiffness_law_by_string_sideways = correlated(of->sine_of_rotation, bar->string_sideways,
+        &bar->ahead[5], k);
     vec sine_of_rotation_by_string_sideways = correlated(of->strings_stiffness_law.result,
-        bar->string_sideways, k);
+        bar->string_sideways, &bar->ahead[6], k);
     bar->constant[1] += of->strings_stiffness_law.result[k]*strings_stiffness_law_by_string_sideways;
     bar->string_pull[k] = (-by_rate_of_normal_velocity);
-    vec combination_2_by_string_pull = correlated(of->strings_stiffness_law.result, bar->string_pull, k);
-    vec strings_stiffness_law_by_string_pull = correlated(of->combination_2, bar->string_pull, k);
+    vec combination_2_by_string_pull = correlated(of->strings_stiffness_law.result, bar->string_pull,
+        &bar->ahead[7], k);
+    vec strings_stiffness_law_by_string_pull = correlated(of->combination_2, bar->string_pull, &bar->ahead[8],
+        k);
     bar->constant[2] += of->combination_2[k]*combination_2_by_string_pull;
     bar->strings_stiffness_law[k] = c->string_sideways_factor*strings_stiffness_law_by_string_sideways +
         c->weight*strings_stiffness_law_by_string_pull;
     bar->constant[3] += d->strings_stiffness_law.by_string_ratio[k]*bar->strings_stiffness_law[k];
     vec strings_stiffness_law_offset_squared = correlated(d->strings_stiffness_law.by_offset_squared,
-        bar->strings_stiffness_law, k);
+        bar->strings_stiffness_law, &bar->ahead[9], k);
     vec by_combination_2 = c->weight*combination_2_by_string_pull;
     bar->constant[4] += of->gap[k]*by_combination_2;
     vec by_offset_squared = strings_stiffness_law_offset_squared;
     bar->constant[5] += of->gap_squared[k]*by_offset_squared;
     bar->distance_by_combination[k] = 4.0*by_offset_squared;
-    vec distance_by_distance_by_combination = correlated(of->combination, bar->distance_by_combination, k);
-    vec combination_by_distance_by_combination = correlated(of->distance, bar->distance_by_combination, k);
+    vec distance_by_distance_by_combination = correlated(of->combination, bar->distance_by_combination,
+        &bar->ahead[10], k);
+    vec combination_by_distance_by_combination = correlated(of->distance, bar->distance_by_combination,
+        &bar->ahead[11], k);
     vec by_combination = 8.0*by_combination_2 + combination_by_distance_by_combination;
     bar->cosine_of_rotation[k] = (-0.5)*by_combination;
-    vec by_cosine_of_rotation = correlated(of->sine_of_rotation, bar->cosine_of_rotation, k);
+    vec by_cosine_of_rotation = correlated(of->sine_of_rotation, bar->cosine_of_rotation, &bar->ahead[12], k);
     bar->sine_of_rotation[k] = c->string_sideways_factor*sine_of_rotation_by_string_sideways;
-    vec by_sine_of_rotation = correlated(of->cosine_of_rotation, bar->sine_of_rotation, k);
+    vec by_sine_of_rotation = correlated(of->cosine_of_rotation, bar->sine_of_rotation, &bar->ahead[13], k);
     bar->gap_squared[k] = c->offset_squared_per_gap_squared*by_offset_squared;
-    vec by_gap_squared = correlated(of->gap, bar->gap_squared, k);
+    vec by_gap_squared = correlated(of->gap, bar->gap_squared, &bar->ahead[14], k);
     bar->film_force[k] = (-by_rate_of_normal_velocity);
-    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force, k);
-    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, k);
+    vec normal_velocity_by_film_force = correlated(of->film_resistance_law.result, bar->film_force,
+        &bar->ahead[15], k);
+    vec film_resistance_law_by_film_force = correlated(of->normal_velocity, bar->film_force, &bar->ahead[16],
+        k);
     bar->constant[6] += film*of->normal_velocity[k]*normal_velocity_by_film_force;
     bar->film_resistance_law[k] = film*c->film_force_factor*film_resistance_law_by_film_force;
-    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law, k);
+    vec film_resistance_law_gap = correlated(d->film_resistance_law.by_gap, bar->film_resistance_law,
+        &bar->ahead[17], k);
     bar->centrifugal_force[k] = by_rate_of_normal_velocity;
-    vec distance_by_centrifugal_force = correlated(of->orbital_rate_squared, bar->centrifugal_force, k);
-    vec orbital_rate_squared_by_centrifugal_force = correlated(of->distance, bar->centrifugal_force, k);
+    vec distance_by_centrifugal_force = correlated(of->orbital_rate_squared, bar->centrifugal_force,
+        &bar->ahead[18], k);
+    vec orbital_rate_squared_by_centrifugal_force = correlated(of->distance, bar->centrifugal_force,
+        &bar->ahead[19], k);
     bar->constant[7] += of->distance[k]*distance_by_centrifugal_force;
     bar->orbital_rate_squared[k] = c->centrifugal_force_factor*orbital_rate_squared_by_centrifugal_force;
-    vec by_orbital_rate_squared = correlated(of->orbital_rate, bar->orbital_rate_squared, k);
+    vec by_orbital_rate_squared = correlated(of->orbital_rate, bar->orbital_rate_squared, &bar->ahead[20], k);
     bar->shear_force[k] = 0.3125*shear_force_by_rate_of_spin + by_combination_3;
-    vec slip_by_shear_force = correlated(of->shear_log_factor_law.result, bar->shear_force, k);
-    vec shear_log_factor_law_by_shear_force = correlated(of->slip, bar->shear_force, k);
+    vec slip_by_shear_force = correlated(of->shear_log_factor_law.result, bar->shear_force, &bar->ahead[21],
+        k);
+    vec shear_log_factor_law_by_shear_force = correlated(of->slip, bar->shear_force, &bar->ahead[22], k);
     bar->constant[8] += shear*of->slip[k]*slip_by_shear_force;
     bar->shear_log_factor_law[k] = shear*c->shear_force_factor*shear_log_factor_law_by_shear_force;
-    vec shear_log_factor_law_gap = correlated(d->shear_log_factor_law.by_gap, bar->shear_log_factor_law, k);
+    vec shear_log_factor_law_gap = correlated(d->shear_log_factor_law.by_gap, bar->shear_log_factor_law,
+        &bar->ahead[23], k);
     bar->constant[4] += d->shear_log_factor_law.by_aspect[k]*bar->shear_log_factor_law[k];
     vec by_slip = shear*c->shear_force_factor*slip_by_shear_force;
     bar->orbital_rate[k] = (c->rate_of_rotation_per_orbital_rate*by_rate_of_rotation +
         2.0*by_orbital_rate_squared + by_slip - beyond(of->distance_squared, bar->orbital_rate,
-        k))*of->over_orbital_rate;
-    vec by_orbital_rate = correlated(of->orbital_rate, bar->orbital_rate, k);
+        &bar->ahead[24], k))*of->over_orbital_rate;
+    vec by_orbital_rate = correlated(of->orbital_rate, bar->orbital_rate, &bar->ahead[25], k);
     bar->distance_squared[k] = (-by_orbital_rate);
-    vec by_distance_squared = correlated(of->distance, bar->distance_squared, k);
+    vec by_distance_squared = correlated(of->distance, bar->distance_squared, &bar->ahead[26], k);
     vec by_distance = (-distance_by_rate_of_orbital_momentum) + arm_lever_law_distance +
         distance_by_distance_by_combination + c->centrifugal_force_factor*distance_by_centrifugal_force +
         2.0*by_distance_squared;

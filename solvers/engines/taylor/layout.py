@@ -43,6 +43,7 @@ TASK = np.dtype(
         ("requested", "i8"),  # groups by which derivatives are computed, as bits
         ("steps", "i8"),  # returned: number of steps of all trajectories, including those without room
         ("rtol", "f8"),
+        ("nearest", "f8"),  # least measure of nearness to a boundary at which the adjoint takes derivatives
         ("quantities", BUFFER),  # one BUFFER for each of `quantity_names`: `count` doubles in SI, or a single one
         ("answers", BUFFER),  # of ANSWER
         ("log", BUFFER),  # of HAPPENING, the same number for each collision
@@ -141,7 +142,7 @@ class Task:
         """Set the buffer of that name, for input or output."""
         self._task[name] = self._hold(array)
 
-    def number(self, name: str, value: int) -> None:
+    def number(self, name: str, value: float) -> None:
         """Set a number of the task."""
         self._task[name] = value
 

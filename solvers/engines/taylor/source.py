@@ -86,7 +86,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "WITH_ROTATION": int(variant.rotation),
         "OWN_RUPTURE": int(variant.own_rupture),
         "GRADIENTS": int(variant.gradients),
-        "READS_SERIES": int(variant.gradients or own),
+        "READS_SERIES": int((variant.gradients and not variant.backward) or own),
         "BACKWARD": int(variant.backward),
         "LIBRARY_LAWS": int(variant.choice.package is None),
         "WITH_LEDGER": int(variant.ledger),

@@ -61,6 +61,7 @@ def run_tangent(
     budget: int = KERNEL_STEPS,
     backward: bool = False,
     fold: bool = True,
+    nearest: float = 0.0,
 ) -> Carried | None:
     """Derivatives of impacts that are all oblique, or all head-on; None if no kernel is available.
 
@@ -70,6 +71,7 @@ def run_tangent(
         backward: of the restitution alone, by the adjoint, at about the cost of one direction.
             Trajectories of more than some hundred steps are left to other engines.
         fold: treat a pair of equal spheres as such; False where a quantity of one sphere alone varies.
+        nearest: by the adjoint, derivatives of collisions nearer to a boundary by their measure are left at zero.
     """
     order = order or (order_backward if backward else order_for)(min(rtol, LOOSEST))
     scene = impacts.scene
@@ -87,6 +89,7 @@ def run_tangent(
     for first in range(0, count, _CHUNK):
         part = slice(first, min(first + _CHUNK, count))
         one = task(library, impacts.part(part), min(rtol, LOOSEST), budget, answers[part])
+        one.number("nearest", nearest)
         one.number("requested", _groups_moved(library, quantities, moved, spinning))
         one.buffer("by_group", np.zeros((part.stop - first, len(groups), results)))
         one.buffer("gradients", slopes[part])

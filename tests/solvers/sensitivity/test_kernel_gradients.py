@@ -232,6 +232,23 @@ def test_first_touch_needs_no_measuring(distance: float, monkeypatch: pytest.Mon
         assert np.isnan(found.gradient.values).all()
 
 
+def test_hints_of_a_boundary_are_decided_by_the_kernel() -> None:
+    """Slow past the barrier, or a step that ends just before the glass criterion: the kernel's, as Rosenbrock's.
+
+    Of a tolerance of 1e-8 an error may be amplified by up to the limit, to 1e-4; these are known to 1e-6.
+    """
+    degrees = np.array([26.858586171430467, 35.884055551575386, 57.88905621865916])
+    stokes, names = np.array([1.4339000517448264, 1.4685210299674938, 0.520813436903123]), ["liquid.viscosity"]
+    for rtol in (1e-8, 10**-8.5):
+        found = gradients_many("pendulum", stokes=stokes, angle=np.radians(degrees), rtol=rtol, wrt=names)
+        assert found.engine.values.tolist() == ["taylor"] * 3
+    for k, slope in enumerate(found.gradient.values[0, :, 0]):
+        one = sensitivities(
+            "pendulum", wrt=names, stokes=stokes[k], angle=np.radians(degrees[k]), engine="rosenbrock", rtol=1e-11
+        )
+        assert slope == pytest.approx(one.gradient["restitution"]["liquid.viscosity"], rel=1e-6)
+
+
 def test_what_the_kernel_does_not_know() -> None:
     """A term of the ledger, or a law that the kernel has not, is computed one by one: the same numbers as alone."""
     found = gradients_many(

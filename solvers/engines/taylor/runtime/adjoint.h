@@ -113,7 +113,7 @@ static void unstep(sweep *r)
     vec film = flagged(flags, ACTS), shear = flagged(flags, SHEARS);
     for (int state = 0; state < STATES; state++)
         a[state][0] = r->step.y[state];
-    expand(s, &r->f.c, film, shear, moving);
+    expand_whole(s, &r->f.c, film, shear, moving);
     expand_slopes(&r->d, &r->f.slopes, s, &r->f.c);
     mask damped = r->active & ((flags & CREEPS) != 0), falls = r->active & ((flags & FALLS) != 0);
     vec power[TERMS];

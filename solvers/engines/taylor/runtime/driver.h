@@ -25,6 +25,8 @@ typedef struct {
 #if GRADIENTS && !BACKWARD
     slopes d;
     tangents t;
+#elif BACKWARD
+    vec contraction;
 #endif
 #if RUBS
     rubbing r;
@@ -127,6 +129,8 @@ static void expand_states(expansion *e, const lanes *l, const fixed *f)
     if (bits(e->turns))
         begin_turning(&e->turning, &f->c, l->y, e->turns);
     expand(&e->s, &f->c, acting(l), l->shear, NOT(l->resting), bits(e->turns) ? &e->turning : 0);
+#elif BACKWARD
+    e->contraction = expand(&e->s, &f->c, acting(l), l->shear, NOT(l->resting));
 #else
     expand(&e->s, &f->c, acting(l), l->shear, NOT(l->resting));
 #endif
@@ -152,7 +156,7 @@ static vec length_of_step(queue *q, expansion *e, const lanes *l, const fixed *f
     vec h = only(l->alive, step_size(&e->s, f, creeps));
 #endif
 #if BACKWARD
-    h = held_for_derivatives(l, f, &e->s, h, *creeps);
+    h = held_for_derivatives(e->contraction, h, *creeps);
 #endif
     if (bits(*creeps))
         damp(a, *creeps);

@@ -146,6 +146,8 @@ static void measure(lanes *l, const fixed *f, const series *s, vec h, mask ends,
     carried *along = &l->along;
     mask moves = l->alive & NOT(l->resting);
     mask close = moves & l->closing & NOT(ends & (event == AT_GLASS));
+    if (bits(close)) /* what still falls is the next step's: on the way to the criterion it is no near miss */
+        close &= ends | (rate_at(s->glass.result, h) > 0.0);
     if (bits(close)) { /* the clearance without motion decreases as the gap closes: its least is at an end of the step */
         vec start[STATES];
         memcpy(start, l->y, sizeof start);

@@ -233,7 +233,8 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
         near->boundary = LANE(l->along.boundary, lane);
         near->hint = LANE(l->along.hint, lane);
 #if BACKWARD
-        end_on_tape(q, LANE(l->index, lane), lane, l->y, f);
+        if (near->least >= q->t->nearest)
+            end_on_tape(q, LANE(l->index, lane), lane, l->y, f);
 #else
         if (outcome != STICK)
             along_finished(&l->along, &f->c, l->y, lane, (void *)(q->by_group + LANE(l->index, lane)*GROUPS*RESULTS));

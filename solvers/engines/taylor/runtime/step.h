@@ -89,6 +89,8 @@ static inline void turn_along(series *s, const axes *w, int k)
  */
 #if SPACE
 SCHEDULED OUTLINE void expand(series *RESTRICT s, const constants *c, vec film, vec shear, mask moving, const axes *turning)
+#elif BACKWARD
+SCHEDULED OUTLINE vec expand(series *RESTRICT s, const constants *c, vec film, vec shear, mask moving)
 #else
 SCHEDULED OUTLINE void expand(series *RESTRICT s, const constants *c, vec film, vec shear, mask moving)
 #endif
@@ -113,7 +115,18 @@ SCHEDULED OUTLINE void expand(series *RESTRICT s, const constants *c, vec film, 
         s->acceleration[k] = w->acceleration[k];
 #endif
     s->acceleration[ORDER] = splat(0.0); /* not computed at this order */
+#if BACKWARD
+    return contraction(w, c, film, shear);
+#endif
 }
+
+#if BACKWARD
+/* The same with all series, for the sweep back. */
+OUTLINE void expand_whole(series *w, const constants *c, vec film, vec shear, mask moving)
+{
+    EVERY(TERM)
+}
+#endif
 
 OUTLINE void expand_glass(series *s, const constants *c)
 {

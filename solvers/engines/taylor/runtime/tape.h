@@ -46,10 +46,10 @@ struct tape {
  * (damped_sum.h). */
 static const double STEADY = 6.0, STEADY_DAMPED = 13.0;
 
-static inline vec held_for_derivatives(const lanes *l, const fixed *f, const series *s, vec h, mask creeps)
+static inline vec held_for_derivatives(vec contraction, vec h, mask creeps)
 {
     vec most = choose(creeps, splat(STEADY_DAMPED), splat(STEADY));
-    return vec_min(h, most/contraction(s, &f->c, acting(l), l->shear)); /* infinite without decay */
+    return vec_min(h, most/contraction); /* infinite without decay */
 }
 
 static void keep_on_tape(const queue *q, const lanes *l, vec h, mask creeps, mask falls, mask event)
