@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from plugin import built, started
 
-RADIUS, DENSITY, DRUM, LENGTH, TURNS = 1e-3, 2500.0, 8e-3, 8.4e-3, 3.0  # m, kg/m^3, m, m, turns a second
+RADIUS, DENSITY, DRUM, LENGTH, TURNS = 1e-3, 2500.0, 8e-3, 8.4e-3, 4.5  # m, kg/m^3, m, m, turns a second
 STEP, STEPS, FRAMES, COUNT = 1e-5, 600, 100, 100  # s; between two frames
 WALL = "granular hooke 1000 0.02 tangential linear_history 285 1.0 0.5"  # N/m, N s/m; friction 0.5
 WET = f"pair_style wet {0.3 * RADIUS}\npair_coeff * *"
