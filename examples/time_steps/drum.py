@@ -26,9 +26,11 @@ WET = f"pair_style wet {0.3 * RADIUS}\npair_coeff * *"
 DRY = "pair_style granular\npair_coeff * * hooke 1000 0.02 tangential linear_history 285 1.0 0.5"
 
 
-def drum(pairs: str) -> str:
+def drum(pairs: str, turns: float = TURNS) -> str:
     """The script: spheres above each other in a drum along y, periodic there."""
-    grid = [(x, y, z) for z in (-4.0, -1.8, 0.4, 2.6, 4.8) for y in (1.0, 3.1, 5.2, 7.3) for x in np.arange(-5.25, 6, 2.1)]
+    grid = [
+        (x, y, z) for z in (-4.0, -1.8, 0.4, 2.6, 4.8) for y in (1.0, 3.1, 5.2, 7.3) for x in np.arange(-5.25, 6, 2.1)
+    ]
     sites = [site for site in grid if np.hypot(site[0], site[2]) < 6.8]
     rng = np.random.default_rng(1)
     places = np.array(sites[:COUNT]) * RADIUS
@@ -44,7 +46,7 @@ def drum(pairs: str) -> str:
             *lines,
             f"set type 1 diameter {2 * RADIUS} density {DENSITY}",
             *groups,
-            f"variable turned equal 2*PI*{TURNS}*step*dt",
+            f"variable turned equal 2*PI*{turns}*step*dt",
             f"region drum cylinder y 0 0 {DRUM} INF INF rotate v_turned 0 0 0 0 1 0",
             f"{pairs}\ncomm_modify vel yes\nfix moves all nve/sphere\nfix falls all gravity 9.81 vector 0 0 -1",
             f"fix wall all wall/gran/region {WALL} region drum\ntimestep {STEP}",
@@ -85,20 +87,21 @@ def turned(plugin: Path) -> dict[str, Any]:
 def costs(plugin: Path, folder: Path) -> dict[str, list[float]]:
     """CPU time in the pair style, ns a step and ns a step and contact: wet, and LAMMPS's own granular; medians.
 
-    The CPU time of a run by the pair style's share in it, run after run in turn, so that a busy machine does not matter.
+    A slow drum, of as many contacts wet as dry. The CPU time of a run by the pair style's share in it, run after run in
+    turn, so that a busy machine matters little.
     """
     log, hosts = folder / "log", {}
     found: dict[str, list[list[float]]] = {"wet": [], "granular": []}
     touching = "compute near all contact/atom\ncompute touch all reduce sum c_near\nvariable touching equal 0.5*c_touch"
     for name, pairs, contacts in (("wet", WET, "c_wet[1]"), ("granular", DRY, "v_touching")):
         counted = "compute wet all pair wet" if name == "wet" else touching
-        hosts[name] = started(plugin, f"{drum(pairs)}\n{counted}\nthermo_style custom step {contacts}\nthermo 50")
-        hosts[name].command("run 10000 post no")
+        hosts[name] = started(plugin, f"{drum(pairs, 0.5)}\n{counted}\nthermo_style custom step {contacts}\nthermo 50")
+        hosts[name].command("run 20000 post no")
     for _ in range(10):
         for name, host in hosts.items():
             start = time.process_time()
-            host.commands_string(f"log {log}\nrun 1000\nlog none")
-            spent = (time.process_time() - start) / 1000 * 1e9
+            host.commands_string(f"log {log}\nrun 2000\nlog none")
+            spent = (time.process_time() - start) / 2000 * 1e9
             lines = [line.split() for line in log.read_text().splitlines()]
             spent *= next(float(line[-1]) for line in lines if line[:2] == ["Pair", "|"]) / 100
             number = np.mean([float(line[1]) for line in lines if len(line) == 2 and line[0].isdigit()])
@@ -107,7 +110,7 @@ def costs(plugin: Path, folder: Path) -> dict[str, list[float]]:
 
 
 def draw(found: dict[str, Any], path: Path) -> None:
-    """Two sides of the drum, spheres coloured by agglomerate, and the number and size of agglomerates over time."""
+    """The drum with the most and with the fewest agglomerates, by colours, and their number and size over time."""
     import matplotlib as mpl
 
     mpl.use("Agg")
@@ -116,7 +119,8 @@ def draw(found: dict[str, Any], path: Path) -> None:
 
     figure, axes = plt.subplots(1, 3, figsize=(13, 4.2), width_ratios=(1, 1, 1.3), constrained_layout=True)
     every = STEP * STEPS
-    for axis, frame in zip(axes, (0, FRAMES - 1), strict=False):
+    counts = [np.count_nonzero(np.bincount(label) > 1) for label in found["label"]]
+    for axis, frame in zip(axes, (int(np.argmax(counts)), int(np.argmin(counts))), strict=False):
         x, label = 1e3 * np.array(found["x"][frame]), np.array(found["label"][frame])
         largest = np.argsort(-np.bincount(label, minlength=COUNT), kind="stable")
         for i in np.argsort(-x[:, 1]):  # those behind first
@@ -132,7 +136,7 @@ def draw(found: dict[str, Any], path: Path) -> None:
     axes[2].plot(times, [size[1] for size in sizes], label="single spheres")
     axes[2].plot(times, [np.flatnonzero(size).max() for size in sizes], label="spheres in the largest")
     axes[2].set(xlabel="time, s", ylim=(0, COUNT))
-    axes[2].legend(frameon=False)
+    axes[2].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, frameon=False)
     figure.savefig(path, dpi=110)
 
 

