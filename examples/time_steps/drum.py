@@ -96,12 +96,12 @@ def costs(plugin: Path, folder: Path) -> dict[str, list[float]]:
     for name, pairs, contacts in (("wet", WET, "c_wet[1]"), ("granular", DRY, "v_touching")):
         counted = "compute wet all pair wet" if name == "wet" else touching
         hosts[name] = started(plugin, f"{drum(pairs, 0.5)}\n{counted}\nthermo_style custom step {contacts}\nthermo 50")
-        hosts[name].command("run 20000 post no")
-    for _ in range(10):
+        hosts[name].command("run 8000 post no")
+    for _ in range(5):
         for name, host in hosts.items():
             start = time.process_time()
-            host.commands_string(f"log {log}\nrun 2000\nlog none")
-            spent = (time.process_time() - start) / 2000 * 1e9
+            host.commands_string(f"log {log}\nrun 1000\nlog none")
+            spent = (time.process_time() - start) / 1000 * 1e9
             lines = [line.split() for line in log.read_text().splitlines()]
             spent *= next(float(line[-1]) for line in lines if line[:2] == ["Pair", "|"]) / 100
             number = np.mean([float(line[1]) for line in lines if len(line) == 2 and line[0].isdigit()])
