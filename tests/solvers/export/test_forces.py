@@ -216,6 +216,15 @@ def test_a_load_holds_against_a_bridge(law: Law):
         assert count == (not holds)
 
 
+def test_spheres_pushed_into_each_other(law: Law):
+    """The contact begins at that of the solids, and gives no energy to separate the host's spheres."""
+    film, speed = float(OWN.material["film_thickness"]), 0.1
+    pair = Pair(law, [law.contact_distance() - 1.2 * film, 0, 0], [-speed, 0, 0])
+    pair.step(1e-6, (1e-12, 2e-12))
+    assert pair.history["gap"][0] >= float(OWN.material["roughness"])
+    assert np.linalg.norm(pair.motion["velocity"][0]) <= speed
+
+
 def test_bad_input_is_refused(law: Law):
     """Each by its name, with forces that are NaN and a history that stays as it was."""
     distance = law.contact_distance()

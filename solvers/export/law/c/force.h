@@ -141,6 +141,7 @@ static double begins(const law_material *material, const bodies *b, vector3 apar
                      law_pair_history *s, law_pair_force *found)
 {
     double touch = time_to_touch(b, apart, moving), gap = length(apart) - b->contact;
+    space_held h;
     if (!(touch <= 0.5*dt))
         return 0.0;
     double speed = -dot(unit(apart), moving);
@@ -154,7 +155,10 @@ static double begins(const law_material *material, const bodies *b, vector3 apar
     found->status = check_material(material);
     if (found->status != LAW_OK)
         return 0.0;
-    join(s, gap, known_speed(b, speed) ? speed : 1.0/FURTHEST/b->stokes_per_speed);
+    speed = known_speed(b, speed) ? speed : 1.0/FURTHEST/b->stokes_per_speed;
+    space_hold(&h, material, speed);
+    /* others may have pushed the host's spheres into each other: its distance is led back to a contact of solids */
+    join(s, fmax(gap, h.contact > 0.0 ? h.contact : 1e-3*b->film), speed);
     found->events = LAW_BEGINS;
     return 0.5*dt - touch;
 }
