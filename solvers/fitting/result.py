@@ -16,6 +16,7 @@ from ..formatting.markdown import aligned
 from ..host import files
 from ..host.outputs import check_file, check_folder
 from ..host.pictures import plot
+from ..host.progress import Estimated, Progress
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.scene import Scene
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
 _WIDE = 4.0  # ratio of the ends of an interval from which it is told as a factor
 _PULLING = 12  # rows of the data in the report
+_TRIED, _PROFILE, _PER_POINT = 33, 20, 4  # evaluations of a picture; points of a profile, and evaluations of one
 
 CONTRADICTED = (
     "At least half of the impacts contradict the model: no entry is identified, and no intervals are computed. The "
@@ -211,13 +213,22 @@ class Fit:
         head, rows = self.table()
         return view(f"fit of {self.points} impacts", rows, head, [CONTRADICTED] if self.rows.contradicted else [])
 
-    def plot(self, path: str | Path | None = None) -> Any:
+    def plot(self, path: str | Path | None = None, progress: Progress | None = None) -> Any:
         """Draw data over the regime map, e_n with its band, profiles and residuals; returns the matplotlib Figure.
 
         Arguments:
             path: file to write (.png, .pdf or .svg); None only draws.
+            progress: called with (evaluations done, evaluations in all), as by `fit`.
         """
-        return plot(self, path)
+        size = self.free.size
+        work = Estimated(progress, _TRIED + size * _PROFILE * (_PER_POINT if size > 1 else 1))
+        work.start()
+        self.objective.likelihood.tell = work.add
+        try:
+            return plot(self, path)
+        finally:
+            del self.objective.likelihood.tell
+            work.finish()
 
     def write(self, path: str | Path) -> None:
         """Write the fitted scene as TOML, with the intervals as comments."""
@@ -240,13 +251,17 @@ class Fit:
             changes[name] = f"{each.value / size:.{digits}g} {unit}" if unit else float(f"{each.value:.{digits}g}")
         return self.first.with_entries(changes)
 
-    def report(self, folder: str | Path) -> list[Path]:
-        """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths."""
+    def report(self, folder: str | Path, progress: Progress | None = None) -> list[Path]:
+        """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths.
+
+        Arguments:
+            progress: called with (evaluations done, evaluations in all), as by `fit`.
+        """
         from ..formatting.document import Picture, Table, report
 
         into = check_folder(folder, "report")
         into.mkdir(parents=True, exist_ok=True)
-        self.plot(into / "fit.png")
+        self.plot(into / "fit.png", progress)
         title = f"Fit of {self.points} impacts" + (f" to {self.first.name}" if self.first.name else "")
         names, change = list(self.estimates), f"with twice as fine integrals it changes by {self.quadrature:.2g}"
         blocks: list[Block] = [[CONTRADICTED]] if self.rows.contradicted else []
