@@ -27,6 +27,7 @@ from ..scene.schema import MEETING, Field, Range
 from .dataset import Columns, dataset
 from .geometry import COLUMNS, SLOPES
 from .gradients import gradients
+from .interpolation import CHECKS, FINEST, STEPS, Interpolation, nodes
 from .over_speeds import SHARP_CUT, means
 from .sizes import FILMS, FIXED, experiment_of, scene_of_sizes, target
 from .speeds import Speeds
@@ -60,6 +61,9 @@ def collision_averages(
     The direction of the relative velocity is isotropic, so that impact angles have the density sin(2 theta); its
     magnitude has the distribution `speeds`. The normal speed of a collision is V cos(theta). Spins are the scene's.
 
+    Of many radii, without `wrt`, most pairs are interpolated between others if that is as accurate: held against pairs
+    drawn at random, and by how the interpolating series ends.
+
     Arguments:
         scene: a Scene, a path or a preset's name; its [impact] has no influence but for its spins.
         speeds: relative speeds V of the collisions: one, in m/s or as text; `"maxwell:0.3 m/s"`, those of a gas whose
@@ -74,7 +78,8 @@ def collision_averages(
         rtol: relative tolerance of the collisions, 1e-13..1e-3.
         wrt: numeric entries of a pair's scene, such as liquid.viscosity, by which the means are differentiated, each
             alone, at fixed relative speeds.
-        progress: called with (pairs done, pairs in all) at the start and after every block.
+        progress: called with (pairs done, pairs in all) at the start and after every block; the second may grow where
+            most of many pairs are interpolated.
         journal: file that keeps finished pairs, so that the same call continues after an interrupt; the caller removes
             it.
 
@@ -134,6 +139,19 @@ class _Request:
         of_one_sphere = any(name in _OF_ONE or name.startswith("partner.") for name in self.wrt)
         return len(self.shape) == 2 and self.scene.partner is None and equal_spins and not of_one_sphere
 
+    @property
+    def grid(self) -> tuple[int, ...]:
+        """Shape of the finest grid of nodes of an interpolation; without nodes where there is none."""
+        return (FINEST,) * len(self.shape) if self.shape and not self.wrt and self.shape[0] > FINEST else (0,)
+
+    def scene_at(self, flat: int) -> Scene:
+        """The scene of a pair, or from the number of pairs on, of a node of the interpolation."""
+        size = int(np.prod(self.shape))
+        if flat < size:
+            return self.scene_of(tuple(map(int, np.unravel_index(flat, self.shape))))
+        at = replace(self, axes={name: nodes(axis) for name, axis in self.axes.items()})
+        return at.scene_of(tuple(map(int, np.unravel_index(flat - size, self.grid))))
+
     def scene_of(self, index: tuple[int, ...]) -> Scene:
         """The scene of a pair; InputError if it is impossible."""
         if not index:
@@ -188,26 +206,65 @@ def _checked(
 
 
 def _computed(request: _Request, kept: Journal | None, progress: Progress | None) -> Columns:
-    """The columns of all pairs: those of the journal, and the others as they are computed."""
-    size = int(np.prod(request.shape))
-    columns, done = _blank(size, len(request.wrt)), np.zeros(size, bool)
+    """The columns of all pairs: those of the journal, and the others as they are computed or interpolated."""
+    size, points = int(np.prod(request.shape)), int(np.prod(request.grid))
+    columns, done = _blank(size + points, len(request.wrt)), np.zeros(size + points, bool)
     for where, block in kept.read() if kept else ():
         fill(columns, where, block)
         done[where] = True
-    every = np.arange(size)
-    mirror = every.reshape(request.shape).T.ravel() if request.symmetric else every
-    wanted = mirror >= every
-    left, total = np.flatnonzero(~done & wanted), int(np.count_nonzero(wanted))
-    ready = total - left.size
+    mirror = np.arange(size + points)
+    if request.symmetric:
+        mirror = np.concatenate([mirror[:size].reshape(request.shape).T.ravel(), mirror[size:]])
+        if points:
+            mirror[size:] = mirror[size:].reshape(request.grid).T.ravel()
+        mirror = np.minimum(mirror, np.arange(size + points))
     tell = progress or (lambda _done, _total: None)
-    tell(ready, total)
-    for where, block in _blocks(request, [left[k : k + _BLOCK] for k in range(0, left.size, _BLOCK)]):
-        if kept is not None:
-            kept.add(where, block)
-        fill(columns, where, block)
-        ready += where.size
-        tell(ready, total)
-    return {name: values[np.minimum(mirror, every)] for name, values in columns.items()}
+
+    def compute(which: np.ndarray) -> None:
+        which = np.unique(mirror[which])
+        left = which[~done[which]]
+        total = int(np.count_nonzero(done)) + left.size
+        tell(total - left.size, total)
+        for where, block in _blocks(request, [left[k : k + _BLOCK] for k in range(0, left.size, _BLOCK)]):
+            if kept is not None:
+                kept.add(where, block)
+            fill(columns, where, block)
+            done[where] = True
+            tell(int(np.count_nonzero(done)), total)
+
+    wanted = np.unique(mirror[:size])
+    checks = np.random.default_rng(0).choice(wanted, min(CHECKS, wanted.size), replace=False)
+    for step in STEPS if points and np.count_nonzero(done[wanted]) < wanted.size else ():
+        interpolation = Interpolation(step, tuple(request.axes.values()))
+        which = size + interpolation.which
+        if 2 * (np.unique(mirror[which]).size + checks.size) > wanted.size:
+            continue
+        compute(which)
+        compute(checks)
+        if _is_interpolated(request, interpolation, columns, mirror[which], checks, wanted[~done[wanted]]):
+            tell(int(np.count_nonzero(done)), int(np.count_nonzero(done)))
+            break
+    else:
+        compute(wanted)
+    return {name: values[mirror[:size]] for name, values in columns.items()}
+
+
+def _is_interpolated(
+    request: _Request, interpolation: Interpolation, columns: Columns, which: np.ndarray, checks: np.ndarray,
+    left: np.ndarray,
+) -> bool:  # fmt: skip
+    """Whether the pairs that are left are interpolated, into the columns, from nodes; checks are known pairs."""
+    value, error = interpolation(columns["mean"][which])
+    apart = 2 * np.abs(value[checks] - columns["mean"][checks]).max(axis=0)
+    of_nodes = columns["error"][which].reshape(-1, COLUMNS).max(axis=0)
+    if not (np.maximum(apart, error) <= np.maximum(request.tolerance / 2, of_nodes)).all():  # nor where any is NaN
+        return False
+    try:
+        rates = [request.speeds.mean * target(request.scene_at(flat)) for flat in left.tolist()]
+    except InputError:
+        return False
+    columns["mean"][left], columns["error"][left], columns["rate"][left] = value[left], of_nodes + apart, rates
+    return True
 
 
 def _blocks(request: _Request, blocks: list[np.ndarray]) -> Iterator[tuple[np.ndarray, Columns]]:
@@ -232,7 +289,7 @@ def _block(request: _Request, where: np.ndarray) -> Columns:
     scenes: dict[int, Scene] = {}
     for k, flat in enumerate(where.tolist()):
         try:
-            scenes[k] = request.scene_of(tuple(int(each) for each in np.unravel_index(flat, request.shape)))
+            scenes[k] = request.scene_at(flat)
         except InputError as error:
             columns["reason"][k] = str(error)
         else:
@@ -241,7 +298,8 @@ def _block(request: _Request, where: np.ndarray) -> Columns:
     if not rows.size:
         return columns
     experiment = experiment_of(list(scenes.values()), request.wrt, request.rtol)
-    result = means(experiment, rows.size, request.speeds, request.tolerance)
+    of_nodes = where.min() >= np.prod(request.shape)  # their errors leave room for that of the interpolation
+    result = means(experiment, rows.size, request.speeds, request.tolerance / (2 if of_nodes else 1))
     columns["mean"][rows], columns["error"][rows] = result.mean, result.error
     columns["reason"][rows[np.isnan(result.mean).any(axis=1)]] = "collisions that no engine completes"
     if request.wrt:

@@ -35,7 +35,6 @@ class Bar:
         self._first: tuple[int, float] | None = None
         self._forecast: str | None = None
         self.total: int | None = 0
-        self.steps = 0
         self._shown: Any = None
 
     def __call__(self, done: int, total: int | None) -> None:
@@ -69,12 +68,6 @@ class Bar:
                 if self._shown is not None:
                     self._shown.clear()
                 say(self._forecast)
-
-    def step(self, text: str) -> None:
-        """Count one more step and show its text behind the count."""
-        self.steps += 1
-        self(self.steps, None)
-        self.note(text)
 
     def note(self, text: str) -> None:
         """Show a text behind the counts."""

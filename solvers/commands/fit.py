@@ -14,6 +14,8 @@ from . import options
 from .bar import Bar
 from .signature import as_command, passed
 
+_PICTURE = "-o FILE.json keeps the estimates without their picture"
+
 
 @as_command("Entries of a scene from measured impacts, with what the data cannot tell.")
 def command(
@@ -75,7 +77,8 @@ def command(
         fitted = fit(scenes, tables, free, own=groups, progress=progress, **chosen)
     text, record = str(fitted), fitted.to_dict()
     if choices is not None:
-        comparison = compare_models(scenes[0], tables[0], free, over=choices, **chosen)
+        with Bar("models", "fewer free entries, rows or choices take less") as progress:
+            comparison = compare_models(scenes[0], tables[0], free, over=choices, progress=progress, **chosen)
         text, record = f"{text}\n\n{comparison}", record | {"comparison": comparison.to_dict()}
     output.put(text, record)
     if fitted.rows.contradicted and (output.as_json or output.file is not None):
@@ -87,6 +90,8 @@ def command(
     if write is not None:
         fitted.write(write)
     if report is not None:
-        fitted.report(report)
+        with Bar("evaluations", _PICTURE, factor=3.0) as progress:
+            fitted.report(report, progress=progress)
     if output.picture is not None:
-        fitted.plot(output.picture)
+        with Bar("evaluations", _PICTURE, factor=3.0) as progress:
+            fitted.plot(output.picture, progress=progress)

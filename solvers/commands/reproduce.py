@@ -24,7 +24,7 @@ def command(part: str | None, out: options.Folder) -> None:
     if part is not None:
         texts.known(("all", *PARTS), part, "PART")
 
-    with Bar("steps") as progress:
+    with Bar("parts", "a single PART takes less") as progress:
         parts = PARTS if part in (None, "all") else (part,)
-        written = reproduce(parts, out or Path("paper"), say=progress.step)
+        written = reproduce(parts, out or Path("paper"), say=progress.note, progress=progress)
     click.echo("\n".join(map(str, written)))

@@ -10,6 +10,7 @@ from ..errors import InputError
 from ..scene.held import NAMES
 from ..scene.schema import FIELDS
 from . import options, texts
+from .bar import Bar
 from .signature import as_command, passed
 
 if TYPE_CHECKING:
@@ -127,7 +128,8 @@ def _band(
         raise InputError("--of", ",".join(of), "one result with --over")
     entry = FIELDS[f"impact.{name}"]
     values = texts.entry_range(entry, text, "--over")
-    data = band(scene, uncertainty, entry.name, values, of=of[0], **chosen)
+    with Bar("values", "fewer values take less") as progress:
+        data = band(scene, uncertainty, entry.name, values, of=of[0], progress=progress, **chosen)
     label = f"{NAMES.get(name, name)}{units[name]}"
     lines = [f"{label:<20} {of[0]:>16} {'± (first order)':>16} {'2.5 %':>12} {'97.5 %':>12}"]
     columns = (data[of[0]], data.first_order, data.low, data.high)

@@ -11,8 +11,9 @@ import numpy as np
 from ..engines.settings import check_rtol
 from ..errors import ComputationError, InputError, did_you_mean
 from ..formatting.markdown import aligned
-from ..host.arguments import check_names
+from ..host.arguments import check_function, check_names
 from ..host.cores import usable_cores
+from ..host.progress import Progress
 from ..host.workers import in_workers
 from ..scene.scene import Scene
 from .fit import RTOL
@@ -82,6 +83,7 @@ def compare_models(
     folds: int = 5,
     rtol: float = RTOL,
     seed: int = 0,
+    progress: Progress | None = None,
 ) -> Comparison:
     """Fit the scene and, for each named choice, the scene with every other value of it; these on all cores.
 
@@ -90,6 +92,7 @@ def compare_models(
         over: choices by dotted name, of `CHOICES`; each is varied alone.
         folds: of the cross-validation; 0 for none.
         seed: of the folds.
+        progress: called with (candidates fitted, candidates in all).
 
     Returns:
         Comparison: the candidates, the best by AIC first.
@@ -110,15 +113,19 @@ def compare_models(
     if not isinstance(folds, int) or isinstance(folds, bool) or folds < 0 or folds == 1:
         raise InputError("folds", folds, "a whole number from 2, or 0 for no cross-validation")
     tolerance = check_rtol(rtol)
+    check_function(progress, "progress")
     unchanged, *others = _scenes(first, names)
+    tell = progress or (lambda _done, _total: None)
+    tell(0, 1 + len(others))
     request = table, free, prior, min(folds, table.size), tolerance, seed
     candidates = [_candidate(unchanged[0], unchanged[1], *request)]
     cores = min(usable_cores(), len(others))
-    if cores > 1:
-        parts = ((name, (name, scene, *request)) for name, scene in others)
-        candidates += [each for _, each in in_workers(cores, _tried, parts)]
-    else:
-        candidates += [_tried(name, scene, *request) for name, scene in others]
+    tell(1, 1 + len(others))
+    parts = ((name, (name, scene, *request)) for name, scene in others)
+    tried = in_workers(cores, _tried, parts) if cores > 1 else ((name, _tried(*part)) for name, part in parts)
+    for _, each in tried:
+        candidates.append(each)
+        tell(len(candidates), 1 + len(others))
     order = sorted(candidates, key=lambda each: (np.inf if each.aic is None else each.aic, each.name))
     return Comparison(first, tuple(order))
 

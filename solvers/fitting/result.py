@@ -17,6 +17,7 @@ from ..host import files
 from ..host.arguments import check_whole
 from ..host.outputs import check_file, check_folder
 from ..host.pictures import plot
+from ..host.progress import Estimated, Progress
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.scene import Scene
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 
 _WIDE = 2.0  # ratio of the ends of an interval from which it is told as a factor
 _PULLING = 12  # rows of the data in the report
+_TRIED, _PROFILE, _PER_POINT = 33, 20, 4  # evaluations of a picture; points of a profile, and evaluations of one
 
 CONTRADICTED = (
     "At least half of the impacts contradict the model: no entry is identified, and no intervals are computed. The "
@@ -236,13 +238,22 @@ class Fit:
         head, rows = self.table()
         return view(f"fit of {self.points} impacts", rows, head, [CONTRADICTED] if self.rows.contradicted else [])
 
-    def plot(self, path: str | Path | None = None) -> Any:
+    def plot(self, path: str | Path | None = None, progress: Progress | None = None) -> Any:
         """Draw data over the regime map, e_n with its band, profiles and residuals; returns the matplotlib Figure.
 
         Arguments:
             path: file to write (.png, .pdf or .svg); None only draws.
+            progress: called with (evaluations done, evaluations in all), as by `fit`.
         """
-        return plot(self, path)
+        size = self.free.size
+        work = Estimated(progress, _TRIED + size * _PROFILE * (_PER_POINT if size > 1 else 1))
+        work.start()
+        self.objective.likelihood.tell = work.add
+        try:
+            return plot(self, path)
+        finally:
+            del self.objective.likelihood.tell
+            work.finish()
 
     def predict(
         self,
@@ -308,13 +319,17 @@ class Fit:
             changes[name] = f"{value / size:.{digits}g} {unit}" if unit else float(f"{value:.{digits}g}")
         return part.scene.with_entries(changes)
 
-    def report(self, folder: str | Path) -> list[Path]:
-        """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths."""
+    def report(self, folder: str | Path, progress: Progress | None = None) -> list[Path]:
+        """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths.
+
+        Arguments:
+            progress: called with (evaluations done, evaluations in all), as by `fit`.
+        """
         from ..formatting.document import Picture, Table, report
 
         into = check_folder(folder, "report")
         into.mkdir(parents=True, exist_ok=True)
-        self.plot(into / "fit.png")
+        self.plot(into / "fit.png", progress)
         names_of = ", ".join(each.scene.name for each in self.parts if each.scene.name)
         title = f"Fit of {self.points} impacts" + (f" to {names_of}" if names_of else "")
         names, change = list(self.estimates), f"with twice as fine integrals it changes by {self.quadrature:.2g}"

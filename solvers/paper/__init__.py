@@ -8,6 +8,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..host.progress import Progress
+
 if TYPE_CHECKING:
     from .boundary_cache import Detail
     from .parts import Part
@@ -17,8 +19,9 @@ PARTS = ("table1", "fig1", "fig3", "fig4a", "fig4b", "factors")
 
 
 def reproduce(
-    which: Sequence[str], folder: Path, *, detail: Detail | None = None, say: Callable[[str], None] | None = None
-) -> list[Path]:
+    which: Sequence[str], folder: Path, *, detail: Detail | None = None, say: Callable[[str], None] | None = None,
+    progress: Progress | None = None,
+) -> list[Path]:  # fmt: skip
     """Compute parts of the paper and write the report on them.
 
     Arguments:
@@ -26,9 +29,13 @@ def reproduce(
         folder: output folder; created if absent.
         detail: resolution of the figures; None for print quality.
         say: called with a text on the current step.
+        progress: called with (parts done, parts in all).
 
     Returns:
         Paths of the written files, the report's last.
+
+    Raises:
+        KeyboardInterrupt: an interrupt; the report on the parts that were finished is written before.
     """
     from importlib.metadata import version
 
@@ -39,10 +46,24 @@ def reproduce(
 
     folder.mkdir(parents=True, exist_ok=True)
     cache = BoundaryCache(detail, say)
-    parts: list[Part] = [import_module(f".{name}", __name__).make(cache, folder) for name in which]
+    parts: list[Part] = []
+    stopped = None
+    try:
+        for name in which:
+            if progress is not None:
+                progress(len(parts), len(which))
+            parts.append(import_module(f".{name}", __name__).make(cache, folder))
+    except KeyboardInterrupt:
+        if not parts:
+            raise
+        left, kept = ", ".join(which[len(parts) :]), folder / "report.md"
+        stopped = KeyboardInterrupt(f"interrupted: {len(parts)} of {len(which)} parts are in {kept}; without {left}")
     pictures = [folder / picture.file for part in parts for picture in part.pictures]
     counted = f", from {cache.collisions} collisions" if cache.collisions else ""
     failed = f" Not traced: {'; '.join(cache.failures)}." if cache.failures else ""
     date, ours = time.strftime("%Y-%m-%d", time.gmtime()), f"wetdoublet {version('wetdoublet')}"
     how = f"Computed by {ours} in one run on {date}{counted}; none of our numbers is typed in.{failed}"
-    return [*pictures, *write_all_in(folder, report(TITLE, blocks(parts, how)))]
+    written = write_all_in(folder, report(TITLE, blocks(parts, how)))
+    if stopped is not None:
+        raise stopped
+    return [*pictures, *written]

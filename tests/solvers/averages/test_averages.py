@@ -201,6 +201,25 @@ def test_bad_input_is_named(given: dict[str, Any], field: str) -> None:
     assert caught.value.field == field
 
 
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4])
+def test_pairs_between_others_have_the_averages_of_their_own_collisions(tolerance: float) -> None:
+    """Of 30 radii most pairs are interpolated: within the declared errors they are what finer quadrature gives."""
+    radii = np.geomspace(100e-6, 110e-6, 30)
+    told: list[tuple[int, int]] = []
+    found = collision_averages(
+        "granulation", speeds="1.5 m/s", radii=radii, tolerance=tolerance, progress=lambda *call: told.append(call)
+    )
+    assert told[-1][0] == told[-1][1] < 30 * 31 / 2 / 4  # pairs that were computed
+    few = [3, 17, 28]
+    one_by_one = collision_averages("granulation", speeds="1.5 m/s", radii=radii[few], tolerance=tolerance / 10)
+    some = found.isel(radius=few, partner_radius=few)
+    for name in QUANTITIES:
+        allowed = some[f"{name}_error"].values + one_by_one[f"{name}_error"].values
+        assert (np.abs(some[name].values - one_by_one[name].values) <= allowed).all(), name
+        assert (some[name].values == some[name].values.T).all()
+    assert some.collision_rate.values == pytest.approx(one_by_one.collision_rate.values, rel=1e-14)
+
+
 def test_an_interrupted_matrix_goes_on(tmp_path: Path) -> None:
     """Finished pairs are read from the journal and not computed again; the result is that of workers on all cores."""
     radii = np.geomspace(60e-6, 120e-6, 11)
