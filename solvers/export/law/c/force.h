@@ -40,10 +40,13 @@ static double follow_line(line *l, const bodies *b, double time, law_pair_histor
             found->status = k == SUBSTEPS ? LAW_UNDECIDED_NO_BUDGET : LAW_UNDECIDED_NOT_FINITE;
             return -1.0;
         }
-        if (l->velocity < 0.0 && l->gap <= l->h.contact)
-            meet(l, s, found, space_solid_kind(&l->h), &rebounds);
-        else if (l->velocity < 0.0 && !(space_glass_clears(&l->h, l->gap, l->velocity) > 0.0))
-            meet(l, s, found, LAW_GLASS, &rebounds);
+        int solid = l->gap <= l->h.contact;
+        if (l->velocity < 0.0 && (solid || !(space_glass_clears(&l->h, l->gap, l->velocity) > 0.0))) {
+            double before = l->velocity;
+            meet(l, s, found, solid ? space_solid_kind(&l->h) : LAW_GLASS, &rebounds);
+            if (l->h.friction != 0.0 && (solid || l->h.rubs_glass))
+                rub(b, l->gap, l->h.friction*l->mass*(l->velocity - before), l->h.returns, w);
+        }
         if (l->velocity > 0.0 && l->gap >= l->h.end) {
             s->joined = 0;
             found->events |= LAW_SEPARATES;
@@ -53,6 +56,8 @@ static double follow_line(line *l, const bodies *b, double time, law_pair_histor
         press(l, b, &here, 0.0, *w);
         if (l->gap <= l->h.contact && l->velocity == 0.0 && l->load <= here.attraction) {
             shear(b, l->gap, &here, left, w); /* at rest in contact */
+            if (l->h.friction != 0.0)
+                rub(b, l->gap, l->h.friction*(here.attraction - l->load)*left, 0.0, w);
             found->events |= LAW_RESTS;
             break;
         }
