@@ -71,10 +71,16 @@ def main() -> None:
                 pointers = [ctypes.c_void_p(each.ctypes.data) for each in (law.material(), given, after, seconds)]
                 settings = ctypes.c_long(COUNT), ctypes.c_double(RTOL), ctypes.c_int(budget)
                 timed(*pointers[:2], *settings, *pointers[2:])
-                row |= {f"{word}median ms": f"{1e3 * np.median(seconds):.3f}", f"{word}mean": f"{1e3 * seconds.mean():.3f}"}
+                row |= {
+                    f"{word}median ms": f"{1e3 * np.median(seconds):.3f}",
+                    f"{word}mean": f"{1e3 * seconds.mean():.3f}",
+                }
                 row |= {f"{word}above {limit} ms": f"{np.mean(seconds > 1e-3 * limit):.3%}" for limit in (1, 10)}
                 row |= {f"{word}p99.9": f"{1e3 * np.quantile(seconds, 0.999):.3g}"}
-                row |= {f"{word}longest": f"{1e3 * seconds.max():.3g}", f"{word}undecided": f"{np.mean(after['status'] != 0):.2%}"}
+                row |= {
+                    f"{word}longest": f"{1e3 * seconds.max():.3g}",
+                    f"{word}undecided": f"{np.mean(after['status'] != 0):.2%}",
+                }
                 if budget:
                     late = after["status"] != 0
                     row["of these part"] = f"{np.mean(whole['outcome'][late] > 0):.0%}"

@@ -351,7 +351,9 @@ def test_dry_contacts_rub(tmp_path: Path):
     away = (found["outcome"] > 0) & (flown["outcome"] == found["outcome"])
     assert np.count_nonzero((flown["outcome"] != found["outcome"]) & (found["status"] == 0)) <= COUNT // 100
     assert np.quantile(np.abs(flown["restitution"] - found["restitution"])[away], 0.98) <= 1e-3
-    apart, effect = (np.linalg.norm(flown["spins"] - other, axis=(1, 2))[away] for other in (found["spins"], slid["spins"]))
+    apart, effect = (
+        np.linalg.norm(flown["spins"] - other, axis=(1, 2))[away] for other in (found["spins"], slid["spins"])
+    )
     rubbed = effect > np.median(effect)
     assert np.median(apart[rubbed] / effect[rubbed]) <= 1e-2
     assert flown["angular_momentum"].max() <= 1e-13
