@@ -111,7 +111,7 @@ def test_a_wet_gas_keeps_its_momentum_and_loses_energy(cooling, tmp_path: Path) 
 
 @pytest.mark.slow
 def test_agglomerates_are_the_same_whoever_compiles(cooling, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Momenta to rounding, no step in which energy grows, and the same bits from all compilers, in one lane and many."""
+    """Momenta to rounding, energy never grows, and the same bits from all compilers, in one lane and many."""
     texts = []
     for name in FOUND:
         for flag in ("-march=native", "-DGRANULATION_LANES=1"):

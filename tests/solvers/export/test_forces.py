@@ -340,7 +340,7 @@ def test_what_has_no_forces_says_so(tmp_path: Path):
 
 @pytest.mark.slow
 def test_dry_contacts_rub(tmp_path: Path):
-    """With friction at every rebound, outcomes, e_n and what both spins become are the law's; rubbing adds no energy."""
+    """With friction at every rebound, outcomes, e_n and both spins are the law's; rubbing adds no energy."""
     scene = FILM_ALONE.with_entries(ROUGH | {"model.contact_friction": "all"})
     law = Law(scene, written(scene, tmp_path), "-march=native")
     host, pairs = Host(scene, law, tmp_path), arrivals(scene, COUNT, seed=3)
@@ -362,7 +362,7 @@ def test_dry_contacts_rub(tmp_path: Path):
 
 @pytest.mark.slow
 def test_a_wall_is_a_far_larger_sphere(law: Law, tmp_path: Path):
-    """As the page says: 10,000 times as large and heavy, and held beneath the sphere. Outcomes and e_n are the wall's."""
+    """As the page says: 10,000 times as large and heavy, and held beneath the sphere; e_n is that of the wall."""
     wall = GRANULATION.with_entries({"partner.wall": True})
     walled, material = Law(wall, written(wall, tmp_path)), law.material()
     normal, velocities, spins = arrivals(wall, 60, seed=2)
