@@ -342,7 +342,7 @@ def test_what_has_no_forces_says_so(tmp_path: Path):
 def test_dry_contacts_rub(tmp_path: Path):
     """With friction at every rebound, outcomes, e_n and both spins are the law's; rubbing adds no energy."""
     scene = FILM_ALONE.with_entries(ROUGH | {"model.contact_friction": "all"})
-    law = Law(scene, written(scene, tmp_path), "-march=native")
+    law = Law(scene, written(scene, tmp_path), *STRICT)
     host, pairs = Host(scene, law, tmp_path), arrivals(scene, COUNT, seed=3)
     found, times = durations(scene, law, pairs)
     smooth = law.material()

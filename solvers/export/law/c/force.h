@@ -145,15 +145,15 @@ int law_contact_join(const law_material *material, double gap, double speed, law
 static double begins(const law_material *material, const bodies *b, vector3 apart, vector3 moving, double dt,
                      law_pair_history *s, law_pair_force *found)
 {
-    double touch = time_to_touch(b, apart, moving), gap = length(apart) - b->contact;
-    if (!(touch <= 0.5*dt))
+    double meeting = time_to_touch(b, apart, moving), gap = length(apart) - b->contact;
+    if (!(meeting <= 0.5*dt))
         return 0.0;
     double speed = -dot(unit(apart), moving);
-    if (touch >= -1.5*dt) {
-        speed = -dot(unit(plus(apart, touch, moving)), moving);
+    if (meeting >= -1.5*dt) {
+        speed = -dot(unit(plus(apart, meeting, moving)), moving);
         gap = b->film;
     } else
-        touch = -0.5*dt; /* it cannot have come so far in a step: it is taken as it is */
+        meeting = -0.5*dt; /* it cannot have come so far in a step: it is taken as it is */
     if (!(speed > 0.0))
         return 0.0;
     found->status = check_material(material);
@@ -161,7 +161,7 @@ static double begins(const law_material *material, const bodies *b, vector3 apar
         return 0.0;
     join(s, gap, known_speed(b, speed) ? speed : 1.0/FURTHEST/b->stokes_per_speed);
     found->events = LAW_BEGINS;
-    return 0.5*dt - touch;
+    return 0.5*dt - meeting;
 }
 
 /* A step of the host: what it gives, SI, and from when to when the contact acts, beside the time of the positions. */
