@@ -1,6 +1,7 @@
 """A freely cooling gas of wet spheres: exports the law of a scene, compiles the event loop with it, runs and draws it.
 
 python cooling.py [--spheres 5000] [--share 0.02] [--speed 4] [--collisions 100] [--out DIR]
+python cooling.py --agglomerates [--contacts 4000] [--seed 1] [--out DIR]    spheres of two sizes that agglomerate
 """
 
 from __future__ import annotations
@@ -20,14 +21,17 @@ SCENE = "granulation"  # of equal spheres; cooling.c includes granulation.h
 INK = {"single": "#b5c4d6", "rotate": "#3b6ea5", "bounce": "#c9762f", "doublet": "#1d1d1d"}
 
 
-def build(folder: Path, optimise: str = "-O2") -> Path:
-    """Export the law into a folder and compile the loop with it; returns the program."""
+def build(folder: Path, optimise: str = "-O2", loop: str = "cooling") -> Path:
+    """Export the law into a folder and compile a loop with it; returns the program."""
     export = [sys.executable, "-m", "wetdoublet.solvers", "export", SCENE, "--to", "c", "--out", str(folder)]
     subprocess.run(export, check=True, stdout=subprocess.DEVNULL)
     compiler = shlex.split(os.environ.get("CC", "cc"))
-    sources = [str(HERE / "cooling.c"), str(folder / f"{SCENE}.c")]
-    program = folder / "cooling"
-    subprocess.run([*compiler, "-std=c99", optimise, f"-I{folder}", *sources, "-o", str(program), "-lm"], check=True)
+    sources = [str(HERE / f"{loop}.c"), str(folder / f"{SCENE}.c")]
+    program = folder / loop
+    subprocess.run(
+        [*compiler, "-std=c99", optimise, "-ffp-contract=off", f"-I{folder}", *sources, "-o", str(program), "-lm"],
+        check=True,
+    )
     return program
 
 
@@ -43,6 +47,14 @@ def simulate(
         np.genfromtxt(folder / name, delimiter=",", names=True) for name in ("rows.csv", "snapshots.csv")
     )
     return rows, snapshots
+
+
+def agglomerate(program: Path, contacts: int, seed: int, spheres: int = 300) -> tuple[np.ndarray, str]:
+    """Run the gas of two sizes at 1.5 m/s in a fifth of the volume, with water; returns its rows and the sizes."""
+    arguments = [str(program), *map(str, (spheres, 0.2, 1.5, 1e-3, contacts, seed))]
+    text = subprocess.run(arguments, check=True, capture_output=True, text=True).stdout
+    *lines, sizes = text.splitlines()
+    return np.genfromtxt(lines, delimiter=",", names=True), sizes
 
 
 def draw_cooling(rows: np.ndarray, path: Path) -> None:
@@ -104,9 +116,20 @@ def main() -> None:
     parser.add_argument("--share", type=float, default=0.02, help="of the volume that is spheres")
     parser.add_argument("--speed", type=float, default=4.0, help="m/s, of every component at the beginning")
     parser.add_argument("--collisions", type=float, default=100.0, help="of a sphere, at most")
+    parser.add_argument("--agglomerates", action="store_true", help="spheres of two sizes, by the forces of contacts")
+    parser.add_argument("--contacts", type=int, default=4000, help="with --agglomerates: contacts begun")
+    parser.add_argument("--seed", type=int, default=1, help="with --agglomerates: of the velocities and spins")
     parser.add_argument("--out", type=Path, default=Path("cooling"))
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
+    if given.agglomerates:
+        rows, sizes = agglomerate(build(given.out.resolve(), loop="agglomerates"), given.contacts, given.seed)
+        last = rows[-1]
+        print(f"{last['contacts_begun']:.0f} contacts begun, {last['rotate'] + last['bounce']:.0f} ended; ", end="")
+        print(f"{last['agglomerates']:.0f} agglomerates, the largest of {last['largest']:.0f}; {sizes}")
+        off = max(rows["momentum"].max(), rows["angular_momentum"].max())
+        print(f"momentum and angular momentum are kept to {off:.1e} of their size")
+        return
     program = build(given.out.resolve())
     rows, snapshots = simulate(program, given.spheres, given.share, given.speed, given.collisions)
     draw_cooling(rows, given.out / "cooling.png")

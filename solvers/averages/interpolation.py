@@ -18,7 +18,7 @@ _POINTS = -np.cos(np.pi * np.arange(FINEST) / (FINEST - 1))
 def nodes(radii: np.ndarray) -> np.ndarray:
     """The radii of the finest grid of nodes."""
     low, high = np.log(radii.min()), np.log(radii.max())
-    return np.exp(low + (high - low) * (1 + _POINTS) / 2)
+    return np.asarray(np.exp(low + (high - low) * (1 + _POINTS) / 2))
 
 
 @dataclass(frozen=True)

@@ -140,7 +140,7 @@ def band(
         parts = []
         for k in range(0, where.size, _BLOCK):
             progress(k, where.size)
-            block = where[k : k + _BLOCK]
+            block = where[k : k + _BLOCK].tolist()
             parts.append(band(loaded, uncertainty, over, block, of=of, samples=samples, hold=hold, rtol=rtol))
         progress(where.size, where.size)
         return xr.concat(parts, over, combine_attrs="override")

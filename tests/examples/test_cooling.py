@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from wetdoublet.solvers.host.compiler import compiler
 
+from ..helpers.exported_law import FOUND
+
 FOLDER = Path(__file__).resolve().parents[2] / "examples" / "cooling"
 RESTITUTION = 0.9
 # The part of an exported law that the example calls, for smooth spheres of one restitution.
@@ -105,3 +107,23 @@ def test_a_wet_gas_keeps_its_momentum_and_loses_energy(cooling, tmp_path: Path) 
     for name, draw in (("cooling.png", cooling.draw_cooling), ("strip.png", cooling.draw_strip)):
         draw(rows if name == "cooling.png" else snapshots, tmp_path / name)
         assert (tmp_path / name).stat().st_size > 10_000
+
+
+@pytest.mark.slow
+def test_agglomerates_are_the_same_whoever_compiles(cooling, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Momenta to rounding, energy never grows, and the same bits from all compilers, in one lane and many."""
+    texts = []
+    for name in FOUND:
+        for flag in ("-march=native", "-DGRANULATION_LANES=1"):
+            folder = tmp_path / f"{name}{flag}"
+            folder.mkdir()
+            monkeypatch.setenv("CC", f"{name} {flag}")
+            rows, sizes = cooling.agglomerate(cooling.build(folder, "-O2", "agglomerates"), 400, 3, 60)
+            last = rows[-1]
+            assert last["agglomerates"] < 50
+            assert last["rotate"] + last["bounce"] > 200
+            assert max(rows["momentum"].max(), rows["angular_momentum"].max()) < 1e-14
+            assert np.all(np.diff(rows["energy"]) < 1e-14)
+            assert float(sizes.split()[2].rstrip(";")) < 1e-14
+            texts.append((sizes, rows.tobytes()))
+    assert len(set(texts)) == 1

@@ -97,11 +97,7 @@ def callers(scene: Scene) -> tuple[str, ...]:
 
 def no_forces(scene: Scene) -> str:
     """Why a scene has no forces for time steps; empty if it has."""
-    if scene.wall:
-        return "partner.wall: only of two spheres"
-    return (
-        "particles.friction: only without friction of the dry contact" if scene.particles.friction is not None else ""
-    )
+    return "partner.wall: only of two spheres" if scene.wall else ""
 
 
 def bodies(scene: Scene) -> str:

@@ -11,10 +11,11 @@ from wetdoublet.solvers.space.pairs import Bodies
 
 from ...helpers.exported_law import COMPILERS, FOUND, Law, written
 from ...helpers.host_of_forces import Host
-from .test_law_in_space import OWN, arrivals
+from .test_law_in_space import GRANULATION, OWN, arrivals
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")]
 FILM_ALONE = Scene.load("granulation-dry-bridge")
+ROUGH = {"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5}
 STRICT = ("-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror", "-march=native")
 COUNT = 200
 
@@ -340,12 +341,62 @@ def test_no_warnings(compiler: str, folder: Path, law: Law):
 
 @pytest.mark.slow
 def test_what_has_no_forces_says_so(tmp_path: Path):
-    """A wall, and friction of the dry contact: the header gives the reason."""
-    for entries, why in (
-        ({"partner.wall": True}, "two spheres"),
-        ({"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5}, "without friction"),
-    ):
-        scene = Scene.load("granulation").with_entries(entries)
-        header = (written(scene, tmp_path / why) / "granulation.h").read_text()
-        assert "#define GRANULATION_FORCES 0" in header
-        assert why in header.replace("\n * ", " ")
+    """A wall: the header gives the reason."""
+    header = (written(GRANULATION.with_entries({"partner.wall": True}), tmp_path) / "granulation.h").read_text()
+    assert "#define GRANULATION_FORCES 0" in header
+    assert "two spheres" in header.replace("\n * ", " ")
+
+
+@pytest.mark.slow
+def test_dry_contacts_rub(tmp_path: Path):
+    """With friction at every rebound, outcomes, e_n and both spins are the law's; rubbing adds no energy."""
+    scene = FILM_ALONE.with_entries(ROUGH | {"model.contact_friction": "all"})
+    law = Law(scene, written(scene, tmp_path), *STRICT)
+    host, pairs = Host(scene, law, tmp_path), arrivals(scene, COUNT, seed=3)
+    found, times = durations(scene, law, pairs)
+    smooth = law.material()
+    smooth["friction"] = 0.0
+    flown, slid = (host.fly(pairs, times / 100, 800, each) for each in (law.material(), smooth))
+    away = (found["outcome"] > 0) & (flown["outcome"] == found["outcome"])
+    assert np.count_nonzero((flown["outcome"] != found["outcome"]) & (found["status"] == 0)) <= COUNT // 100
+    assert np.quantile(np.abs(flown["restitution"] - found["restitution"])[away], 0.98) <= 1e-3
+    apart, effect = (
+        np.linalg.norm(flown["spins"] - other, axis=(1, 2))[away] for other in (found["spins"], slid["spins"])
+    )
+    rubbed = effect > np.median(effect)
+    assert np.median(apart[rubbed] / effect[rubbed]) <= 1e-2
+    assert flown["angular_momentum"].max() <= 1e-13
+    assert flown["energy"].max() <= 1 + 1e-12
+
+
+@pytest.mark.slow
+def test_a_wall_is_a_far_larger_sphere(law: Law, tmp_path: Path):
+    """As the page says: 10,000 times as large and heavy, and held beneath the sphere; e_n is that of the wall."""
+    wall = GRANULATION.with_entries({"partner.wall": True})
+    walled, material = Law(wall, written(wall, tmp_path)), law.material()
+    normal, velocities, spins = arrivals(wall, 60, seed=2)
+    found = walled.collide_pairs(walled.pairs(normal, velocities, spins[:, :1]))
+    for name in walled.material().dtype.names:
+        material[name] = walled.material()[name]
+    material["radius_ratio"] = material["mass_ratio"] = 1e4
+    radius, mass, film = (float(material[name][0]) for name in ("reduced_radius", "reduced_mass", "film_thickness"))
+    for k in np.flatnonzero(found["outcome"] > 0):
+        n, (velocity, moving), spin = normal[k], velocities[k].copy(), spins[k, 0].copy()
+        speed = n @ (velocity - moving)
+        dt = max(found["time"][k], film / speed) / 20
+        motion, history, force = (np.zeros(1, law.dtype(f"pair_{each}")) for each in ("motion", "history", "force"))
+        gap = film + 2.3 * dt * speed
+        for _ in range(200):
+            motion["position"], motion["velocity"] = (radius * (2 + 1e4 + 1e-4) + gap) * n, moving - velocity
+            motion["spins"][0, 0] = spin
+            assert law.contact_force(material, motion, dt, history, force) == 0
+            velocity -= dt / mass * force["force"][0]
+            spin += dt / (0.4 * mass * radius**2) * force["torques"][0, 0]
+            gap += dt * (moving - velocity) @ n
+            if force["outcome"][0] >= 0:
+                break
+        assert force["outcome"][0] == found["outcome"][k]
+        assert abs(force["restitution"][0] - found["restitution"][k]) <= 1e-3
+        size = np.linalg.norm(velocities[k, 1] - velocities[k, 0])
+        assert np.linalg.norm(velocity - found["velocities"][k, 0]) <= 1e-3 * size
+        assert np.linalg.norm(spin - found["spins"][k, 0]) * radius <= 1e-3 * size

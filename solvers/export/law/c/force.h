@@ -40,10 +40,13 @@ static double follow_line(line *l, const bodies *b, double time, law_pair_histor
             found->status = k == SUBSTEPS ? LAW_UNDECIDED_NO_BUDGET : LAW_UNDECIDED_NOT_FINITE;
             return -1.0;
         }
-        if (l->velocity < 0.0 && l->gap <= l->h.contact)
-            meet(l, s, found, space_solid_kind(&l->h), &rebounds);
-        else if (l->velocity < 0.0 && !(space_glass_clears(&l->h, l->gap, l->velocity) > 0.0))
-            meet(l, s, found, LAW_GLASS, &rebounds);
+        int solid = l->gap <= l->h.contact;
+        if (l->velocity < 0.0 && (solid || !(space_glass_clears(&l->h, l->gap, l->velocity) > 0.0))) {
+            double before = l->velocity;
+            meet(l, s, found, solid ? space_solid_kind(&l->h) : LAW_GLASS, &rebounds);
+            if (l->h.friction != 0.0 && (solid || l->h.rubs_glass))
+                rub(b, l->gap, l->h.friction*l->mass*(l->velocity - before), l->h.returns, w);
+        }
         if (l->velocity > 0.0 && l->gap >= l->h.end) {
             s->joined = 0;
             found->events |= LAW_SEPARATES;
@@ -53,6 +56,8 @@ static double follow_line(line *l, const bodies *b, double time, law_pair_histor
         press(l, b, &here, 0.0, *w);
         if (l->gap <= l->h.contact && l->velocity == 0.0 && l->load <= here.attraction) {
             shear(b, l->gap, &here, left, w); /* at rest in contact */
+            if (l->h.friction != 0.0)
+                rub(b, l->gap, l->h.friction*(here.attraction - l->load)*left, 0.0, w);
             found->events |= LAW_RESTS;
             break;
         }
@@ -140,16 +145,16 @@ int law_contact_join(const law_material *material, double gap, double speed, law
 static double begins(const law_material *material, const bodies *b, vector3 apart, vector3 moving, double dt,
                      law_pair_history *s, law_pair_force *found)
 {
-    double touch = time_to_touch(b, apart, moving), gap = length(apart) - b->contact;
+    double meeting = time_to_touch(b, apart, moving), gap = length(apart) - b->contact;
     space_held h;
-    if (!(touch <= 0.5*dt))
+    if (!(meeting <= 0.5*dt))
         return 0.0;
     double speed = -dot(unit(apart), moving);
-    if (touch >= -1.5*dt) {
-        speed = -dot(unit(plus(apart, touch, moving)), moving);
+    if (meeting >= -1.5*dt) {
+        speed = -dot(unit(plus(apart, meeting, moving)), moving);
         gap = b->film;
     } else
-        touch = -0.5*dt; /* it cannot have come so far in a step: it is taken as it is */
+        meeting = -0.5*dt; /* it cannot have come so far in a step: it is taken as it is */
     if (!(speed > 0.0))
         return 0.0;
     found->status = check_material(material);
@@ -160,7 +165,7 @@ static double begins(const law_material *material, const bodies *b, vector3 apar
     /* others may have pushed the host's spheres into each other: its distance is led back to a contact of solids */
     join(s, fmax(gap, h.contact > 0.0 ? h.contact : 1e-3*b->film), speed);
     found->events = LAW_BEGINS;
-    return 0.5*dt - touch;
+    return 0.5*dt - meeting;
 }
 
 /* A step of the host: what it gives, SI, and from when to when the contact acts, beside the time of the positions. */

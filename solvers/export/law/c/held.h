@@ -14,6 +14,8 @@ typedef struct {
     double film, speed, force, torque; /* units of gap, velocity and force, and of torque over slip */
     double contact, end;               /* gaps at which solids meet and the pair separates, m */
     vec edge;                          /* of the tangential force, in film thicknesses */
+    double friction, returns;          /* of the dry contact: Coulomb's coefficient, and its tangential restitution */
+    int rubs_glass;
 } held;
 
 /* Means between two gaps: film force over velocity, attractions, and torques over slips. */
@@ -44,6 +46,13 @@ static void hold(held *h, const law_material *m, double speed)
     h->end = h->film;
 #endif
     h->edge = tangential_edge(&h->c);
+    h->friction = h->returns = 0.0;
+    h->rubs_glass = 0;
+#if FRICTION
+    h->friction = m->friction;
+    h->returns = m->contact_tangential_restitution;
+    h->rubs_glass = FRICTION_ON_GLASS;
+#endif
 }
 
 static response mean_response(const held *h, double from, double to, double velocity)

@@ -46,6 +46,24 @@ static void shear(const bodies *b, double gap, const response *r, double time, w
     }
 }
 
+/* Friction of the dry contact: an impulse against the slip of the surfaces, at mid-gap, that turns a part of it around, or
+ * the largest that there is. */
+static void rub(const bodies *b, double gap, double most, double returns, whirl *w)
+{
+    double distance = b->contact + gap, compliance = 1.0/b->reduced_mass;
+    vector3 turning = times(1.0/(distance*distance), w->moment), slip = times(0.0, w->n), impulse;
+    for (int k = 0; k < 2; k++) {
+        double arm = distance*b->radius[k]/b->contact;
+        compliance += arm*arm/b->inertia[k];
+        slip = plus(slip, arm, plus(turning, -1.0, w->spin[k]));
+    }
+    double sticking = (1.0 + returns)/compliance*length(slip);
+    impulse = times((1.0 + returns)/compliance*(sticking <= most ? 1.0 : most/sticking), slip);
+    for (int k = 0; k < 2; k++)
+        w->spin[k] = plus(w->spin[k], distance*b->radius[k]/(b->contact*b->inertia[k]), impulse);
+    w->moment = plus(w->moment, -distance/b->reduced_mass, impulse);
+}
+
 /* v, turned as one unit vector is into another. */
 static vector3 turned(vector3 v, vector3 from, vector3 to)
 {
