@@ -372,7 +372,7 @@ class Page {
   /** Why a normal restitution exceeds 1, from the energies at its beginning and end. */
   private gain({ found, path }: Shown): string {
     if (!(found.restitution > 1) || !path || (scene.wall && !scene.ledger)) return "";
-    const [first, last] = [path.energies(path.at(0)), path.energies(path.at(path.end))];
+    const [first, last] = [path.before, path.energies(path.at(path.end))];
     const turning = (each: number[]): number => each[1]! + each[2]!;
     return ` It leaves faster along the line of centres than it came, with ${percent(last[0])} of the kinetic energy before in place of ${percent(first[0])}: rotation gave up ${percent(turning(first) - turning(last))}, of which ${percent(last[0] - first[0])} went into the normal motion and the rest into liquid and contact.`;
   }
@@ -545,7 +545,7 @@ class Page {
     python: (state: State): string => python(state, scene, this.law),
     shown: (): Shown => this.shown,
     ledger: (part: number): [string, string, number][] => this.shown.path!.ledger(this.shown.path!.at(part * this.shown.path!.end)),
-    energies: (): number[][] => (this.shown.path ? [0, this.shown.path.end].map((t) => this.shown.path!.energies(this.shown.path!.at(t))) : []),
+    energies: (): number[][] => (this.shown.path ? [this.shown.path.before, this.shown.path.energies(this.shown.path.at(this.shown.path.end))] : []),
     map: () => ({ idle: this.mapper.idle, count: this.gridCount, refined: this.refined, ...this.mapper.timings }),
     grid: (): Grid | null => (this.map as unknown as { grid: Grid | null }).grid,
     ready: (): number => this.ready,

@@ -22,10 +22,13 @@ export interface Frame {
   spins: [number, number];
   turned: [number, number];
   apart: boolean;
+  motion: Energies; // J
   book: number[]; // the ledger, J; NaN without one
 }
 
 const CODE = 8; // place of it in a row; the ledger follows
+
+export type Energies = [line: number, around: number, spins: number];
 
 /** A share of the energy: its colour, its name, and how much. */
 export type Share = [colour: string, name: string, part: number];
@@ -51,6 +54,8 @@ export class Trajectory {
   readonly end: number;
   readonly separated: boolean;
   readonly tau: number;
+  readonly before: Energies; // at initial contact, before a rebound that is met there
+  private readonly whole: number;
   readonly events: PairEvent[] = [];
   readonly columns: { time: number[]; gap: number[]; velocity: number[]; rotation: number[] };
   private readonly turned: [Float64Array, Float64Array];
@@ -68,6 +73,9 @@ export class Trajectory {
     this.end = n ? rows[(n - 1) * ROW]! : 0;
     this.separated = n > 0 && rows[(n - 1) * ROW + CODE]! % 10 === 3;
     this.tau = geometry.film / impact.speed;
+    const before = this.motion(0, impact.speed);
+    this.whole = before[0] + before[1] + before[2];
+    this.before = before.map((each) => each / this.whole) as Energies;
     for (let k = 0; k < events.length; k += 3)
       this.events.push({ time: events[k]!, words: eventWords(events[k + 1]!, events[k + 2]!, scene.strings) });
     // the doublet's angle is the integrator's; only the slip is integrated here, by the trapezoidal rule
@@ -101,6 +109,7 @@ export class Trajectory {
     const turned = this.turned.map((each) => mix(each[low]!, each[high]!)) as [number, number];
     const frame: Frame = {
       time, gap: value(1), velocity: value(2), angle: value(3), rate: value(4), spins: [value(5), value(6)], turned, apart: false,
+      motion: this.motion(low).map((each, k) => mix(each, this.motion(high)[k]!)) as Energies,
       book: Array.from({ length: ROW - CODE - 1 }, (_, k) => value(CODE + 1 + k)),
     };
     const beyond = time - this.end;
@@ -148,22 +157,20 @@ export class Trajectory {
     return k < 0 ? NaN : this.columns.time[k]!;
   }
 
-  /** Shares of the initial kinetic energy: along the line of centres, orbital or along the wall, of the spins. */
-  energies(frame: Frame): [number, number, number] {
+  /** Shares of the initial kinetic energy: along the line of centres, around it or along the wall, of the spins. */
+  energies = (frame: Frame): Energies => frame.motion.map((each) => each / this.whole) as Energies;
+
+  /** Kinetic energies of a row, J; beside a wall the ledger's, as the law does not give the motion along it. */
+  private motion(row: number, velocity = this.rows[row * ROW + 2]!): Energies {
+    const { masses, radius, partner } = this.geometry;
+    const number = (k: number): number => this.rows[row * ROW + k]!;
     if (this.scene.wall) {
-      const line = (0.5 * this.geometry.masses[0] * frame.velocity ** 2) / frame.book[0]!;
-      return [line, frame.book[1]! / frame.book[0]! - line, 0];
+      const line = 0.5 * masses[0] * velocity ** 2;
+      return [line, number(CODE + 2) - 0.5 * masses[0] * number(2) ** 2, 0];
     }
-    const parts = (one: Frame): [number, number, number] => {
-      const { masses, radius, partner } = this.geometry;
-      const mass = (masses[0] * masses[1]) / (masses[0] + masses[1]);
-      const spin = (k: 0 | 1, r: number): number => 0.2 * masses[k] * (r * one.spins[k]) ** 2;
-      const across = one.rate * this.distance(one.gap);
-      return [0.5 * mass * one.velocity ** 2, 0.5 * mass * across ** 2, spin(0, radius) + spin(1, partner)];
-    };
-    const first = parts(this.at(0));
-    const total = first[0] + first[1] + first[2];
-    return parts(frame).map((each) => each / total) as [number, number, number];
+    const mass = (masses[0] * masses[1]) / (masses[0] + masses[1]);
+    const spin = (k: 0 | 1, r: number): number => 0.2 * masses[k] * (r * number(5 + k)) ** 2;
+    return [0.5 * mass * velocity ** 2, 0.5 * mass * (number(4) * this.distance(number(1))) ** 2, spin(0, radius) + spin(1, partner)];
   }
 }
 

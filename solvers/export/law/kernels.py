@@ -21,6 +21,7 @@ BOOKED = "booked_"
 """Prefix of kernels with the energy ledger, before that of their geometry."""
 IMPACT = {"speed": "speed", "angle": "angle", "impact_spin": "spin", "impact_partner_spin": "partner_spin"}
 """Quantities of an impact, and their names in it."""
+_MAPPED = 1e-6  # relative tolerance of maps
 _COMPONENTS = ("_x", "_y", "_z")
 _SHOWN = {
     "restitution": "c->restitution = {};",
@@ -134,7 +135,7 @@ class Kernel:
 def kernels(scene: Scene, rtol: float, ledger: bool = False) -> tuple[Kernel, ...]:
     """The kernels of a scene's law: along the line of centres, in a plane, and of two spheres in space.
 
-    With the ledger contacts have kernels of their own, and there is none for space.
+    With the ledger contacts have kernels of their own, the others the order for maps, and there is none for space.
 
     Each of two spheres has its own spin; only on strings they share one.
     """
@@ -144,7 +145,8 @@ def kernels(scene: Scene, rtol: float, ledger: bool = False) -> tuple[Kernel, ..
     result = []
     for prefix, oblique in ((HEAD_ON, False), (PLANE, True)):
         choice = select_model(spinning, oblique)
-        result.append(Kernel(prefix, replace(variant(scene, choice, rtol, rotation=True), limit=not ledger), spinning))
+        own = variant(scene, choice, _MAPPED if ledger else rtol, rotation=True)
+        result.append(Kernel(prefix, replace(own, limit=not ledger), spinning))
         if ledger:
             choice = select_model(spinning, oblique, full=True)
             booked = replace(variant(scene, choice, rtol, rotation=True, ledger=True), limit=True)
