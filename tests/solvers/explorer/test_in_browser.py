@@ -89,8 +89,12 @@ class Page:
     """A page of a scene that is open; what it requests and complains of is kept."""
 
     def __init__(self, tab: Any, path: Path, address: str = "") -> None:
-        self.tab, self.requests, self.complaints = tab, getattr(tab, "requests", []), getattr(tab, "complaints", [])
-        if hasattr(tab, "on"):  # Playwright's
+        self.tab = tab
+        self.requests: list[str] = []
+        self.complaints: list[str] = []
+        if not hasattr(tab, "on"):
+            self.requests, self.complaints = tab.requests, tab.complaints
+        else:  # Playwright's
             tab.on("request", lambda request: self.requests.append(request.url))
             tab.on("pageerror", lambda error: self.complaints.append(str(error)))
             tab.on("console", lambda message: self.complaints.append(message.text))
@@ -249,7 +253,8 @@ def test_a_preset_with_the_same_law_may_be_chosen(opened: Any, tmp_path: Path, f
     explore(LACTOSE, willett).write(files["laws"])
     page = opened("laws")
     assert page.ask("[...document.querySelectorAll('#preset option')].length") == 4
-    page.ask("wetdoublet.set('liquid.viscosity', 0.5)")
+    factor = next(each["factor"] for each in page.knobs if each["name"] == "liquid.viscosity")
+    page.ask(f"wetdoublet.set('liquid.viscosity', 0.5/{factor})")
     for place, scene in ((1, willett.with_entries({"liquid.viscosity": 0.5})), (2, Scene.load("glass-beads-water"))):
         page.tab.select_option("#preset", str(place))
         page.until(f"location.hash.startsWith('#scene={place}') && document.getElementById('preset').value == '{place}'")
