@@ -130,9 +130,9 @@ class Explorer:
 
 def _structure(scene: Scene) -> tuple[Any, ...]:
     """What the law of a scene depends on besides its numbers."""
-    from ..export.law.pair import pair_entries
     from ..export.law.kernels import kernels
     from ..export.law.material import material
+    from ..export.law.pair import pair_entries
 
     law_kernels = kernels(scene, RTOL)
     entries = pair_entries(scene, material(scene, law_kernels))
@@ -153,11 +153,15 @@ def _of_scene(scene: Scene, modules: dict[str, bytes]) -> dict[str, Any]:
     law = source(scene, ledger=ledger)
     layout = structures(law.header)
     given = dict(scene.given)
-    behind, ends = limits(scene, [member for _, member, _ in layout["law_material"]], [each.name for each in law.entries])
+    behind, ends = limits(
+        scene, [member for _, member, _ in layout["law_material"]], [each.name for each in law.entries]
+    )
     content = module(law, behind)
     digest = hashlib.sha256(content).hexdigest()
     modules[digest] = content
-    bridge = f"with a liquid bridge ({scene.bridge.law.capitalize()}'s law)" if scene.bridge else "without a liquid bridge"
+    bridge = (
+        f"with a liquid bridge ({scene.bridge.law.capitalize()}'s law)" if scene.bridge else "without a liquid bridge"
+    )
     return {
         "name": scene.name or "scene",
         "title": "A wet sphere hits a wall" if scene.wall else "Two wet particles collide",

@@ -29,5 +29,7 @@ def widget(html: str) -> Any:
         import traitlets
     except ImportError:
         return None
-    traits = {name: traitlets.Unicode(html if name == "html" else "").tag(sync=True) for name in ("html", "address", "toml")}
+    traits = {
+        name: traitlets.Unicode(html if name == "html" else "").tag(sync=True) for name in ("html", "address", "toml")
+    }
     return type("ExplorerWidget", (anywidget.AnyWidget,), {"_esm": _MODULE, "__module__": __name__, **traits})()

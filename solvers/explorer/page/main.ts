@@ -374,7 +374,7 @@ class Page {
     if (!(found.restitution > 1) || !path || (scene.wall && !scene.ledger)) return "";
     const [first, last] = [path.before, path.energies(path.at(path.end))];
     const turning = (each: number[]): number => each[1]! + each[2]!;
-    return ` It leaves faster along the line of centres than it came, with ${percent(last[0])} of the kinetic energy before in place of ${percent(first[0])}: rotation gave up ${percent(turning(first) - turning(last))}, of which ${percent(last[0] - first[0])} went into the normal motion and the rest into liquid and contact.`;
+    return ` It leaves faster along the line of centres than it came, with ${percent(last[0])} of the kinetic energy before in place of ${percent(first[0])}: rotation gave up ${percent(turning(first) - turning(last))}, more than liquid and contact took.`;
   }
 
   private comparison(pinned: Found, now: Found): HTMLElement {

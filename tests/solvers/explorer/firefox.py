@@ -15,7 +15,8 @@ from websockets.sync.client import ClientConnection, connect
 
 _NUMBERS = '(_, x) => typeof x === "number" && !Number.isFinite(x) ? `number ${x}` : x'  # JSON has none of these
 _PREFERENCES = {
-    "app.normandy.enabled": False, "app.update.disabledForTesting": True, "browser.safebrowsing.downloads.enabled": False,
+    "app.normandy.enabled": False, "app.update.disabledForTesting": True,
+    "browser.safebrowsing.downloads.enabled": False,
     "browser.safebrowsing.malware.enabled": False, "datareporting.policy.dataSubmissionEnabled": False,
     "network.captive-portal-service.enabled": False, "network.connectivity-service.enabled": False,
     "remote.active-protocols": 1, "toolkit.telemetry.server": "", "ui.prefersReducedMotion": 1,

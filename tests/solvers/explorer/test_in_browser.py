@@ -118,7 +118,9 @@ class Page:
 
     @property
     def knobs(self) -> list[dict[str, Any]]:
-        found: list[dict[str, Any]] = json.loads(self.ask("document.getElementById('scene').textContent"))["scenes"][0]["knobs"]
+        found: list[dict[str, Any]] = json.loads(self.ask("document.getElementById('scene').textContent"))["scenes"][0][
+            "knobs"
+        ]
         return found
 
 
@@ -257,7 +259,9 @@ def test_a_preset_with_the_same_law_may_be_chosen(opened: Any, tmp_path: Path, f
     page.ask(f"wetdoublet.set('liquid.viscosity', 0.5/{factor})")
     for place, scene in ((1, willett.with_entries({"liquid.viscosity": 0.5})), (2, Scene.load("glass-beads-water"))):
         page.tab.select_option("#preset", str(place))
-        page.until(f"location.hash.startsWith('#scene={place}') && document.getElementById('preset').value == '{place}'")
+        page.until(
+            f"location.hash.startsWith('#scene={place}') && document.getElementById('preset').value == '{place}'"
+        )
         page.settled()
         expected = collide(scene).to_dict()
         found = page.ask("wetdoublet.shown().found")
@@ -334,8 +338,34 @@ def test_random_addresses_do_no_harm(opened: Any):
     """Numbers that no scene has, keys of other pages and scraps of script: an answer or a line, and no complaint."""
     page, draw = opened("coating"), random.Random("addresses")
     names = [each["name"] for each in page.knobs]
-    others = ["scene", "pinned", "across", "upward", "impact.kind", "__proto__", "toString", "<svg onload=alert(1)>", ""]
-    values = ["NaN", "-Infinity", "1e308", "-1e308", "5e-324", "0", "-0", "never", "1e400", "0x10", "１２", "\0", "%", "%ff", "stokes"]
+    others = [
+        "scene",
+        "pinned",
+        "across",
+        "upward",
+        "impact.kind",
+        "__proto__",
+        "toString",
+        "<svg onload=alert(1)>",
+        "",
+    ]
+    values = [
+        "NaN",
+        "-Infinity",
+        "1e308",
+        "-1e308",
+        "5e-324",
+        "0",
+        "-0",
+        "never",
+        "1e400",
+        "0x10",
+        "１２",
+        "\0",
+        "%",
+        "%ff",
+        "stokes",
+    ]
     values += ["javascript:alert(1)", "<script>alert(1)</script>", "';alert(1);'", "2", "99", *names[:3], "1" * 3000]
     for _ in range(ADDRESSES):
         pairs = []
@@ -343,14 +373,18 @@ def test_random_addresses_do_no_harm(opened: Any):
             key, value = draw.choice(names + others), draw.choice([*values, repr(10 ** draw.uniform(-320, 308))])
             pairs.append(f"{draw.choice(['', '', 'pinned.'])}{key}={value}")
         text = draw.choice(["&", "&", "#", "&&"]).join(pairs)
-        page.ask("text => { location.hash = text }", text if draw.random() < 0.5 else urllib.parse.quote(text, safe="=&"))
+        page.ask(
+            "text => { location.hash = text }", text if draw.random() < 0.5 else urllib.parse.quote(text, safe="=&")
+        )
         page.ask("() => new Promise(done => setTimeout(done, 20))")
         page.until("!!document.querySelector('[role=status]').textContent.trim()")
         found = page.ask("wetdoublet.shown().found")
         assert found["status"] != 0 or found["outcome"] in (0, 1, 2), text
         if found["status"] == 0 and found["outcome"] != 0:
             assert math.isfinite(found["restitution"]), text
-        assert page.ask("document.querySelectorAll('[role=status] *, [role=alert] *').length") == 2, text  # title, words
+        assert page.ask("document.querySelectorAll('[role=status] *, [role=alert] *').length") == 2, (
+            text
+        )  # title, words
     page.settled()
     assert page.complaints == []
 
@@ -439,7 +473,9 @@ def test_the_widget_tells_python_what_it_shows(opened: Any, tmp_path: Path):
     pytest.importorskip("anywidget", reason="needs anywidget")
     page, widget = opened("granulation"), explore(GRANULATION).widget
     assert widget.html == explore(GRANULATION).html
-    model = "{values: {html: %s}, get(k) { return this.values[k] }, set(k, v) { this.values[k] = v }, save_changes() {}}"
+    model = (
+        "{values: {html: %s}, get(k) { return this.values[k] }, set(k, v) { this.values[k] = v }, save_changes() {}}"
+    )
     html = json.dumps(widget.html).replace("<", "\\u003c")
     script = f"{widget._esm}".replace("export default", "window.module =") + f"window.model = {model % html};"
     script += "module.render({model, el: document.body});"
