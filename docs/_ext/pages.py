@@ -10,6 +10,8 @@ import drawings
 import laws
 import scene_entries
 from wetdoublet.solvers.explorer.page_of_scene import explore
+from wetdoublet.solvers.scene.scene import Scene
+from wetdoublet.solvers.scene.scenefile import PRESETS
 
 DOCS = Path(__file__).resolve().parents[1]
 
@@ -27,7 +29,11 @@ def write(_app: Any = None) -> None:
         put(DOCS / name, text)
     laws.plots(DOCS / "reference" / "laws")
     drawings.write(DOCS / "_emitted")
-    put(DOCS / "_emitted" / "site" / "explorer.html", explore("granulation").html)
+    mikami = Scene.load("granulation")
+    put(
+        DOCS / "_emitted" / "site" / "explorer.html",
+        explore(*PRESETS, mikami.with_entries({"bridge.law": "willett"})).html,
+    )
     generated = DOCS.parent / "generated"
     put(DOCS / "_emitted" / "automaton.svg", (generated / "automaton.svg").read_text(encoding="utf-8"))
     put(DOCS / "_emitted" / "automaton.md", _events((generated / "automaton.md").read_text(encoding="utf-8")))

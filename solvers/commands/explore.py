@@ -8,8 +8,10 @@ from .signature import as_command
 
 
 @as_command("A page for the browser: turn the scene's knobs, see the doublet.")
-def command(output: str | None, request: options.Request) -> None:
+def command(output: str | None, others: tuple[str, ...], request: options.Request) -> None:
     """Write a page with the law of SCENE, which opens from disk in any browser and loads nothing.
+
+    Presets with the same law may be chosen in it, and the scenes of --with.
 
     Knobs for the scene's numbers, a map of outcomes over two of them, the moving doublet and its curves.
 
@@ -19,6 +21,7 @@ def command(output: str | None, request: options.Request) -> None:
 
     Options:
         -o FILE (output): File to write, .html.
+        --with SCENE (others): Another scene to choose from; may be repeated.
     """  # noqa: D301 # click wants the character itself
     scene = request.scene(remark=True)
     if output is None:
@@ -26,5 +29,5 @@ def command(output: str | None, request: options.Request) -> None:
 
     from ..explorer.page_of_scene import explore
 
-    explore(scene).write(output)
+    explore(scene, *others).write(output)
     click.echo(output)

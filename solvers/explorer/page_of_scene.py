@@ -1,4 +1,4 @@
-"""The page of a scene: one HTML file that holds everything it needs."""
+"""The page of scenes: one HTML file that holds everything it needs."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..engines.settings import RTOL
 from ..host import files
 from ..scene.scene import Scene
+from ..scene.scenefile import PRESETS
 from ..scene.schema import SPEEDS
 
 if TYPE_CHECKING:
@@ -25,9 +27,9 @@ _PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width,initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'sha256-{script_digest}' \
 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:">
-<title>{title}</title><style>{style}</style></head>
-<body><header><h1>{what}</h1>
-<p>Scene “{name}”, {bridge}. Turn a knob, or pick an impact in the map. Everything is computed in this page, by
+<title>wetdoublet: {name}</title><style>{style}</style></head>
+<body><header><h1>{title}</h1>
+<p><span>{about}</span> Turn a knob, or pick an impact in the map. Everything is computed in this page, by
 wetdoublet {version}.</p></header>
 <script type="application/json" id="scene">{data}</script>
 <script>{script}</script></body></html>
@@ -35,10 +37,10 @@ wetdoublet {version}.</p></header>
 
 
 class Explorer:
-    """The page of a scene; in a notebook it shows itself.
+    """The page of scenes, the first of which is shown; in a notebook it shows itself.
 
     Arguments:
-        scene: with an impact.
+        scenes: with an impact each.
 
     Raises:
         InputError: a scene without an impact.
@@ -49,9 +51,15 @@ class Explorer:
         'granulation'
     """
 
-    def __init__(self, scene: Scene) -> None:
-        scene.need_impact()
-        self.scene = scene
+    def __init__(self, *scenes: Scene) -> None:
+        for each in scenes:
+            each.need_impact()
+        self.scenes = scenes
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that is shown first."""
+        return self.scenes[0]
 
     @cached_property
     def html(self) -> str:
@@ -60,22 +68,39 @@ class Explorer:
         Raises:
             InputError: a law that has no recurrence, or no compiler for WebAssembly.
         """
-        scene, name = self.scene, escape(self.scene.name or "scene")
+        data = self._data()
+        first = data["scenes"][0]
         return _PAGE.format(
-            title=f"wetdoublet: {name}",
-            name=name,
-            what="A wet sphere hits a wall" if scene.wall else "Two wet particles collide",
-            bridge=f"with a liquid bridge ({escape(scene.bridge.law)})" if scene.bridge else "without a liquid bridge",
+            name=escape(first["name"]),
+            title=first["title"],
+            about=escape(first["about"]),
             version=version("wetdoublet"),
             style=_built("page.css"),
             script=_built("page.js"),
             script_digest=base64.b64encode(hashlib.sha256(_built("page.js").encode()).digest()).decode(),
-            data=json.dumps(self._data(), ensure_ascii=False, allow_nan=False).replace("<", "\\u003c"),
+            data=json.dumps(data, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c"),
         )
 
     def write(self, path: str | Path) -> None:
         """Write the page. InputError as for `html`; OSError if the file cannot be written."""
         files.write(path, self.html)
+
+    @cached_property
+    def widget(self) -> Any:
+        """The page as an anywidget: `.toml` is the scene that it shows, `.address` its state; None without anywidget.
+
+        Example:
+            >>> page = wd.explore("granulation")  # doctest: +SKIP
+            >>> wd.Scene.from_toml(page.widget.toml)  # doctest: +SKIP
+        """
+        from .widget import widget
+
+        return widget(self.html)
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        if self.widget is not None:
+            return self.widget._repr_mimebundle_(**kwargs)
+        return {"text/html": self._repr_html_()}
 
     def _repr_html_(self) -> str:
         frame = "width:100%;height:900px;border:1px solid rgba(128,128,128,.35)"
@@ -83,53 +108,98 @@ class Explorer:
         return f'<iframe title="{title}" style="{frame}" srcdoc="{escape(self.html)}"></iframe>'
 
     def _data(self) -> dict[str, Any]:
-        """What the page is told of the scene."""
-        from ...generated.automaton import CRITERIA, OUTCOMES
-        from ..engines.settings import RTOL
-        from ..export.law.interface import structures
-        from ..export.law.texts import source
-        from ..formatting.style import FILLS
-        from .knobs import knobs
-        from .limits import limits
-        from .module import module
+        """What the page is told: its scenes, and their laws as modules under the digests of their bytes.
 
-        scene = self.scene
-        law = source(scene)
-        layout = structures(law.header)
-        given = dict(scene.given)
-        members = [member for _, member, _ in layout["law_material"]]
-        behind, ends = limits(scene, members, [each.name for each in law.entries])
+        A preset joins if its law is among those of the scenes.
+        """
+        modules: dict[str, bytes] = {}
+        structures = {_structure(each) for each in self.scenes}
+        presets = map(Scene.load, PRESETS)
+        more = [each for each in presets if each.given not in {known.given for known in self.scenes}]
+        scenes = [_of_scene(each, modules) for each in self.scenes]
+        scenes += [_of_scene(each, modules) for each in more if _structure(each) in structures]
         return {
-            "name": scene.name or "scene",
-            "rtol": RTOL,
-            "wasm": base64.b64encode(gzip.compress(module(law, behind), 9, mtime=0)).decode(),
             "worker": _built("worker.js"),
-            "layout": {
-                name: [[kind, member] for kind, member, _ in layout[f"law_{name}"]]
-                for name in ("pair_entries", "material", "impact", "collision")
+            "modules": {
+                digest: base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
+                for digest, content in modules.items()
             },
-            "entries": {each.name: each.value for each in law.entries},
-            "knobs": knobs(scene, law.entries, law.impact),
-            "speed": next(name for name in SPEEDS if name in given).partition(".")[2],
-            "own_model": scene.package is not None,
-            "wall": scene.wall,
-            "strings": scene.pendulum is not None,
-            "tables": _tables(scene, law),
-            "limits": ends,
-            "outcomes": list(OUTCOMES),
-            "criteria": list(CRITERIA),
-            "colours": list(FILLS.values()),
+            "scenes": scenes,
         }
 
 
-def explore(scene: Scene | str | Path) -> Explorer:
+def _structure(scene: Scene) -> tuple[Any, ...]:
+    """What the law of a scene depends on besides its numbers."""
+    from ..export.law.kernels import kernels
+    from ..export.law.material import material
+    from ..export.law.pair import pair_entries
+
+    law_kernels = kernels(scene, RTOL)
+    entries = pair_entries(scene, material(scene, law_kernels))
+    return (*(each.choice for each in law_kernels), *(each.name for each in entries), scene.particles.friction is None)
+
+
+def _of_scene(scene: Scene, modules: dict[str, bytes]) -> dict[str, Any]:
+    """What the page is told of a scene, whose law joins the modules."""
+    from ...generated.automaton import CRITERIA, OUTCOMES
+    from ..export.law.interface import structures
+    from ..export.law.texts import source
+    from ..formatting.style import FILLS
+    from .knobs import knobs
+    from .limits import limits
+    from .module import module
+
+    ledger = scene.particles.friction is None  # a kernel with a ledger leaves rest with friction to CasADi
+    law = source(scene, ledger=ledger)
+    layout = structures(law.header)
+    given = dict(scene.given)
+    behind, ends = limits(
+        scene, [member for _, member, _ in layout["law_material"]], [each.name for each in law.entries]
+    )
+    content = module(law, behind)
+    digest = hashlib.sha256(content).hexdigest()
+    modules[digest] = content
+    bridge = (
+        f"with a liquid bridge ({scene.bridge.law.capitalize()}'s law)" if scene.bridge else "without a liquid bridge"
+    )
+    return {
+        "name": scene.name or "scene",
+        "title": "A wet sphere hits a wall" if scene.wall else "Two wet particles collide",
+        "about": f"Scene “{scene.name or 'scene'}”, {bridge}.",
+        "rtol": RTOL,
+        "module": digest,
+        "layout": {
+            name: [[kind, member] for kind, member, _ in layout[f"law_{name}"]]
+            for name in ("pair_entries", "material", "impact", "collision")
+        },
+        "entries": {each.name: each.value for each in law.entries},
+        "knobs": knobs(scene, law.entries, law.impact),
+        "speed": next(name for name in SPEEDS if name in given).partition(".")[2],
+        "own_model": scene.package is not None,
+        "wall": scene.wall,
+        "strings": scene.pendulum is not None,
+        "ledger": ledger,
+        "attraction": scene.attraction is not None,
+        "bridge": scene.bridge is not None,
+        "tables": _tables(scene, law),
+        "limits": ends,
+        "outcomes": list(OUTCOMES),
+        "criteria": list(CRITERIA),
+        "colours": list(FILLS.values()),
+    }
+
+
+def explore(scene: Scene | str | Path, *others: Scene | str | Path) -> Explorer:
     """Return the page of a scene, which shows itself in a notebook and is written by `.write("explorer.html")`.
 
     The page needs no network and no server: the scene's law runs in it as WebAssembly. It has knobs for the numbers of
     the scene (in their units), a map of outcomes over two of them, the moving doublet, and curves.
 
+    Presets that have the same law may be chosen in it; `others` add scenes with laws of their own.
+
     Arguments:
         scene: a Scene, a path or a preset's name; it has an impact.
+        others: as `scene`, such as the same with another bridge law.
 
     Raises:
         InputError: a scene without an impact. To write the page needs a compiler for WebAssembly, which
@@ -140,7 +210,7 @@ def explore(scene: Scene | str | Path) -> Explorer:
         >>> page = wd.explore("granulation")
         >>> page.write("explorer.html")  # doctest: +SKIP
     """
-    return Explorer(Scene.load(scene))
+    return Explorer(*map(Scene.load, (scene, *others)))
 
 
 def _built(name: str) -> str:

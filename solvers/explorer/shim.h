@@ -1,10 +1,11 @@
 /* What the page calls, behind the text of a law: arrays at fixed places, so that it allocates nothing. */
-enum { CELLS = 4096, ROWS = 1200, EVENTS = 64, WIDTH = 9 };
+enum { CELLS = 4096, ROWS = 1200, EVENTS = 64, WIDTH = 18 };
 static law_pair_entries pair_entries;
 static law_material material;
 static law_impact impacts[CELLS];
 static law_collision collisions[CELLS];
-static double rows[ROWS][WIDTH]; /* time, gap, normal velocity, rotation, its rate, spins, smallest gap, code */
+/* time, gap, normal velocity, rotation, its rate, spins, smallest gap, code; the ledger, NaN where there is none */
+static double rows[ROWS][WIDTH];
 static double events[EVENTS][3]; /* time, code before, code behind it */
 static int event_count;
 
@@ -38,14 +39,20 @@ static int code_of(const law_contact *c)
 
 static int write_row(const law_contact *c, int at)
 {
-    const double row[WIDTH] = {c->time,          c->gap,  c->normal_velocity, c->rotation,     c->rotation_rate,
-                               c->spin,          c->partner_spin,             c->smallest_gap, code_of(c)};
-    memcpy(rows[at], row, sizeof row);
+    const double motion[] = {c->time, c->gap,          c->normal_velocity, c->rotation, c->rotation_rate,
+                             c->spin, c->partner_spin, c->smallest_gap,    code_of(c)};
+#if defined(LAW_LEDGER)
+    memcpy(rows[at] + 9, &c->initial_energy, 9*sizeof(double));
+#else
+    for (int k = 9; k < WIDTH; k++)
+        rows[at][k] = NAN;
+#endif
+    memcpy(rows[at], motion, sizeof motion);
     return at + 1;
 }
 
-/* The first change of code before `ahead`, by bisection on copies; *c is moved behind it. */
-static void pass_event(law_contact *c, law_contact ahead)
+/* The first change of code before `ahead`, by bisection on copies; *c is moved behind it. Rows on both sides. */
+static int pass_event(law_contact *c, law_contact ahead, int count)
 {
     const int before = code_of(c);
     double low = c->time, high = ahead.time;
@@ -60,10 +67,12 @@ static void pass_event(law_contact *c, law_contact ahead)
             ahead = middle;
         }
     }
+    count = write_row(c, count);
     *c = ahead;
     events[event_count][0] = c->time;
     events[event_count][1] = before;
     events[event_count++][2] = code_of(c);
+    return write_row(c, count);
 }
 
 /* Rows of one collision (the first impact) at times that grow by a factor: until it ends, or until a stick has been
@@ -76,8 +85,8 @@ int follow(double rtol, double step, double factor, double still)
     if (law_begin(&material, impacts, rtol, 0, &contact) != LAW_OK)
         return 0;
     int count = write_row(&contact, 0);
-    for (double goal = step; count < ROWS - 2; goal += step, step *= factor) {
-        while (contact.motion < LAW_APART && count < ROWS - 2) {
+    for (double goal = step; count < ROWS - 3; goal += step, step *= factor) {
+        while (contact.motion < LAW_APART && count < ROWS - 3) {
             ahead = contact;
             if (law_advance(&ahead, goal) != LAW_OK && ahead.motion < LAW_APART)
                 return count;
@@ -85,8 +94,7 @@ int follow(double rtol, double step, double factor, double still)
                 contact = ahead;
                 break;
             }
-            pass_event(&contact, ahead);
-            count = write_row(&contact, count);
+            count = pass_event(&contact, ahead, count);
         }
         count = write_row(&contact, count);
         if (contact.motion >= LAW_APART)

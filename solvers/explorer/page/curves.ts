@@ -27,6 +27,9 @@ export class Curves {
   private pinned: Trajectory | null = null;
   private stretched = true;
   private unit = 1;
+  private end = 1;
+  private tau = 1;
+  private shape = "";
 
   constructor(
     private readonly parent: HTMLElement,
@@ -43,52 +46,62 @@ export class Curves {
   draw(): void {
     const { path, pinned } = this;
     const width = this.parent.clientWidth;
-    this.plots.forEach((each) => each.destroy());
-    [this.plots, this.heads] = [[], []];
-    if (!path || !width) return;
-    const end = Math.max(path.end, pinned?.end ?? 0);
-    const [unit, letter] = prefix(end);
-    this.unit = unit;
-    const tau = Math.min(path.tau, end / 2);
-    const panels = PANELS.filter((each) => each.column !== "rotation" || path.geometry.partner); // beside a wall nothing turns
-    this.plots = panels.map((panel, k) => {
-      const most = Math.max(...path.columns[panel.column].map(Math.abs), 1e-300);
+    const panels = path && width ? PANELS.filter((each) => each.column !== "rotation" || path.geometry.partner) : []; // beside a wall nothing turns
+    const shape = `${panels.length} ${width} ${this.stretched} ${!!pinned} ${font(1)}`;
+    if (shape !== this.shape || !path) {
+      this.plots.forEach((each) => each.destroy());
+      this.heads = [];
+      this.plots = panels.map((_, k) => this.make(k, width, k === panels.length - 1));
+      this.shape = shape;
+    }
+    if (!path) return;
+    this.end = Math.max(path.end, pinned?.end ?? 0);
+    const [unit, letter] = prefix(this.end);
+    [this.unit, this.tau] = [unit, Math.min(path.tau, this.end / 2)];
+    panels.forEach((panel, k) => {
+      const plot = this.plots[k]!;
+      const most = path.columns[panel.column].reduce((all, each) => Math.max(all, Math.abs(each)), 1e-300);
       const [scale, small] = panel.unit === "°" ? [1 / panel.factor, ""] : prefix(most);
       const tables = [path, ...(pinned ? [pinned] : [])].map(
         (each) => [each.columns.time.map((t) => t / unit), each.columns[panel.column].map((v) => v / scale)] as uPlot.AlignedData,
       );
-      const data = tables.length > 1 ? uPlot.join(tables) : tables[0]!;
-      const last = k === panels.length - 1;
-      const axis = { stroke: () => css("--soft"), grid: { stroke: () => css("--line"), width: 1 }, ticks: { show: false }, font: font(0.8) };
-      const plot = new uPlot(
-        {
-          width,
-          height: HEIGHT + (last ? 30 : 0),
-          title: `${panel.label}, ${small}${panel.unit}`,
-          legend: { show: false },
-          cursor: { show: false },
-          select: { show: false, left: 0, top: 0, width: 0, height: 0 },
-          scales: {
-            x: { time: false, range: [0, end / unit], ...(this.stretched ? { distr: 4, asinh: tau / unit } : {}) },
-          },
-          axes: [
-            { ...axis, ...(this.stretched ? { splits: () => decades(tau / unit, end / unit), filter: (_: uPlot, splits: number[]) => splits } : {}), size: last ? 26 : 8, values: last ? (_, splits) => splits.map((each) => short(each)) : () => [], label: last ? `time, ${letter}s` : undefined, labelSize: 16, labelFont: axis.font },
-            { ...axis, size: 54, space: 26 },
-          ],
-          series: [{}, { stroke: () => css("--accent"), width: 2, spanGaps: true, points: { show: false } }, ...(pinned ? [{ stroke: () => css("--pin"), width: 2, dash: [6, 4], spanGaps: true, points: { show: false } }] : [])],
-          hooks: { draw: [(u) => this.drawEvents(u, path)] },
-        },
-        data,
-        this.parent,
-      );
-      const head = document.createElement("div");
-      head.className = "head";
-      plot.over.append(head);
-      this.heads.push(head);
-      plot.over.addEventListener("pointerdown", (event) => this.pick(plot, event));
-      plot.over.addEventListener("pointermove", (event) => event.buttons && this.pick(plot, event));
-      return plot;
+      plot.root.querySelector(".u-title")!.textContent = `${panel.label}, ${small}${panel.unit}`;
+      plot.axes[0]!.label = k === panels.length - 1 ? `time, ${letter}s` : undefined!;
+      plot.scales.x!.asinh = this.tau / unit;
+      plot.setData(tables.length > 1 ? uPlot.join(tables) : tables[0]!);
     });
+  }
+
+  private make(k: number, width: number, last: boolean): uPlot {
+    const axis = { stroke: () => css("--soft"), grid: { stroke: () => css("--line"), width: 1 }, ticks: { show: false }, font: font(0.8) };
+    const line = (name: string, dash?: number[]): uPlot.Series => ({ stroke: () => css(name), width: 2, spanGaps: true, points: { show: false }, ...(dash ? { dash } : {}) });
+    const ticks = { splits: () => decades(this.tau / this.unit, this.end / this.unit), filter: (_: uPlot, splits: number[]) => splits };
+    const plot = new uPlot(
+      {
+        width,
+        height: HEIGHT + (last ? 30 : 0),
+        title: " ",
+        legend: { show: false },
+        cursor: { show: false },
+        select: { show: false, left: 0, top: 0, width: 0, height: 0 },
+        scales: { x: { time: false, range: () => [0, this.end / this.unit], ...(this.stretched ? { distr: 4, asinh: 1 } : {}) } },
+        axes: [
+          { ...axis, ...(this.stretched ? ticks : {}), size: last ? 26 : 8, values: last ? (_, splits) => splits.map((each) => short(each)) : () => [], ...(last ? { label: " ", labelSize: 16, labelFont: axis.font } : {}) },
+          { ...axis, size: 54, space: 26 },
+        ],
+        series: [{}, line("--accent"), ...(this.pinned ? [line("--pin", [6, 4])] : [])],
+        hooks: { draw: [(u) => this.path && this.drawEvents(u, this.path)] },
+      },
+      this.pinned ? [[], [], []] : [[], []],
+      this.parent,
+    );
+    const head = document.createElement("div");
+    head.className = "head";
+    plot.over.append(head);
+    this.heads[k] = head;
+    plot.over.addEventListener("pointerdown", (event) => this.pick(plot, event));
+    plot.over.addEventListener("pointermove", (event) => event.buttons && this.pick(plot, event));
+    return plot;
   }
 
   private pick(plot: uPlot, event: PointerEvent): void {

@@ -17,6 +17,7 @@ export class Doublet {
   private readonly wall = make("rect", { fill: "var(--second)", stroke: "var(--ink)" }, this.svg);
   private readonly balls = [0, 1].map((k) => make("circle", { fill: k ? "var(--second)" : "var(--first)", stroke: "var(--ink)" }, this.svg));
   private readonly marks = [0, 1].map(() => make("path", { stroke: "var(--ink)", "stroke-width": "2", fill: "none" }, this.svg));
+  private readonly arrows = [0, 1].map(() => make("path", { stroke: "var(--accent)", "stroke-width": "3", fill: "none" }, this.svg));
   private readonly clock = make("text", { x: "8", y: "18", class: "note" }, this.svg);
   private readonly gapText = make("text", { x: "8", y: `${HEIGHT - 8}`, class: "note" }, this.svg);
   private readonly bar = make("path", { stroke: "var(--ink)", "stroke-width": "2" }, this.svg);
@@ -50,6 +51,19 @@ export class Doublet {
     const walls = wall ? { y: 0, height: HEIGHT } : { y: 0, height: 0 };
     set(this.wall, { x: wallX, width: 40, ...walls });
     set(this.wallFilm, { x: wallX - coat, width: coat, ...walls });
+    // velocities relative to the centre of mass: along the line of centres, and across (beside a wall only along it)
+    const first = path.at(0);
+    const fastest = Math.hypot(first.velocity, wall ? 0 : first.rate * path.distance(first.gap)) * Math.max(share, 1 - share);
+    const speeds = [frame.velocity, wall ? 0 : frame.rate * distance];
+    [-share, 1 - share].forEach((part, k) => {
+      const long = (1.1 * g.radius * part) / fastest;
+      const [x0, y0] = centres[k]!;
+      const [x1, y1] = at(part * distance + long * speeds[0]!, long * speeds[1]!);
+      const size = Math.hypot(x1 - x0, y1 - y0);
+      const [ux, uy] = [(5 * (x1 - x0)) / size, (5 * (y1 - y0)) / size];
+      const head = `M${num(x1 - 2 * ux - uy)} ${num(y1 - 2 * uy + ux)}L${num(x1)} ${num(y1)}L${num(x1 - 2 * ux + uy)} ${num(y1 - 2 * uy - ux)}`;
+      set(this.arrows[k]!, { d: size > 4 && !(wall && k) ? `M${num(x0)} ${num(y0)}L${num(x1)} ${num(y1)}${head}` : "" });
+    });
     set(this.neck, { d: frame.apart ? "" : this.outline(path, frame, at, share, distance) });
     this.clock.textContent = `t = ${quantity(frame.time, "s")}${frame.apart ? ", apart" : ""}`;
     this.gapText.textContent = `gap ${quantity(frame.gap, "m")}`;

@@ -14,7 +14,7 @@ interface Exports {
   limits_of(k: number): number;
 }
 
-export const ROW = 9; // numbers of a row: see shim.h
+export const ROW = 18; // numbers of a row: see shim.h
 const BAD = 100; // statuses from here on are bad input
 
 export interface Collision {

@@ -9,16 +9,18 @@ import { axisLabel, RegimeMap, speedLabel } from "./map";
 import { address, copyOf, fromAddress, initial, python, readNumber, toml } from "./state";
 import { answer, degrees, OUTCOMES, percent, pretty, quantity, short } from "./text";
 import { geometry, Trajectory } from "./trajectory";
-import type { Knob, Scene, SpeedKind, State } from "./scene";
+import type { Knob, Scene, SpeedKind, State, Told } from "./scene";
 
 const SECONDS = 6; // of the animation at speed 1
 const TITLE = 20; // px above a panel of a saved picture
 const LISTED = 9; // events named below the curves
 const AFTER = 0.3; // of that, behind a separation
-const scene = JSON.parse(document.getElementById("scene")!.textContent!) as Scene;
+const told = JSON.parse(document.getElementById("scene")!.textContent!) as Told;
+const labels = told.scenes.map(({ name, about }, k) => (told.scenes.findIndex((each) => each.name === name) === k ? name : about));
+let scene: Scene; // that is open
+let speedKnob: Knob;
+let ends: readonly [number, number];
 const knobOf = (name: string): Knob => scene.knobs.find((each) => each.name === name)!;
-const speedKnob = knobOf("impact.speed");
-const ends = [speedKnob.low, speedKnob.high] as const;
 
 type Found = Collision & Impact;
 interface Shown {
@@ -73,6 +75,7 @@ class Page {
   private readonly playButton = button("", () => this.play(!this.playing));
   private readonly timing = el("span");
   private readonly beyond = el("span");
+  private readonly leaving = new AbortController();
   readonly ready: number;
   gridCount = 0;
   refined = false;
@@ -80,8 +83,9 @@ class Page {
   constructor(
     private readonly law: Law,
     module: WebAssembly.Module,
+    private readonly place: number, // of the scene
   ) {
-    const read = fromAddress(location.hash.slice(1), scene);
+    const read = fromAddress(location.hash.slice(1), scene, told.scenes.length);
     [this.state, this.pinnedState] = [read.state, read.pinned];
     const [mapBox, doubletBox, curvesBox] = [el("div", { class: "map", tabindex: "0", role: "application", "aria-label": "Map of outcomes: arrow keys move the chosen impact, with Shift farther" }), el("div", { class: "doublets" }), el("div", { class: "curves" })];
     this.layout(mapBox, doubletBox, curvesBox);
@@ -96,7 +100,8 @@ class Page {
       made.append(this.map.legend(k), ` ${name.toLowerCase()}`);
       legend!.append(made);
     });
-    this.mapper = new Mapper(scene, module, (grid) => this.onGrid(grid), Math.min(Math.max(navigator.hardwareConcurrency || 2, 1), 4));
+    // one core is left to what is seen
+    this.mapper = new Mapper(scene, module, told.worker, (grid) => this.onGrid(grid), Math.min(Math.max((navigator.hardwareConcurrency || 2) - 1, 1), 4));
     this.setKind(this.state.speed);
     this.tell(read.ignored);
     if (this.pinnedState) this.pinned = this.follow(this.pinnedState);
@@ -104,10 +109,18 @@ class Page {
     this.changed(true);
     this.repaint();
     this.play(this.playing);
-    addEventListener("hashchange", () => this.onAddress());
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.repaint());
+    const { signal } = this.leaving;
+    addEventListener("hashchange", () => this.onAddress(), { signal });
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.repaint(), { signal });
     this.ready = performance.now();
     requestAnimationFrame((now) => this.tick(now));
+  }
+
+  close(): void {
+    this.leaving.abort();
+    clearTimeout(this.hashTimer);
+    this.mapper.close();
+    document.querySelector("main")!.remove();
   }
 
   // ---- what the page is made of
@@ -118,6 +131,7 @@ class Page {
     const controls = el(
       "section",
       { class: "card controls", "aria-label": "Knobs" },
+      ...(told.scenes.length > 1 ? [this.sceneChoice()] : []),
       ...first,
       ...(rest.length ? [el("details", {}, el("summary", {}, "More"), ...rest)] : []),
       el("div", { class: "buttons" }, button("Reset", () => this.reset()), button("Pin to compare", () => this.pin(), { id: "pin" })),
@@ -154,6 +168,7 @@ class Page {
       el("label", { class: "note" }, stretch, " stretch the first instants"),
       this.energy,
       ...(scene.strings ? [el("p", { class: "note" }, "The free flight after the films part is not drawn for particles on strings.")] : []),
+      ...(scene.ledger ? [] : [el("p", { class: "note" }, "With friction of the solid contact the losses are not told apart: wetdoublet collide does.")]),
       ...(scene.wall ? [el("p", { class: "note" }, "The motion along the wall is not drawn: the exported law does not give it during contact.")] : []),
     );
     const curvesCard = el("section", { class: "card curvescard", "aria-label": "Curves in time" }, curvesBox, this.events);
@@ -188,8 +203,14 @@ class Page {
     return el("div", { class: knob === speedKnob ? "row speed" : "row" }, label, el("span", { class: "value" }, field, unit), slider);
   }
 
+  private sceneChoice(): HTMLElement {
+    const made = el("select", { id: "preset" }, ...labels.map((text, k) => el("option", { value: `${k}`, ...(k === this.place ? { selected: "" } : {}) }, text)));
+    made.addEventListener("change", () => void open(Number(made.value), this.state).then(() => document.getElementById("preset")!.focus()));
+    return el("label", { class: "row" }, "Scene ", made);
+  }
+
   private kindChoice(): HTMLSelectElement {
-    const options = [["stokes", "St"], ["speed", "m/s, normal"], ["relative_speed", "m/s, relative"]] as const;
+    const options = [["stokes", "St: inertia/viscosity"], ["speed", "m/s, normal"], ["relative_speed", "m/s, relative"]] as const;
     const made = el("select", { id: "kind", "aria-label": "What the speed is" }, ...options.map(([value, text]) => el("option", { value }, text.replace("m/s", pretty(speedKnob.unit || "m/s")))));
     made.addEventListener("change", () => {
       this.setKind(made.value as SpeedKind);
@@ -199,7 +220,7 @@ class Page {
   }
 
   private axisChoice(axis: "across" | "upward", text: string): HTMLElement {
-    const made = el("select", { id: axis }, ...scene.knobs.map((each) => el("option", { value: each.name }, each.name === "impact.speed" ? "Speed" : each.label)));
+    const made = el("select", { id: axis }, ...scene.knobs.map((each) => el("option", { value: each.name }, each.label)));
     made.addEventListener("change", () => {
       const other = axis === "across" ? "upward" : "across";
       if (made.value === this.state[other]) this.state[other] = this.state[axis];
@@ -260,8 +281,9 @@ class Page {
   }
 
   private onAddress(): void {
-    if (location.hash.slice(1) === address(this.state, this.pinnedState, scene)) return;
-    const read = fromAddress(location.hash.slice(1), scene);
+    if (location.hash.slice(1) === this.address()) return;
+    if (placeOf(location.hash) !== this.place) return void open(placeOf(location.hash));
+    const read = fromAddress(location.hash.slice(1), scene, told.scenes.length);
     this.state = { ...read.state };
     this.setKind(read.state.speed);
     this.pinnedState = read.pinned;
@@ -269,6 +291,8 @@ class Page {
     this.tell(read.ignored);
     this.changed(true);
   }
+
+  private address = (): string => [this.place ? `scene=${this.place}` : "", address(this.state, this.pinnedState, scene)].filter(Boolean).join("&");
 
   private tell(ignored: string[], ofAddress = true): void {
     this.note.textContent = ignored.length ? (ofAddress ? `Not understood in the address, and left out: ${ignored.slice(0, 4).join("; ")}` : ignored[0]!) : "";
@@ -293,6 +317,7 @@ class Page {
       if (document.activeElement !== field || field.getAttribute("aria-invalid") !== "true") field.value = text;
       if (knob === speedKnob) label.textContent = speedLabel(knob, this.state.speed).replace(/,.*/, "");
     }
+    for (const option of document.querySelectorAll('.axes option[value="impact.speed"]')) option.textContent = speedLabel(speedKnob, this.state.speed).replace(/,.*/, "");
     (document.getElementById("kind") as HTMLSelectElement).value = this.state.speed;
     for (const axis of ["across", "upward"] as const) (document.getElementById(axis) as HTMLSelectElement).value = this.state[axis];
     document.getElementById("pin")!.textContent = this.pinned ? "Unpin" : "Pin to compare";
@@ -306,12 +331,13 @@ class Page {
     this.code.hidden = true;
     clearTimeout(this.hashTimer);
     this.hashTimer = window.setTimeout(() => {
-      const hash = address(this.state, this.pinnedState, scene);
+      const hash = this.address();
       try {
         history.replaceState(null, "", hash ? `#${hash}` : location.pathname + location.search);
       } catch {
         // a frame without an address of its own, as in a notebook
       }
+      if (parent !== window) parent.postMessage({ wetdoublet: { address: hash, toml: this.shown.found.status ? "" : toml(this.state, scene, this.law) } }, "*");
     }, 250);
   }
 
@@ -345,10 +371,10 @@ class Page {
 
   /** Why a normal restitution exceeds 1, from the energies at its beginning and end. */
   private gain({ found, path }: Shown): string {
-    if (!(found.restitution > 1) || !path) return "";
-    if (scene.wall) return " More normal velocity than before.";
-    const [first, last] = [path.energies(path.at(0)), path.energies(path.at(path.end))];
-    return ` It leaves faster along the line of centres than it came: of the energy of rotation, ${percent(first[1] + first[2])} of the kinetic energy before, ${percent(last[1] + last[2])} is left.`;
+    if (!(found.restitution > 1) || !path || (scene.wall && !scene.ledger)) return "";
+    const [first, last] = [path.before, path.energies(path.at(path.end))];
+    const turning = (each: number[]): number => each[1]! + each[2]!;
+    return ` It leaves faster along the line of centres than it came, with ${percent(last[0])} of the kinetic energy before in place of ${percent(first[0])}: rotation gave up ${percent(turning(first) - turning(last))}, more than liquid and contact took.`;
   }
 
   private comparison(pinned: Found, now: Found): HTMLElement {
@@ -417,7 +443,7 @@ class Page {
       if (this.clock > 1 + this.after()) this.clock = 0;
       this.frame();
     }
-    requestAnimationFrame((next) => this.tick(next));
+    if (!this.leaving.signal.aborted) requestAnimationFrame((next) => this.tick(next));
   }
 
   private frame(): void {
@@ -432,27 +458,29 @@ class Page {
     this.scrub.setAttribute("aria-valuetext", quantity(time, "s"));
     this.doublet.show(path, frame);
     this.curves.mark(time);
-    this.showEnergy(path, frame);
+    this.showEnergy(path, time);
   }
 
-  private showEnergy(path: Trajectory, frame: ReturnType<Trajectory["at"]>): void {
-    if (scene.wall) return;
-    const parts = path.energies(frame);
-    const left = parts[0] + parts[1] + parts[2];
-    const names = ["approach", "orbit", "spins", scene.strings ? "lost, or in the strings" : "lost, or in the bridge"];
-    const shares = [...parts, Math.max(1 - left, 0)];
-    if (!this.energy.children.length)
-      this.energy.append(
-        el("p", { class: "note" }, "Kinetic energy, of the initial. What is lost is not told apart: the exported law has no ledger, ", el("code", {}, "wetdoublet collide"), " has one."),
-        el("div", { class: "bar", "aria-hidden": "true" }, ...names.map((_, k) => el("i", { class: `e${k}` }))),
-        el("ul", {}, ...names.map((name, k) => el("li", {}, el("i", { class: `e${k}` }), `${name} `, el("b")))),
+  /** The ledger as it fills: what is there, what is stored, what is lost; and why they may part faster than they came. */
+  private showEnergy(path: Trajectory, time: number): void {
+    if (scene.wall && !scene.ledger) return;
+    const shares = path.ledger(path.at(Math.min(time, path.end)));
+    const ahead = path.overtakes <= time ? " Now faster along the line of centres than it came: rotation has become normal motion." : "";
+    if (this.energy.childElementCount !== 3 || this.energy.querySelectorAll("li").length !== shares.length + 1)
+      this.energy.replaceChildren(
+        el("p", { class: "note" }, "Energy, as parts of the kinetic energy before. In colour: still there, or stored; grey: lost.", el("b")),
+        el("div", { class: "bar", "aria-hidden": "true" }, ...shares.map(([colour]) => el("i", { class: colour }))),
+        el("ul", {}, ...shares.map(([colour, name]) => el("li", {}, el("i", { class: colour }), `${name} `, el("b"))), el("li", {}, "sum ", el("b"))),
       );
+    const whole = shares.reduce((sum, [, , part]) => sum + Math.max(part, 0), 0);
     const bars = this.energy.querySelectorAll<HTMLElement>(".bar i");
-    const numbers = this.energy.querySelectorAll("b");
-    shares.forEach((share, k) => {
-      bars[k]!.style.width = `${(100 * share) / Math.max(left, 1)}%`;
-      numbers[k]!.textContent = percent(share);
+    const [note, ...numbers] = this.energy.querySelectorAll("b");
+    note!.textContent = ahead;
+    shares.forEach(([, , part], k) => {
+      bars[k]!.style.width = `${(100 * Math.max(part, 0)) / whole}%`;
+      numbers[k]!.textContent = percent(part);
     });
+    numbers.at(-1)!.textContent = percent(shares.reduce((sum, [, , part]) => sum + part, 0));
   }
 
   // ---- out of the page
@@ -469,7 +497,7 @@ class Page {
     const canvases = [this.map.canvas, ...this.curves.canvases];
     const titles = ["", ...[...document.querySelectorAll(".u-title")].map((each) => each.textContent!)];
     const styled = this.doublet.svg.cloneNode(true) as SVGSVGElement;
-    const names = ["--liquid", "--first", "--second", "--ink"];
+    const names = ["--liquid", "--first", "--second", "--ink", "--accent"];
     const style = getComputedStyle(document.documentElement);
     const resolve = (text: string): string => names.reduce((all, each) => all.replaceAll(`var(${each})`, style.getPropertyValue(each).trim()), text);
     const sizes = canvases.map((each) => [each.width / devicePixelRatio, each.height / devicePixelRatio] as const);
@@ -516,7 +544,8 @@ class Page {
     toml: (state: State): string => toml(state, scene, this.law),
     python: (state: State): string => python(state, scene, this.law),
     shown: (): Shown => this.shown,
-    energies: (): number[][] => (this.shown.path ? [0, this.shown.path.end].map((t) => this.shown.path!.energies(this.shown.path!.at(t))) : []),
+    ledger: (part: number): [string, string, number][] => this.shown.path!.ledger(this.shown.path!.at(part * this.shown.path!.end)),
+    energies: (): number[][] => (this.shown.path ? [this.shown.path.before, this.shown.path.energies(this.shown.path.at(this.shown.path.end))] : []),
     map: () => ({ idle: this.mapper.idle, count: this.gridCount, refined: this.refined, ...this.mapper.timings }),
     grid: (): Grid | null => (this.map as unknown as { grid: Grid | null }).grid,
     ready: (): number => this.ready,
@@ -530,9 +559,41 @@ declare global {
   }
 }
 
-unpacked(scene.wasm)
-  .then((module) => {
-    const law = new Law(module, scene.layout, scene.knobs, scene.entries, scene.limits);
-    window.wetdoublet = new Page(law, module).handle;
-  })
+const compiled = new Map<string, Promise<WebAssembly.Module>>();
+let page: Page | null = null;
+
+/** The place of the scene that an address names; the first if it names none. */
+function placeOf(hash: string): number {
+  const name = new URLSearchParams(hash.slice(1, 4000)).get("scene") ?? "0";
+  return /^\d{1,3}$/.test(name) && Number(name) < told.scenes.length ? Number(name) : 0;
+}
+
+/** Opens a scene: as its address says, or after another state. One of the same name, with another law, keeps what both have. */
+async function open(place: number, after?: State): Promise<void> {
+  const next = told.scenes[place]!;
+  const digest = next.module;
+  if (!compiled.has(digest)) compiled.set(digest, unpacked(told.modules[digest]!));
+  const module = await compiled.get(digest)!;
+  if (after) {
+    const kept = next.name === scene.name ? { ...after, values: { ...initial(next).values, ...after.values } } : initial(next);
+    const hash = [`scene=${place}`, address(kept, null, next)].filter(Boolean).join("&");
+    try {
+      history.replaceState(null, "", `#${hash}`);
+    } catch {
+      location.hash = hash;
+    }
+  }
+  page?.close();
+  scene = next;
+  speedKnob = knobOf("impact.speed");
+  ends = (ranges[place] ??= [speedKnob.low, speedKnob.high]);
+  document.querySelector("h1")!.textContent = scene.title;
+  document.querySelector("header span")!.textContent = scene.about;
+  document.title = `wetdoublet: ${scene.name}`;
+  page = new Page(new Law(module, scene.layout, scene.knobs, scene.entries, scene.limits), module, place);
+  window.wetdoublet = page.handle;
+}
+const ranges: (readonly [number, number])[] = []; // of the speed's slider, as the scenes have it
+
+open(placeOf(location.hash))
   .catch((error: unknown) => document.body.prepend(el("p", { role: "alert", class: "card" }, `This browser cannot run the page: ${String(error)}`)));

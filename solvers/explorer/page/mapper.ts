@@ -41,10 +41,11 @@ export class Mapper {
   constructor(
     private readonly scene: Scene,
     module: WebAssembly.Module,
+    script: string,
     private readonly onGrid: (grid: Grid) => void,
     count: number,
   ) {
-    const url = URL.createObjectURL(new Blob([scene.worker], { type: "text/javascript" }));
+    const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
     const start: Start = { module, layout: scene.layout, knobs: scene.knobs, entries: scene.entries, limits: scene.limits };
     for (let k = 0; k < count; k++) {
       const worker = new Worker(url);
@@ -74,6 +75,10 @@ export class Mapper {
   request(state: State): void {
     this.wanted = copyOf(state);
     if (!this.running) void this.loop();
+  }
+
+  close(): void {
+    this.workers.forEach((each) => each.terminate());
   }
 
   get idle(): boolean {

@@ -27,8 +27,9 @@ export type Layout = Record<"pair_entries" | "material" | "impact" | "collision"
 export interface Scene {
   name: string;
   rtol: number;
-  wasm: string;
-  worker: string;
+  title: string;
+  about: string;
+  module: string; // digest of its law's
   layout: Layout;
   entries: Record<string, number>;
   knobs: Knob[];
@@ -36,11 +37,21 @@ export interface Scene {
   own_model: boolean;
   wall: boolean;
   strings: boolean;
+  ledger: boolean;
+  attraction: boolean;
+  bridge: boolean;
   tables: [string, string, string | null, string | null, string | null][];
   limits: Limit[];
   outcomes: string[];
   criteria: string[];
   colours: string[];
+}
+
+/** What the page is told: modules in base64 under their digests. */
+export interface Told {
+  worker: string;
+  modules: Record<string, string>;
+  scenes: Scene[];
 }
 
 /** Numbers of all knobs in their units; Infinity is a limit that is never met. */

@@ -39,7 +39,7 @@ export interface Read {
 }
 
 /** The state of an address; what is not understood in it is ignored, and listed. */
-export function fromAddress(text: string, scene: Scene): Read {
+export function fromAddress(text: string, scene: Scene, scenes: number): Read {
   const state = initial(scene);
   const pinned = initial(scene);
   const ignored: string[] = [];
@@ -49,6 +49,7 @@ export function fromAddress(text: string, scene: Scene): Read {
     const name = key.replace(/^pinned\./, "");
     const knob = scene.knobs.find((each) => each.name === name);
     const value = knob ? readNumber(raw, knob) : NaN;
+    if (key === "scene" && /^\d{1,3}$/.test(raw) && Number(raw) < scenes) continue; // the page reads it
     if (key === "pinned") isPinned = true;
     else if (name === "impact.kind" && KINDS.includes(raw as SpeedKind)) target.speed = raw as SpeedKind;
     else if ((key === "across" || key === "upward") && scene.knobs.some((each) => each.name === raw)) state[key] = raw;

@@ -47,9 +47,9 @@ function decided(found: Collision & Impact, scene: Scene): [string, string] {
     const criterion = found.rebound >= 0 ? ` They rebounded, as ${REBOUNDS[found.rebound]}, but did not get apart.` : "";
     return [title, `The ${what} stay together.${criterion}${proof}`];
   }
-  const parts = [`normal restitution ${found.restitution.toFixed(3)}`];
+  const parts = [`normal restitution ${found.restitution.toFixed(3)} (of the approach speed)`];
   if (Number.isFinite(found.tangential_restitution)) parts.push(`tangential ${found.tangential_restitution.toFixed(3)}`);
-  parts.push(`contact ${quantity(found.contact_time, "s")}`);
+  parts.push(`together for ${quantity(found.contact_time, "s")}`);
   if (!scene.wall) parts.push(`turned by ${degrees(found.rotation)}`);
   parts.push(`smallest gap ${quantity(found.smallest_gap, "m")}`);
   const why = found.outcome === 2 && found.rebound >= 0 ? ` They rebounded because ${REBOUNDS[found.rebound]}.` : "";

@@ -2,7 +2,8 @@
 
 from .comments import comment
 
-MEMORY = 64  # doubles; the C compiler asserts that they suffice
+MEMORY = 64  # doubles, and so many more with a ledger; the C compiler asserts that they suffice
+_BOOK = 32
 _MOTIONS = (
     ("CLOSING", "the gap falls"),
     ("OPENING", "the gap rises"),
@@ -27,11 +28,25 @@ _FIELDS = (
     ("double", "spin", "rad/s, of the sphere"),
     ("double", "partner_spin", "rad/s, of the partner"),
 )
+LEDGER = (
+    ("double", "initial_energy", "J, kinetic, at initial contact: the sum of all that follow, up to the tolerance"),
+    ("double", "kinetic_energy", "J, now"),
+    ("double", "normal_loss", "J, dissipated by the normal force of the film so far, as all that follow"),
+    ("double", "tangential_loss", "J, dissipated by the tangential force"),
+    ("double", "capillary_work", "J, work against the bridge: given back while it is negative"),
+    ("double", "attraction_work", "J, work against van der Waals forces"),
+    ("double", "dry_loss", "J, lost in the solid contact"),
+    ("double", "strings_work", "J, stored in the strings"),
+    ("double", "own_loss", "J, taken by jumps of a model's own events"),
+)
+"""The energy ledger of a contact."""
 
 
-def contact_header() -> list[str]:
+def contact_header(ledger: bool) -> list[str]:
     """Lines of the header: the state of a contact, and the functions that begin and advance it."""
+    fields = (*_FIELDS, *(LEDGER if ledger else ()))
     return [
+        *(["#define LAW_LEDGER 1", ""] if ledger else []),
         "/* Where a contact is. */",
         "enum {",
         *(f"    LAW_{name} = {k}, /* {what} */" for k, (name, what) in enumerate(_MOTIONS)),
@@ -39,15 +54,15 @@ def contact_header() -> list[str]:
         "",
         *comment(
             "A contact that the host interrupts. It may be copied and moved; read it, but change nothing. What follows "
-            "`partner_spin` is for the next call."
+            f"`{fields[-1][1]}` is for the next call."
         ),
         "typedef struct {",
-        *(f"    {kind} {name}; /* {what} */" for kind, name, what in _FIELDS),
+        *(f"    {kind} {name}; /* {what} */" for kind, name, what in fields),
         "    law_material material;",
         "    law_impact impact;",
         "    double rtol;",
         "    int budget;",
-        f"    double memory[{MEMORY}];",
+        f"    double memory[{MEMORY + _BOOK * ledger}];",
         "} law_contact;",
         "",
         *comment(

@@ -37,6 +37,7 @@ def header(
     of_impact: Sequence[Number],
     entries: Sequence[Number],
     statuses: Sequence[Result],
+    ledger: bool,
 ) -> str:
     """The text of NAME.h, with `law_` and `LAW_` in the place of the law's prefix."""
     lines = ["#ifndef LAW_H", "#define LAW_H", "", "#ifdef __cplusplus", 'extern "C" {', "#endif", ""]
@@ -89,7 +90,7 @@ def header(
         "    const law_material *material, const law_impact *impacts, long count, double rtol, int budget,",
         "    law_collision *found);",
         "",
-        *contact_header(),
+        *contact_header(ledger),
         *declarations(scene),
         "#ifdef __cplusplus",
         "}",

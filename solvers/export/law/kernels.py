@@ -17,8 +17,11 @@ from ...space.collide_pair import check_scene
 from .amalgam import Source
 
 HEAD_ON, PLANE, SPACE = "head_on", "plane", "space"
+BOOKED = "booked_"
+"""Prefix of kernels with the energy ledger, before that of their geometry."""
 IMPACT = {"speed": "speed", "angle": "angle", "impact_spin": "spin", "impact_partner_spin": "partner_spin"}
 """Quantities of an impact, and their names in it."""
+_MAPPED = 1e-6  # relative tolerance of maps
 _COMPONENTS = ("_x", "_y", "_z")
 _SHOWN = {
     "restitution": "c->restitution = {};",
@@ -118,7 +121,7 @@ class Kernel:
         lines = ["/* `rate`: the unit of angular velocities, rad/s. */"]
         lines += ["static void show(const answer *a, double rate, law_collision *c)", "{"]
         lines += [f"    {_SHOWN[name].format(f'a->shown[{k}]')}" for k, name in enumerate(names) if name in _SHOWN]
-        if self.prefix == HEAD_ON:
+        if self.prefix.endswith(HEAD_ON):
             lines += ["    c->final_spin = c->final_partner_spin = c->final_rotation_rate = 0.0;", "    (void)rate;"]
         else:
             lines.append("    c->slip_restitution = a->slip;")
@@ -129,8 +132,10 @@ class Kernel:
         return [*lines, "}", ""]
 
 
-def kernels(scene: Scene, rtol: float) -> tuple[Kernel, ...]:
+def kernels(scene: Scene, rtol: float, ledger: bool = False) -> tuple[Kernel, ...]:
     """The kernels of a scene's law: along the line of centres, in a plane, and of two spheres in space.
+
+    With the ledger contacts have kernels of their own, the others the order for maps, and there is none for space.
 
     Each of two spheres has its own spin; only on strings they share one.
     """
@@ -140,8 +145,13 @@ def kernels(scene: Scene, rtol: float) -> tuple[Kernel, ...]:
     result = []
     for prefix, oblique in ((HEAD_ON, False), (PLANE, True)):
         choice = select_model(spinning, oblique)
-        result.append(Kernel(prefix, replace(variant(scene, choice, rtol, rotation=True), limit=True), spinning))
-    if not scene.wall and not only_in_a_plane(scene):
+        own = variant(scene, choice, _MAPPED if ledger else rtol, rotation=True)
+        result.append(Kernel(prefix, replace(own, limit=not ledger), spinning))
+        if ledger:
+            choice = select_model(spinning, oblique, full=True)
+            booked = replace(variant(scene, choice, rtol, rotation=True, ledger=True), limit=True)
+            result.append(Kernel(BOOKED + prefix, booked, spinning))
+    if not ledger and not scene.wall and not only_in_a_plane(scene):
         result.append(Kernel(SPACE, variant_in_space(scene, rtol), spinning))
     return tuple(result)
 

@@ -14,7 +14,7 @@ from ...scene.groups import si_values
 from ...scene.quantities import NO_GLASS
 from ...scene.scene import Scene
 from ...scene.schema import FIELDS, Range
-from .kernels import SPACE, Kernel
+from .kernels import HEAD_ON, PLANE, Kernel
 
 LARGEST = 1e30
 """Largest magnitude of a number, and the inverse of the smallest: beyond it groups may leave a double's range."""
@@ -153,7 +153,7 @@ def checks(scene: Scene, of_material: Iterable[Number], of_impact: Iterable[Numb
     else:
         stops += f" && m->glass_transition_pressure >= {NO_GLASS!r}"
     body += [f"if ({stops})", "    return LAW_NOTHING_STOPS;"]
-    *others, last = (f"{kernel.prefix}_inconsistent(m)" for kernel in kernels if kernel.prefix != SPACE)
+    *others, last = (f"{kernel.prefix}_inconsistent(m)" for kernel in kernels if kernel.prefix in (HEAD_ON, PLANE))
     for other in others:
         body += [f"if ({other} != LAW_OK)", f"    return {other};"]
     lines = c_function("static int check_material(const law_material *m)", [*body, f"return {last};"])

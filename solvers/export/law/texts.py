@@ -14,7 +14,7 @@ from .amalgam import OWN, Source, digests, merged
 from .header import default_material, header, message_function
 from .interface import ctypes_fields, fortran, structures
 from .items import items
-from .kernels import HEAD_ON, PLANE, SPACE, Kernel, kernels, only_in_a_plane
+from .kernels import BOOKED, HEAD_ON, PLANE, SPACE, Kernel, kernels, only_in_a_plane
 from .material import Number, Result, checks, impact, material, results
 from .pair import pair_entries, pair_function
 from .vectors import table
@@ -80,11 +80,15 @@ class LawSource:
     impact: tuple[Number, ...]
 
 
-def source(scene: Scene, rtol: float = RTOL) -> LawSource:
-    """The C of a scene's law; InputError if one of its laws has no recurrence."""
-    law_kernels = kernels(scene, rtol)
+def source(scene: Scene, rtol: float = RTOL, ledger: bool = False) -> LawSource:
+    """The C of a scene's law; InputError if one of its laws has no recurrence.
+
+    Arguments:
+        ledger: contacts that a host interrupts have the energy ledger, and there are no collisions in space.
+    """
+    law_kernels = kernels(scene, rtol, ledger)
     numbers = _Numbers.of(scene, law_kernels)
-    declared = header(scene, numbers.material, numbers.impact, numbers.entries, numbers.statuses)
+    declared = header(scene, numbers.material, numbers.impact, numbers.entries, numbers.statuses, ledger)
     return LawSource(declared, _law(scene, law_kernels, numbers), numbers.entries, numbers.impact)
 
 
@@ -152,7 +156,8 @@ def _sizes(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
 def _law(scene: Scene, law_kernels: tuple[Kernel, ...], numbers: _Numbers) -> str:
     """Text of NAME.c: its kernels, and behind them the functions that a host calls."""
     called, parts = list(CALLERS), []
-    if not only_in_a_plane(scene):
+    booked = [kernel.prefix for kernel in law_kernels if kernel.prefix.startswith(BOOKED)]
+    if not booked and not only_in_a_plane(scene):
         called += space.callers(scene)
         parts.append(space.bodies(scene))
     behind = "\n".join(
@@ -165,6 +170,8 @@ def _law(scene: Scene, law_kernels: tuple[Kernel, ...], numbers: _Numbers) -> st
             *(_LINE.sub("", (OWN / name).read_text()) for name in called),
         ]
     )
+    for prefix in booked:
+        behind = behind.replace(f" {prefix.removeprefix(BOOKED)}_follow(", f" {prefix}_follow(")
     text, always, sometimes = merged(_sources(scene, law_kernels), items("law", behind)[1])
     return "\n".join([_head(scene, law_kernels), '#include "law.h"', "", *always, "", _LANES, *sometimes, text, behind])
 

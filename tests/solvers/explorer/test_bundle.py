@@ -1,6 +1,9 @@
 """The page's parts that need neither a browser nor a compiler for WebAssembly."""
 
+import base64
+import gzip
 import hashlib
+import json
 import math
 import shutil
 import subprocess
@@ -44,6 +47,22 @@ def test_the_bundle_names_no_address():
         text = (ROOM / "built" / name).read_text()
         found = {each.split('"')[0].split("`")[0].split("'")[0] for each in text.split("http")[1:]}
         assert all(each.startswith(("://www.w3.org/", "s://github.com/leeoniya/uPlot")) for each in found), found
+
+
+@pytest.mark.slow
+def test_a_law_is_compiled_to_the_same_bytes_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """In another place, with an empty cache; a page has each module under the digest of its bytes."""
+    pages = []
+    for folder in ("one", "other"):
+        monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / folder))
+        try:
+            pages.append(explore("granulation-dry-bridge").html)
+        except InputError as error:
+            pytest.skip(str(error))
+    assert pages[0] == pages[1]
+    data = json.loads(pages[0].partition('id="scene">')[2].partition("</script>")[0])
+    for digest, text in data["modules"].items():
+        assert hashlib.sha256(gzip.decompress(base64.b64decode(text))).hexdigest() == digest
 
 
 def test_without_a_compiler_the_extra_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):

@@ -10,6 +10,7 @@
 
 #include "events.h"
 #include "layout.h"
+#include "ledger.h"
 #include "model.h"
 #include "state.h"
 
@@ -20,6 +21,9 @@ struct interrupted {
     int begun, over, stuck, certified;
     int closing, resting, film;
     answer now; /* at the time reached: time, gap, smallest gap, angle turned, outputs in `shown` */
+#if WITH_LEDGER
+    ledger book; /* at that time */
+#endif
     double lane[LANE_STATE];
 };
 
@@ -57,6 +61,9 @@ static void leave(queue *q, const lanes *l, const fixed *f, int lane, const vec 
     h->resting = LANE(l->resting, lane) != 0;
     h->film = LANE(l->film, lane) != 0.0;
     h->begun = 1;
+#if WITH_LEDGER
+    close_book(&h->book, &f->c, y, lane);
+#endif
     for (int field = 0; field < LANE_STATE; field++) /* doubles or integers */
         memcpy(h->lane + field, (const char *)l + sizeof(double)*(size_t)(field*LANES + lane), sizeof(double));
 }

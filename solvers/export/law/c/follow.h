@@ -53,4 +53,21 @@ static void follow(law_contact *c, double t)
     c->rotation_rate = shown.final_rotation_rate;
     c->spin = shown.final_spin;
     c->partner_spin = shown.final_partner_spin;
+#if WITH_LEDGER
+    const ledger *book = &h.book;
+    const double unit_of_energy = c->material.reduced_mass*c->impact.speed*c->impact.speed;
+    c->initial_energy = book->initial*unit_of_energy;
+    c->kinetic_energy = book->final*unit_of_energy;
+    c->normal_loss = book->normal*unit_of_energy;
+    c->tangential_loss = book->tangential*unit_of_energy;
+    c->capillary_work = book->capillary*unit_of_energy;
+    c->attraction_work = book->attraction*unit_of_energy;
+    c->dry_loss = (book->dry + book->friction)*unit_of_energy;
+    c->strings_work = book->lifted*unit_of_energy;
+#if OWN_EVENTS
+    c->own_loss = book->own_events*unit_of_energy;
+#else
+    c->own_loss = 0.0;
+#endif
+#endif
 }

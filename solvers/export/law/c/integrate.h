@@ -28,6 +28,9 @@ static void integrate(
     q.budget = budget ? budget : MOST_STEPS_TAKEN;
 #if WITH_LIMIT
     q.contact = contact;
+#if WITH_LEDGER
+    q.books = &contact->book; /* such kernels follow contacts only */
+#endif
     if (contact)
         q.budget += contact->now.steps < INT32_MAX - q.budget ? contact->now.steps : INT32_MAX - q.budget;
 #else
