@@ -2,6 +2,9 @@
 
 import sympy as sp
 
+from ..equations.model import derive
+from ..physics.structure import structures
+from ..vocabulary import quantities as q
 from .base import Evidence, check
 
 _h, _s, _r, _y = sp.symbols("h s r y", positive=True)  # distance, steepness, size of the rate, height
@@ -61,3 +64,20 @@ def remainders_are_bounded() -> Evidence:
         bool(sp.Rational(33, 10) ** 36 / sp.factorial(36) * 2 < sp.Float("1e-22", 30)),
         "the rest of sine and cosine",
     )
+
+
+@check("energy above the least", "E = u^2/2 + E_least + (dE/dJ)^2/(2 d2E/dJ2), d2E/dJ2 > 0 by the gap alone")
+def excess_is_a_square() -> Evidence:
+    """The energy that the runtime counts above the least at the same gap, in the structures that are enclosed."""
+    tangent = sp.Symbol("tangent", positive=True)
+    for structure in structures():
+        if not structure.reduced or structure.strings:
+            continue
+        model = derive(structure)
+        energy = model.expanded(sp.Add(*model["energies"].by_name.values())).subs(q.obliquity, tangent)
+        least = model.expanded(model["effective_potential"]["energy"]).subs(q.obliquity, tangent)
+        excess = energy - least - q.normal_velocity**2 / 2
+        slope, second = (energy.diff(q.orbital_momentum, k) for k in (1, 2))
+        yield sp.simplify(excess - slope**2 / (2 * second))
+        yield sp.simplify(second.diff(q.orbital_momentum))
+        yield (sp.factor(second).is_positive is True, "the second derivative is positive")

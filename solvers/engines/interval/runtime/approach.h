@@ -128,7 +128,7 @@ static int approach(proof *w, const options *o)
         const int last = to <= iv_hi(contact), touches = at <= iv_hi(contact);
         const iv gap = iv_of(to, at), h = iv_sub(iv_point(at), iv_point(to));
         ++w->panels;
-        if (!crosses(TOGETHER, &w->p, &w->rest, gap, h, panel, &now, &after)) {
+        if (!crosses(TOGETHER, &w->p, &w->rest, gap, h, panel, NULL, &now, &after)) {
             panel *= 0.5;
             if (panel < 0.02*o->panel || touches)
                 return 0;

@@ -106,13 +106,15 @@ static int cross(enum direction way, const problem *p, flow *s, iv gap, iv h, co
     return good;
 }
 
-/* Bounds after a panel, by a few guesses of those within it. */
-static int crosses(enum direction way, const problem *p, flow *s, iv gap, iv h, double panel, const bounds *now, bounds *after)
+/* Bounds after a panel, by a few guesses of those within it: from how fast the bounds change, if that is known. */
+static int crosses(enum direction way, const problem *p, flow *s, iv gap, iv h, double panel, const double *rates, const bounds *now,
+    bounds *after)
 {
     bounds guess;
     for (int i = 0; i < OPENING; i++) {
-        double room = (i ? 0.02 : 0.1)*(panel/0.01 + 0.1)*larger(fabs(now->high[i]), fabs(now->low[i])) +
-            0.3*(now->high[i] - now->low[i]);
+        const double size = larger(fabs(now->high[i]), fabs(now->low[i]));
+        double room = 0.3*(now->high[i] - now->low[i]) + (rates ? 2.0*iv_hi(h)*rates[i] + 1e-14*size :
+            (i ? 0.02 : 0.1)*(panel/0.01 + 0.1)*size);
         guess.low[i] = i ? now->low[i] - room : larger(now->low[i] - room, 0.7*now->low[i]);
         guess.high[i] = now->high[i] + room;
     }
@@ -122,15 +124,28 @@ static int crosses(enum direction way, const problem *p, flow *s, iv gap, iv h, 
     return 0;
 }
 
+/* About how fast the bounds change over the gap, from their middle. */
+static void first_rates(const problem *p, flow *s, double gap, const bounds *now, double *rates)
+{
+    const double speed = sqrt(now->low[0] + now->high[0]);
+    iv x[STATES] = {iv_point(gap), iv_point(speed)}, rate[STATES];
+    for (int i = 1; i < OPENING; i++)
+        x[i + 1] = iv_point(0.5*now->low[i] + 0.5*now->high[i]);
+    field(p, s, x, rate, NULL);
+    for (int i = 0; i < OPENING; i++)
+        rates[i] = iv_magnitude(rate[i + 1])/(i ? speed : 1.0);
+}
+
 /* True if every trajectory from the box opens up to the rupture gap; `speed` encloses u there. The region is left as it is
- * at the end. */
+ * at the end. Panels are so short that w changes by less than a third: beside a saddle the pair opens so slowly that its
+ * distance from the saddle is what they must resolve. */
 static int funnel(problem *p, flow *s, const iv *x, region at_start, double panel, iv *speed, long *panels)
 {
     bounds now, after;
     const iv w = iv_mul(iv_point(0.5), iv_square(x[NORMAL_VELOCITY])), edge = p->level[TANGENTIAL_EDGE].v;
     const double last = iv_hi(p->level[RUPTURE_GAP].v), width = panel;
     region here = at_start;
-    double at = iv_lo(x[GAP]);
+    double at = iv_lo(x[GAP]), least = 0.0, rates[OPENING] = {0.0};
     int start = 1;
     now.low[0] = iv_lo(w);
     now.high[0] = iv_hi(w);
@@ -141,6 +156,14 @@ static int funnel(problem *p, flow *s, const iv *x, region at_start, double pane
     if (!iv_positive(x[NORMAL_VELOCITY]) || !iv_positive(x[GAP]))
         return 0;
     for (long n = 0; n < 12.0/width && now.low[0] > 0.0; n++) {
+        if (!start) {
+            if (!least)
+                first_rates(p, s, at, &now, rates);
+            panel = smaller(panel, 0.3*now.high[0]/(at*rates[0] + 1e-300));
+            least = least ? least : 1e-3*panel;
+            if (!(panel > least))
+                return 0;
+        }
         double to = start ? iv_hi(x[GAP]) : at*(1.0 + panel);
         const double film_end = here.film ? 1.0 : INFINITY;
         const double shear_end = iv_hi(here.shear) > 0.0 ? iv_lo(here.shear) > 0.0 ? iv_lo(edge) : iv_hi(edge) : INFINITY;
@@ -158,9 +181,9 @@ static int funnel(problem *p, flow *s, const iv *x, region at_start, double pane
         const iv gap = iv_of(at, to), length = iv_sub(iv_point(to), iv_point(at));
         const iv h = start ? iv_of(0.0, iv_hi(length)) : length;
         ++*panels;
-        if (!crosses(APART, p, s, gap, h, panel, &now, &after)) {
+        if (!crosses(APART, p, s, gap, h, panel, rates, &now, &after)) {
             panel *= 0.5;
-            if (start || panel < 0.01*width)
+            if (start)
                 return 0;
             continue;
         }
@@ -169,6 +192,8 @@ static int funnel(problem *p, flow *s, const iv *x, region at_start, double pane
                 after.low[i] = smaller(now.low[i], after.low[i]);
                 after.high[i] = larger(now.high[i], after.high[i]);
             }
+        for (int i = 0; i < OPENING; i++)
+            rates[i] = larger(fabs(after.low[i] - now.low[i]), fabs(after.high[i] - now.high[i]))/iv_hi(h);
         now = after;
         if (to >= last) {
             *speed = speed_of(now.low[0], now.high[0]);
