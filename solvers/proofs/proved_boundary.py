@@ -90,7 +90,7 @@ def prove_boundary(scene: Scene | str | Path, *, angle: float | str, stokes: tup
         raise ComputationError(f"not provable here: {first.reason}")
 
     def at(number: float) -> Proof:
-        return prove_inputs(Inputs.of(loaded.with_impact(stokes=number)))
+        return prove_inputs(Inputs.of(loaded.with_impact(stokes=number)), digits=False)
 
     points = [(float(number), at(float(number)).outcome) for number in np.geomspace(low, high, _LINES)]
     known = [(number, outcome) for number, outcome in points if outcome is not None]

@@ -48,7 +48,7 @@ class Settings(NamedTuple):
     panel: float = 0.01
 
 
-SHARP = Settings(14, 300, 0, 1e-13)  # what takes longer is proved with bounds over the gap, to fewer digits
+SHARP = Settings(14, 900, 0, 1e-13)  # what takes longer is proved with bounds over the gap, to fewer digits
 OUTCOME = Settings(16, 20000, 1, 1e-15, panel=0.004)
 BOX = Settings(12, 200, 2, 1e-10)
 

@@ -107,13 +107,13 @@ def prove(
     return prove_inputs(Inputs.of(loaded, within))
 
 
-def prove_inputs(inputs: Inputs) -> Proof:
-    """The proof for inputs that are checked."""
+def prove_inputs(inputs: Inputs, digits: bool = True) -> Proof:
+    """The proof for inputs that are checked; `digits` if the restitution is to be narrow."""
     x0 = inputs.scene.liquid.film_thickness
     found: Enclosure | None = None
     try:
         engine = inputs.engine()
-        for settings in (BOX,) if inputs.moving else (SHARP, OUTCOME):
+        for settings in (BOX,) if inputs.moving else (SHARP, OUTCOME)[not digits :]:
             found = enclose(engine, inputs.ranges, inputs.moving, settings)
             if found.outcome:
                 break

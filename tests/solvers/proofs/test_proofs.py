@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, collide, prove, prove_boundary, prove_map
+from wetdoublet.solvers import InputError, Scene, collide, collide_many, prove, prove_boundary, prove_map
 from wetdoublet.solvers.host.compiler import compiler
 
 from ...helpers.data import COLLISIONS
@@ -36,6 +36,36 @@ def test_a_change_lies_between_proved_outcomes() -> None:
     assert change.width < 1e-12
     below, above = (collide("granulation", stokes=change.stokes[0] * f, angle="10 deg") for f in (1 - 1e-9, 1 + 1e-9))
     assert (below.outcome, above.outcome) == change.outcomes
+
+
+@pytest.mark.slow
+def test_a_saddle_is_enclosed_between_proved_outcomes() -> None:
+    """Stick from stick-rotate-separate at 45 deg, far nearer than 1e-6; the kernel's boundary lies between."""
+    (change,) = prove_boundary("granulation", angle="45 deg", stokes=(0.03, 0.05)).changes
+    assert change.outcomes == ("stick", "stick-rotate-separate")
+    assert change.width < 1e-8
+    below, above = (collide("granulation", stokes=change.stokes[0] * f, angle="45 deg") for f in (1 - 1e-7, 1 + 1e-7))
+    assert (below.outcome, above.outcome) == change.outcomes
+
+
+@pytest.mark.slow
+def test_wide_boxes_hold_for_their_points() -> None:
+    """Boxes of 1e-3 to 0.15 in Stokes number and angle: impacts within them have the outcome, and e_n is enclosed."""
+    random, proved = np.random.default_rng(4), 0
+    for k in range(120):
+        scene = Scene.load(("granulation", "lactose-pvp", "glass-beads-water")[k % 3])
+        stokes, angle, width = np.exp(random.uniform(-4, 2)), random.uniform(0.05, 1.2), 10 ** random.uniform(-3, -0.8)
+        proof = prove(scene, stokes=float(stokes), angle=float(angle), within=float(width))
+        if not proof:
+            continue
+        proved += 1
+        at = [random.uniform(*proof.ranges[name], 10) for name in ("stokes", "angle")]
+        found = collide_many(scene, stokes=at[0], angle=at[1])
+        assert {OUTCOMES[code] for code in found.outcome.values.tolist()} == {proof.outcome}
+        low, high = proof.restitution
+        assert np.all(found.restitution.fillna(0.0) >= low - 1e-8)
+        assert np.all(found.restitution.fillna(0.0) <= high + 1e-8)
+    assert proved > 60
 
 
 @pytest.mark.parametrize("edges", [{"stokes": [0.2, 0.1]}, {"stokes": [0.1]}, {"angle": [0.0, 0.1]}, {"depth": -1}])
