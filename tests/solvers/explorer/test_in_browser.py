@@ -216,7 +216,7 @@ def test_curves_end_as_the_collision_does(name: str, anywhere: Any):
     assert times == pytest.approx(expected, rel=1e-6)
 
 
-@pytest.mark.parametrize("name", [name for name in SCENES if name != "rubbing"])
+@pytest.mark.parametrize("name", [name for name, scene in SCENES.items() if scene.particles.friction is None])
 def test_the_ledger_is_that_of_python(name: str, opened: Any):
     """It balances at all times; at the end of random separations its terms are Python's."""
     page, draw, separations = opened(name), random.Random(name), 0
@@ -246,6 +246,17 @@ def test_the_ledger_is_that_of_python(name: str, opened: Any):
         text = page.ask("document.querySelector('[role=status]').textContent")
         assert ("leaves faster" in text) == (expected["restitution"] > 1)
     assert separations == LEDGERS
+
+
+def test_with_friction_losses_are_not_told_apart(opened: Any):
+    """They are one part, which closes the sum, and the kinetic parts are those at separation."""
+    page = opened("unequal")
+    page.ask("wetdoublet.set('impact.speed', 20)")
+    expected = collide(Scene.from_toml(page.ask("wetdoublet.toml(wetdoublet.state())"))).to_dict()["energy"]
+    *kinetic, (_, words, lost) = page.ask("wetdoublet.ledger(1)")
+    assert words == "lost, or in the bridge"
+    assert sum(part for *_, part in kinetic) * expected["initial"] == pytest.approx(expected["final"], rel=1e-8)
+    assert lost == pytest.approx(1 - expected["final"] / expected["initial"], abs=1e-8)
 
 
 def test_a_preset_with_the_same_law_may_be_chosen(opened: Any, tmp_path: Path, files: dict[str, Path]):
