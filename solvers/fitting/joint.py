@@ -135,6 +135,8 @@ def problem(
     ]
     times = Counter(each.name for each in scenes)
     labels = [each.name if times[each.name] == 1 and each.name else str(k + 1) for k, each in enumerate(scenes)]
+    if len(set(labels)) < len(labels):  # a scene is called as another one's number
+        labels = [str(k + 1) for k in range(len(scenes))]
     noise = [_noise(each) for each in measured]
     known = list(dict.fromkeys(name for k, each in enumerate(scenes) for name in (*free_names(each), *noise[k])))
     chosen = check_names(free, known, "free")

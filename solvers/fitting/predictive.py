@@ -40,6 +40,7 @@ def draws(objective: Objective, best: np.ndarray, count: int, seed: int) -> tupl
     """
     free = objective.free
     centre, spread = best, whitening(objective, best)
+    count = 1 << (count - 1).bit_length()  # a power of two, as Sobol points want
     for number in (max(count // 4, 32), count):
         z = norm.ppf(qmc.Sobol(free.size, seed=seed).random(number) * (1 - 1e-9) + 5e-10)
         inner = centre + _WIDER * z @ spread.T

@@ -272,7 +272,7 @@ class Fit:
                 the scene's impacts.
             angle: impact angles, rad; likewise.
             part: index of the scene, if there are several.
-            samples: weighted draws of the entries.
+            samples: weighted draws of the entries, 32 to 4096, rounded up to a power of two.
             seed: of the draws.
 
         Returns:
@@ -286,7 +286,12 @@ class Fit:
         """
         from .predictive import draws, predicted
 
-        values, weight = draws(self.objective, self.best, check_whole(samples, "samples", 32, 4096), seed)
+        values, weight = draws(
+            self.objective,
+            self.best,
+            check_whole(samples, "samples", 32, 4096),
+            check_whole(seed, "seed", 0, 2**32 - 1),
+        )
         one = self.parts[check_whole(part, "part", 0, len(self.parts) - 1)]
         return predicted(one, self.free.names, values, weight, speed, relative_speed, angle)
 

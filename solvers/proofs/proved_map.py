@@ -122,6 +122,8 @@ def prove_map(
         engine = inputs.engine()
     except NotProvable as error:
         raise ComputationError(f"not provable here: {error}") from None
+    if progress is not None:
+        progress(0, (len(stokes) - 1) * (len(angle) - 1))
     guide = _Guide.of(loaded, stokes, angle)
     asked = 0
 

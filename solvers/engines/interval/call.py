@@ -33,8 +33,8 @@ class Settings(NamedTuple):
     Arguments:
         order: of the series.
         steps: most steps.
-        funnels: 1 if bounds over the gap are tried once the pair opens, 2 if on the approach, too, for wide boxes; they
-            prove the outcome, not the last digits.
+        funnels: bounds over the gap, which prove the outcome, not the last digits: 0 none; 1 once the pair opens, and
+            for a box where it is slow and turns; 2 on the approach, too.
         tolerance: of the remainder of a step.
         widest: the widest set that is followed, in units of the states.
         panel: relative width of the panels of these bounds.

@@ -108,12 +108,12 @@ def prove(
 
 
 def prove_inputs(inputs: Inputs, digits: bool = True) -> Proof:
-    """The proof for inputs that are checked; `digits` if the restitution is to be narrow."""
+    """The proof for inputs that are checked; with `digits` the restitution is enclosed narrowly where that is quick."""
     x0 = inputs.scene.liquid.film_thickness
     found: Enclosure | None = None
     try:
         engine = inputs.engine()
-        for settings in (BOX,) if inputs.moving else (SHARP, OUTCOME)[not digits :]:
+        for settings in (BOX,) if inputs.moving else (SHARP, OUTCOME) if digits else (OUTCOME,):
             found = enclose(engine, inputs.ranges, inputs.moving, settings)
             if found.outcome:
                 break

@@ -1,6 +1,7 @@
 #pragma once
-/* The approach by bounds over the gap, for boxes that are too wide to be followed as a set: to solid contact or the glass
- * criterion, or to where the pair turns, and apart from there; or to where all of it is behind the energy barrier. */
+/* Boxes that are too wide to be followed as a set. `approach`, by bounds over the gap: to solid contact or the glass
+ * criterion, and apart from there, or to where all of it is behind the energy barrier. `turns_apart`: a slow set turns, and
+ * opens. */
 #include "events.h"
 
 /* Bounds that hold both. */
@@ -71,14 +72,17 @@ static int turns_apart(proof *w, const iv *from, double panel)
         const double rises = slow*slow/(2.0*least), time = (fast + slow)/least;
         inside = falls < depth && rises < rise;
         for (int i = NORMAL_VELOCITY + 1; i < STATES; i++) {
-            if (iv_hi(own[i]) > 0.0)
+            if (!(iv_hi(own[i]) <= 0.0))
                 return 0;
             for (int up = 0; up < 2; up++) {
                 double *passed = up ? &above[i] : &below[i];
                 memcpy(face, x, sizeof face);
                 face[i] = iv_point(up ? iv_hi(from[i]) : iv_lo(from[i]));
                 field(&w->p, &w->rest, face, there, NULL);
-                const double change = larger(up ? iv_hi(there[i]) : -iv_lo(there[i]), 0.0)*time;
+                const double out = up ? iv_hi(there[i]) : -iv_lo(there[i]);
+                if (!(out <= DBL_MAX))
+                    return 0;
+                const double change = larger(out, 0.0)*time;
                 inside &= change <= *passed;
                 if (!(change <= *passed))
                     *passed = 1.2*change;
@@ -89,7 +93,7 @@ static int turns_apart(proof *w, const iv *from, double panel)
             depth = larger(depth, 1.2*falls + 1e-300);
             rise = larger(rise, 1.2*rises + 1e-300);
             x[GAP] = iv_add(from[GAP], iv_of(-depth, rise));
-            if (!(iv_lo(x[GAP]) > iv_hi(w->p.level[CONTACT_GAP].v) && iv_hi(x[GAP]) < 1.0))
+            if (!(iv_lo(x[GAP]) > iv_hi(w->p.level[CONTACT_GAP].v) && iv_hi(x[GAP]) < smaller(1.0, iv_lo(w->p.level[RUPTURE_GAP].v))))
                 return 0;
         }
     }
@@ -104,7 +108,7 @@ static int turns_apart(proof *w, const iv *from, double panel)
     return 1;
 }
 
-/* True with a proof; else nothing is changed but the region, which is that of initial contact. */
+/* True with a proof; else the set is as before, and the region is that of initial contact. */
 static int approach(proof *w, const options *o)
 {
     iv x[STATES];

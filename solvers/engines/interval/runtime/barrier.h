@@ -134,7 +134,8 @@ static iv by_momentum(const problem *p, const iv *x, int i, iv value)
     y[i] = d_value(value);
     y[i].mask = 1u << i;
     y[i].d[i] = iv_point(1.0);
-    return stored_energy(&p->box, y).d[i];
+    const dual energy = stored_energy(&p->box, y);
+    return HAS(&energy, i) ? energy.d[i] : iv_point(0.0);
 }
 
 /* True if the least energy rises, from a box of states on, by more than they have above it: energies beside a saddle differ
@@ -145,6 +146,8 @@ static int below_rise(const problem *p, flow *s, const iv *x)
     iv excess = iv_mul(iv_point(0.5), iv_square(x[NORMAL_VELOCITY]));
     for (int i = NORMAL_VELOCITY + 1; i < STATES; i++) {
         const iv second = iv_sub(by_momentum(p, x, i, iv_point(1.0)), by_momentum(p, x, i, iv_point(0.0)));
+        if (!iv_positive(second))
+            return 0;
         excess = iv_add(excess, iv_div(iv_square(by_momentum(p, x, i, x[i])), iv_mul(iv_point(2.0), second)));
     }
     const double rise = iv_lo(slope_of(p, s, x[GAP])), length = 2.0*iv_hi(excess)/rise;

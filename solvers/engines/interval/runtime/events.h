@@ -9,7 +9,7 @@ enum { MOST_REBOUNDS = 200 };
 #define NO_SPEED 1e-9 /* slower rebounds go on towards rest in contact, which is not enclosed */
 
 typedef struct {
-    int order, most_steps, funnels; /* funnels: 1 tried once the pair opens, 2 on the approach, too */
+    int order, most_steps, funnels; /* funnels: 1 once the pair opens or turns, 2 on the approach, too */
     double tolerance, widest, panel;
 } options;
 

@@ -29,6 +29,8 @@ static void field(const problem *p, flow *s, const iv *x, iv *rate, iv *own)
 static double lower_change(iv h, double r, iv slope, double least)
 {
     const double steep = iv_lo(slope), flat = iv_hi(slope);
+    if (!(r <= DBL_MAX) || !(least <= DBL_MAX))
+        return -INFINITY;
     if (!(flat <= 0.0))
         return iv_lo(iv_mul(h, iv_point(smaller(least, 0.0))));
     if (r < 0.0) {
@@ -155,7 +157,8 @@ static int funnel(problem *p, flow *s, const iv *x, region at_start, double pane
     }
     if (!iv_positive(x[NORMAL_VELOCITY]) || !iv_positive(x[GAP]))
         return 0;
-    for (long n = 0; n < 12.0/width && now.low[0] > 0.0; n++) {
+    const double most = (12.0 + 2.0*log(last/at))/width; /* panels */
+    for (long n = 0; n < most && now.low[0] > 0.0; n++) {
         if (!start) {
             if (!least)
                 first_rates(p, s, at, &now, rates);
