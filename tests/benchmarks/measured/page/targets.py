@@ -6,9 +6,10 @@ from typing import Any
 from wetdoublet.solvers.formatting.markdown import table
 
 from ..digits import us
+from ..gradient_work import HEYOKA as VARIATIONAL
 from ..gradient_work import HEYOKA_ALONE as VARIATIONAL_ALONE
 from ..near import GENERATED
-from ..peers.engines import HEYOKA_ALONE
+from ..peers.engines import HEYOKA, HEYOKA_ALONE
 from .beside_heyoka import BOUND, cheapest, of_collisions, of_gradients
 
 Record = dict[str, Any]
@@ -34,7 +35,7 @@ def _collisions(record: Record) -> list[tuple[str, str, str, bool]]:
     found = []
     for task in record["tasks"]:
         rows = of_collisions(task)
-        ours, theirs = cheapest(rows, "taylor"), cheapest(rows, HEYOKA_ALONE)
+        ours, theirs = cheapest(rows, "taylor"), cheapest(rows, HEYOKA_ALONE, HEYOKA)
         if ours and theirs and task["preset"] in TIMES:
             what = f"{task['preset']}: `collide_many` of outcome and restitution, error in e_n at most {BOUND:g}"
             found.append(_beside(what, TIMES[task["preset"]], COLLISIONS, theirs.seconds, ours.seconds))
@@ -48,7 +49,7 @@ def _gradients(record: Record) -> list[tuple[str, str, str, bool]]:
     found = []
     for task in record["gradient_work"]:
         rows = of_gradients(task)
-        ours, theirs = cheapest(rows, "gradients_many"), cheapest(rows, VARIATIONAL_ALONE)
+        ours, theirs = cheapest(rows, "gradients_many"), cheapest(rows, VARIATIONAL_ALONE, VARIATIONAL)
         if ours and theirs and task["preset"] in GRADIENT_TIMES:
             what = f"{task['preset']}: gradient to {len(task['parameters'])} parameters, error at most {BOUND:g}"
             found.append(_beside(what, GRADIENT_TIMES[task["preset"]], GRADIENTS, theirs.seconds, ours.seconds))
