@@ -270,7 +270,7 @@ int main(int given, char **word)
             break;
     }
     agglomerates(sizes);
-    printf("# grown %.3g; sizes", grown);
+    printf("# energy grows by %.2g of the first in a step at most; number*size:", grown);
     for (int n = 1; n <= count; n++)
         if (sizes[n])
             printf(" %d*%d", sizes[n], n);

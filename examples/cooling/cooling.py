@@ -54,7 +54,7 @@ def agglomerate(program: Path, contacts: int, seed: int, spheres: int = 300) -> 
     arguments = [str(program), *map(str, (spheres, 0.2, 1.5, 1e-3, contacts, seed))]
     text = subprocess.run(arguments, check=True, capture_output=True, text=True).stdout
     *lines, sizes = text.splitlines()
-    return np.genfromtxt(lines, delimiter=",", names=True), sizes
+    return np.genfromtxt(lines, delimiter=",", names=True), sizes.removeprefix("# ")
 
 
 def draw_cooling(rows: np.ndarray, path: Path) -> None:

@@ -79,6 +79,6 @@ def law(scene: Scene | str | Path) -> CompiledForNumba:
     def collide_many(material: Any, impacts: Any, rtol: float, found: Any) -> int:
         if material.size != 1 or found.size != impacts.size:
             raise ValueError("one material, and as many collisions as impacts")
-        return many(material.ctypes, impacts.ctypes, impacts.size, rtol, 0, found.ctypes)  # type: ignore[no-any-return]
+        return many(material.ctypes, impacts.ctypes, impacts.size, rtol, 0, found.ctypes)  # type: ignore[no-any-return] # as above
 
     return CompiledForNumba(material, impact, collision, collide_many, ctypes.cast(many, pointer).value or 0)

@@ -42,7 +42,9 @@ static int write_row(const law_contact *c, int at)
     const double motion[] = {c->time, c->gap,          c->normal_velocity, c->rotation, c->rotation_rate,
                              c->spin, c->partner_spin, c->smallest_gap,    code_of(c)};
 #if defined(LAW_LEDGER)
-    memcpy(rows[at] + 9, &c->initial_energy, 9*sizeof(double));
+    const double books[] = {c->initial_energy, c->kinetic_energy,  c->normal_loss, c->tangential_loss, c->capillary_work,
+                            c->attraction_work, c->dry_loss,       c->strings_work, c->own_loss};
+    memcpy(rows[at] + 9, books, sizeof books);
 #else
     for (int k = 9; k < WIDTH; k++)
         rows[at][k] = NAN;

@@ -29,23 +29,23 @@ def test_cells_cover_the_rectangle_and_hold_for_their_points() -> None:
             assert one.outcome == OUTCOMES[cell.outcome]
 
 
-def test_a_change_lies_between_proved_outcomes() -> None:
-    """Stick from bounce at 10 deg: two proved numbers less than 1e-12 apart; collisions just outside agree."""
-    (change,) = prove_boundary("granulation", angle="10 deg", stokes=(0.08, 0.2)).changes
-    assert change.outcomes == ("stick", "bounce")
-    assert change.width < 1e-12
-    below, above = (collide("granulation", stokes=change.stokes[0] * f, angle="10 deg") for f in (1 - 1e-9, 1 + 1e-9))
-    assert (below.outcome, above.outcome) == change.outcomes
-
-
-@pytest.mark.slow
-def test_a_saddle_is_enclosed_between_proved_outcomes() -> None:
-    """Stick from stick-rotate-separate at 45 deg, far nearer than 1e-6; the kernel's boundary lies between."""
-    (change,) = prove_boundary("granulation", angle="45 deg", stokes=(0.03, 0.05)).changes
-    assert change.outcomes == ("stick", "stick-rotate-separate")
-    assert change.width < 1e-8
-    below, above = (collide("granulation", stokes=change.stokes[0] * f, angle="45 deg") for f in (1 - 1e-7, 1 + 1e-7))
-    assert (below.outcome, above.outcome) == change.outcomes
+@pytest.mark.parametrize(
+    ("angle", "stokes", "outcomes", "width"),
+    [
+        ("10 deg", (0.08, 0.2), ("stick", "bounce"), 1e-12),
+        pytest.param("45 deg", (0.03, 0.05), ("stick", "stick-rotate-separate"), 1e-8, marks=pytest.mark.slow),
+    ],
+    ids=["bounce", "saddle"],
+)
+def test_a_change_lies_between_proved_outcomes(
+    angle: str, stokes: tuple[float, float], outcomes: tuple[str, str], width: float
+) -> None:
+    """Two proved Stokes numbers lie near each other, and the kernel agrees a little outside of them."""
+    (change,) = prove_boundary("granulation", angle=angle, stokes=stokes).changes
+    assert change.outcomes == outcomes
+    assert change.width < width
+    below, above = (collide("granulation", stokes=change.stokes[0] * f, angle=angle) for f in (1 - 1e-7, 1 + 1e-7))
+    assert (below.outcome, above.outcome) == outcomes
 
 
 @pytest.mark.slow

@@ -31,7 +31,7 @@ static int in_shear(const proof *w)
 static int rebounds_apart(proof *w, double low, double high, const bounds *b, double panel)
 {
     dual y[STATES], after[STATES];
-    iv x[STATES], speed;
+    iv x[STATES];
     x[GAP] = iv_of(low, high);
     box_of(TOGETHER, b, x);
     for (int i = 0; i < STATES; i++)
@@ -39,12 +39,13 @@ static int rebounds_apart(proof *w, double low, double high, const bounds *b, do
     rebound(&w->p.box, y, after);
     for (int i = 0; i < STATES; i++)
         x[i] = after[i].v;
-    if (!iv_positive(x[NORMAL_VELOCITY]) || !funnel(&w->p, &w->rest, x, w->here, panel, &speed, &w->panels))
-        return 0;
     w->rebounds = 1;
     w->smallest = low;
-    separate(w, speed);
-    return 1;
+    if (iv_positive(x[NORMAL_VELOCITY]) && opens(w, x, panel))
+        return 1;
+    w->rebounds = 0;
+    w->smallest = 1.0;
+    return 0;
 }
 
 /* All trajectories from a box of slow states turn within a box in which their acceleration is outward, meet no criterion
@@ -53,7 +54,7 @@ static int rebounds_apart(proof *w, double low, double high, const bounds *b, do
  * their rates fall with them. */
 static int turns_apart(proof *w, const iv *from, double panel)
 {
-    iv x[STATES], face[STATES], rate[STATES], own[STATES], there[STATES], speed;
+    iv x[STATES], face[STATES], rate[STATES], own[STATES], there[STATES];
     const double fast = -iv_lo(from[NORMAL_VELOCITY]);
     double depth = 0.0, rise = 0.0, below[STATES] = {0.0}, above[STATES] = {0.0};
     memcpy(x, from, sizeof x);
@@ -93,7 +94,8 @@ static int turns_apart(proof *w, const iv *from, double panel)
             depth = larger(depth, 1.2*falls + 1e-300);
             rise = larger(rise, 1.2*rises + 1e-300);
             x[GAP] = iv_add(from[GAP], iv_of(-depth, rise));
-            if (!(iv_lo(x[GAP]) > iv_hi(w->p.level[CONTACT_GAP].v) && iv_hi(x[GAP]) < smaller(1.0, iv_lo(w->p.level[RUPTURE_GAP].v))))
+            if (!(iv_lo(x[GAP]) > iv_hi(w->p.level[CONTACT_GAP].v) &&
+                  iv_hi(x[GAP]) < smaller(1.0, iv_lo(w->p.level[RUPTURE_GAP].v))))
                 return 0;
         }
     }
@@ -101,20 +103,18 @@ static int turns_apart(proof *w, const iv *from, double panel)
     if (clearance_of(w, x) <= 0)
         return 0;
     x[NORMAL_VELOCITY] = iv_point(slow);
-    if (!funnel(&w->p, &w->rest, x, w->here, panel, &speed, &w->panels))
+    if (!opens(w, x, panel))
         return 0;
     w->smallest = deepest;
-    separate(w, speed);
     return 1;
 }
 
-/* True with a proof; else the set is as before, and the region is that of initial contact. */
+/* True with a proof; else the set and its region are as before. */
 static int approach(proof *w, const options *o)
 {
     iv x[STATES];
     bounds now, after, met;
     const iv contact = w->p.level[CONTACT_GAP].v;
-    const region here = w->here;
     double at = 1.0, first = 0.0, panel = o->panel;
     hull_of(&w->p, &w->s, x);
     if (!in_shear(w) || !(iv_hi(contact) < 1.0) || iv_width(x[GAP]) > 0.0)
@@ -150,12 +150,8 @@ static int approach(proof *w, const options *o)
             joined(&met, &within);
             x[GAP] = iv_point(to);
             box_of(TOGETHER, &after, x);
-            if (touches || clearance_of(w, x) < 0) {
-                int found = rebounds_apart(w, to, first, &met, o->panel);
-                w->here = here;
-                enter_region(&w->p, here);
-                return found;
-            }
+            if (touches || clearance_of(w, x) < 0)
+                return rebounds_apart(w, to, first, &met, o->panel);
         } else {
             x[GAP] = iv_point(to);
             box_of(TOGETHER, &after, x);
@@ -165,12 +161,8 @@ static int approach(proof *w, const options *o)
                 return 1;
             }
         }
-        if (last && iv_hi(contact) == iv_lo(contact)) { /* contact is a number: all arrive there */
-            int found = rebounds_apart(w, to, first > 0.0 ? first : to, first > 0.0 ? &met : &after, o->panel);
-            w->here = here;
-            enter_region(&w->p, here);
-            return found;
-        }
+        if (last && iv_hi(contact) == iv_lo(contact)) /* contact is a number: all arrive there */
+            return rebounds_apart(w, to, first > 0.0 ? first : to, first > 0.0 ? &met : &after, o->panel);
         now = after;
         at = to;
         panel = smaller(o->panel, 1.5*panel);

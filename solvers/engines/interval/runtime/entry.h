@@ -28,7 +28,7 @@ static void prove(proof *w, const options *o)
     if (!begin(w) || (o->funnels > 1 && !w->rebounds && approach(w, o)))
         return;
     while (w->steps < o->most_steps) {
-        iv x[STATES], speed;
+        iv x[STATES];
         double width = 0.0;
         hull_of(&w->p, &w->s, x);
         for (int i = 0; i < STATES; i++) {
@@ -46,24 +46,16 @@ static void prove(proof *w, const options *o)
         }
         if (PARAMETERS && o->funnels && !w->rebounds && iv_lo(x[NORMAL_VELOCITY]) < 0.0 &&
             -iv_lo(x[NORMAL_VELOCITY]) < slow && in_shear(w)) {
-            const region here = w->here;
             slow = -0.7*iv_lo(x[NORMAL_VELOCITY]);
             if (turns_apart(w, x, o->panel))
                 return;
-            w->here = here;
-            enter_region(&w->p, here);
         }
         if (o->funnels && ++since > wait && iv_positive(x[NORMAL_VELOCITY]) &&
             iv_hi(x[GAP]) < iv_lo(w->p.level[RUPTURE_GAP].v)) {
-            const region here = w->here;
             since = 0;
             wait = wait < 64 ? 2*wait : 64;
-            if (funnel(&w->p, &w->rest, x, here, o->panel, &speed, &w->panels)) {
-                separate(w, speed);
+            if (opens(w, x, o->panel))
                 return;
-            }
-            w->here = here;
-            enter_region(&w->p, here);
         }
         if (!step(w, o, x, width))
             return;

@@ -212,3 +212,15 @@ static int separate(proof *w, iv speed)
     w->speed = speed;
     return end(w, w->rebounds ? BOUNCE : ROTATE, PROVED);
 }
+
+/* True if all trajectories from a box open and separate, by bounds over the gap. */
+static int opens(proof *w, const iv *x, double panel)
+{
+    iv speed;
+    if (!funnel(&w->p, &w->rest, x, w->here, panel, &speed, &w->panels)) {
+        enter_region(&w->p, w->here);
+        return 0;
+    }
+    separate(w, speed);
+    return 1;
+}

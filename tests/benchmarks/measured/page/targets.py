@@ -110,7 +110,7 @@ def headline(record: Record) -> str:
     lines = []
     for what, goal, said, _ in targets(record):
         lines += [
-            f"* {what.replace('e_n', 'the restitution')}: {said}, {peer}"
+            f"* {what.replace('e_n', 'the restitution')}: {said.replace('faster', f'faster than {peer}')}"
             for peer in (COLLISIONS, GRADIENTS)
             if goal.endswith(peer)
         ]
