@@ -276,7 +276,8 @@ class Fit:
             seed: of the draws.
 
         Returns:
-            Dataset: `probability` over (outcome, angle, speed); that of an impact at just this speed and angle. The
+            Dataset: `probability` over (outcome, angle, speed); that of an impact at just this speed and angle, which
+            adds up to less than 1 where collisions are undecided. The
             attribute `effective_draws` says how many equally weighted draws are worth as much. Its
             `.wetdoublet.plot("map.png")` draws it.
 
