@@ -58,6 +58,17 @@ def test_links_of_the_front_page_lead_somewhere():
         assert (ROOT / target).exists(), target
 
 
+def test_pictures_of_the_pages_are_there():
+    """What a page shows from beside it is in the repository."""
+    shown = [
+        page.parent / target
+        for page in PAGES
+        for target in re.findall(r"!\[[^]]*\]\(([^):]+\.png)\)", page.read_text(encoding="utf-8"))
+    ]
+    assert len(shown) > 5
+    assert not [path for path in shown if not path.exists()]
+
+
 def commands():
     """Every `wetdoublet ...` line in a block of commands, with the page it stands on."""
     for page in PAGES:
