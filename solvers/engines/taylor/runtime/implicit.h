@@ -22,13 +22,15 @@
 #include "state.h"
 #include "turning_axes.h"
 
-enum { PATIENCE = 100, COLUMNS = 7, TRIES = 4000 };
+enum { PATIENCE = SPACE ? 40 : 100, COLUMNS = SPACE ? 8 : 7, TRIES = 4000 };
 static const double WORTH = 25.0;      /* least number of Taylor steps replaced by one step, which costs five to ten */
 static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
-static const double FLOOR = 5e-14;     /* relative rounding error of a state, as amplified by extrapolation */
+static const double FLOOR = SPACE ? 1e-12 : 5e-14; /* relative rounding error of a state, as amplified by extrapolation */
 static const double LEAST = 1e-300;    /* error allowed where a state is zero and stays so */
+static const double ESTIMATED = SPACE ? 20.0 : 1.0; /* times the tolerance: the error of the column before the last one */
 #if SPACE
-static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn along is little beside what turns */
+static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn along is little beside what turns: so
+                                                much and rtol of it */
 static const double LEAST_VECTOR = 1e-3;     /* a smaller one counts as this, as in step.h */
 static const double MOST_TURNED = 1e9;       /* turns in a step */
 #else
@@ -48,6 +50,7 @@ typedef struct {
 #endif
 #if SPACE
     axes turning;
+    double rtol;
 #endif
 } slow;
 
@@ -187,10 +190,10 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
         d[state] = change[state] - table[COLUMNS - 2][state];
     }
     EACH_SIZE(state) {
-        vec size = size_of(l->y, 1, state), allowed = f->tolerance*size_of(change, 1, state) + FLOOR*size + LEAST;
+        vec size = size_of(l->y, 1, state), allowed = ESTIMATED*f->tolerance*size_of(change, 1, state) + FLOOR*size + LEAST;
 #if SPACE
         if (state >= FIRST_VECTOR && state < MODEL_STATES)
-            allowed += FLOOR_OF_VECTOR*(size + LEAST_VECTOR);
+            allowed += (w->rtol + FLOOR_OF_VECTOR)*(size + LEAST_VECTOR);
 #else
         if (state != GAP && state != NORMAL_VELOCITY && state < MODEL_STATES)
             allowed += FLOOR_OF_MOMENTUM*size;
@@ -225,6 +228,9 @@ OUTLINE void crawl(queue *q)
     w.moving = NOT(l.resting);
 #if RUBS
     w.l = &l;
+#endif
+#if SPACE
+    w.rtol = q->rtol;
 #endif
     vec least_step = WORTH*l.stride, h = 4.0*least_step;
     for (int count = 0; count < TRIES && bits(busy); count++) {
