@@ -22,7 +22,7 @@
 #include "state.h"
 #include "turning_axes.h"
 
-enum { PATIENCE = SPACE ? 40 : 100, COLUMNS = SPACE ? 8 : 7, TRIES = 4000 };
+enum { PATIENCE = SPACE ? 40 : 100, COLUMNS = SPACE ? 8 : 7, PENALTY = SPACE ? 120 : 1000, TRIES = 4000 };
 static const double WORTH = 25.0;      /* least number of Taylor steps replaced by one step, which costs five to ten */
 static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
 static const double FLOOR = SPACE ? 1e-12 : 5e-14; /* relative rounding error of a state, as amplified by extrapolation */
@@ -232,7 +232,7 @@ OUTLINE void crawl(queue *q)
 #if SPACE
     w.rtol = q->rtol;
 #endif
-    vec least_step = WORTH*l.stride, h = 4.0*least_step;
+    vec least_step = WORTH*l.stride, h = 4.0*least_step, parked = l.time;
     for (int count = 0; count < TRIES && bits(busy); count++) {
         mask sticks = proved_underway(&l, &f, q->rtol) | held_sticks(&f.c, l.y, busy, q->rtol);
 #if WELLS
@@ -286,7 +286,7 @@ OUTLINE void crawl(queue *q)
         h *= choose(clear & (error == error), vec_min(better, splat(4.0)), splat(0.25));
         mask leaves = busy & (NOT(h > least_step) | (l.steps > splat_mask(q->budget)));
         EACH_OF(lane, bits(leaves)) {
-            LANE(l.crept, lane) = LANE(taken, lane) ? 0 : -10*PATIENCE; /* without success: not again for a while */
+            LANE(l.crept, lane) = LANE(SPACE ? l.time > parked : taken, lane) ? 0 : -PENALTY; /* without success: not again for a while */
             pack(q->resumed[q->resumes++], &l, &f, lane);
         }
         busy &= NOT(leaves);
