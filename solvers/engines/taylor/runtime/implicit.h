@@ -113,15 +113,15 @@ static void eliminate(const slow *w, vec h, eliminated *e)
 /* Solves (I - h J) d = h f; quadratures have no column. */
 static void advance(const slow *w, const eliminated *e, vec h, const vec *rate, vec *d)
 {
-    for (int i = 0; i < MODEL_STATES; i++) {
+    for (int i = 0; i < MODEL_STATES; i++)
         d[i] = h*rate[i];
-        for (int j = 0; j < i; j++)
+    for (int j = 0; j < MODEL_STATES; j++) /* by columns: what is subtracted from the rows does not wait for each other */
+        for (int i = j + 1; i < MODEL_STATES; i++)
             d[i] -= e->left[i][j]*d[j];
-    }
-    for (int i = MODEL_STATES - 1; i >= 0; i--) {
-        for (int j = i + 1; j < MODEL_STATES; j++)
+    for (int j = MODEL_STATES - 1; j >= 0; j--) {
+        d[j] *= e->over[j];
+        for (int i = 0; i < j; i++)
             d[i] -= e->left[i][j]*d[j];
-        d[i] *= e->over[i];
     }
     for (int i = MODEL_STATES; i < STATES; i++) {
         d[i] = h*rate[i];
@@ -286,7 +286,8 @@ OUTLINE void crawl(queue *q)
         h *= choose(clear & (error == error), vec_min(better, splat(4.0)), splat(0.25));
         mask leaves = busy & (NOT(h > least_step) | (l.steps > splat_mask(q->budget)));
         EACH_OF(lane, bits(leaves)) {
-            LANE(l.crept, lane) = LANE(SPACE ? l.time > parked : taken, lane) ? 0 : -PENALTY; /* without success: not again for a while */
+            int came_on = SPACE ? LANE(l.time, lane) > LANE(parked, lane) : LANE(taken, lane) != 0;
+            LANE(l.crept, lane) = came_on ? 0 : -PENALTY; /* without success: not again for a while */
             pack(q->resumed[q->resumes++], &l, &f, lane);
         }
         busy &= NOT(leaves);
