@@ -98,12 +98,16 @@ typedef struct {
 static void eliminate(const slow *w, vec h, eliminated *e)
 {
     for (int i = 0; i < MODEL_STATES; i++)
+        UNROLL
         for (int j = 0; j < MODEL_STATES; j++)
             e->left[i][j] = (i == j ? 1.0 : 0.0) - h*w->rates[i][j];
+    UNROLL
     for (int k = 0; k < MODEL_STATES; k++) {
         e->over[k] = 1.0/e->left[k][k];
+        UNROLL
         for (int i = k + 1; i < MODEL_STATES; i++) {
             e->left[i][k] *= e->over[k];
+            UNROLL
             for (int j = k + 1; j < MODEL_STATES; j++)
                 e->left[i][j] -= e->left[i][k]*e->left[k][j];
         }
@@ -115,11 +119,15 @@ static void advance(const slow *w, const eliminated *e, vec h, const vec *rate, 
 {
     for (int i = 0; i < MODEL_STATES; i++)
         d[i] = h*rate[i];
+    UNROLL
     for (int j = 0; j < MODEL_STATES; j++) /* by columns: what is subtracted from the rows does not wait for each other */
+        UNROLL
         for (int i = j + 1; i < MODEL_STATES; i++)
             d[i] -= e->left[i][j]*d[j];
+    UNROLL
     for (int j = MODEL_STATES - 1; j >= 0; j--) {
         d[j] *= e->over[j];
+        UNROLL
         for (int i = 0; i < j; i++)
             d[i] -= e->left[i][j]*d[j];
     }
