@@ -22,8 +22,8 @@
 #include "state.h"
 #include "turning_axes.h"
 
-enum { PATIENCE = SPACE ? 40 : 100, COLUMNS = SPACE ? 8 : 7, PENALTY = SPACE ? 120 : 1000, TRIES = 4000 };
-static const double WORTH = 25.0;      /* least number of Taylor steps replaced by one step, which costs five to ten */
+enum { PATIENCE = SPACE ? 25 : 100, PENALTY = SPACE ? 75 : 1000, COLUMNS = SPACE ? 8 : 7, TRIES = 4000 };
+static const double WORTH = SPACE ? 10.0 : 25.0; /* least number of Taylor steps replaced by one step, which costs five to ten */
 static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
 static const double FLOOR = SPACE ? 1e-12 : 5e-14; /* relative rounding error of a state, as amplified by extrapolation */
 static const double LEAST = 1e-300;    /* error allowed where a state is zero and stays so */
@@ -36,7 +36,7 @@ static const double MOST_TURNED = 1e9;       /* turns in a step */
 #else
 static const double FLOOR_OF_MOMENTUM = 1e-12; /* more: their stiff exchange is rounded in every part of a step */
 #endif
-enum { COST = SPACE ? 16 : 6 }; /* of a step, from the budget: about as long as so many Taylor steps */
+enum { COST = SPACE ? 8 : 6 }; /* of a step, from the budget: about as long as so many Taylor steps */
 
 typedef struct {
     vec rates[STATES][MODEL_STATES]; /* derivatives of the states' rates */
