@@ -23,14 +23,13 @@
 #include "turning_axes.h"
 
 enum { PATIENCE = SPACE ? 25 : 100, PENALTY = SPACE ? 75 : 1000, COLUMNS = SPACE ? 8 : 7, TRIES = 4000 };
-static const double WORTH = SPACE ? 10.0 : 25.0; /* least number of Taylor steps replaced by one step, which costs five to ten */
+static const double WORTH = SPACE ? 10.0 : 25.0;   /* least number of Taylor steps replaced by one, which costs five to ten */
 static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
-static const double FLOOR = SPACE ? 1e-12 : 5e-14; /* relative rounding error of a state, as amplified by extrapolation */
+static const double FLOOR = SPACE ? 1e-12 : 5e-14; /* relative rounding error of a state, amplified by extrapolation */
 static const double LEAST = 1e-300;    /* error allowed where a state is zero and stays so */
-static const double ESTIMATED = SPACE ? 20.0 : 1.0; /* times the tolerance: the error of the column before the last one */
+static const double ESTIMATED = SPACE ? 20.0 : 1.0; /* times the tolerance: what the last column but one may err by */
 #if SPACE
-static const double FLOOR_OF_VECTOR = 1e-11; /* what changes in axes that turn along is little beside what turns: so
-                                                much and rtol of it */
+static const double FLOOR_OF_VECTOR = 1e-11; /* more than rtol, where that is small: little changes in these axes */
 static const double LEAST_VECTOR = 1e-3;     /* a smaller one counts as this, as in step.h */
 static const double MOST_TURNED = 1e9;       /* turns in a step */
 #else
@@ -120,7 +119,7 @@ static void advance(const slow *w, const eliminated *e, vec h, const vec *rate, 
     for (int i = 0; i < MODEL_STATES; i++)
         d[i] = h*rate[i];
     UNROLL
-    for (int j = 0; j < MODEL_STATES; j++) /* by columns: what is subtracted from the rows does not wait for each other */
+    for (int j = 0; j < MODEL_STATES; j++) /* by columns: no row waits for another */
         UNROLL
         for (int i = j + 1; i < MODEL_STATES; i++)
             d[i] -= e->left[i][j]*d[j];
@@ -198,7 +197,8 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
         d[state] = change[state] - table[COLUMNS - 2][state];
     }
     EACH_SIZE(state) {
-        vec size = size_of(l->y, 1, state), allowed = ESTIMATED*f->tolerance*size_of(change, 1, state) + FLOOR*size + LEAST;
+        vec size = size_of(l->y, 1, state);
+        vec allowed = ESTIMATED*f->tolerance*size_of(change, 1, state) + FLOOR*size + LEAST;
 #if SPACE
         if (state >= FIRST_VECTOR && state < MODEL_STATES)
             allowed += (w->rtol + FLOOR_OF_VECTOR)*(size + LEAST_VECTOR);
