@@ -23,7 +23,7 @@
 #include "turning_axes.h"
 
 enum { PATIENCE = SPACE ? 25 : 100, PENALTY = SPACE ? 75 : 1000, COLUMNS = SPACE ? 8 : 7, TRIES = 4000 };
-static const double WORTH = SPACE ? 10.0 : 25.0;   /* least number of Taylor steps replaced by one, which costs five to ten */
+static const double WORTH = SPACE ? 10.0 : 25.0; /* least number of Taylor steps replaced by one, which costs 5 to 10 */
 static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
 static const double FLOOR = SPACE ? 1e-12 : 5e-14; /* relative rounding error of a state, amplified by extrapolation */
 static const double LEAST = 1e-300;    /* error allowed where a state is zero and stays so */
