@@ -68,6 +68,18 @@ def test_wide_boxes_hold_for_their_points() -> None:
     assert proved > 60
 
 
+def test_a_part_of_a_box_may_rebound_at_initial_contact() -> None:
+    """Where the glass criterion is met at initial contact by a part of a box, all of it bounces nevertheless."""
+    below, above = (collide("granulation", stokes=stokes, angle=0.5) for stokes in (0.2344, 0.2364))
+    assert below.events[0].time > 0.0
+    assert above.events[0].time == 0.0
+    proof = prove("granulation", stokes=0.2354, angle=0.5, within=6e-3)
+    assert proof.outcome == "bounce"
+    low, high = proof.restitution
+    assert low < below.restitution < high
+    assert low < above.restitution < high
+
+
 @pytest.mark.parametrize("edges", [{"stokes": [0.2, 0.1]}, {"stokes": [0.1]}, {"angle": [0.0, 0.1]}, {"depth": -1}])
 def test_bad_maps_name_what_is_wrong(edges: dict[str, object]) -> None:
     """Edges that do not rise, head-on angles and a negative depth."""
