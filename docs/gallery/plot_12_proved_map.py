@@ -2,8 +2,8 @@
 A proved regime map
 ===================
 
-Outcomes that hold for every impact within a cell, by interval arithmetic. A cell that is not proved is halved; what is left after
-eleven halvings is undecided and black: a sliver along the boundaries, which the next makes thinner.
+Outcomes that hold for every impact within a cell, by interval arithmetic. A cell that is not proved is halved; what is
+left after eleven halvings is undecided and black: a sliver along the boundaries, which the next makes thinner.
 """
 
 import numpy as np
