@@ -70,10 +70,10 @@ class ProvedBoundary:
             named = f"{one} at St {low:.17g}, {other} at St {high:.17g}"
             lines.append(f"{named} (relative distance {each.width:.2g})")
             low, high = each.within
-            lines.append(f"  none from St {low:.10g} down and from {high:.10g} up (relative distance {high / low - 1:.2g})")
+            if each.within != each.stokes:
+                lines.append(f"  around it nothing is proved from St {low:.10g} to {high:.10g}")
         lines += [f"undecided: St {low:.10g} to {high:.10g}" for low, high in self.undecided]
-        if not self.undecided:
-            lines.append("there is no other change on the line")
+        lines.append("everywhere else on the line the outcome is proved and does not change")
         return "\n".join(lines)
 
     def to_dict(self) -> dict[str, Any]:
@@ -149,7 +149,7 @@ def _cover(
             if enclose(engine, box, inputs.moving, settings).outcome:
                 return True
         middle = math.sqrt(low * high)
-        if narrow and math.log(high / low) < _PART * away(middle) or not low < middle < high:
+        if (narrow and math.log(high / low) < _PART * away(middle)) or not low < middle < high:
             left.append((low, high))
             return False
         far, near = ((low, middle), (middle, high)) if away(low) > away(high) else ((middle, high), (low, middle))
