@@ -53,7 +53,7 @@ def test_a_change_lies_between_proved_outcomes(
     [
         ("granulation", "60 deg", (0.05, 0.5), 1),
         ("granulation", "70 deg", (0.2, 0.6), 0),
-        ("lactose-pvp", 1.3, (1, 5), 2),
+        ("lactose-pvp", 1.3, (2, 5), 1),
     ],
     ids=["one", "none", "stretches without proof"],
 )
