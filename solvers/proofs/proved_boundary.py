@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..engines.interval.call import BOX, OUTCOME, enclose
 from ..engines.interval.inputs import Inputs
 from ..engines.interval.prove import Proof, prove_inputs
 from ..errors import ComputationError, InputError
@@ -19,13 +20,23 @@ from ..scene.scene import Scene
 
 _LINES = 48  # points of a line between which changes are looked for
 _MOST = 60  # halvings
+_NARROW = 1e-5  # relative width of boxes that are followed in sharper steps where those of boxes prove nothing
+_SHARP = OUTCOME._replace(steps=2000)
+_PART = 1 / 8  # least width of a stretch, as a part of its distance from the nearest change
+Stretch = tuple[float, float]
 
 
 class Change(NamedTuple):
-    """Two Stokes numbers and their proved outcomes, between which the outcome changes at least once."""
+    """Two Stokes numbers and their proved outcomes, between which the outcome changes at least once.
 
-    stokes: tuple[float, float]
+    Attributes:
+        within: ends of the stretch around both beyond which the outcome is proved for every Stokes number, up to the
+            next stretch of the line that is not. How often it changes within is not shown.
+    """
+
+    stokes: Stretch
     outcomes: tuple[str, str]
+    within: Stretch
 
     @property
     def width(self) -> float:
@@ -37,7 +48,9 @@ class Change(NamedTuple):
 class ProvedBoundary:
     """Changes of outcome along a line of constant angle (rad), each between two proved collisions.
 
-    That there is one change only between two points, or none elsewhere, is not proved.
+    Attributes:
+        undecided: stretches of the line between two with the same outcome, in which nothing is proved. Where there is
+            none, every change of the line is within one of `changes`.
 
     Example:
         >>> from wetdoublet.solvers import prove_boundary
@@ -48,6 +61,7 @@ class ProvedBoundary:
     scene: Scene
     angle: float
     changes: tuple[Change, ...]
+    undecided: tuple[Stretch, ...]
 
     def __str__(self) -> str:
         lines = [f"at {math.degrees(self.angle):.10g} deg: {len(self.changes)} changes between proved outcomes"]
@@ -55,12 +69,21 @@ class ProvedBoundary:
             (low, high), (one, other) = each.stokes, each.outcomes
             named = f"{one} at St {low:.17g}, {other} at St {high:.17g}"
             lines.append(f"{named} (relative distance {each.width:.2g})")
+            low, high = each.within
+            if each.within != each.stokes:
+                lines.append(f"  around it nothing is proved from St {low:.10g} to {high:.10g}")
+        lines += [f"undecided: St {low:.10g} to {high:.10g}" for low, high in self.undecided]
+        lines.append("everywhere else on the line the outcome is proved and does not change")
         return "\n".join(lines)
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet prove --boundary --json`."""
-        changes = [{"stokes": list(each.stokes), "outcomes": list(each.outcomes)} for each in self.changes]
-        return {"angle": self.angle, "changes": changes, **origin(self.scene)}
+        changes = [
+            {"stokes": list(each.stokes), "outcomes": list(each.outcomes), "within": list(each.within)}
+            for each in self.changes
+        ]
+        undecided = [list(each) for each in self.undecided]
+        return {"angle": self.angle, "changes": changes, "undecided": undecided, **origin(self.scene)}
 
 
 def prove_boundary(scene: Scene | str | Path, *, angle: float | str, stokes: tuple[float, float]) -> ProvedBoundary:
@@ -92,16 +115,70 @@ def prove_boundary(scene: Scene | str | Path, *, angle: float | str, stokes: tup
     def at(number: float) -> Proof:
         return prove_inputs(Inputs.of(loaded.with_impact(stokes=number)), digits=False)
 
-    points = [(float(number), at(float(number)).outcome) for number in np.geomspace(low, high, _LINES)]
+    numbers = [low, *map(float, np.geomspace(low, high, _LINES)[1:-1]), high]
+    points = [(number, at(number).outcome) for number in numbers]
     known = [(number, outcome) for number, outcome in points if outcome is not None]
-    changes: list[Change] = []
+    pairs: list[tuple[Stretch, tuple[str, str]]] = []
     for (left, one), (right, other) in itertools.pairwise(known):
-        changes += _between(at, left, one, right, other) if one != other else ()
+        pairs += _between(at, left, one, right, other) if one != other else ()
     assert loaded.angle is not None
-    return ProvedBoundary(loaded, loaded.angle, tuple(changes))
+    return ProvedBoundary(loaded, loaded.angle, *_cover(loaded, numbers, pairs))
 
 
-def _between(at: Any, left: float, one: str, right: float, other: str) -> Iterator[Change]:
+def _cover(
+    scene: Scene, numbers: Sequence[float], pairs: Sequence[tuple[Stretch, tuple[str, str]]]
+) -> tuple[tuple[Change, ...], tuple[Stretch, ...]]:
+    """The changes with the stretches around them, and the other stretches that are not proved.
+
+    The line outside of the pairs is proved stretch by stretch; one that is not is halved, the nearer to a pair the more
+    often. Neighbours have a Stokes number in common, and so the outcome. Where the sharpest proof fails, what is nearer
+    to the pair is not tried.
+    """
+    inputs = Inputs.of(scene, {"impact.stokes": 1e-6})
+    engine = inputs.engine()
+    left: list[Stretch] = []  # what is not proved
+    changing = [pair for pair, _ in pairs]
+
+    def away(number: float) -> float:
+        return min((abs(math.log(number / end)) for pair in changing for end in pair), default=math.inf)
+
+    def cover(low: float, high: float) -> bool:
+        narrow = high < low * (1 + _NARROW)
+        box = {**inputs.ranges, "stokes": (low, high)}
+        for settings in (BOX, _SHARP) if narrow else (BOX,):
+            if enclose(engine, box, inputs.moving, settings).outcome:
+                return True
+        middle = math.sqrt(low * high)
+        if (narrow and math.log(high / low) < _PART * away(middle)) or not low < middle < high:
+            left.append((low, high))
+            return False
+        far, near = ((low, middle), (middle, high)) if away(low) > away(high) else ((middle, high), (low, middle))
+        if cover(*far):
+            return cover(*near)
+        left.append(near)
+        return False
+
+    ends = sorted({*numbers, *itertools.chain(*changing)})
+    for low, high in itertools.pairwise(ends):
+        if (low, high) in changing:
+            left.append((low, high))
+        else:
+            cover(low, high)
+    joined: list[Stretch] = []
+    for low, high in sorted(left):
+        if joined and joined[-1][1] == low:
+            joined[-1] = (joined[-1][0], high)
+        else:
+            joined.append((low, high))
+    changes = [
+        Change(pair, outcomes, next(each for each in joined if each[0] <= pair[0] and pair[1] <= each[1]))
+        for pair, outcomes in pairs
+    ]
+    others = [each for each in joined if all(each != change.within for change in changes)]
+    return tuple(changes), tuple(others)
+
+
+def _between(at: Any, left: float, one: str, right: float, other: str) -> Iterator[tuple[Stretch, tuple[str, str]]]:
     """The changes between two points with different outcomes: halved as long as the middle is proved.
 
     Where it is not, both ends move towards it as far as they can be proved.
@@ -119,7 +196,7 @@ def _between(at: Any, left: float, one: str, right: float, other: str) -> Iterat
             yield from _between(at, middle, outcome, right, other)
             return
         left, right = (middle, right) if outcome == one else (left, middle)
-    yield Change((left, right), (one, other))
+    yield (left, right), (one, other)
 
 
 def _towards(at: Any, start: float, outcome: str, end: float) -> float:

@@ -37,7 +37,7 @@ class Settings(NamedTuple):
             for a box where it is slow and turns; 2 on the approach, too.
         tolerance: of the remainder of a step.
         widest: the widest set that is followed, in units of the states.
-        panel: relative width of the panels of these bounds.
+        panel: relative width of the panels of these bounds; for a box at least this, and up to PANEL with its width.
     """
 
     order: int
@@ -51,6 +51,7 @@ class Settings(NamedTuple):
 SHARP = Settings(14, 900, 0, 1e-13)  # what takes longer is proved with bounds over the gap, to fewer digits
 OUTCOME = Settings(16, 20000, 1, 1e-15, panel=0.004)
 BOX = Settings(12, 200, 2, 1e-10)
+PANEL = 0.08  # bounds over wider panels lose more than they save (maps of 12 x 12 cells of granulation)
 
 
 class Enclosure(NamedTuple):
@@ -74,6 +75,9 @@ def enclose(engine: Engine, ranges: Mapping[str, Range], moving: tuple[str, ...]
     """
     assert settings.order + 2 <= TERMS
     pairs = np.array([ranges.get(name, (np.nan, np.nan)) for name in engine.quantities])
+    if moving:
+        width = max(abs(ranges[name][1] - ranges[name][0]) / max(map(abs, ranges[name])) for name in moving)
+        settings = settings._replace(panel=min(max(width, settings.panel), PANEL))
     columns = np.array([moving.index(name) if name in moving else -1 for name in engine.quantities], np.int32)
     result, numbers = np.empty(RESULTS), np.array(settings, float)
     room = getattr(engine.rooms, "room", None)  # of this thread

@@ -48,6 +48,34 @@ def test_a_change_lies_between_proved_outcomes(
     assert (below.outcome, above.outcome) == outcomes
 
 
+@pytest.mark.parametrize(
+    ("name", "angle", "stokes", "changes"),
+    [
+        ("granulation", "60 deg", (0.05, 0.5), 1),
+        ("granulation", "70 deg", (0.2, 0.6), 0),
+        ("lactose-pvp", 1.3, (2, 5), 1),
+    ],
+    ids=["one", "none", "stretches without proof"],
+)
+def test_between_changes_collisions_have_one_outcome(
+    name: str, angle: str | float, stokes: tuple[float, float], changes: int
+) -> None:
+    """Beyond the stretches around the changes every collision of the line has the outcome of the change's side."""
+    found = prove_boundary(name, angle=angle, stokes=stokes)
+    assert len(found.changes) == changes
+    gaps = [*(each.within for each in found.changes), *found.undecided]
+    ends = [stokes[0], *(end for gap in sorted(gaps) for end in gap), stokes[1]]
+    for low, high in zip(ends[::2], ends[1::2], strict=True):
+        near = np.geomspace(1e-6, 0.5, 40) * (high - low)
+        outcomes = collide_many(name, stokes=np.concatenate([low + near, high - near]), angle=angle).outcome.values
+        sides = {each.outcomes[0] for each in found.changes if each.within[0] == high}
+        sides |= {each.outcomes[1] for each in found.changes if each.within[1] == low}
+        assert len({OUTCOMES[code] for code in outcomes.tolist()} | sides) == 1
+    for each in found.changes:
+        assert each.within[0] <= each.stokes[0] < each.stokes[1] <= each.within[1]
+        assert each.within[1] / each.within[0] < 1.001
+
+
 @pytest.mark.slow
 def test_wide_boxes_hold_for_their_points() -> None:
     """Boxes of 1e-3 to 0.15 in Stokes number and angle: impacts within them have the outcome, and e_n is enclosed."""
@@ -66,6 +94,18 @@ def test_wide_boxes_hold_for_their_points() -> None:
         assert np.all(found.restitution.fillna(0.0) >= low - 1e-8)
         assert np.all(found.restitution.fillna(0.0) <= high + 1e-8)
     assert proved > 60
+
+
+def test_a_part_of_a_box_may_rebound_at_initial_contact() -> None:
+    """Where the glass criterion is met at initial contact by a part of a box, all of it bounces nevertheless."""
+    below, above = (collide("granulation", stokes=stokes, angle=0.5) for stokes in (0.2344, 0.2364))
+    assert below.events[0].time > 0.0
+    assert above.events[0].time == 0.0
+    proof = prove("granulation", stokes=0.2354, angle=0.5, within=6e-3)
+    assert proof.outcome == "bounce"
+    low, high = proof.restitution
+    assert low < below.restitution < high
+    assert low < above.restitution < high
 
 
 @pytest.mark.parametrize("edges", [{"stokes": [0.2, 0.1]}, {"stokes": [0.1]}, {"angle": [0.0, 0.1]}, {"depth": -1}])

@@ -134,7 +134,7 @@ static int approach(proof *w, const options *o)
         ++w->panels;
         if (!crosses(TOGETHER, &w->p, &w->rest, gap, h, panel, NULL, &now, &after)) {
             panel *= 0.5;
-            if (panel < 0.02*o->panel || touches)
+            if (panel < 0.3*o->panel || touches)
                 return 0;
             continue;
         }

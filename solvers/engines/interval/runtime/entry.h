@@ -1,8 +1,9 @@
 /* One proof: the set of all trajectories from a box of inputs, step by step through its events up to the outcome. */
 #include "step.h"
 
-/* The criteria that are met at initial contact. */
-static int begin(proof *w)
+/* The criteria that are met at initial contact. Of a box of which a part meets the glass criterion, the approach is bounded
+ * with rebounds from there on. */
+static int begin(proof *w, const options *o)
 {
     iv x[STATES];
     hull_of(&w->p, &w->s, x);
@@ -10,8 +11,14 @@ static int begin(proof *w)
     advance_clearance(&w->box, &w->p.box, 0);
     const iv clearance = w->box.clearance.v[0], contact = w->p.level[CONTACT_GAP].v;
     const int glass = iv_hi(clearance) <= 0.0, touches = iv_lo(contact) >= 1.0;
-    if (!glass && !touches)
-        return (iv_positive(clearance) && iv_hi(contact) < 1.0) || end(w, UNPROVED, START);
+    if (!glass && !touches) {
+        if (iv_positive(clearance) && iv_hi(contact) < 1.0)
+            return 1;
+        end(w, UNPROVED, START);
+        if (o->funnels > 1)
+            (void)approach(w, o);
+        return 0;
+    }
     if (!bounce(w, glass ? AT_GLASS : AT_CONTACT))
         return 0;
     hull_of(&w->p, &w->s, x);
@@ -25,7 +32,7 @@ static void prove(proof *w, const options *o)
 {
     int since = 1 << 20, wait = 3;
     double slow = 0.2; /* approach at which a turn is looked for */
-    if (!begin(w) || (o->funnels > 1 && !w->rebounds && approach(w, o)))
+    if (!begin(w, o) || (o->funnels > 1 && !w->rebounds && approach(w, o)))
         return;
     while (w->steps < o->most_steps) {
         iv x[STATES];
