@@ -12,6 +12,7 @@ export interface Knob {
   members: string[];
   never: number | null;
   first: boolean;
+  hint: string; // what the label means
 }
 
 /** A number that says how far the model may be trusted; null where there is no bound. */

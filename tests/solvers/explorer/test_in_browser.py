@@ -39,10 +39,10 @@ LEDGERS = 15  # separations of each scene
 TERMS = {
     "normal_lubrication": "lost squeezing the film",
     "tangential_lubrication": "lost shearing the film",
-    "capillary": "in the bridge",
+    "capillary": "stored in the bridge",
     "attraction": "against attraction",
     "dry_contact": "lost in solid contact",
-    "strings": "in the strings",
+    "strings": "stored in the strings",
 }
 SHARP = 1e-12  # relative tolerance of integration where numbers are compared to 1e-9
 
@@ -254,7 +254,7 @@ def test_with_friction_losses_are_not_told_apart(opened: Any):
     page.ask("wetdoublet.set('impact.speed', 20)")
     expected = collide(Scene.from_toml(page.ask("wetdoublet.toml(wetdoublet.state())"))).to_dict()["energy"]
     *kinetic, (_, words, lost) = page.ask("wetdoublet.ledger(1)")
-    assert words == "lost, or in the bridge"
+    assert words == "lost, or stored in the bridge"
     assert sum(part for *_, part in kinetic) * expected["initial"] == pytest.approx(expected["final"], rel=1e-8)
     assert lost == pytest.approx(1 - expected["final"] / expected["initial"], abs=1e-8)
 
