@@ -106,7 +106,7 @@ class Page {
     this.tell(read.ignored);
     if (this.pinnedState) this.pinned = this.follow(this.pinnedState);
     this.mapper.first(this.state, law);
-    this.changed(true);
+    this.changed(false);
     this.repaint();
     this.play(this.playing);
     const { signal } = this.leaving;
@@ -239,7 +239,7 @@ class Page {
       this.law.set(state.values);
       const impact = this.law.impact({ ...state.values, "impact.speed": value }, state.speed);
       if (kind === state.speed) return value;
-      const scale = kind === "stokes" ? this.law.stokesPerSpeed() : (kind === "speed" ? 1 : 1 / Math.cos(impact.angle)) / speedKnob.factor;
+      const scale = kind === "stokes" ? this.law.stokesPerSpeed : (kind === "speed" ? 1 : 1 / Math.cos(impact.angle)) / speedKnob.factor;
       return impact.speed * scale;
     };
     const plain = initial(scene);
@@ -348,7 +348,7 @@ class Page {
     this.refined = grid.refined;
     const n = grid.across.length ** 2;
     const beyond = scene.limits.filter((_, bit) => grid.outside.some((each) => each & (1 << bit)));
-    this.beyond.textContent = beyond.length ? `Dotted: outside the model's range (${[...new Set(beyond.map((each) => each.words))].join(", ")}).` : "";
+    this.beyond.textContent = beyond.length ? `Dotted: outside the model's range (${[...new Set(beyond)].join(", ")}).` : "";
     const bad = grid.outcome.filter((each) => each < 0).length;
     const { coarse, fine } = this.mapper.timings;
     this.timing.textContent = grid.refined || fine ? `${n.toLocaleString("en")} collisions in ${(grid.refined ? fine : coarse).toFixed(0)} ms${bad ? `, ${bad} without an answer (grey)` : ""}.` : "";
@@ -378,7 +378,7 @@ class Page {
     return ` It leaves faster along the line of centres than it came, with ${percent(last[0])} of the kinetic energy before in place of ${percent(first[0])}: rotation gave up ${percent(turning(first) - turning(last))}, more than liquid and contact took.`;
   }
 
-  private stokes = (): number => this.law.stokesPerSpeed() * this.shown.found.speed;
+  private stokes = (): number => this.law.stokesPerSpeed * this.shown.found.speed;
 
   private comparison(pinned: Found, now: Found): HTMLElement {
     const rows: [string, (f: Found) => string][] = [

@@ -15,13 +15,6 @@ export interface Knob {
   hint: string; // what the label means
 }
 
-/** A number that says how far the model may be trusted; null where there is no bound. */
-export interface Limit {
-  words: string;
-  least: number | null;
-  most: number | null;
-}
-
 export type SpeedKind = "stokes" | "speed" | "relative_speed";
 export type Layout = Record<"pair_entries" | "material" | "impact" | "collision", [string, string][]>;
 
@@ -42,7 +35,7 @@ export interface Scene {
   attraction: boolean;
   bridge: boolean;
   tables: [string, string, string | null, string | null, string | null][];
-  limits: Limit[];
+  limits: string[]; // of the model, in words
   outcomes: string[];
   criteria: string[];
   colours: string[];
