@@ -471,7 +471,7 @@ class Page {
     const gains = Number.isFinite(path.overtakes);
     if (this.energy.childElementCount !== (gains ? 4 : 3) || this.energy.querySelectorAll("li").length !== shares.length + 1)
       this.energy.replaceChildren(
-        el("p", { class: "note" }, "Where the kinetic energy before is now. In colour: in motion, or stored (below 0: given); grey: lost."),
+        el("p", { class: "note" }, "Where the initial kinetic energy is now. In colour: in motion, or stored (below 0: given); striped: lost."),
         el("div", { class: "bar", "aria-hidden": "true" }, ...shares.map(([colour]) => el("i", { class: colour }))),
         el("ul", {}, ...shares.map(([colour, name]) => el("li", {}, el("i", { class: colour }), `${name} `, el("b"))), el("li", {}, "sum ", el("b"))),
         ...(gains ? [el("p", { class: "note" })] : []),
