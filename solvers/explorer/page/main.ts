@@ -7,7 +7,7 @@ import { Doublet } from "./doublet";
 import { fromPart, Mapper, toPart, type Grid } from "./mapper";
 import { axisLabel, RegimeMap, speedLabel } from "./map";
 import { address, copyOf, fromAddress, initial, python, readNumber, toml } from "./state";
-import { answer, degrees, MEANINGS, OUTCOMES, percent, pretty, quantity, short } from "./text";
+import { along, answer, degrees, MEANINGS, OUTCOMES, percent, pretty, quantity, short } from "./text";
 import { geometry, Trajectory } from "./trajectory";
 import type { Knob, Scene, SpeedKind, State, Told } from "./scene";
 
@@ -211,7 +211,7 @@ class Page {
   }
 
   private kindChoice(): HTMLSelectElement {
-    const options = [["stokes", "Stokes number"], ["speed", "m/s along the line of centres"], ["relative_speed", "m/s in all"]] as const;
+    const options = [["stokes", "Stokes number"], ["speed", `m/s ${along(scene)}`], ["relative_speed", "m/s in all"]] as const;
     const made = el("select", { id: "kind", "aria-label": "What the speed is" }, ...options.map(([value, text]) => el("option", { value }, text.replace("m/s", pretty(speedKnob.unit || "m/s")))));
     made.addEventListener("change", () => {
       this.setKind(made.value as SpeedKind);
@@ -316,7 +316,7 @@ class Page {
       slider.value = String(Math.round(1000 * (value === Infinity ? 1 : toPart(knob, value))));
       slider.setAttribute("aria-valuetext", `${text} ${pretty(knob.unit)}`);
       if (document.activeElement !== field || field.getAttribute("aria-invalid") !== "true") field.value = text;
-      if (knob === speedKnob) hint.textContent = this.shown.found.status ? "" : this.state.speed === "stokes" ? `inertia/viscosity; ${quantity(this.shown.found.speed, "m/s")} along the line of centres` : `Stokes number ${short(this.stokes())}`;
+      if (knob === speedKnob) hint.textContent = this.shown.found.status ? "" : this.state.speed === "stokes" ? `inertia/viscosity; ${quantity(this.shown.found.speed, "m/s")} ${along(scene)}` : `Stokes number ${short(this.stokes())}`;
     }
     for (const option of document.querySelectorAll('.axes option[value="impact.speed"]')) option.textContent = speedLabel(speedKnob, this.state.speed).replace(/,.*/, "");
     (document.getElementById("kind") as HTMLSelectElement).value = this.state.speed;
@@ -346,9 +346,10 @@ class Page {
     this.map.show(grid);
     this.gridCount++;
     this.refined = grid.refined;
+    document.querySelectorAll<HTMLButtonElement>(".legend button").forEach((each, k) => (each.disabled = this.map.widest(k) < 0));
     const n = grid.across.length ** 2;
     const beyond = scene.limits.filter((_, bit) => grid.outside.some((each) => each & (1 << bit)));
-    this.beyond.textContent = beyond.length ? `Dotted: outside the model's range (${[...new Set(beyond)].join(", ")}).` : "";
+    this.beyond.textContent = beyond.length ? `Dotted: outside the model's range (${[...new Set(beyond)].join("; ")}).` : "";
     const bad = grid.outcome.filter((each) => each < 0).length;
     const { coarse, fine } = this.mapper.timings;
     this.timing.textContent = grid.refined || fine ? `${n.toLocaleString("en")} collisions in ${(grid.refined ? fine : coarse).toFixed(0)} ms${bad ? `, ${bad} without an answer (grey)` : ""}.` : "";

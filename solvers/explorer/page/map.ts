@@ -58,10 +58,12 @@ export class RegimeMap {
     return [0, 1, 2].map((k) => Math.round(fill[k]! + (dark[k]! - fill[k]!) * part)) as [number, number, number];
   }
 
-  /** Chooses an impact with this outcome, where its region is widest. */
+  /** The cell where the region of an outcome is widest; -1 if it has none that is seen. */
+  widest = (outcome: number): number => (this.grid ? widest(this.grid, outcome) : -1);
+
+  /** Chooses an impact with this outcome, which has a region, where its region is widest. */
   find(outcome: number): void {
-    const place = this.grid ? widest(this.grid, outcome) : -1;
-    if (place < 0) return;
+    const place = this.widest(outcome);
     const n = this.grid!.across.length;
     this.choose(this.grid!.across[place % n]!, this.grid!.upward[Math.floor(place / n)]!);
   }

@@ -36,11 +36,14 @@ const REBOUNDS = [
 /** What happens, in sentences. */
 export function answer(found: Collision & Impact, scene: Scene, stokes: number): [string, string] {
   if (found.status) return ["No answer", `${found.message}.`];
-  const impact = `Impact at ${quantity(found.speed, "m/s")} along the line of centres (Stokes number ${short(stokes)}), ${degrees(found.angle)} from head-on.`;
-  const outside = found.outside.length ? ` Outside the model's range: ${found.outside.join(", ")}.` : "";
+  const impact = `Impact at ${quantity(found.speed, "m/s")} ${along(scene)} (Stokes number ${short(stokes)}), ${degrees(found.angle)} from head-on.`;
+  const outside = found.outside.length ? ` Outside the model's range: ${found.outside.join("; ")}.` : "";
   return [OUTCOMES[found.outcome]!, `${impact} ${decided(found, scene)}${outside}`];
 }
 
+
+/** The normal direction. */
+export const along = (scene: Scene): string => (scene.wall ? "normal to the wall" : "along the line of centres");
 
 function decided(found: Collision & Impact, scene: Scene): string {
   const what = scene.wall ? "sphere and wall" : "spheres";
@@ -50,11 +53,11 @@ function decided(found: Collision & Impact, scene: Scene): string {
     return `The ${what} stay together.${cause && ` They rebounded, as ${cause}, but did not get apart.`}${proof}`;
   }
   const turned = scene.wall ? "" : ` and turn by ${degrees(found.rotation)}`;
-  const across = Number.isFinite(found.tangential_restitution) ? `, and with ${found.tangential_restitution.toFixed(3)} of that across it (tangential restitution)` : "";
+  const across = Number.isFinite(found.tangential_restitution) ? `, and with ${found.tangential_restitution.toFixed(3)} of that ${scene.wall ? "along it" : "across it"} (tangential restitution)` : "";
   return [
     `The ${what} are together for ${quantity(found.contact_time, "s")}${turned}.`,
     found.outcome === 1 ? "Then the rotation pulls them apart," : `They rebound${cause && ` because ${cause}`}, and part`,
-    `with ${found.restitution.toFixed(3)} of the approach speed along the line of centres (normal restitution)${across}.`,
+    `with ${found.restitution.toFixed(3)} of the approach speed ${along(scene)} (normal restitution)${across}.`,
     `Smallest gap ${quantity(found.smallest_gap, "m")}.`,
   ].join(" ");
 }
