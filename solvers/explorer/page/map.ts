@@ -197,13 +197,17 @@ export class RegimeMap {
     ctx.font = font(0.87 * scale, "600");
     ctx.textAlign = "center";
     ctx.lineJoin = "round";
+    const { values } = this.state();
+    const [crossX, crossY] = at(values[grid.state.across]!, values[grid.state.upward]!);
     names.forEach((name, outcome) => {
       const place = widest(grid, outcome);
       if (place < 0) return;
-      const [middle, y] = at(grid.across[place % n]!, grid.upward[Math.floor(place / n)]!);
+      const [middle, middleY] = at(grid.across[place % n]!, grid.upward[Math.floor(place / n)]!);
       const half = ctx.measureText(name).width / 2 + 4 * scale;
       const [left, right] = [at(grid.across[0]!, grid.upward[0]!)[0] + half, at(grid.across[n - 1]!, grid.upward[0]!)[0] - half];
       const x = Math.min(Math.max(middle, left), right);
+      const hidden = Math.abs(x - crossX) < half + 12 * scale && Math.abs(middleY - crossY) < 20 * scale;
+      const y = hidden ? crossY - 24 * scale : middleY;
       ctx.strokeStyle = "rgba(255,255,255,.85)";
       ctx.lineWidth = 4 * scale;
       ctx.strokeText(name, x, y);

@@ -133,7 +133,7 @@ export class Trajectory {
   ledger(frame: Frame): Share[] {
     const { scene } = this;
     const [line, around, spins] = this.energies(frame);
-    const motion: Share[] = [["e0", "line of centres", line]];
+    const motion: Share[] = [["e0", scene.wall ? "normal to the wall" : "line of centres", line]];
     if (scene.wall) motion.push(["e1", "along the wall, and spin", around]);
     else motion.push(["e1", "around each other", around], ["e2", "spins", spins]);
     const left = motion.reduce((sum, each) => sum + each[2], 0);
