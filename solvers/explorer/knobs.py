@@ -33,6 +33,20 @@ _LABELS = {
     "pendulum.length": "String length",
     "pendulum.gravity": "Gravity",
 }
+_HINTS = {
+    "impact.angle": "0 is head-on, 90 grazing",
+    "impact.spin": "before; positive is counterclockwise",
+    "particles.roughness": "gap at which the solids touch",
+    "particles.dry_restitution": "of the solids without liquid",
+    "particles.friction": "of the solids",
+    "liquid.film_thickness": "gap at which the films touch",
+    "liquid.coating_thickness": "liquid on a particle",
+    "liquid.glass_transition_pressure": "at which the liquid turns solid",
+    "bridge.volume": "liquid between the particles",
+    "bridge.contact_angle": "0 is perfect wetting",
+    "attraction.hamaker": "of van der Waals attraction",
+}
+"""What a word means, for those who meet it first."""
 _FIRST = (
     "liquid.viscosity", "liquid.film_thickness", "liquid.coating_thickness", "bridge.surface_tension", "bridge.volume",
     "particles.radius", "particles.roughness", "particles.dry_restitution", "particles.friction",
@@ -88,7 +102,7 @@ def knobs(scene: Scene, entries: Sequence[Number], impact: Sequence[Number]) -> 
             made[twin] = Knob(**(asdict(own) | {"members": (*own.members, *partner.members)}))
     first = [made.pop(name) for name in _FIRST if name in made]
     rest = [Knob(**(asdict(each) | {"first": False})) for each in made.values()]
-    return [asdict(each) for each in (*_of_impact(scene, impact), *first, *rest)]
+    return [asdict(each) | {"hint": _HINTS.get(each.name, "")} for each in (*_of_impact(scene, impact), *first, *rest)]
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,7 @@
-"""Where the model ends, in the page: the numbers of its limits as C, and what counts as outside."""
+"""Where the model ends, in the page: its limits as C, and their words."""
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 from casadi import SX, CodeGenerator, Function, vertcat
 
@@ -12,21 +11,25 @@ from ..scene.scene import Scene
 
 _NAME = "model_limits"
 _SHIM = """
-static double limit_numbers[{count}];
-
-double *limits_of(int k)
+/* Bits of the limits that a collision has exceeded. */
+int outside(int k)
 {{
+    static const double least[] = {{{least}}}, most[] = {{{most}}};
+    double numbers[{count}];
     const double other[] = {{{other}}};
     const double *arguments[] = {{(const double *)&material, other}};
-    double *results[] = {{limit_numbers}};
+    double *results[] = {{numbers}};
+    int bits = 0;
     {name}(arguments, results, 0, 0, 0);
-    return limit_numbers;
+    for (int i = 0; i < {count}; i++)
+        bits |= (numbers[i] < least[i] || numbers[i] > most[i]) << i;
+    return bits;
 }}
 """
 
 
-def limits(scene: Scene, material: Sequence[str], entries: Sequence[str]) -> tuple[str, list[dict[str, Any]]]:
-    """C of a function `limits_of` behind that of `shim.h`, and the limits: words, and what counts as inside.
+def limits(scene: Scene, material: Sequence[str], entries: Sequence[str]) -> tuple[str, list[str]]:
+    """C of a function `outside` behind that of `shim.h`, and the words of its bits.
 
     Arguments:
         material: members of the law's material, in their order.
@@ -45,10 +48,14 @@ def limits(scene: Scene, material: Sequence[str], entries: Sequence[str]) -> tup
         if isinstance(number, float) and math.isnan(number):
             continue  # the question does not arise for this scene
         numbers.append(number)
-        least, most = (each if math.isfinite(each) else None for each in limit.bounds)
-        found.append({"words": WORDS.get(limit.flag, limit.flag), "least": least, "most": most})
+        found.append(limit)
     code = CodeGenerator(_NAME)
     code.add(Function(_NAME, [vertcat(*members.values()), vertcat(*others.values())], [vertcat(*numbers)]))
     given = [f"impacts[k].{name}" for name in results[:2]] + [f"collisions[k].{name}" for name in results[2:-1]]
     given.append("pair_entries.liquid_density" if dense else "0.0")
-    return str(code.dump()) + _SHIM.format(count=len(found), other=", ".join(given), name=_NAME), found
+    least, most = (
+        ", ".join(f"{bound!r}".replace("inf", "INFINITY") for bound in bounds)
+        for bounds in zip(*(limit.bounds for limit in found), strict=True)
+    )
+    shim = _SHIM.format(count=len(found), other=", ".join(given), name=_NAME, least=least, most=most)
+    return str(code.dump()) + shim, [WORDS.get(limit.flag, limit.flag) for limit in found]

@@ -9,7 +9,7 @@ from ..export.law.texts import LawSource
 from ..host.compiler import CannotCompile, webassembly
 from ..host.user_cache import kept
 
-_EXPORTED = ("place", "size", "set_material", "many", "follow", "followed_events", "message", "limits_of")
+_EXPORTED = ("place", "size", "set_material", "many", "follow", "followed_events", "message", "outside")
 _FLAGS = (
     "-O2",
     "-msimd128",

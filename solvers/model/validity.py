@@ -309,11 +309,11 @@ def counted(mask: np.ndarray) -> list[tuple[str, int]]:
 
 
 WORDS = {
-    "film_reynolds": f"Re > {_REYNOLDS:g}",
-    "film_gap": f"x0/a > {_FILM_GAP:g}",
-    "rupture_gap": f"x_f/a > {_RUPTURE_GAP:g}",
+    "film_reynolds": f"inertia of the liquid, Re > {_REYNOLDS:g}",
+    "film_gap": f"thick film, x0/a > {_FILM_GAP:g}",
+    "rupture_gap": f"wide gap at rupture, x_f/a > {_RUPTURE_GAP:g}",
     "bridge_liquid": "bridge larger than the coatings",
-    "fly_by": "fly-by",
+    "fly_by": "solids that pass each other",
     "wall_coupling": "spin beside the wall",
     "cavitating_film": "cavitating between unequal surfaces",
     "own_rupture": "own rupture of unequal spheres",

@@ -6,7 +6,7 @@ import type { Trajectory } from "./trajectory";
 const SCALES: [number, string][] = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"]];
 const PANELS = [
   { column: "gap", label: "gap", unit: "m", factor: 1 },
-  { column: "velocity", label: "gap rate", unit: "m/s", factor: 1 },
+  { column: "velocity", label: "gap rate (below 0: closing)", unit: "m/s", factor: 1 },
   { column: "rotation", label: "rotation", unit: "°", factor: 180 / Math.PI },
 ] as const;
 const HEIGHT = 118;

@@ -1,5 +1,5 @@
 // The law of a scene in WebAssembly, behind typed arrays at the places of shim.h.
-import type { Knob, Layout, Limit, SpeedKind, Values } from "./scene";
+import type { Knob, Layout, SpeedKind, Values } from "./scene";
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -11,7 +11,7 @@ interface Exports {
   follow(rtol: number, step: number, factor: number, still: number): number;
   followed_events(): number;
   message(status: number): number;
-  limits_of(k: number): number;
+  outside(k: number): number;
 }
 
 export const ROW = 18; // numbers of a row: see shim.h
@@ -48,17 +48,21 @@ export class Law {
   private readonly entries: Float64Array;
   private readonly material: Float64Array;
   private readonly impacts: Float64Array;
-  private readonly collisions: DataView;
+  private readonly integers: Int32Array; // of the collisions
+  private readonly doubles: Float64Array; // of the same bytes
   private readonly stride: number;
+  private readonly members: [Knob, number[]][]; // places of the entries that a knob sets
+  private readonly impactKnobs: Record<keyof Impact, Knob | undefined>;
+  stokesPerSpeed = NaN; // Stokes number of 1 m/s, m/(6 pi mu a^2), of the material that was set last
   private readonly offsets: Record<string, number> = {};
   readonly cells: number;
 
   constructor(
     module: WebAssembly.Module,
     private readonly layout: Layout,
-    private readonly knobs: Knob[],
+    knobs: Knob[],
     defaults: Record<string, number>,
-    private readonly limits: Limit[],
+    private readonly limits: string[],
   ) {
     // no imports but what wasi-libc may name: nothing of it is called
     const none = new Proxy({}, { get: () => () => 0 });
@@ -71,7 +75,11 @@ export class Law {
     this.entries = new Float64Array(buffer, e.place(0), layout.pair_entries.length);
     this.material = new Float64Array(buffer, e.place(1), layout.material.length);
     this.impacts = new Float64Array(buffer, e.place(2), layout.impact.length * this.cells);
-    this.collisions = new DataView(buffer, e.place(3), this.stride * this.cells);
+    this.integers = new Int32Array(buffer, e.place(3), (this.stride / 4) * this.cells);
+    this.doubles = new Float64Array(buffer, e.place(3), (this.stride / 8) * this.cells);
+    this.members = knobs.map((each) => [each, each.members.map((member) => this.place(member))]);
+    const named = (name: string): Knob | undefined => knobs.find((each) => each.name === `impact.${name}`);
+    this.impactKnobs = { speed: named("speed"), angle: named("angle"), spin: named("spin"), partner_spin: named("partner_spin") };
     let offset = 0;
     for (const [kind, name] of layout.collision) {
       const bytes = kind === "int" ? 4 : 8;
@@ -98,9 +106,10 @@ export class Law {
 
   /** Sets the entries of the knobs and the material of them; returns the status. */
   set(values: Values): number {
-    for (const knob of this.knobs)
-      for (const member of knob.members) this.entries[this.place(member)] = si(knob, values[knob.name]!);
-    return this.exports.set_material();
+    for (const [knob, places] of this.members) for (const place of places) this.entries[place] = si(knob, values[knob.name]!);
+    const status = this.exports.set_material();
+    this.stokesPerSpeed = this.quantity("reduced_mass") / (6 * Math.PI * this.quantity("viscosity") * this.quantity("reduced_radius") ** 2);
+    return status;
   }
 
   entry(member: string): number {
@@ -111,53 +120,31 @@ export class Law {
     return this.layout.pair_entries.findIndex((each) => each[1] === member);
   }
 
-  /** Stokes number of 1 m/s, m/(6 pi mu a^2), of the material that was set last. */
-  stokesPerSpeed(): number {
-    return this.quantity("reduced_mass") / (6 * Math.PI * this.quantity("viscosity") * this.quantity("reduced_radius") ** 2);
-  }
-
   /** The impact that the knobs give, in SI, for the material that was set last. */
   impact(values: Values, kind: SpeedKind): Impact {
-    const of = (name: string): number => {
-      const knob = this.knobs.find((each) => each.name === `impact.${name}`);
-      return knob ? si(knob, values[knob.name]!) : 0;
-    };
-    const angle = of("angle");
-    const scale = kind === "stokes" ? 1 / this.stokesPerSpeed() : kind === "speed" ? 1 : Math.cos(angle);
-    const given = kind === "stokes" ? values["impact.speed"]! : of("speed");
-    return { speed: given * scale, angle, spin: of("spin"), partner_spin: of("partner_spin") };
+    const of = (knob: Knob | undefined): number => (knob ? si(knob, values[knob.name]!) : 0);
+    const [speed, angle, spin, partner_spin] = [of(this.impactKnobs.speed), of(this.impactKnobs.angle), of(this.impactKnobs.spin), of(this.impactKnobs.partner_spin)];
+    if (kind === "stokes") return { speed: values["impact.speed"]! / this.stokesPerSpeed, angle, spin, partner_spin };
+    return { speed: kind === "speed" ? speed : speed * Math.cos(angle), angle, spin, partner_spin };
   }
 
   put(k: number, impact: Impact): void {
-    this.impacts.set([impact.speed, impact.angle, impact.spin, impact.partner_spin], 4 * k);
+    this.impacts[4 * k] = impact.speed;
+    this.impacts[4 * k + 1] = impact.angle;
+    this.impacts[4 * k + 2] = impact.spin;
+    this.impacts[4 * k + 3] = impact.partner_spin;
   }
 
   run(count: number, rtol: number, budget: number): void {
     this.exports.many(count, rtol, budget);
   }
 
-  status(k: number): number {
-    return this.collisions.getInt32(k * this.stride + this.offsets["status"]!, true);
-  }
-
-  outcome(k: number): number {
-    return this.collisions.getInt32(k * this.stride + this.offsets["outcome"]!, true);
-  }
-
-  restitution(k: number): number {
-    return this.collisions.getFloat64(k * this.stride + this.offsets["restitution"]!, true);
-  }
+  status = (k: number): number => this.integers[(k * this.stride + this.offsets.status!) / 4]!;
+  outcome = (k: number): number => this.integers[(k * this.stride + this.offsets.outcome!) / 4]!;
+  restitution = (k: number): number => this.doubles[(k * this.stride + this.offsets.restitution!) / 8]!;
 
   /** Bits of the limits that a collision has exceeded. */
-  outside(k: number): number {
-    const numbers = new Float64Array(this.exports.memory.buffer, this.exports.limits_of(k), this.limits.length);
-    let bits = 0;
-    this.limits.forEach(({ least, most }, bit) => {
-      const number = numbers[bit]!;
-      if ((most !== null && number > most) || (least !== null && number < least)) bits |= 1 << bit;
-    });
-    return bits;
-  }
+  outside = (k: number): number => this.exports.outside(k);
 
   /** One collision with all that is known of it. */
   collide(values: Values, kind: SpeedKind, rtol: number): Collision & Impact {
@@ -168,12 +155,12 @@ export class Law {
     this.run(1, rtol, 0);
     for (const [type, name] of this.layout.collision) {
       const at = this.offsets[name]!;
-      found[name] = type === "int" ? this.collisions.getInt32(at, true) : this.collisions.getFloat64(at, true);
+      found[name] = type === "int" ? this.integers[at / 4]! : this.doubles[at / 8]!;
     }
     if (!status) status = found["status"]!;
     const message = status ? this.message(status) : "";
     const bits = status ? 0 : this.outside(0);
-    const outside = this.limits.filter((_, bit) => bits & (1 << bit)).map((each) => each.words);
+    const outside = this.limits.filter((_, bit) => bits & (1 << bit));
     return { ...(found as unknown as Collision), ...impact, outside, certified: !!found["certified"], status, message };
   }
 

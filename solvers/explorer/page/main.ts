@@ -7,7 +7,7 @@ import { Doublet } from "./doublet";
 import { fromPart, Mapper, toPart, type Grid } from "./mapper";
 import { axisLabel, RegimeMap, speedLabel } from "./map";
 import { address, copyOf, fromAddress, initial, python, readNumber, toml } from "./state";
-import { answer, degrees, OUTCOMES, percent, pretty, quantity, short } from "./text";
+import { along, answer, degrees, MEANINGS, OUTCOMES, percent, pretty, quantity, short } from "./text";
 import { geometry, Trajectory } from "./trajectory";
 import type { Knob, Scene, SpeedKind, State, Told } from "./scene";
 
@@ -58,7 +58,7 @@ class Page {
   private last = 0;
   private stale = false; // the pictures are of an older state
   private hashTimer = 0;
-  private rows = new Map<string, { slider: HTMLInputElement; field: HTMLInputElement; label: HTMLElement }>();
+  private rows = new Map<string, { slider: HTMLInputElement; field: HTMLInputElement; hint: HTMLElement }>();
   private readonly mapper: Mapper;
   private readonly map: RegimeMap;
   private readonly curves: Curves;
@@ -97,7 +97,7 @@ class Page {
     const [legend] = document.getElementsByClassName("legend");
     OUTCOMES.forEach((name, k) => {
       const made = button("", () => this.map.find(k), { title: "Choose an impact of this outcome" });
-      made.append(this.map.legend(k), ` ${name.toLowerCase()}`);
+      made.append(this.map.legend(k), ` ${name.toLowerCase()}: ${MEANINGS[k]}`);
       legend!.append(made);
     });
     // one core is left to what is seen
@@ -106,7 +106,7 @@ class Page {
     this.tell(read.ignored);
     if (this.pinnedState) this.pinned = this.follow(this.pinnedState);
     this.mapper.first(this.state, law);
-    this.changed(true);
+    this.changed(false);
     this.repaint();
     this.play(this.playing);
     const { signal } = this.leaving;
@@ -133,17 +133,17 @@ class Page {
       { class: "card controls", "aria-label": "Knobs" },
       ...(told.scenes.length > 1 ? [this.sceneChoice()] : []),
       ...first,
-      ...(rest.length ? [el("details", {}, el("summary", {}, "More"), ...rest)] : []),
+      ...(rest.length ? [el("details", {}, el("summary", {}, "More knobs"), ...rest)] : []),
       el("div", { class: "buttons" }, button("Reset", () => this.reset()), button("Pin to compare", () => this.pin(), { id: "pin" })),
     );
     const status = el("p", { class: "answer", role: "status", "aria-live": "polite" }, this.title, " ", this.said);
     const mapCard = el(
       "section",
       { class: "card mapcard", "aria-label": "Map" },
-      el("div", { class: "axes" }, this.axisChoice("upward", "Outcome over"), this.axisChoice("across", "and")),
+      el("div", { class: "axes" }, this.axisChoice("upward", "Up"), this.axisChoice("across", "Across")),
       mapBox,
       el("div", { class: "legend buttons", role: "group", "aria-label": "Choose an impact by its outcome" }),
-      el("p", { class: "note" }, "Press an outcome to see one. Deeper colour: larger normal restitution; chequered: above 1. ", this.beyond, " ", this.timing),
+      el("p", { class: "note" }, "The cross is the impact that you see: click, drag, use the arrow keys or press an outcome. Deeper colour: they part faster (normal restitution); chequered: faster than they came. ", this.beyond, " ", this.timing),
     );
     const answerCard = el("section", { class: "card answercard", "aria-label": "Answer" }, status, this.note, this.compare);
     this.scrub.addEventListener("input", () => {
@@ -165,7 +165,8 @@ class Page {
       { class: "card doubletcard", "aria-label": "The particles" },
       doubletBox,
       el("div", { class: "player" }, this.playButton, this.scrub, pace),
-      el("label", { class: "note" }, stretch, " stretch the first instants"),
+      el("label", { class: "note" }, stretch, " slow down the fast beginning"),
+      el("p", { class: "note" }, "Drawn to scale. ", scene.wall ? "Arrow: velocity. The line on the particle turns with it." : "Arrows: velocities, seen from the centre of mass. The line on each particle turns with it."),
       this.energy,
       ...(scene.strings ? [el("p", { class: "note" }, "The free flight after the films part is not drawn for particles on strings.")] : []),
       ...(scene.ledger ? [] : [el("p", { class: "note" }, "With friction of the solid contact the losses are not told apart: wetdoublet collide does.")]),
@@ -177,8 +178,8 @@ class Page {
       { class: "card share", "aria-label": "Take it with you" },
       el("div", { class: "buttons" },
         button("Copy link", () => this.copy(location.href)),
-        button("Scene as TOML", () => this.copy(toml(this.state, scene, this.law), true)),
-        button("Python", () => this.copy(python(this.state, scene, this.law), true)),
+        button("Scene file (TOML)", () => this.copy(toml(this.state, scene, this.law), true)),
+        button("Line of Python", () => this.copy(python(this.state, scene, this.law), true)),
         button("Picture, SVG", () => void this.picture("svg")),
         button("Picture, PNG", () => void this.picture("png"))),
       this.code,
@@ -188,8 +189,8 @@ class Page {
 
   private row(knob: Knob): HTMLElement {
     const id = `k-${knob.name.replace(".", "-")}`;
-    const label = el("label", { for: id }, knob.label);
-    const field = el("input", { id, type: "text", inputmode: "decimal", autocomplete: "off", size: "9", name: knob.name });
+    const hint = el("small", { id: `${id}-hint` }, knob.hint);
+    const field = el("input", { id, "aria-describedby": hint.id, type: "text", inputmode: "decimal", autocomplete: "off", size: "9", name: knob.name });
     const slider = el("input", { type: "range", min: "0", max: "1000", step: "1", "aria-label": knob.label, "data-knob": knob.name });
     slider.addEventListener("input", () => this.set(knob, Number(fromPart(knob, Number(slider.value) / 1000).toPrecision(4))));
     field.addEventListener("change", () => {
@@ -198,9 +199,9 @@ class Page {
       if (Number.isNaN(value)) this.tell([`${knob.label}: “${field.value.slice(0, 40)}” is not a number that it can have`], false);
       else this.set(knob, value);
     });
-    this.rows.set(knob.name, { slider, field, label });
+    this.rows.set(knob.name, { slider, field, hint });
     const unit = knob.name === "impact.speed" ? this.kindChoice() : el("span", { class: "unit" }, pretty(knob.unit));
-    return el("div", { class: knob === speedKnob ? "row speed" : "row" }, label, el("span", { class: "value" }, field, unit), slider);
+    return el("div", { class: knob === speedKnob ? "row speed" : "row" }, el("label", { for: id }, knob.label), el("span", { class: "value" }, field, unit), hint, slider);
   }
 
   private sceneChoice(): HTMLElement {
@@ -210,7 +211,7 @@ class Page {
   }
 
   private kindChoice(): HTMLSelectElement {
-    const options = [["stokes", "St: inertia/viscosity"], ["speed", "m/s, normal"], ["relative_speed", "m/s, relative"]] as const;
+    const options = [["stokes", "Stokes number"], ["speed", `m/s ${along(scene)}`], ["relative_speed", "m/s in all"]] as const;
     const made = el("select", { id: "kind", "aria-label": "What the speed is" }, ...options.map(([value, text]) => el("option", { value }, text.replace("m/s", pretty(speedKnob.unit || "m/s")))));
     made.addEventListener("change", () => {
       this.setKind(made.value as SpeedKind);
@@ -238,7 +239,7 @@ class Page {
       this.law.set(state.values);
       const impact = this.law.impact({ ...state.values, "impact.speed": value }, state.speed);
       if (kind === state.speed) return value;
-      const scale = kind === "stokes" ? this.law.stokesPerSpeed() : (kind === "speed" ? 1 : 1 / Math.cos(impact.angle)) / speedKnob.factor;
+      const scale = kind === "stokes" ? this.law.stokesPerSpeed : (kind === "speed" ? 1 : 1 / Math.cos(impact.angle)) / speedKnob.factor;
       return impact.speed * scale;
     };
     const plain = initial(scene);
@@ -309,13 +310,13 @@ class Page {
   private changed(newMap: boolean): void {
     this.shown = this.follow(this.state);
     for (const knob of scene.knobs) {
-      const { slider, field, label } = this.rows.get(knob.name)!;
+      const { slider, field, hint } = this.rows.get(knob.name)!;
       const value = this.state.values[knob.name]!;
       const text = short(value, 5);
       slider.value = String(Math.round(1000 * (value === Infinity ? 1 : toPart(knob, value))));
       slider.setAttribute("aria-valuetext", `${text} ${pretty(knob.unit)}`);
       if (document.activeElement !== field || field.getAttribute("aria-invalid") !== "true") field.value = text;
-      if (knob === speedKnob) label.textContent = speedLabel(knob, this.state.speed).replace(/,.*/, "");
+      if (knob === speedKnob) hint.textContent = this.shown.found.status ? "" : this.state.speed === "stokes" ? `inertia/viscosity; ${quantity(this.shown.found.speed, "m/s")} ${along(scene)}` : `Stokes number ${short(this.stokes())}`;
     }
     for (const option of document.querySelectorAll('.axes option[value="impact.speed"]')) option.textContent = speedLabel(speedKnob, this.state.speed).replace(/,.*/, "");
     (document.getElementById("kind") as HTMLSelectElement).value = this.state.speed;
@@ -345,9 +346,10 @@ class Page {
     this.map.show(grid);
     this.gridCount++;
     this.refined = grid.refined;
+    document.querySelectorAll<HTMLButtonElement>(".legend button").forEach((each, k) => (each.disabled = this.map.widest(k) < 0));
     const n = grid.across.length ** 2;
     const beyond = scene.limits.filter((_, bit) => grid.outside.some((each) => each & (1 << bit)));
-    this.beyond.textContent = beyond.length ? `Dotted: outside the model's range (${[...new Set(beyond.map((each) => each.words))].join(", ")}).` : "";
+    this.beyond.textContent = beyond.length ? `Dotted: outside the model's range (${[...new Set(beyond)].join("; ")}).` : "";
     const bad = grid.outcome.filter((each) => each < 0).length;
     const { coarse, fine } = this.mapper.timings;
     this.timing.textContent = grid.refined || fine ? `${n.toLocaleString("en")} collisions in ${(grid.refined ? fine : coarse).toFixed(0)} ms${bad ? `, ${bad} without an answer (grey)` : ""}.` : "";
@@ -356,7 +358,7 @@ class Page {
   // ---- what is shown
 
   private say(): void {
-    const [title, said] = answer(this.shown.found, scene);
+    const [title, said] = answer(this.shown.found, scene, this.stokes());
     this.title.textContent = `${title}.`;
     this.said.textContent = said + this.gain(this.shown);
     if (this.shown.found.status && isBadInput(this.shown.found.status)) this.said.textContent = `${said} Change that knob.`;
@@ -376,6 +378,8 @@ class Page {
     const turning = (each: number[]): number => each[1]! + each[2]!;
     return ` It leaves faster along the line of centres than it came, with ${percent(last[0])} of the kinetic energy before in place of ${percent(first[0])}: rotation gave up ${percent(turning(first) - turning(last))}, more than liquid and contact took.`;
   }
+
+  private stokes = (): number => this.law.stokesPerSpeed * this.shown.found.speed;
 
   private comparison(pinned: Found, now: Found): HTMLElement {
     const rows: [string, (f: Found) => string][] = [
@@ -465,17 +469,18 @@ class Page {
   private showEnergy(path: Trajectory, time: number): void {
     if (scene.wall && !scene.ledger) return;
     const shares = path.ledger(path.at(Math.min(time, path.end)));
-    const ahead = path.overtakes <= time ? " Now faster along the line of centres than it came: rotation has become normal motion." : "";
-    if (this.energy.childElementCount !== 3 || this.energy.querySelectorAll("li").length !== shares.length + 1)
+    const gains = Number.isFinite(path.overtakes);
+    if (this.energy.childElementCount !== (gains ? 4 : 3) || this.energy.querySelectorAll("li").length !== shares.length + 1)
       this.energy.replaceChildren(
-        el("p", { class: "note" }, "Energy, as parts of the kinetic energy before. In colour: still there, or stored; grey: lost.", el("b")),
+        el("p", { class: "note" }, "Where the initial kinetic energy is now. In colour: in motion, or stored (below 0: given); striped: lost."),
         el("div", { class: "bar", "aria-hidden": "true" }, ...shares.map(([colour]) => el("i", { class: colour }))),
         el("ul", {}, ...shares.map(([colour, name]) => el("li", {}, el("i", { class: colour }), `${name} `, el("b"))), el("li", {}, "sum ", el("b"))),
+        ...(gains ? [el("p", { class: "note" })] : []),
       );
     const whole = shares.reduce((sum, [, , part]) => sum + Math.max(part, 0), 0);
     const bars = this.energy.querySelectorAll<HTMLElement>(".bar i");
-    const [note, ...numbers] = this.energy.querySelectorAll("b");
-    note!.textContent = ahead;
+    const numbers = [...this.energy.querySelectorAll("b")];
+    if (gains) this.energy.lastElementChild!.textContent = path.overtakes <= time ? "Now faster along the line of centres than it came: rotation has become normal motion." : "";
     shares.forEach(([, , part], k) => {
       bars[k]!.style.width = `${(100 * Math.max(part, 0)) / whole}%`;
       numbers[k]!.textContent = percent(part);

@@ -58,10 +58,12 @@ export class RegimeMap {
     return [0, 1, 2].map((k) => Math.round(fill[k]! + (dark[k]! - fill[k]!) * part)) as [number, number, number];
   }
 
-  /** Chooses an impact with this outcome, where its region is widest. */
+  /** The cell where the region of an outcome is widest; -1 if it has none that is seen. */
+  widest = (outcome: number): number => (this.grid ? widest(this.grid, outcome) : -1);
+
+  /** Chooses an impact with this outcome, which has a region, where its region is widest. */
   find(outcome: number): void {
-    const place = this.grid ? widest(this.grid, outcome) : -1;
-    if (place < 0) return;
+    const place = this.widest(outcome);
     const n = this.grid!.across.length;
     this.choose(this.grid!.across[place % n]!, this.grid!.upward[Math.floor(place / n)]!);
   }
@@ -195,13 +197,17 @@ export class RegimeMap {
     ctx.font = font(0.87 * scale, "600");
     ctx.textAlign = "center";
     ctx.lineJoin = "round";
+    const { values } = this.state();
+    const [crossX, crossY] = at(values[grid.state.across]!, values[grid.state.upward]!);
     names.forEach((name, outcome) => {
       const place = widest(grid, outcome);
       if (place < 0) return;
-      const [middle, y] = at(grid.across[place % n]!, grid.upward[Math.floor(place / n)]!);
+      const [middle, middleY] = at(grid.across[place % n]!, grid.upward[Math.floor(place / n)]!);
       const half = ctx.measureText(name).width / 2 + 4 * scale;
       const [left, right] = [at(grid.across[0]!, grid.upward[0]!)[0] + half, at(grid.across[n - 1]!, grid.upward[0]!)[0] - half];
       const x = Math.min(Math.max(middle, left), right);
+      const hidden = Math.abs(x - crossX) < half + 12 * scale && Math.abs(middleY - crossY) < 20 * scale;
+      const y = hidden ? crossY - 24 * scale : middleY;
       ctx.strokeStyle = "rgba(255,255,255,.85)";
       ctx.lineWidth = 4 * scale;
       ctx.strokeText(name, x, y);

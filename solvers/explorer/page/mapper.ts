@@ -24,8 +24,8 @@ export interface Crossing {
   y: number;
 }
 
-export const [COARSE, FINE] = [36, 100];
-const LINES = 5; // of a task of the fine map, so that a newer request does not wait
+export const [COARSE, FINE] = [30, 100];
+const LINES = 10; // of a task of the fine map, so that a newer request does not wait
 const MOST = 3000; // crossings that are refined
 
 export class Mapper {
@@ -62,13 +62,17 @@ export class Mapper {
     }
   }
 
-  /** The coarse map at once, here: workers take longer to start. */
+  /** The coarse map at once, here, as workers take longer to start; they go on with the fine one. */
   first(state: State, law: Law): void {
+    const start = performance.now();
     const [across, upward] = [this.axis(state.across, COARSE), this.axis(state.upward, COARSE)];
     const part: Part = { id: 0, values: state.values, speed: state.speed, across: [state.across, across], upward: [state.upward, upward] };
     const grid: Grid = { state: copyOf(state), across, upward, ...cells(law, part), edges: [], refined: false };
     grid.edges = crossings(grid, this.logarithmic(state));
+    this.timings.coarse = performance.now() - start;
     this.onGrid(grid);
+    this.wanted = copyOf(state);
+    void this.loop(true);
   }
 
   /** Asks for the map of a state; `onGrid` is called for each stage. */
@@ -85,14 +89,17 @@ export class Mapper {
     return !this.running;
   }
 
-  private async loop(): Promise<void> {
+  private async loop(isCoarseDone = false): Promise<void> {
     this.running = true;
     while (this.wanted) {
       const state = this.wanted;
       this.wanted = null;
       let start = performance.now();
-      await this.map(state, COARSE, Math.ceil(COARSE / this.workers.length), true);
-      this.timings.coarse = performance.now() - start;
+      if (!isCoarseDone) {
+        await this.map(state, COARSE, Math.ceil(COARSE / this.workers.length), true);
+        this.timings.coarse = performance.now() - start;
+      }
+      isCoarseDone = false;
       if (this.wanted) continue;
       start = performance.now();
       this.timings.cpu = 0;

@@ -12,13 +12,7 @@ export interface Knob {
   members: string[];
   never: number | null;
   first: boolean;
-}
-
-/** A number that says how far the model may be trusted; null where there is no bound. */
-export interface Limit {
-  words: string;
-  least: number | null;
-  most: number | null;
+  hint: string; // what the label means
 }
 
 export type SpeedKind = "stokes" | "speed" | "relative_speed";
@@ -41,7 +35,7 @@ export interface Scene {
   attraction: boolean;
   bridge: boolean;
   tables: [string, string, string | null, string | null, string | null][];
-  limits: Limit[];
+  limits: string[]; // of the model, in words
   outcomes: string[];
   criteria: string[];
   colours: string[];

@@ -26,6 +26,7 @@ export const pretty = (unit: string): string =>
   unit.replace(/\bum\b/, "µm").replace("deg", "°").replace(/\^?3\b/, "³").replace(/\^?2\b/, "²").replace("mPas", "mPa s");
 
 export const OUTCOMES = ["Stick", "Stick, rotate, separate", "Bounce"];
+export const MEANINGS = ["they stay together", "rotation pulls them apart", "they rebound"];
 const REBOUNDS = [
   "the liquid turned glassy under the pressure in the film",
   "the spheres deformed elastically",
@@ -33,28 +34,32 @@ const REBOUNDS = [
 ];
 
 /** What happens, in sentences. */
-export function answer(found: Collision & Impact, scene: Scene): [string, string] {
+export function answer(found: Collision & Impact, scene: Scene, stokes: number): [string, string] {
   if (found.status) return ["No answer", `${found.message}.`];
-  const [title, said] = decided(found, scene);
-  return [title, said + (found.outside.length ? ` Outside the model's range: ${found.outside.join(", ")}.` : "")];
+  const impact = `Impact at ${quantity(found.speed, "m/s")} ${along(scene)} (Stokes number ${short(stokes)}), ${degrees(found.angle)} from head-on.`;
+  const outside = found.outside.length ? ` Outside the model's range: ${found.outside.join("; ")}.` : "";
+  return [OUTCOMES[found.outcome]!, `${impact} ${decided(found, scene)}${outside}`];
 }
 
-function decided(found: Collision & Impact, scene: Scene): [string, string] {
-  const title = OUTCOMES[found.outcome]!;
+
+/** The normal direction. */
+export const along = (scene: Scene): string => (scene.wall ? "normal to the wall" : "along the line of centres");
+
+function decided(found: Collision & Impact, scene: Scene): string {
   const what = scene.wall ? "sphere and wall" : "spheres";
+  const cause = found.rebound >= 0 ? REBOUNDS[found.rebound]! : "";
   if (found.outcome === 0) {
     const proof = found.certified ? "" : " It is not proved that they never part later.";
-    const criterion = found.rebound >= 0 ? ` They rebounded, as ${REBOUNDS[found.rebound]}, but did not get apart.` : "";
-    return [title, `The ${what} stay together.${criterion}${proof}`];
+    return `The ${what} stay together.${cause && ` They rebounded, as ${cause}, but did not get apart.`}${proof}`;
   }
-  const parts = [`normal restitution ${found.restitution.toFixed(3)} (of the approach speed)`];
-  if (Number.isFinite(found.tangential_restitution)) parts.push(`tangential ${found.tangential_restitution.toFixed(3)}`);
-  parts.push(`together for ${quantity(found.contact_time, "s")}`);
-  if (!scene.wall) parts.push(`turned by ${degrees(found.rotation)}`);
-  parts.push(`smallest gap ${quantity(found.smallest_gap, "m")}`);
-  const why = found.outcome === 2 && found.rebound >= 0 ? ` They rebounded because ${REBOUNDS[found.rebound]}.` : "";
-  const turned = found.outcome === 1 ? " They turned together as a doublet until the rotation pulled them apart." : "";
-  return [title, `${parts.join(", ")}.${why}${turned}`.replace(/^./, (c) => c.toUpperCase())];
+  const turned = scene.wall ? "" : ` and turn by ${degrees(found.rotation)}`;
+  const across = Number.isFinite(found.tangential_restitution) ? `, and with ${found.tangential_restitution.toFixed(3)} of that ${scene.wall ? "along it" : "across it"} (tangential restitution)` : "";
+  return [
+    `The ${what} are together for ${quantity(found.contact_time, "s")}${turned}.`,
+    found.outcome === 1 ? "Then the rotation pulls them apart," : `They rebound${cause && ` because ${cause}`}, and part`,
+    `with ${found.restitution.toFixed(3)} of the approach speed ${along(scene)} (normal restitution)${across}.`,
+    `Smallest gap ${quantity(found.smallest_gap, "m")}.`,
+  ].join(" ");
 }
 
 /** An event's words from the code before it and behind it (shim.h). */

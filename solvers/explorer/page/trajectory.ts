@@ -133,16 +133,16 @@ export class Trajectory {
   ledger(frame: Frame): Share[] {
     const { scene } = this;
     const [line, around, spins] = this.energies(frame);
-    const motion: Share[] = [["e0", "line of centres", line]];
+    const motion: Share[] = [["e0", scene.wall ? "normal to the wall" : "line of centres", line]];
     if (scene.wall) motion.push(["e1", "along the wall, and spin", around]);
     else motion.push(["e1", "around each other", around], ["e2", "spins", spins]);
     const left = motion.reduce((sum, each) => sum + each[2], 0);
-    if (!scene.ledger) return [...motion, ["e6", scene.strings ? "lost, or in the strings" : "lost, or in the bridge", 1 - left]];
+    if (!scene.ledger) return [...motion, ["e6", scene.strings ? "lost, or stored in the strings" : "lost, or stored in the bridge", 1 - left]];
     const [initial, , normal, tangential, capillary, attraction, dry, strings, own] = frame.book.map((each) => each / frame.book[0]!);
     const parts: (Share | false)[] = [
-      scene.bridge && ["e3", "in the bridge", capillary!],
+      scene.bridge && ["e3", "stored in the bridge", capillary!],
       scene.attraction && ["e4", "against attraction", attraction!],
-      scene.strings && ["e5", "in the strings", strings!],
+      scene.strings && ["e5", "stored in the strings", strings!],
       ["e6", "lost squeezing the film", normal!],
       ["e7", "lost shearing the film", tangential!],
       ["e8", "lost in solid contact", dry!],

@@ -1,14 +1,14 @@
 // Parts of a map, and points of its boundaries, beside the page.
 import { BUDGET, cells, RTOL, type Part } from "./cells";
 import { Law } from "./law";
-import type { Knob, Layout, Limit, SpeedKind, Values } from "./scene";
+import type { Knob, Layout, SpeedKind, Values } from "./scene";
 
 export interface Start {
   module: WebAssembly.Module;
   layout: Layout;
   knobs: Knob[];
   entries: Record<string, number>;
-  limits: Limit[];
+  limits: string[];
 }
 
 /** Pairs of points of unlike outcome, four numbers each; all have the outcome of their first point. */

@@ -160,7 +160,7 @@ def test_table_and_json_say_it(tmp_path):
 def test_a_map_in_characters_counts_what_is_outside():
     """Under the map stands how many collisions passed which limit."""
     text = run("map", "granulation", "--stokes", "0.1:0.1:1", "--angle", "30:85:2").stdout
-    assert "outside the model's range: fly-by in 1" in text
+    assert "outside the model's range: solids that pass each other in 1" in text
 
 
 def test_a_map_has_the_flags_of_each_cell():

@@ -1,0 +1,69 @@
+"""A page that is open in a browser, and the scenes of the pages that tests open."""
+
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+from wetdoublet.solvers import Scene, explore
+
+LACTOSE = Scene.load("lactose-pvp")
+GRANULATION = Scene.load("granulation")
+SCENES = {
+    "granulation": GRANULATION,
+    "dry": Scene.load("granulation-dry-bridge").with_entries({"attraction.hamaker": 1e-19}),
+    "strings": Scene.load("pendulum"),
+    "coating": LACTOSE,
+    "beads": Scene.load("glass-beads-water").with_entries({"bridge.law": "willett", "model.arm": "surface"}),
+    "unequal": LACTOSE.with_entries(
+        {"partner.diameter": "500 um", "partner.density": "1.54 g/cm3", "particles.friction": 0.3}
+    ),
+    "rubbing": GRANULATION.with_entries({"particles.friction": 0.2, "model.film": "cavitating"}),
+    "wall": LACTOSE.with_entries({"partner.wall": True, "partner.coating_thickness": "1 um"}),
+}
+
+
+class Page:
+    """A page of a scene that is open; what it requests and complains of is kept."""
+
+    def __init__(self, tab: Any, path: Path, address: str = "") -> None:
+        self.tab = tab
+        self.requests: list[str] = []
+        self.complaints: list[str] = []
+        if not hasattr(tab, "on"):
+            self.requests, self.complaints = tab.requests, tab.complaints
+        else:  # Playwright's
+            tab.on("request", lambda request: self.requests.append(request.url))
+            tab.on("pageerror", lambda error: self.complaints.append(str(error)))
+            tab.on("console", lambda message: self.complaints.append(message.text))
+            tab.on("dialog", lambda dialog: self.complaints.append(dialog.message))
+        tab.goto(f"{path.as_uri()}#{address}" if address else path.as_uri())
+        self.until("!!window.wetdoublet")
+        self.settled()
+
+    def ask(self, expression: str, argument: Any = None) -> Any:
+        return self.tab.evaluate(expression, argument)
+
+    def until(self, condition: str) -> None:
+        for _ in range(600):
+            if self.ask(condition):
+                return
+            time.sleep(0.05)
+        raise AssertionError(condition)
+
+    def settled(self) -> None:
+        self.until("wetdoublet.map().idle && wetdoublet.map().count > 1")
+
+    @property
+    def knobs(self) -> list[dict[str, Any]]:
+        told = json.loads(self.ask("document.getElementById('scene').textContent"))
+        found: list[dict[str, Any]] = told["scenes"][0]["knobs"]
+        return found
+
+
+def written(files: dict[str, Path], name: str, folder: Path) -> Path:
+    """The page of a scene."""
+    if name not in files:
+        files[name] = folder / f"{name}.html"
+        explore(SCENES[name]).write(files[name])
+    return files[name]
