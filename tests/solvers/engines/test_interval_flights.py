@@ -34,7 +34,7 @@ static void run_flight(void *argument)
     proof *w = g->w;
     const options o = {ORDER, 0, 0, TOLERANCE, WIDEST, 0.01};
     set_up(w, g->quantities, g->moving);
-    for (int goes = begin(w); goes && g->count < g->room;) {
+    for (int goes = begin(w, &o); goes && g->count < g->room;) {
         iv x[STATES];
         double width = 0.0;
         const int rebounds = w->rebounds, film = w->here.film, shear = iv_positive(w->here.shear);
