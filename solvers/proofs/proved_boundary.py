@@ -64,7 +64,8 @@ class ProvedBoundary:
     undecided: tuple[Stretch, ...]
 
     def __str__(self) -> str:
-        lines = [f"at {math.degrees(self.angle):.10g} deg: {len(self.changes)} changes between proved outcomes"]
+        counted = f"{len(self.changes)} change{'' if len(self.changes) == 1 else 's'}"
+        lines = [f"at {math.degrees(self.angle):.10g} deg: {counted} between proved outcomes"]
         for each in self.changes:
             (low, high), (one, other) = each.stokes, each.outcomes
             named = f"{one} at St {low:.17g}, {other} at St {high:.17g}"
