@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ...errors import InputError, shown
+from ...errors import InputError
 from ...host.arguments import check_mapping
 from ...model.model import select_model
 from ...scene.groups import si_values
@@ -74,15 +74,15 @@ class Inputs:
         field, label = known[name], f"within {name}"
         quantity = {"impact.stokes": "stokes"}.get(name, field.quantity)
         if not quantity:
-            raise InputError(label, shown(width), "an entry that is a number by itself", "is no range of numbers")
+            raise InputError(label, width, "an entry that is a number by itself", "is no range of numbers")
         if quantity == "reduced_radius" and {"particles.density", "partner.density"} & scene.entries.keys():
-            raise InputError(label, shown(width), _ACCEPTED, _OTHERS)
+            raise InputError(label, width, _ACCEPTED, _OTHERS)
         if quantity not in values or (quantity == "speed" and "stokes" in values):
-            raise InputError(label, shown(width), "an entry that this scene has", "is not there")
+            raise InputError(label, width, "an entry that this scene has", "is not there")
         if isinstance(width, tuple) and len(width) == 2:
             low, high = (field.number(end, label=label) * field.factor for end in width)
             if not low < high:
-                raise InputError(label, f"{shown(width[0])}, {shown(width[1])}", _ACCEPTED, "is empty or reversed")
+                raise InputError(label, list(width), _ACCEPTED, "is empty or reversed")
         else:
             low, high = _around(values[quantity], _relative(width, label))
             for end in (low, high):
@@ -106,7 +106,7 @@ class Inputs:
 
 def _relative(width: object, label: str) -> float:
     if isinstance(width, bool) or not isinstance(width, (int, float)) or not 0 < width < 1:
-        raise InputError(label, shown(width), _ACCEPTED, "is empty or reversed" if width == 0 else "is no range")
+        raise InputError(label, width, _ACCEPTED, "is empty or reversed" if width == 0 else "is no range")
     return float(width)
 
 

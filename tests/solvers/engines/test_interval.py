@@ -286,6 +286,14 @@ def test_a_box_across_a_boundary_is_not_proved() -> None:
     assert proof.reason
 
 
+def test_a_bad_box_is_shown_as_it_was_given() -> None:
+    """The value in the message is the caller's, with its own quotes only."""
+    with pytest.raises(InputError) as caught:
+        prove("granulation", within={"bridge.contact_angle": "1 %"})
+    assert caught.value.value == "1 %"
+    assert '""' not in str(caught.value)
+
+
 @pytest.mark.parametrize(
     "within",
     [
