@@ -2,12 +2,15 @@
 
 import sympy as sp
 
-from ..equations.model import derive
-from ..physics.structure import structures
+from ..equations.intermediates import MOMENTUM, ORBITAL_RATE
+from ..equations.model import derive, without_partner_spin
+from ..equations.observables import excess_energy
+from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
 from .base import Evidence, check
 
 _h, _s, _r, _y = sp.symbols("h s r y", positive=True)  # distance, steepness, size of the rate, height
+_PAIR = Structure(True, True, False, partner="pair")
 
 
 @check("bounds of a panel", "y' = r - s y, y(0) = 0: r h/(1 + s h) <= y(h) <= min(r h, r/s)")
@@ -66,18 +69,24 @@ def remainders_are_bounded() -> Evidence:
     )
 
 
-@check("energy above the least", "E = u^2/2 + E_least + (dE/dJ)^2/(2 d2E/dJ2), d2E/dJ2 > 0 by the gap alone")
-def excess_is_a_square() -> Evidence:
+@check("energy above the least", "E = E_least + u^2/2 + sum of A_i A_j (omega_i - omega_j)^2 / sum of A_i, A_i > 0")
+def excess_is_of_squares() -> Evidence:
     """The energy that the runtime counts above the least at the same gap, in the structures that are enclosed."""
-    tangent = sp.Symbol("tangent", positive=True)
-    for structure in structures():
-        if not structure.reduced or structure.strings:
-            continue
+    for structure in (*(each for each in structures() if each.reduced), _PAIR, Structure(False, True, False)):
         model = derive(structure)
-        energy = model.expanded(sp.Add(*model["energies"].by_name.values())).subs(q.obliquity, tangent)
-        least = model.expanded(model["effective_potential"]["energy"]).subs(q.obliquity, tangent)
-        excess = energy - least - q.normal_velocity**2 / 2
-        slope, second = (energy.diff(q.orbital_momentum, k) for k in (1, 2))
-        yield sp.simplify(excess - slope**2 / (2 * second))
-        yield sp.simplify(second.diff(q.orbital_momentum))
-        yield (sp.factor(second).is_positive is True, "the second derivative is positive")
+        energy = sp.Add(*model["energies"].by_name.values())
+        least = model["effective_potential"]["energy"]
+        yield sp.simplify(model.expanded(energy - least - excess_energy(energy)))
+        for rate in (ORBITAL_RATE, q.spin, q.partner_spin):
+            moment = model.expanded(energy.diff(rate, 2)).subs(q.obliquity, sp.Symbol("tangent", positive=True))
+            yield (moment == 0 or sp.factor(moment).is_positive is True, "a moment is not positive")
+
+
+@check("pair over intervals", "the partner's spin from L(0): L stays L(0), from the spin at initial contact on")
+def partner_spin_follows() -> Evidence:
+    """The spin that is no state there gives the angular momentum of initial contact, which the pair keeps (`partners`)."""
+    full, enclosed = derive(_PAIR), without_partner_spin(derive(_PAIR))
+    spin, momentum = enclosed.expanded(q.partner_spin), full.expanded(MOMENTUM)
+    yield sp.simplify(momentum.subs(q.partner_spin, spin) - enclosed.expanded(MOMENTUM))
+    first = {state: enclosed["start"][state.name] for state in enclosed.states}
+    yield sp.simplify(enclosed.expanded(spin.subs(first, simultaneous=True)) - q.initial_partner_spin)

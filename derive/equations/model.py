@@ -12,7 +12,7 @@ import sympy as sp
 
 from ..physics.forces import FILM, SHEAR
 from ..physics.laws import LAWS
-from ..physics.laws.base import Definition, needed
+from ..physics.laws.base import Definition, filled, needed
 from ..physics.partners import rotation
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
@@ -20,7 +20,7 @@ from . import friction
 from .certificates.table import CERTIFICATES
 from .events import CONTACT_GAPS, TARGET_GROUPS, start
 from .functions import ModelFunction, functions
-from .intermediates import intermediates, inward_force
+from .intermediates import MOMENTUM, intermediates, inward_force
 from .invariants import Invariant, conserved_components, conserved_momentum
 
 
@@ -53,6 +53,24 @@ class Model:
     def results(self, name: str, keep: Collection[str] = ()) -> dict[str, sp.Expr]:
         """The expanded outputs of a function by name."""
         return {key: self.expanded(value, keep) for key, value in self[name].outputs}
+
+
+def without_partner_spin(model: Model) -> Model:
+    """The model of an unequal pair with the partner's spin from the angular momentum, lever arm at mid-gap; any other."""
+    if model.structure.partner != "pair":
+        return model
+    first = {state: model["start"][state.name] for state in model.states}
+    definitions: list[Definition] = []
+    for symbol, value in model.definitions:
+        definitions.append((symbol, filled(value, {"arm": LAWS["arm"]["midgap"]})))
+        if symbol == MOMENTUM:
+            (spin,) = sp.solve(sp.Eq(value, MOMENTUM), q.partner_spin)
+            definitions[-1:] = [(MOMENTUM, value.subs(first, simultaneous=True)), (q.partner_spin, spin)]
+    functions = tuple(
+        replace(each, outputs=tuple(one for one in each.outputs if one[0] != q.partner_spin.name))
+        for each in model.functions
+    )
+    return replace(model, states=model.states[:-1], definitions=tuple(definitions), functions=functions)
 
 
 @cache

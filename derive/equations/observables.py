@@ -1,5 +1,7 @@
 """Functions of a state: ledger of energy and angular momentum, outputs, and the least energy of the certificate."""
 
+from itertools import combinations
+
 import sympy as sp
 
 from ..physics.forces import TANGENTIAL
@@ -45,6 +47,20 @@ def _kinetic(structure: Structure) -> sp.Expr:
         return nondimensional(energy.subs({q.omega: 0, q.xi: 0}))
     orbital = sp.Rational(1, 2) * q.m * q.r**2 * q.omega**2 / (q.m * q.v0**2)
     return nondimensional(sp.expand(energy - sp.expand(orbital))) + by_orbital_rate(nondimensional(orbital))
+
+
+def excess_energy(stored: sp.Expr) -> sp.Expr:
+    """What stored energy exceeds the least at the same gap and angular momentum, as a sum of squares.
+
+    Over m v0^2 that is the energy of the normal velocity, and with the moments A_i of the rates of the orbit and of the
+    spins the sum over pairs of A_i A_j (omega_i - omega_j)^2, over that of A_i (Lagrange; `derive.checks.enclosure`).
+    """
+    excess, unit = q.normal_velocity**2 / 2, stored.diff(ORBITAL_RATE, 2) / 2
+    if unit == 0:
+        return excess
+    moments = {rate: sp.cancel(stored.diff(rate, 2) / 2 / unit) for rate in (ORBITAL_RATE, q.spin, q.partner_spin)}
+    slips = [moments[i] * moments[j] * (i - j) ** 2 for i, j in combinations(moments, 2)]
+    return excess + unit * sp.Add(*slips) / sp.Add(*moments.values())
 
 
 def _lifted() -> sp.Expr:

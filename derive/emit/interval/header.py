@@ -8,7 +8,8 @@ import sympy as sp
 
 from ...equations.events import CONTACT_GAPS, contact_gap
 from ...equations.functions import ModelFunction
-from ...equations.model import Model
+from ...equations.model import Model, without_partner_spin
+from ...equations.observables import excess_energy
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import Law, needed, slot_call
 from ...physics.scaling import group_definitions
@@ -23,14 +24,18 @@ from ..taylor.program import Program, cheapest
 from .text import Constants, dual, recurrences
 
 
-def enclosed(structure: Structure) -> bool:
-    """True for structures whose collisions can be enclosed."""
-    plain = not (structure.strings or structure.partner or structure.friction or structure.spread)
-    return (
-        plain
-        and (structure.reduced or structure.bridge or structure.attraction)
-        and (structure.reduced or not structure.oblique)
-    )
+_REFUSED = {
+    "strings": "pendulum strings", "wall": "friction beside a wall", "space": "rotation in space",
+    "friction": "friction of the dry contact", "spread": "a film that follows the bridge's volume",
+}  # fmt: skip
+
+
+def refused(structure: Structure) -> str:
+    """What of a structure is not enclosed; "" if all of it is."""
+    for feature, name in _REFUSED.items():
+        if structure.has(feature):
+            return name
+    return "" if structure.reduced or structure.partner or not structure.oblique else "a lever arm that is not at mid-gap"
 
 
 def law_header(law: Law) -> str:
@@ -98,8 +103,9 @@ def structure_header(model: Model) -> str:
         EmissionError: collisions of this structure cannot be enclosed.
     """
     shape = model.structure
-    if not enclosed(shape):
-        raise EmissionError(f"collisions of the structure {shape.name} are not enclosed")
+    if reason := refused(shape):
+        raise EmissionError(f"{reason} is not enclosed")
+    model = without_partner_spin(model)
     constants = Constants((*model.groups, FILM, SHEAR))
     rates = model["right_hand_side"].by_name
     program = Program.for_outputs(model.states, rates.values(), model.definitions)
@@ -218,6 +224,11 @@ def _values(model: Model, constants: Constants) -> list[str]:
     total = {"energy": sp.Add(*energies.by_name.values())}
     head = "static dual stored_energy(const constants *c, const dual *y)"
     lines += _value(model, constants, head, energies, {"energy": "return"}, total)
+    excess = {"energy": excess_energy(total["energy"])}
+    lines += _value(
+        model, constants, "static dual excess_energy(const constants *c, const dual *y)", energies, {"energy": "return"}, excess,
+        "Energy above the least at the same gap and angular momentum, over m v0^2.",
+    )
     head = "static dual least_energy(const constants *c, const dual *y)"
     if "effective_potential" in model:
         lines += _value(model, constants, head, model["effective_potential"], {"energy": "return"})
@@ -233,12 +244,13 @@ def _value(
     source: ModelFunction,
     targets: Mapping[str, str],
     outputs: Mapping[str, sp.Expr] | None = None,
+    doc: str = "",
 ) -> list[str]:
     """A C function of the states `y`; its targets are C text, or "return"."""
     by_name = source.by_name if outputs is None else outputs
     wanted = {key: sp.sympify(by_name[key]) for key in targets}
     places = {state: f"y[{state.name.upper()}]" for state in model.states}
-    definitions, _ = needed(list(wanted.values()), model.definitions)
+    definitions = [each for each in needed(list(wanted.values()), model.definitions)[0] if each[0] not in constants]
     local = {symbol: symbol.name for symbol, _ in definitions}
 
     def name(symbol: sp.Symbol) -> str:
@@ -248,4 +260,4 @@ def _value(
     for key, value in wanted.items():
         text = dual(value, name)
         body.append(f"return {text};" if targets[key] == "return" else f"{targets[key]} = {text};")
-    return documented(source.doc, head, body)
+    return documented(doc or source.doc, head, body)

@@ -80,6 +80,9 @@ class Constants:
         self.prepared: dict[str, str] = {}
         self._known: dict[sp.Expr, str] = {symbol: symbol.name for symbol in given}
 
+    def __contains__(self, symbol: sp.Symbol) -> bool:
+        return symbol in self._known
+
     def name(self, expression: sp.Expr) -> str:
         """C text of a constant; one that is not known yet is added under a number."""
         if expression not in self._known:

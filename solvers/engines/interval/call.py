@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -66,19 +67,33 @@ class Enclosure(NamedTuple):
     panels: int
 
 
+_EXCHANGED = {"impact_spin": "impact_partner_spin", "impact_partner_spin": "impact_spin"}
+
+
+def _inverse(low: float, high: float) -> Range:
+    return math.nextafter(1 / high, 0.0), math.nextafter(1 / low, math.inf)
+
+
 def enclose(engine: Engine, ranges: Mapping[str, Range], moving: tuple[str, ...], settings: Settings) -> Enclosure:
     """Enclose all collisions whose quantities lie in ranges.
+
+    The spin that the angular momentum gives is that of the partner. Of unequal spheres that with less inertia comes
+    first: the other states then grow with each other, and bounds over the gap lose little.
 
     Arguments:
         ranges: low and high of each quantity, SI; a quantity that is left out is absent.
         moving: quantities that are followed with derivatives, as many as the engine has parameters.
     """
     assert settings.order + 2 <= TERMS
-    pairs = np.array([ranges.get(name, (np.nan, np.nan)) for name in engine.quantities])
+    names = engine.quantities
+    if "mass_ratio" in names and ranges["mass_ratio"][0] * ranges["radius_ratio"][0] ** 2 < 1:
+        names = tuple(_EXCHANGED.get(name, name) for name in names)
+        ranges = {**ranges, **{name: _inverse(*ranges[name]) for name in ("radius_ratio", "mass_ratio")}}
+    pairs = np.array([ranges.get(name, (np.nan, np.nan)) for name in names])
     if moving:
         width = max(abs(ranges[name][1] - ranges[name][0]) / max(map(abs, ranges[name])) for name in moving)
         settings = settings._replace(panel=min(max(width, settings.panel), PANEL))
-    columns = np.array([moving.index(name) if name in moving else -1 for name in engine.quantities], np.int32)
+    columns = np.array([moving.index(name) if name in moving else -1 for name in names], np.int32)
     result, numbers = np.empty(RESULTS), np.array(settings, float)
     room = getattr(engine.rooms, "room", None)  # of this thread
     if room is None:

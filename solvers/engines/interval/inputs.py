@@ -99,7 +99,10 @@ class Inputs:
             raise NotProvable("the box holds head-on and oblique impacts")
         if self.scene.pendulum is not None:
             raise NotProvable("pendulum strings are not enclosed")
-        oblique = self.ranges["angle"][1] > 0 or self.ranges["impact_spin"] != (0.0, 0.0)
+        spins = (self.ranges.get(name, (0.0, 0.0)) for name in ("impact_spin", "impact_partner_spin"))
+        oblique = self.ranges["angle"][1] > 0 or any(spin != (0.0, 0.0) for spin in spins)
+        if self.scene.wall and self.scene.particles.friction is None:
+            oblique = False  # the motion of the gap is head-on, whatever moves along the wall (derive/checks/partners.py)
         own = self.scene.bridge is not None and self.scene.bridge.rupture == "own"
         return engine(select_model(self.scene, oblique, fold=True), own, len(self.moving))
 

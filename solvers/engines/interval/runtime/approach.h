@@ -21,6 +21,26 @@ static int clearance_of(proof *w, const iv *x)
     return iv_positive(w->rest.clearance.v[0]) ? 1 : iv_negative(w->rest.clearance.v[0]) ? -1 : 0;
 }
 
+/* True if a film alone stops all trajectories from a box, head-on: u' = -c u there, so that u keeps its sign and the gap
+ * changes by less than |u|/c, and they meet nothing on this way. */
+static int stopped(proof *w, const iv *from)
+{
+    iv x[STATES] = {from[GAP], iv_hull(from[NORMAL_VELOCITY], iv_point(0.0))}, rate[STATES], own[STATES];
+    const double most = iv_magnitude(from[NORMAL_VELOCITY]);
+    double way = 0.0;
+    for (int trial = 0; trial < 2 && !(OBLIQUE || BRIDGE || ATTRACTION) && w->here.film; trial++) {
+        field(&w->p, &w->rest, x, rate, own);
+        const double passed = iv_negative(own[NORMAL_VELOCITY]) ? most/-iv_hi(own[NORMAL_VELOCITY]) : INFINITY;
+        if (passed < way)
+            return clearance_of(w, x) > 0;
+        way = 2.0*passed;
+        x[GAP] = iv_add(from[GAP], iv_ball(way));
+        if (!(iv_lo(x[GAP]) > iv_hi(w->p.level[CONTACT_GAP].v) && iv_hi(x[GAP]) < 1.0))
+            return 0;
+    }
+    return 0;
+}
+
 /* The tangential force acts throughout the film. */
 static int in_shear(const proof *w)
 {
@@ -155,7 +175,7 @@ static int approach(proof *w, const options *o)
         } else {
             x[GAP] = iv_point(to);
             box_of(TOGETHER, &after, x);
-            if (below_barrier(&w->p, &w->wall, x)) {
+            if (below_barrier(&w->p, &w->wall, x) || stopped(w, x)) {
                 w->smallest = 0.0;
                 end(w, STICK, PROVED);
                 return 1;

@@ -125,31 +125,12 @@ static iv slope_of(const problem *p, flow *s, iv gap)
     return HAS(&least, GAP) ? iv_add(force, least.d[GAP]) : force;
 }
 
-/* Derivative of the stored energy by a momentum. */
-static iv by_momentum(const problem *p, const iv *x, int i, iv value)
-{
-    dual y[STATES];
-    for (int j = 0; j < STATES; j++)
-        y[j] = d_value(x[j]);
-    y[i] = d_value(value);
-    y[i].mask = 1u << i;
-    y[i].d[i] = iv_point(1.0);
-    const dual energy = stored_energy(&p->box, y);
-    return HAS(&energy, i) ? energy.d[i] : iv_point(0.0);
-}
-
 /* True if the least energy rises, from a box of states on, by more than they have above it: energies beside a saddle differ
- * by less than their rounding errors, but their slope does not. The excess is that of u and of a slip, which is a square in
- * the momentum: the square of its derivative over twice the second one (derive/checks/enclosure.py). */
+ * by less than their rounding errors, but their slope does not, nor the excess, which is made of squares
+ * (derive/checks/enclosure.py). */
 static int below_rise(const problem *p, flow *s, const iv *x)
 {
-    iv excess = iv_mul(iv_point(0.5), iv_square(x[NORMAL_VELOCITY]));
-    for (int i = NORMAL_VELOCITY + 1; i < STATES; i++) {
-        const iv second = iv_sub(by_momentum(p, x, i, iv_point(1.0)), by_momentum(p, x, i, iv_point(0.0)));
-        if (!iv_positive(second))
-            return 0;
-        excess = iv_add(excess, iv_div(iv_square(by_momentum(p, x, i, x[i])), iv_mul(iv_point(2.0), second)));
-    }
+    const iv excess = energy_at(p, x, excess_energy);
     const double rise = iv_lo(slope_of(p, s, x[GAP])), length = 2.0*iv_hi(excess)/rise;
     const iv way = iv_of(iv_lo(x[GAP]), iv_hi(x[GAP]) + length);
     if (!(rise > 0.0 && length > 0.0 && iv_hi(way) < iv_lo(p->level[RUPTURE_GAP].v)))

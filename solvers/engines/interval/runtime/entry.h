@@ -47,7 +47,7 @@ static void prove(proof *w, const options *o)
         }
         if (!w->wall.known && (w->rebounds || iv_lo(x[NORMAL_VELOCITY]) > -0.1))
             find_barrier(&w->p, &w->rest, &w->wall);
-        if (w->wall.known && (below_barrier(&w->p, &w->wall, x) || below_rise(&w->p, &w->rest, x))) {
+        if (w->wall.known && (below_barrier(&w->p, &w->wall, x) || below_rise(&w->p, &w->rest, x) || stopped(w, x))) {
             end(w, STICK, PROVED);
             return;
         }
