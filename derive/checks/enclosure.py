@@ -90,3 +90,21 @@ def partner_spin_follows() -> Evidence:
     yield sp.simplify(momentum.subs(q.partner_spin, spin) - enclosed.expanded(MOMENTUM))
     first = {state: enclosed["start"][state.name] for state in enclosed.states}
     yield sp.simplify(enclosed.expanded(spin.subs(first, simultaneous=True)) - q.initial_partner_spin)
+
+
+@check("contact for good", "v' >= f - k v falls by g within 2 g k/f + (2 g/f)^(1/2); momenta do not depend on u, the film force is k u")
+def rebounds_stay_low() -> Evidence:
+    """What the runtime assumes of rebounds: the time of a fall, and how u enters the rates.
+
+    Twice integrated, v + k s >= f t and s + k g t >= f t^2/2, which at the bound exceeds s = g by a product of positive
+    factors.
+    """
+    f, g, k = sp.symbols("f g k", positive=True)
+    bound = 2 * g * k / f + sp.sqrt(2 * g / f)
+    beyond = sp.simplify(f * bound**2 / 2 - k * g * bound - g)
+    yield (beyond.is_positive is True, f"{beyond} is not positive")
+    for structure in (*(each for each in structures() if each.reduced), _PAIR, Structure(False, True, False)):
+        model = derive(structure)
+        for state, rate in model.by_state("right_hand_side").items():
+            if state != q.gap:
+                yield sp.diff(rate, q.normal_velocity, 2 if state == q.normal_velocity else 1)

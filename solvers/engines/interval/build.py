@@ -86,7 +86,7 @@ def source(choice: ModelKey, own_rupture: bool, parameters: int) -> str:
     return _LINES.sub("", "".join(parts))
 
 
-_RUNTIME = ("interval", "series", "set", "barrier", "funnel", "events", "approach", "step", "entry")
+_RUNTIME = ("interval", "series", "set", "barrier", "funnel", "contact", "events", "approach", "step", "entry")
 
 
 @once

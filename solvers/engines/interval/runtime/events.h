@@ -1,7 +1,7 @@
 #pragma once
 /* The events of a proof: their guards, the set on their surfaces, and what they do to it. */
 #include "barrier.h"
-#include "funnel.h"
+#include "contact.h"
 
 enum { UNPROVED, STICK, ROTATE, BOUNCE };
 enum event { AT_CONTACT, AT_FILM_IN, AT_FILM_OUT, AT_SHEAR_IN, AT_SHEAR_OUT, AT_RUPTURE, AT_GLASS, EVENTS };
@@ -202,6 +202,8 @@ static int bounce(proof *w, int criterion)
     hull_of(&w->p, &w->s, x);
     if (!w->rebounds)
         w->criterion = criterion;
+    if (stays_in_contact(&w->p, &w->rest, w->here, x))
+        return end(w, STICK, PROVED);
     if (++w->rebounds > MOST_REBOUNDS)
         return end(w, UNPROVED, TOO_MANY_REBOUNDS);
     return iv_lo(x[NORMAL_VELOCITY]) > NO_SPEED || end(w, UNPROVED, CHATTER);
