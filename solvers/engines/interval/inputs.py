@@ -18,7 +18,6 @@ from .call import Range
 Within = float | Mapping[str, float | tuple[float | str, float | str]]
 MOST = 6  # entries of a box
 _ACCEPTED = "LO and HI of one unit, LO below HI, or a relative uncertainty such as 1e-4"
-_OTHERS = "decides the mass as well: give the scene's reduced radius and mass"
 
 
 @dataclass(frozen=True)
@@ -75,8 +74,6 @@ class Inputs:
         quantity = {"impact.stokes": "stokes"}.get(name, field.quantity)
         if not quantity:
             raise InputError(label, width, "an entry that is a number by itself", "is no range of numbers")
-        if quantity == "reduced_radius" and {"particles.density", "partner.density"} & scene.entries.keys():
-            raise InputError(label, width, _ACCEPTED, _OTHERS)
         if quantity not in values or (quantity == "speed" and "stokes" in values):
             raise InputError(label, width, "an entry that this scene has", "is not there")
         if isinstance(width, tuple) and len(width) == 2:
@@ -87,6 +84,15 @@ class Inputs:
             low, high = _around(values[quantity], _relative(width, label))
             for end in (low, high):
                 field.number(end / field.factor, label=label)
+        try:
+            other = scene.with_entries({name: low / field.factor})
+        except InputError:
+            raise InputError(label, width, "an entry that this scene has", "is not there") from None
+        moved, decided = si_values(other, *other.need_impact()), {quantity}
+        decided |= {"speed"} if "stokes" in (quantity, *values) else set()
+        decided |= set() if scene.pair else {"impact_partner_spin"}
+        if further := [each for each in values if moved.get(each, values[each]) != values[each] and each not in decided]:
+            raise InputError(label, width, "an entry that decides nothing else", f"decides {further[0]} as well")
         return quantity, (low, high)
 
     def engine(self) -> Engine:
