@@ -49,8 +49,9 @@ class ProvedBoundary:
     """Changes of outcome along a line of constant angle (rad), each between two proved collisions.
 
     Attributes:
-        undecided: stretches of the line between two with the same outcome, in which nothing is proved. Where there is
-            none, every change of the line is within one of `changes`.
+        proved: stretches with one proved outcome each; neighbours have an end in common, or nothing is proved between.
+        undecided: what lies between two of them with the same outcome. Where there is none, every change of the line is
+            within one of `changes`.
 
     Example:
         >>> from wetdoublet.solvers import prove_boundary
@@ -61,6 +62,7 @@ class ProvedBoundary:
     scene: Scene
     angle: float
     changes: tuple[Change, ...]
+    proved: tuple[Stretch, ...]
     undecided: tuple[Stretch, ...]
 
     def __str__(self) -> str:
@@ -128,8 +130,8 @@ def prove_boundary(scene: Scene | str | Path, *, angle: float | str, stokes: tup
 
 def _cover(
     scene: Scene, numbers: Sequence[float], pairs: Sequence[tuple[Stretch, tuple[str, str]]]
-) -> tuple[tuple[Change, ...], tuple[Stretch, ...]]:
-    """The changes with the stretches around them, and the other stretches that are not proved.
+) -> tuple[tuple[Change, ...], tuple[Stretch, ...], tuple[Stretch, ...]]:
+    """The changes with the stretches around them, the stretches that are proved, and what is left between those.
 
     The line outside of the pairs is proved stretch by stretch; one that is not is halved, the nearer to a pair the more
     often. Neighbours have a Stokes number in common, and so the outcome. Where the sharpest proof fails, what is nearer
@@ -137,7 +139,7 @@ def _cover(
     """
     inputs = Inputs.of(scene, {"impact.stokes": 1e-6})
     engine = inputs.engine()
-    left: list[Stretch] = []  # what is not proved
+    proved: list[Stretch] = []
     changing = [pair for pair, _ in pairs]
 
     def away(number: float) -> float:
@@ -148,35 +150,26 @@ def _cover(
         box = {**inputs.ranges, "stokes": (low, high)}
         for settings in (BOX, _SHARP) if narrow else (BOX,):
             if enclose(engine, box, inputs.moving, settings).outcome:
+                proved.append((low, high))
                 return True
         middle = math.sqrt(low * high)
         if (narrow and math.log(high / low) < _PART * away(middle)) or not low < middle < high:
-            left.append((low, high))
             return False
         far, near = ((low, middle), (middle, high)) if away(low) > away(high) else ((middle, high), (low, middle))
-        if cover(*far):
-            return cover(*near)
-        left.append(near)
-        return False
+        return cover(*far) and cover(*near)
 
     ends = sorted({*numbers, *itertools.chain(*changing)})
     for low, high in itertools.pairwise(ends):
-        if (low, high) in changing:
-            left.append((low, high))
-        else:
+        if (low, high) not in changing:
             cover(low, high)
-    joined: list[Stretch] = []
-    for low, high in sorted(left):
-        if joined and joined[-1][1] == low:
-            joined[-1] = (joined[-1][0], high)
-        else:
-            joined.append((low, high))
+    proved.sort()
+    edges = [ends[0], *itertools.chain(*proved), ends[-1]]
+    gaps = [(low, high) for low, high in zip(edges[::2], edges[1::2], strict=True) if low < high]
     changes = [
-        Change(pair, outcomes, next(each for each in joined if each[0] <= pair[0] and pair[1] <= each[1]))
+        Change(pair, outcomes, next(each for each in gaps if each[0] <= pair[0] and pair[1] <= each[1]))
         for pair, outcomes in pairs
     ]
-    others = [each for each in joined if all(each != change.within for change in changes)]
-    return tuple(changes), tuple(others)
+    return tuple(changes), tuple(proved), tuple(each for each in gaps if all(each != one.within for one in changes))
 
 
 def _between(at: Any, left: float, one: str, right: float, other: str) -> Iterator[tuple[Stretch, tuple[str, str]]]:
