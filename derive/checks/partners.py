@@ -142,13 +142,17 @@ def wall_is_head_on() -> Evidence:
     """Beside a wall the motion along the line of centres is the head-on one, independent of the tangential motion.
 
     Its rates, its events and its certificate are those of the head-on structure, expression by expression: a stick,
-    bounce or certificate of the head-on structure is one of the oblique structure.
+    bounce or certificate of the head-on structure is one of the oblique structure, with friction of the contact, too.
     """
-    beside, alone = derive(_WALL), derive(Structure(False, True, False, attraction=True))
-    rates, expected = beside.by_state("right_hand_side"), alone.by_state("right_hand_side")
-    yield from [rates[state] - expected[state] for state in (q.gap, q.normal_velocity)]
+    alone = derive(Structure(False, True, False, attraction=True))
+    expected = alone.by_state("right_hand_side")
     names = ("events", "inward_force", "effective_potential", "rebound", "rebound_loss")
-    yield from special_case(alone, names, beside, lambda each: each)
+    for beside in (derive(_WALL), derive(replace(_WALL, friction="all"))):
+        rates = beside.by_state("right_hand_side")
+        yield from [rates[state] - expected[state] for state in (q.gap, q.normal_velocity)]
+        yield from special_case(alone, names, beside, lambda each: each)
+    impulse = beside.by_state("rubbed")
+    yield from [impulse[state] - state for state in (q.gap, q.normal_velocity)]
     (escape,), (kinetic,) = beside["escape_energy"].outputs, alone["energies"].outputs
     yield escape[1] - kinetic[1]
 

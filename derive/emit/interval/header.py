@@ -24,18 +24,13 @@ from ..taylor.program import Program, cheapest
 from .text import Constants, dual, recurrences
 
 
-_REFUSED = {
-    "strings": "pendulum strings", "wall": "friction beside a wall", "space": "rotation in space",
-    "friction": "friction of the dry contact", "spread": "a film that follows the bridge's volume",
-}  # fmt: skip
-
-
 def refused(structure: Structure) -> str:
     """What of a structure is not enclosed; "" if all of it is."""
-    for feature, name in _REFUSED.items():
-        if structure.has(feature):
-            return name
-    return "" if structure.reduced or structure.partner or not structure.oblique else "a lever arm that is not at mid-gap"
+    if structure.strings or structure.friction or structure.partner in ("wall", "space"):
+        return "a structure with strings, friction, a wall's rotation or rotation in space"
+    if structure.oblique and not (structure.reduced or structure.partner):
+        return "a lever arm that is not at mid-gap"
+    return "a film that follows the bridge's volume" if structure.spread else ""
 
 
 def law_header(law: Law) -> str:

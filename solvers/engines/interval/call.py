@@ -23,7 +23,7 @@ REASONS = {
     Why.START: "too near a boundary: a criterion is barely met at initial contact",
     Why.TOO_WIDE: "the set of trajectories becomes too wide",
     Why.TOO_MANY_REBOUNDS: "the budget of rebounds is spent",
-    Why.CHATTER: "rebounds slower than 1e-9 of the impact rest in contact, which is not enclosed",
+    Why.CHATTER: "it comes to rest in contact, where its rotation may release it",
 }
 """What is said of a collision that is not proved."""
 

@@ -101,14 +101,15 @@ class Inputs:
         Raises:
             NotProvable: there is none for this scene here.
         """
-        if len({low > 0 for low in (self.ranges["angle"])}) > 1:
+        if len({low > 0 for low in (self.ranges["angle"])}) > 1 and not self.scene.wall:
             raise NotProvable("the box holds head-on and oblique impacts")
         if self.scene.pendulum is not None:
             raise NotProvable("pendulum strings are not enclosed")
         spins = (self.ranges.get(name, (0.0, 0.0)) for name in ("impact_spin", "impact_partner_spin"))
-        oblique = self.ranges["angle"][1] > 0 or any(spin != (0.0, 0.0) for spin in spins)
-        if self.scene.wall and self.scene.particles.friction is None:
-            oblique = False  # the motion of the gap is head-on, whatever moves along the wall (derive/checks/partners.py)
+        sideways = self.ranges["angle"][1] > 0 or any(spin != (0.0, 0.0) for spin in spins)
+        oblique = sideways and not self.scene.wall  # beside a wall the gap moves as head-on (derive/checks/partners.py)
+        if oblique and self.scene.particles.friction is not None:
+            raise NotProvable("friction of the dry contact is not enclosed")
         own = self.scene.bridge is not None and self.scene.bridge.rupture == "own"
         return engine(select_model(self.scene, oblique, fold=True), own, len(self.moving))
 

@@ -12,11 +12,11 @@ static int stays_in_contact(const problem *p, flow *s, region here, const iv *fr
     iv x[STATES], face[STATES], rate[STATES], own[STATES], there[STATES];
     const iv edge = p->level[TANGENTIAL_EDGE].v;
     const double lowest = iv_lo(p->level[CONTACT_GAP].v), end = smaller(1.0, iv_lo(p->level[RUPTURE_GAP].v));
-    const double e = iv_hi(p->box.dry_restitution.v), u = iv_hi(from[NORMAL_VELOCITY]);
+    const double e = iv_hi(p->box.dry_restitution.v), u = larger(iv_hi(from[NORMAL_VELOCITY]), 0.0); /* not closing */
     double rise = 0.0;
     memcpy(x, from, sizeof x);
     x[NORMAL_VELOCITY] = iv_point(0.0);
-    for (int trial = 0, inside = 0; trial < 20 && here.film && iv_lo(from[NORMAL_VELOCITY]) >= 0.0; trial++) {
+    for (int trial = 0, inside = 0; trial < 20 && here.film; trial++) {
         x[GAP] = iv_of(lowest, iv_hi(from[GAP]) + rise);
         field(p, s, x, rate, own);
         const double least = -iv_hi(rate[NORMAL_VELOCITY]), most = -iv_lo(rate[NORMAL_VELOCITY]);

@@ -202,9 +202,10 @@ static int bounce(proof *w, int criterion)
     hull_of(&w->p, &w->s, x);
     if (!w->rebounds)
         w->criterion = criterion;
+    w->rebounds++;
     if (stays_in_contact(&w->p, &w->rest, w->here, x))
         return end(w, STICK, PROVED);
-    if (++w->rebounds > MOST_REBOUNDS)
+    if (w->rebounds > MOST_REBOUNDS)
         return end(w, UNPROVED, TOO_MANY_REBOUNDS);
     return iv_lo(x[NORMAL_VELOCITY]) > NO_SPEED || end(w, UNPROVED, CHATTER);
 }
