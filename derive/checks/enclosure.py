@@ -84,7 +84,7 @@ def excess_is_of_squares() -> Evidence:
 
 @check("pair over intervals", "the partner's spin from L(0): L stays L(0), from the spin at initial contact on")
 def partner_spin_follows() -> Evidence:
-    """The spin that is no state there gives the angular momentum of initial contact, which the pair keeps (`partners`)."""
+    """The spin that is no state there gives the angular momentum of initial contact, which is kept (`partners`)."""
     full, enclosed = derive(_PAIR), without_partner_spin(derive(_PAIR))
     spin, momentum = enclosed.expanded(q.partner_spin), full.expanded(MOMENTUM)
     yield sp.simplify(momentum.subs(q.partner_spin, spin) - enclosed.expanded(MOMENTUM))
@@ -92,7 +92,10 @@ def partner_spin_follows() -> Evidence:
     yield sp.simplify(enclosed.expanded(spin.subs(first, simultaneous=True)) - q.initial_partner_spin)
 
 
-@check("contact for good", "v' >= f - k v falls by g within 2 g k/f + (2 g/f)^(1/2); momenta do not depend on u, the film force is k u")
+@check(
+    "contact for good",
+    "v' >= f - k v falls by g within 2 g k/f + (2 g/f)^(1/2); momenta do not depend on u, the film force is k u",
+)
 def rebounds_stay_low() -> Evidence:
     """What the runtime assumes of rebounds: the time of a fall, and how u enters the rates.
 

@@ -56,7 +56,7 @@ class Model:
 
 
 def without_partner_spin(model: Model) -> Model:
-    """The model of an unequal pair with the partner's spin from the angular momentum, lever arm at mid-gap; any other."""
+    """The model, of an unequal pair with the partner's spin from the angular momentum, lever arm at mid-gap."""
     if model.structure.partner != "pair":
         return model
     first = {state: model["start"][state.name] for state in model.states}

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 import sympy as sp
 
 from ...equations.events import CONTACT_GAPS, contact_gap
-from ...equations.functions import ModelFunction
 from ...equations.model import Model, without_partner_spin
 from ...equations.observables import excess_energy
 from ...physics.forces import FILM, SHEAR
@@ -213,37 +212,23 @@ def _values(model: Model, constants: Constants) -> list[str]:
     lines += documented("Gaps of events.", "static void levels(const constants *c, dual *level)", body)
     for name, array in (("start", "y"), ("rebound", "after")):
         further = ", const dual *y, dual *after" if array == "after" else ", dual *y"
-        targets = {state.name: f"{array}[{state.name.upper()}]" for state in model.states}
-        lines += _value(model, constants, f"static void {name}(const constants *c{further})", model[name], targets)
-    energies = model["energies"]
-    total = {"energy": sp.Add(*energies.by_name.values())}
-    head = "static dual stored_energy(const constants *c, const dual *y)"
-    lines += _value(model, constants, head, energies, {"energy": "return"}, total)
-    excess = {"energy": excess_energy(total["energy"])}
-    lines += _value(
-        model, constants, "static dual excess_energy(const constants *c, const dual *y)", energies, {"energy": "return"}, excess,
-        "Energy above the least at the same gap and angular momentum, over m v0^2.",
-    )
-    head = "static dual least_energy(const constants *c, const dual *y)"
-    if "effective_potential" in model:
-        lines += _value(model, constants, head, model["effective_potential"], {"energy": "return"})
-    else:
-        lines += function(head, ["(void)c; (void)y;", "return d_ratio(0.0, 1.0);"])
-    return lines
+        wanted = {f"{array}[{state.name.upper()}]": model[name][state.name] for state in model.states}
+        lines += _value(model, constants, f"static void {name}(const constants *c{further})", model[name].doc, wanted)
+    energies, least = model["energies"], model["effective_potential"]
+    stored = sp.Add(*energies.by_name.values())
+    lines += _energy(model, constants, "stored", energies.doc, stored)
+    doc = "Energy above the least at the same gap and angular momentum, over m v0^2."
+    lines += _energy(model, constants, "excess", doc, excess_energy(stored))
+    return lines + _energy(model, constants, "least", least.doc, least["energy"])
 
 
-def _value(
-    model: Model,
-    constants: Constants,
-    head: str,
-    source: ModelFunction,
-    targets: Mapping[str, str],
-    outputs: Mapping[str, sp.Expr] | None = None,
-    doc: str = "",
-) -> list[str]:
-    """A C function of the states `y`; its targets are C text, or "return"."""
-    by_name = source.by_name if outputs is None else outputs
-    wanted = {key: sp.sympify(by_name[key]) for key in targets}
+def _energy(model: Model, constants: Constants, name: str, doc: str, value: sp.Expr) -> list[str]:
+    head = f"static dual {name}_energy(const constants *c, const dual *y)"
+    return _value(model, constants, head, doc, {"return": value})
+
+
+def _value(model: Model, constants: Constants, head: str, doc: str, wanted: Mapping[str, sp.Expr]) -> list[str]:
+    """A C function of the states `y`, by C text of each target, or "return"."""
     places = {state: f"y[{state.name.upper()}]" for state in model.states}
     definitions = [each for each in needed(list(wanted.values()), model.definitions)[0] if each[0] not in constants]
     local = {symbol: symbol.name for symbol, _ in definitions}
@@ -252,7 +237,7 @@ def _value(
         return places.get(symbol) or local.get(symbol) or constants.name(symbol)
 
     body = ["(void)c; (void)y;", *(f"dual {symbol.name} = {dual(value, name)};" for symbol, value in definitions)]
-    for key, value in wanted.items():
-        text = dual(value, name)
-        body.append(f"return {text};" if targets[key] == "return" else f"{targets[key]} = {text};")
-    return documented(doc or source.doc, head, body)
+    for target, value in wanted.items():
+        text = dual(sp.sympify(value), name)
+        body.append(f"return {text};" if target == "return" else f"{target} = {text};")
+    return documented(doc, head, body)

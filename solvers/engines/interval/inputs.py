@@ -74,7 +74,9 @@ class Inputs:
         quantity = {"impact.stokes": "stokes"}.get(name, field.quantity)
         if not quantity:
             raise InputError(label, width, "an entry that is a number by itself", "is no range of numbers")
-        if quantity not in values or (quantity == "speed" and "stokes" in values):
+        absent = {"speed"} if "stokes" in values else set()
+        absent |= set() if scene.pair else {"impact_partner_spin"}
+        if quantity not in values or quantity in absent:
             raise InputError(label, width, "an entry that this scene has", "is not there")
         if isinstance(width, tuple) and len(width) == 2:
             low, high = (field.number(end, label=label) * field.factor for end in width)
@@ -85,14 +87,13 @@ class Inputs:
             for end in (low, high):
                 field.number(end / field.factor, label=label)
         try:
-            other = scene.with_entries({name: low / field.factor})
+            changed = scene.with_entries({name: low / field.factor})
         except InputError:
             raise InputError(label, width, "an entry that this scene has", "is not there") from None
-        moved, decided = si_values(other, *other.need_impact()), {quantity}
-        decided |= {"speed"} if "stokes" in (quantity, *values) else set()
-        decided |= set() if scene.pair else {"impact_partner_spin"}
-        if further := [each for each in values if moved.get(each, values[each]) != values[each] and each not in decided]:
-            raise InputError(label, width, "an entry that decides nothing else", f"decides {further[0]} as well")
+        moved = si_values(changed, *changed.need_impact())
+        for other, number in values.items():
+            if moved.get(other, number) != number and other not in {quantity, *absent}:
+                raise InputError(label, width, "an entry that decides nothing else", f"decides {other} as well")
         return quantity, (low, high)
 
     def engine(self) -> Engine:

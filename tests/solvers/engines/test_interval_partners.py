@@ -103,17 +103,14 @@ RESTING = {"liquid.viscosity": 0.0119, "particles.roughness": 3.3e-6, "bridge.su
 
 @pytest.mark.parametrize("restitution", [0.0, 0.09, 0.5, 0.8])
 def test_rest_in_contact_is_a_proved_stick(restitution: float) -> None:
-    """Slip keeps the energy above the barrier, and rebounds of falling speed end in rest: the bridge holds all the same."""
+    """Slip keeps the energy above the barrier; rebounds of falling speed end in rest, and the bridge holds."""
     scene = Scene.load("lactose-pvp").with_entries(RESTING | {"particles.dry_restitution": restitution})
     assert prove(scene, stokes=1.65, angle=1.3435).outcome == "stick"
     assert collide(scene, stokes=1.65, angle=1.3435, ledger=False).outcome == "stick"
 
 
 # Pairs that come to rest and that their spins release: ratio, restitution, Stokes number, angle, spins.
-RELEASED = [
-    (2.392, 0.6003, 5.0273, 0.35442, (-21.95, 3866.3)),
-    (2.7934, 0.4016, 6.9803, 0.13495, (-5271.7, 6336.4)),
-]
+RELEASED = [(2.392, 0.6003, 5.0273, 0.35442, (-21.95, 3866.3)), (2.7934, 0.4016, 6.9803, 0.13495, (-5271.7, 6336.4))]
 
 
 def released(case: tuple[float, float, float, float, tuple[float, float]]) -> Scene:
@@ -125,7 +122,9 @@ def released(case: tuple[float, float, float, float, tuple[float, float]]) -> Sc
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", RELEASED)
-def test_a_pair_that_rests_for_a_while_is_no_proved_stick(case: tuple[float, float, float, float, tuple[float, float]]) -> None:
+def test_a_pair_that_rests_for_a_while_is_no_proved_stick(
+    case: tuple[float, float, float, float, tuple[float, float]],
+) -> None:
     """Spins of both spheres speed up the orbit of a pair at rest until it is released. A proof that takes the orbital
     momentum of the last rebound for all that follow says that it sticks.
     """
@@ -152,10 +151,11 @@ def test_a_pair_that_rests_for_a_while_is_no_proved_stick(case: tuple[float, flo
         ({"partner.radius": "200 um", "partner.mass": "8e-5 g"}, "particles.reduced_radius", "radius_ratio"),
         ({"partner.radius": "200 um", "partner.mass": "8e-5 g", "impact.spin": 10.0}, "impact.spin", "partner_spin"),
         ({"bridge.volume": "1e-13 m^3"}, "particles.reduced_radius", "volume"),
+        ({"impact.spin": 10.0}, "impact.partner_spin", "is not there"),
     ],
 )
 def test_an_entry_that_decides_several_quantities_is_no_box(changes: dict[str, object], entry: str, other: str) -> None:
-    """A radius of an unequal pair, a spin of both, a radius beside a volume in m^3: refused by name."""
+    """A radius of an unequal pair, a spin of both, a radius beside a volume in m^3, a spin that both share: refused."""
     scene = Scene.load("granulation").with_entries(changes).with_impact(stokes=0.1, angle=0.5)
     with pytest.raises(InputError, match=other):
         prove(scene, within={entry: 1e-4})

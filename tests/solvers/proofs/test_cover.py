@@ -1,4 +1,4 @@
-"""The stretches of a line that `prove_boundary` claims: they leave no hole, and each is proved again; mutants are noticed."""
+"""The stretches of a line that `prove_boundary` claims: without a hole, and proved again; mutants are noticed."""
 
 import inspect
 import itertools
