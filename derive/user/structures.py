@@ -103,11 +103,7 @@ def _stopped(function: str, key: str, expression: sp.Expr) -> sp.Expr:
 
 
 def express(name: str, meaning: str, declared: Declarations) -> UserModel:
-    """The model of declarations.
-
-    Raises:
-        DimensionError, ScalingError: name law, function, and the wrong term or quantity.
-    """
+    """The model of declarations; DimensionError or ScalingError names law, function, and the wrong term or quantity."""
     all_places = places()
     groups = _groups(declared, all_places)
     laws = []

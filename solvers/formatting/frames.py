@@ -12,11 +12,7 @@ if TYPE_CHECKING:
 
 
 def frame(columns: Mapping[str, Sequence[Any]]) -> pd.DataFrame:
-    """A DataFrame of named columns.
-
-    Raises:
-        ComputationError: pandas is not installed.
-    """
+    """A DataFrame of named columns; ComputationError if pandas is not installed."""
     try:
         import pandas as pd
     except ImportError:

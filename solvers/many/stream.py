@@ -35,11 +35,7 @@ _NUMBERS = 1 << 19  # in the request of a chunk, 4 MB; Dask warns of much more
 
 
 def check_places(client: object, store: object) -> Path | None:
-    """Check the arguments `client` and `store`, either of which may be None; returns the store's path.
-
-    Raises:
-        InputError: one of them is not what it has to be.
-    """
+    """Check the arguments `client` and `store`, either of which may be None; returns the store's path."""
     if client is not None:
         check_scheduler(client, "client")
     return None if store is None else check_store(store, "store")

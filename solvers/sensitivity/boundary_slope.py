@@ -68,11 +68,7 @@ class _Side:
 
 
 def slope(scene: Scene, angle: float, change: Change, rtol: float) -> Slope:
-    """The gradient at a change.
-
-    Raises:
-        ComputationError: the trajectory there could not be followed, or no smooth function is known.
-    """
+    """The gradient at a change; ComputationError if no trajectory or no smooth function is found there."""
     if load(select_model(scene, scene.turns(angle))).own_events:
         raise ComputationError("beside declared events a change has no smooth function: not differentiated")
     try:

@@ -117,11 +117,7 @@ class Pairs:
 
 
 def checked(scene: Scene, normal: Any, velocities: Any, spins: Any) -> Pairs:
-    """The pairs of a request, broadcast against each other.
-
-    Raises:
-        InputError: a shape.
-    """
+    """The pairs of a request, broadcast against each other; InputError for a wrong shape."""
     directions = _numbers("normal", normal, (3,), "three components")
     wall = scene.wall
     either = "(..., 1, 3), or (..., 2, 3) with the wall's velocity" if wall else "(..., 2, 3)"

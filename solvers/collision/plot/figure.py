@@ -21,11 +21,7 @@ _STRIP = WIDTH - 0.5
 
 @picture
 def draw(collision: Outcome) -> Figure:
-    """Draw a collision.
-
-    Raises:
-        ValueError: it has no trajectory.
-    """
+    """Draw a collision; ValueError if it has no trajectory."""
     pictures = frames(collision)
     data = collision.trajectory
     duration = float(data["time"][-1]) if data is not None else 0.0

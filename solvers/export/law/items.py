@@ -36,11 +36,7 @@ class Item:
 
 
 def items(file: str, text: str) -> tuple[str, list[Item]]:
-    """The comment at the head of a file, and its items in order.
-
-    Raises:
-        CheckFailed: a part that is not understood.
-    """
+    """The comment at the head of a file, and its items in order; CheckFailed for a part that is not understood."""
     head, text = _head(text)
     return head, list(_items(file, text))
 
