@@ -1,17 +1,19 @@
 """The result of one collision: immutable; prints as a table, converts to the JSON object, draws a figure."""
 
 from dataclasses import dataclass, fields
-from pathlib import Path
-from typing import Any
 
+from ..host.pictures import Drawn
 from .outcome import Outcome
 
 _ENDS = 20  # events that `repr` shows at each end of a longer list
 
 
 @dataclass(frozen=True, kw_only=True)
-class Collision(Outcome):
+class Collision(Outcome, Drawn):
     """One collision, as `collide` returns it; its attributes are those of `Outcome`.
+
+    `plot` draws gap and velocity, the rotation, and the doublet at a few instants; ValueError if the collision was
+    computed without `trajectory=True`.
 
     Example:
         >>> from wetdoublet.solvers import collide
@@ -19,6 +21,8 @@ class Collision(Outcome):
         >>> one.outcome, one.reversal, [event.kind for event in one.events]
         ('bounce', 'glass', ['glass', 'rupture'])
     """
+
+    _picture = "collision.plot.figure.draw"
 
     def __repr__(self) -> str:
         names = [each.name for each in fields(self) if each.repr and each.name != "events"]
@@ -37,17 +41,3 @@ class Collision(Outcome):
         from .notebook import html
 
         return html(self)
-
-    def plot(self, path: str | Path | None = None) -> Any:
-        """Draw gap and velocity, the rotation, and the doublet at a few instants; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-
-        Raises:
-            ValueError: the collision was computed without `trajectory=True`.
-        """
-        from ..host.pictures import saved
-        from .plot.figure import draw
-
-        return saved(lambda: draw(self), path)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ..errors import InputError
 from .files import save
@@ -53,8 +53,13 @@ def plot(data: Any, path: str | Path | None = None) -> Any:
     home = _RESULTS.get(type(data).__name__) or next((_HOMES[name] for name in _HOMES if name in variables), None)
     if home is None:
         raise InputError("data", type(data).__name__, "a Dataset that this package has made", "is none")
+    return saved(lambda: _drawing(home)(data), path)
+
+
+def _drawing(home: str) -> Callable[[Any], Any]:
     module, _, function = home.rpartition(".")
-    return saved(lambda: getattr(import_module(f"{_ROOT}.{module}"), function)(data), path)
+    drawing: Callable[[Any], Any] = getattr(import_module(f"{_ROOT}.{module}"), function)
+    return drawing
 
 
 def saved(draw: Callable[[], Any], path: str | Path | None) -> Any:
@@ -64,6 +69,20 @@ def saved(draw: Callable[[], Any], path: str | Path | None) -> Any:
     if file is not None:
         save(figure, file, dpi=150)
     return figure
+
+
+class Drawn:
+    """A result with a picture."""
+
+    _picture: ClassVar[str]  # what draws it, by name as above
+
+    def plot(self, path: str | Path | None = None) -> Any:
+        """Draw it; returns the matplotlib Figure.
+
+        Arguments:
+            path: file to write (.png, .pdf or .svg); None only draws.
+        """
+        return saved(lambda: _drawing(self._picture)(self), path)
 
 
 class Pictures:

@@ -7,7 +7,6 @@ import io
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +15,7 @@ from ...generated.automaton import OUTCOMES
 from ..fitting.free_entries import COMBINED, IDENTIFIED, FreeEntries, combinations, in_unit, interval
 from ..fitting.measurements import Measurements
 from ..formatting.markdown import aligned
-from ..host.pictures import plot
+from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.scene import Scene
@@ -63,8 +62,10 @@ class Expected:
 
 
 @dataclass(frozen=True)
-class Design:
+class Design(Drawn):
     """The result of `design`: planned impacts, what they will tell, and how that is shown and written.
+
+    `plot` draws what single impacts tell over the window, and the planned ones.
 
     Attributes:
         impacts: by angle and speed.
@@ -88,6 +89,8 @@ class Design:
         >>> sum(each.count for each in planned.impacts)
         3
     """
+
+    _picture = "planning.plot.draw"
 
     window: Window
     free: FreeEntries
@@ -261,14 +264,6 @@ class Design:
              f"{math.degrees(each.angle):.1f} deg")
             for each in self.impacts
         ]  # fmt: skip
-
-    def plot(self, path: str | Path | None = None) -> Any:
-        """Draw what single impacts tell over the window, and the planned ones; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-        """
-        return plot(self, path)
 
 
 def _spread(total: np.ndarray) -> np.ndarray:

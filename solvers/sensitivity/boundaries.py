@@ -17,6 +17,7 @@ from ..boundaries.scene_sampler import SceneSampler
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function
+from ..host.pictures import Drawn
 from ..scene.scene import Scene
 from ..scene.schema import DEFAULTS, FIELDS, SPEEDS
 from .boundary_slope import slope
@@ -63,8 +64,10 @@ class Moving:
 
 
 @dataclass(frozen=True)
-class BoundarySensitivities:
+class BoundarySensitivities(Drawn):
     """The changes of outcome at each angle (rad), ascending in St, with their derivatives.
+
+    `plot` draws the elasticities of every change of outcome as bars.
 
     Example:
         >>> from wetdoublet.solvers import boundary_sensitivities
@@ -72,6 +75,8 @@ class BoundarySensitivities:
         >>> found.parameters
         ('liquid.viscosity',)
     """
+
+    _picture = "sensitivity.tornado.draw_boundaries"
 
     boundaries: Boundaries
     changes: tuple[tuple[Moving, ...], ...]
@@ -130,17 +135,6 @@ class BoundarySensitivities:
             for kind in ("gradient", "elasticity"):
                 columns[f"{of}_{kind}"] = [getattr(one, kind).get(of, {}).get(name) for _, one, name in rows]
         return frame(columns)
-
-    def plot(self, path: str | FilePath | None = None) -> Any:
-        """Draw the elasticities of every change of outcome as bars; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-        """
-        from ..host.pictures import saved
-        from .boundaries_plot import draw
-
-        return saved(lambda: draw(self.angles, self.changes, self.parameters), path)
 
     def _repr_html_(self) -> str:
         from ..formatting.notebook import view

@@ -7,10 +7,10 @@ import io
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..formatting.markdown import aligned
+from ..host.pictures import Drawn
 from ..scene.origin import origin
 from ..scene.scene import Scene
 
@@ -60,8 +60,10 @@ class CriticalSpeed:
 
 
 @dataclass(frozen=True)
-class Critical:
+class Critical(Drawn):
     """Critical speeds, a row for each material and angle.
+
+    `plot` draws the relative speed up to which they stick over the angle, or by material.
 
     Attributes:
         scene: the scene, unless there are several materials.
@@ -71,6 +73,8 @@ class Critical:
         >>> critical("granulation", angle=[0.0, 0.3]).to_dict()["rows"][1]["to"]
         'bounce'
     """
+
+    _picture = "sensitivity.plots.draw_critical"
 
     rows: tuple[CriticalSpeed, ...]
     scene: Scene | None
@@ -133,17 +137,6 @@ class Critical:
 
         head, rows = self.table()
         return view("critical speeds", rows, head, [text for one in self.rows for text in one.sentences])
-
-    def plot(self, path: str | Path | None = None) -> Any:
-        """Draw the relative speed up to which they stick over the angle, or by material; returns the Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-        """
-        from ..host.pictures import saved
-        from .critical_plot import draw
-
-        return saved(lambda: draw(self.rows), path)
 
 
 def _number(value: float | None) -> str:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...generated.automaton import STICK
+from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.schema import SPEEDS
@@ -41,8 +41,10 @@ class Near:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sensitivities:
+class Sensitivities(Drawn):
     """Derivatives of a collision's results; SI and radians; None where undefined.
+
+    `plot` draws a tornado chart of the elasticities.
 
     Attributes:
         value: each quantity's value.
@@ -61,6 +63,8 @@ class Sensitivities:
         >>> round(found.elasticity["restitution"]["liquid.viscosity"], 3)
         -0.003
     """
+
+    _picture = "sensitivity.tornado.draw"
 
     value: Mapping[str, float | None]
     gradient: Mapping[str, Row]
@@ -237,17 +241,6 @@ class Sensitivities:
         near = [f"nearest: {self.near}"] if self.near else []
         stick = [" ".join(_STICK_NOTES)] if self.outcome == STICK else []
         return view(title, rows, head, ["* dy/dp where y or p is zero", *near, *stick])
-
-    def plot(self, path: str | Path | None = None) -> Any:
-        """A tornado chart of the elasticities; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-        """
-        from ..host.pictures import saved
-        from .tornado import draw
-
-        return saved(lambda: draw(self), path)
 
 
 def _aligned(rows: list[list[str]], widths: list[int] | None = None) -> list[str]:
