@@ -26,7 +26,6 @@ class Arc:
     left: int
 
     def reversed(self) -> Arc:
-        """The arc in the opposite direction."""
         return Arc(self.points[::-1], self.left, self.right)
 
 

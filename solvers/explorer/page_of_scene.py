@@ -58,7 +58,6 @@ class Explorer:
 
     @property
     def scene(self) -> Scene:
-        """The scene that is shown first."""
         return self.scenes[0]
 
     @cached_property

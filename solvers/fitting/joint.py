@@ -42,7 +42,6 @@ class Part:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The free entries of the scene."""
         return tuple(name for name in self.entries if not name.startswith(NOISE))
 
 
@@ -80,16 +79,13 @@ class Joint:
             each.tell = lambda cost, share=each.size / self.size: self.tell(share * cost)  # type: ignore[misc]
 
     def values(self, values: np.ndarray) -> list[np.ndarray]:
-        """The values of each part's entries."""
         return [values[places] for places in self._places]
 
     def aim(self, values: np.ndarray) -> None:
-        """As of `Likelihood`."""
         for part, own in zip(self.parts, self.values(values), strict=True):
             part.aim(own)
 
     def refine(self, values: np.ndarray, tolerance: float) -> None:
-        """As of `Likelihood`."""
         for part, own in zip(self.parts, self.values(values), strict=True):
             part.refine(own, tolerance)
 

@@ -92,7 +92,6 @@ class Pictures:
         self._data = data
 
     def plot(self, path: str | Path | None = None) -> Any:
-        """Draw the Dataset; arguments and result as of the function `plot`."""
         return plot(self._data, path)
 
 

@@ -70,6 +70,5 @@ class Estimated:
             self._progress(int(self._done), self._total)
 
     def finish(self) -> None:
-        """Report the end."""
         if self._progress is not None:
             self._progress(self._total, self._total)

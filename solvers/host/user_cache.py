@@ -292,5 +292,4 @@ def _leave(stack: ExitStack, owner: int) -> None:
 
 @cache
 def _sweep(place: Path, prefix: str) -> None:
-    """Remove stale temporary folders, once per process."""
     sweep(place, prefix)

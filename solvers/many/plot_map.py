@@ -228,7 +228,6 @@ def _hatch(axes: Axes, edges: tuple[np.ndarray, np.ndarray], cells: np.ndarray, 
 
 
 def _exact(axes: Axes, curves: Sequence[Curve]) -> None:
-    """Draw the exact boundaries."""
     for x, y in curves:
         (line,) = axes.plot(np.degrees(x), y, color=INK, linewidth=1.6, zorder=3)
         line.set_gid("boundary")

@@ -69,7 +69,6 @@ class Scan:
         return ", ".join(dict.fromkeys(self.engines.values())) or self.engine or "rosenbrock"
 
     def order(self) -> np.ndarray:
-        """Flat indices in the order of computation."""
         return np.arange(self.size)
 
     def part(self, at: Place) -> Scan:

@@ -143,7 +143,6 @@ class Design(Drawn):
 
     @property
     def size(self) -> int:
-        """Number of impacts."""
         return sum(each.count for each in self.impacts)
 
     def plan(self) -> Measurements:

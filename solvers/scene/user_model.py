@@ -144,7 +144,6 @@ class Package:
         return {name: value for name, value in values.items() if value is not None}
 
     def completed(self, entries: Mapping[str, Any]) -> dict[str, Any]:
-        """The entries of a scene, completed with defaults."""
         return {**entries, **{name: value for name, value in self.defaults.items() if name not in entries}}
 
     def demand(self, entries: Mapping[str, Any]) -> None:
@@ -188,7 +187,6 @@ class Package:
 
     @cached_property
     def events(self) -> tuple[OwnEvent, ...]:
-        """The declared events, in order of precedence behind the library's."""
         return tuple(OwnEvent.from_manifest(entry) for entry in self.manifest.get("events", ()))
 
     def events_in(self, structure: str) -> tuple[OwnEvent, ...]:
@@ -230,7 +228,6 @@ class Package:
         return bool({key.partition(".")[0] for key in self.manifest["extra"]} & set(slots))
 
     def law(self, slot: str, name: str) -> ModuleType:
-        """The module of one of the model's laws."""
         return _module(self, self.law_file(slot, name))
 
     def law_file(self, slot: str, name: str) -> str:
@@ -321,7 +318,6 @@ class Package:
 
     @property
     def remedy(self) -> str:
-        """The command that emits the model again."""
         return f"run `wetdoublet generate {self.original or 'MODEL.py'} --out {self.folder}`"
 
     @property

@@ -59,7 +59,6 @@ class _Side:
         return self.path.model
 
     def before(self, k: int) -> np.ndarray:
-        """The state before phase k."""
         return self.path.ends[k - 1][: len(self.model.state)] if k else self.model.start(self.path.p)
 
     @property

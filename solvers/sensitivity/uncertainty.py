@@ -217,7 +217,6 @@ def _sampled(
 
 
 def _held(scene: Scene, hold: str) -> Scene:
-    """The scene with its impact as what is held."""
     return scene.with_impact(**{hold: impact_value(scene, hold)})
 
 

@@ -48,7 +48,6 @@ class Bodies:
 
     @classmethod
     def of(cls, scene: Scene) -> Bodies:
-        """The spheres of a scene without a wall."""
         return cls.made_of(scene.material)
 
     @classmethod
@@ -111,7 +110,6 @@ class Pairs:
         return velocity
 
     def part(self, which: np.ndarray) -> Pairs:
-        """A subset, as a request of its own."""
         rows = (self.normal[which], self.velocities[which], self.spins[which])
         return Pairs(self.scene, rows[0].shape[:1], *rows)
 

@@ -62,7 +62,6 @@ class Builder:
     slices: list[float] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        """Begin with no trees."""
         self.shapes, self.values = Forest(1), Forest(len(self.of))
 
     def mark(self) -> tuple[int, ...]:

@@ -42,7 +42,6 @@ def draw(collision: Outcome) -> Figure:
 
 
 def _turns(collision: Outcome) -> bool:
-    """True if something moves sideways: the impact has an angle, or a sphere spins."""
     return collision.scene.turns(collision.angle)
 
 
@@ -60,7 +59,6 @@ def _title(collision: Outcome) -> str:
 
 
 def _spins(collision: Outcome) -> str:
-    """The spins at initial contact, where there are any."""
     spins = [spin for spin in (collision.scene.impact.spin, collision.scene.impact.partner_spin) if spin is not None]
     return f", ξ₀ = {' and '.join(f'{spin:.4g}' for spin in spins)} rad/s" if any(spins) else ""
 

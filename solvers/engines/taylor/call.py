@@ -38,11 +38,9 @@ class Impacts:
 
     @property
     def oblique(self) -> np.ndarray:
-        """Mask of the collisions in which something moves sideways."""
         return sideways(self.scene, self.angle, self.others)
 
     def part(self, which: np.ndarray | slice) -> Impacts:
-        """A subset of the collisions."""
         others = {name: values[which] for name, values in self.others.items()}
         return Impacts(self.scene, self.speed[which], self.angle[which], others)
 

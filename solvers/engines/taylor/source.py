@@ -62,7 +62,6 @@ class Variant:
 
     @property
     def space(self) -> bool:
-        """True if the states are vectors in space."""
         return "_space" in self.choice.structure
 
 

@@ -31,7 +31,6 @@ class Item:
 
     @property
     def text(self) -> str:
-        """The whole text of the item."""
         return self.comment + self.code
 
 
@@ -151,7 +150,6 @@ def _item(file: str, comment: str, code: str) -> Item:
 
 
 def _declared(text: str) -> list[str]:
-    """Names of variables in a declaration."""
     names = [re.search(r"(\w+)\s*(?:\[[^\]]*\]\s*)*$", part.split("=")[0].strip()) for part in _parts(text)]
     return [name[1] for name in names if name]
 

@@ -48,7 +48,6 @@ class Stress:
     wanted: int = 0
 
     def issues(self, *kinds: str) -> list[tuple[Verdict, Issue]]:
-        """All issues of these kinds, with their cases."""
         return [(one, issue) for one in self.verdicts for issue in one.issues if issue.kind in kinds]
 
     @property
