@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
@@ -14,7 +12,7 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..fitting.free_entries import COMBINED, IDENTIFIED, FreeEntries, combinations, in_unit, interval
 from ..fitting.measurements import Measurements
-from ..formatting.markdown import aligned
+from ..formatting.markdown import aligned, csv_text
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
@@ -198,17 +196,15 @@ class Design(Drawn):
     def to_csv(self) -> str:
         """A row for each impact in the form that `fit` reads, its observations empty."""
         scatter, name = self.window.scatter, self._speed
-        file = io.StringIO()
-        writer = csv.writer(file, lineterminator="\n")
         head = [f"{name} [m/s]", f"{name}_sd [m/s]", "angle [deg]", "angle_sd [deg]", "outcome"]
         measured = scatter.restitution is not None
-        writer.writerow(head + (["restitution", "restitution_sd"] if measured else []))
+        rows = []
         for each in self.impacts:
             speed = getattr(each, name)
             row = [f"{speed:.6g}", f"{scatter.speed * speed:.3g}", f"{math.degrees(each.angle):.4f}"]
             row += [f"{math.degrees(scatter.angle):.4g}", ""]
-            writer.writerows([row + (["", f"{scatter.restitution:.4g}"] if measured else [])] * each.count)
-        return file.getvalue()
+            rows += [row + (["", f"{scatter.restitution:.4g}"] if measured else [])] * each.count
+        return csv_text(head + (["restitution", "restitution_sd"] if measured else []), rows)
 
     def __str__(self) -> str:
         scene, scatter = self.given, self.window.scatter

@@ -16,6 +16,7 @@ from ..boundaries.line import Line
 from ..boundaries.scene_sampler import SceneSampler
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
+from ..formatting.markdown import numbers_aligned
 from ..host.arguments import check_function
 from ..host.pictures import Drawn
 from ..scene.scene import Scene
@@ -162,10 +163,12 @@ class BoundarySensitivities(Drawn):
                 symbols = [_SYMBOLS[of] for of in one.shown]
                 rows = [["", *(f"d ln {symbol}" for symbol in symbols)]]
                 rows += [[name, *(_cell(one, of, name) for of in one.shown)] for name in self.parameters]
-                widths = [max(len(row[k]) for row in rows) for k in range(len(symbols) + 1)]
-                lines_ = ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]) for row in rows]
                 what = "v* the normal speed; elasticities, * d/dp of St*, v* or Ce* itself (SI) where p is zero"
-                tables.append("\n".join([f"{title}, by d ln p: {what}", *(f"  {line}".rstrip() for line in lines_)]))
+                tables.append(
+                    "\n".join(
+                        [f"{title}, by d ln p: {what}", *(f"  {text}".rstrip() for text in numbers_aligned(rows))]
+                    )
+                )
         return tables
 
 

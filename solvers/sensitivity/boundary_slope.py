@@ -9,7 +9,7 @@ different sides. Its gradient in the groups is one adjoint; the implicit functio
 from dataclasses import dataclass, replace
 
 import numpy as np
-from casadi import SX, Function, densify, gradient, jacobian, jtimes, substitute, vertcat
+from casadi import SX, Function, densify, gradient, jacobian, substitute, vertcat
 from scipy.optimize import brentq
 
 from ...generated.automaton import CRITERIA, KINDS, EventKind
@@ -22,9 +22,10 @@ from ..errors import ComputationError
 from ..host.thread_caches import own_cache
 from ..model.dimensionless import nondimensionalise
 from ..model.model import Model, load, select_model
-from ..model.phases import Flow, Region
+from ..model.phases import Flow
 from ..scene.contact import GAPS, contact_word
 from ..scene.scene import Scene
+from .boundary_distance import guard_rates
 from .derivatives import evaluate, first_derivatives, settled
 from .directions import landed
 from .trajectory_expression import course_of, ending, influential
@@ -146,26 +147,18 @@ def _just_met(low: _Side, high: _Side, k: int) -> Slope | None:
 def _extremum(side: _Side, step: PhaseRun, word: str, before: np.ndarray) -> float | None:
     """Time within the phase of the largest pressure or smallest gap, by Newton's method; None if it is not near."""
     model, p = side.model, side.path.p
-    rates = _rates(model, step.phase.region, word)
+    rates = guard_rates(model, word, *step.phase.region.flags.values())
     integrate = plain(Flow(model.choice, step.phase.region, ()), "rosenbrock", side.tolerance)
     time = step.duration
     for _ in range(_NEWTON):
-        first, second = evaluate(rates, integrate(before, p, time), p)
-        move = -float(first.item()) / float(second.item())
+        _, first, second = evaluate(rates, integrate(before, p, time), p)[0].ravel().tolist()
+        move = -first / second
         time += move
         if not abs(time - step.duration) < _TANGENT * step.duration:
             return None
         if abs(move) < 1e-9 * time:
             break
     return time
-
-
-@own_cache(64)
-def _rates(model: Model, region: Region, word: str) -> Function:
-    """Function (state, groups) -> first and second time derivative of the pressure or gap."""
-    flow = model.function("right_hand_side", **region.flags)(model.column, model.parameters)
-    first = jtimes(model("events")[word], model.column, flow)
-    return Function("rates", [model.column, model.parameters], [first, jtimes(first, model.column, flow)])
 
 
 @own_cache(64)

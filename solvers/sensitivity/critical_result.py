@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ..formatting.markdown import aligned
+from ..formatting.markdown import aligned, csv_text
 from ..host.pictures import Drawn
 from ..scene.origin import origin
 from ..scene.scene import Scene
@@ -123,14 +121,9 @@ class Critical(Drawn):
 
     def to_csv(self) -> str:
         """A row for each material and angle: speeds in m/s, angles in rad; empty where there is none."""
-        file, columns = io.StringIO(), self.columns()
-        writer = csv.writer(file, lineterminator="\n")
-        units = {"angle": " [rad]"} | dict.fromkeys(
-            ("relative_speed", "low", "high", "speed", "bounces_above"), " [m/s]"
-        )
-        writer.writerow([name + units.get(name, "") for name in columns])
-        writer.writerows(zip(*columns.values(), strict=True))
-        return file.getvalue()
+        columns, speeds = self.columns(), ("relative_speed", "low", "high", "speed", "bounces_above")
+        units = {"angle": " [rad]"} | dict.fromkeys(speeds, " [m/s]")
+        return csv_text([name + units.get(name, "") for name in columns], zip(*columns.values(), strict=True))
 
     def _repr_html_(self) -> str:
         from ..formatting.notebook import view

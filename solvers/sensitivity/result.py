@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ...generated.automaton import STICK
+from ..formatting.markdown import numbers_aligned
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
@@ -196,10 +197,9 @@ class Sensitivities(Drawn):
         head = ["", *names]
         units = ["value", *(_number(self.value[y], DIFFERENTIATED[y].unit) for y in names)]
         rows = [[p, *(self._cell(y, p) for y in names)] for p in order]
-        widths = [max(len(row[k]) for row in (head, units, *rows)) for k in range(len(head))]
-
         title = "elasticities d ln y/d ln p (* dy/dp where y or p is zero)"
-        return "\n".join([*_aligned([head, units], widths), "", title, *_aligned(rows, widths)])
+        lines = numbers_aligned([head, units, *rows])
+        return "\n".join([*lines[:2], "", title, *lines[2:]])
 
     def _second_derivatives(self) -> list[str]:
         """Tables of second derivatives, one per quantity, and of the Hessian times a vector, if requested."""
@@ -208,11 +208,11 @@ class Sensitivities(Drawn):
             for k in range(0, len(names), _SHOWN):
                 some = names[k : k + _SHOWN]
                 cells = [["", *some], *([p, *(_number(rows[p][q], "1") for q in some)] for p in names)]
-                tables.append("\n".join([f"d2y/dp dq of y = {y} (SI units, rad)", *_aligned(cells)]))
+                tables.append("\n".join([f"d2y/dp dq of y = {y} (SI units, rad)", *numbers_aligned(cells)]))
         if self.hessian_times is not None:
             of = list(self.hessian_times)
             cells = [["", *of], *([p, *(_number(self.hessian_times[y][p], "1") for y in of)] for p in names)]
-            tables.append("\n".join(["Hessian times the vector (SI units, rad)", *_aligned(cells)]))
+            tables.append("\n".join(["Hessian times the vector (SI units, rad)", *numbers_aligned(cells)]))
         return tables
 
     def _cell(self, y: str, p: str) -> str:
@@ -241,12 +241,6 @@ class Sensitivities(Drawn):
         near = [f"nearest: {self.near}"] if self.near else []
         stick = [" ".join(_STICK_NOTES)] if self.outcome == STICK else []
         return view(title, rows, head, ["* dy/dp where y or p is zero", *near, *stick])
-
-
-def _aligned(rows: list[list[str]], widths: list[int] | None = None) -> list[str]:
-    """Lines of aligned cells, the first column left-aligned; column widths as needed or as in `widths`."""
-    widths = widths or [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    return ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]).rstrip() for row in rows]
 
 
 def _number(value: float | None, unit: str) -> str:
