@@ -38,6 +38,35 @@ class Collision(Outcome, Drawn):
         return table(self)
 
     def _repr_html_(self) -> str:
-        from .notebook import html
+        """Outcome and why, results with units, events, and what the model warns of."""
+        from ..formatting.notebook import view
+        from .text import assumed, degrees, name_of, plain, quantity, reason
 
-        return html(self)
+        rows = [
+            ("outcome", self.outcome, reason(self)),
+            (
+                "impact",
+                f"St {plain(self.stokes)}, {degrees(self.angle)}",
+                f"normal speed {quantity(self.speed, 'm/s')}",
+            ),
+            ("normal restitution e_n", plain(self.restitution), ""),
+        ]
+        results = [
+            ("tangential restitution e_t", plain(self.tangential_restitution), self.tangential_restitution),
+            ("rotation", degrees(self.rotation), self.rotation),
+            ("contact time", quantity(self.contact_time, "s"), self.contact_time),
+            ("smallest gap", quantity(self.smallest_gap, "m"), self.smallest_gap),
+            ("final spin", plain(self.final_spin, "rad/s"), self.final_spin),
+            ("final spin of the partner", plain(self.final_spin_partner, "rad/s"), self.final_spin_partner),
+            ("final rotation rate", plain(self.final_rotation_rate, "rad/s"), self.final_rotation_rate),
+        ]
+        rows += [(name, shown, "") for name, shown, value in results if value is not None]
+        if self.events:
+            happened = [f"{event.kind} at {quantity(event.time, 's')}" for event in self.events[:6]]
+            more = [f"{len(self.events) - 6} more"] if len(self.events) > 6 else []
+            rows.append(("events", "; ".join([*happened, *more]), ""))
+        if self.energy is not None:
+            end = f"{quantity(self.energy.final, 'J')} at the end; residual {self.energy.residual:.1e} J"
+            rows.append(("energy", f"{quantity(self.energy.initial, 'J')} at contact", end))
+        engine = f"{self.engine}, {self.steps} steps" + (f" ({self.engine_reason})" if self.engine_reason else "")
+        return view(name_of(self.scene), rows, notes=[*self.validity, *assumed(self.scene), engine])

@@ -24,7 +24,7 @@ _HOMES = {  # a variable that only one kind of result has -> what draws it
     "rotation_released": "verify.plot.draw_budget",
     "total_within": "sensitivity.plots.draw_indices",
     "engine": "sensitivity.plots.draw_gradients",
-    "probability": "fitting.predictive_plot.draw",
+    "probability": "fitting.plot.draw_prediction",
     "outcome": "many.plot_map.draw",
 }
 _RESULTS = {"Design": "planning.plot.draw", "Fit": "fitting.plot.draw"}  # results that are no Dataset, by class

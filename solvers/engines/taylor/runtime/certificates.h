@@ -274,7 +274,7 @@ static inline mask proved_sticks(
 
 #if SPACE && PROOF_BY_ENERGY
 /* Lanes whose doublet tumbles as one body, and is held even if all of its angular momentum turns across the line of
- * centres (solvers/certificates/tumbling.py). Decides a stick, but is no certificate.
+ * centres (solvers/certificates/in_space.py). Decides a stick, but is no certificate.
  */
 static mask tumbles(const constants *c, const vec *y, const barrier *b, double tolerance)
 {
