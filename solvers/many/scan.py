@@ -147,11 +147,7 @@ class Scan:
         return {name: value for name, value in attrs.items() if value not in ("", None)}
 
     def dataset(self, results: Block, request: Batch | None = None) -> xarray.Dataset:
-        """Results as a labelled Dataset.
-
-        Arguments:
-            request: the batch of the scan, if the caller has it.
-        """
+        """Results as a labelled Dataset; `request` is the batch of the scan, if the caller has it."""
         import xarray as xr
 
         register()

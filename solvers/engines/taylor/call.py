@@ -58,11 +58,7 @@ def variant(
 
 
 def variant_for_many(scene: Scene, oblique: bool, rtol: float, rotation: bool, fold: bool = True) -> Variant:
-    """The variant that `run_kernel` takes.
-
-    Arguments:
-        fold: no quantity varies, so that a partner equal to the sphere stays so.
-    """
+    """The variant that `run_kernel` takes; with `fold` no quantity varies: a partner equal to the sphere stays so."""
     return variant(scene, select_model(scene, oblique, fold=fold), rtol, rotation)
 
 
