@@ -100,11 +100,6 @@ def maxwellian(deviation: float) -> Speeds:
 
     Each component of the velocities of the particles, of all sizes, has the standard deviation s (m/s), the square root
     of the granular temperature; a collision is the more frequent the faster it is.
-
-    Example:
-        >>> from wetdoublet.solvers.averages.speeds import maxwellian
-        >>> maxwellian(0.3).text
-        'Maxwellian gas, velocity components of standard deviation 0.3 m/s'
     """
 
     def density(speed: np.ndarray) -> np.ndarray:

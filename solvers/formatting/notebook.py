@@ -17,10 +17,6 @@ def view(title: str, rows: Sequence[Row], head: Row = (), notes: Sequence[str] =
     Arguments:
         rows: cells as plain text; rows beyond `most` are only counted.
         head: names of the columns, if they have any.
-
-    Example:
-        >>> "&lt;x&gt;" in view("a title", [("name", "<x>")])
-        True
     """
     more = [f"{len(rows) - most} more rows"] if len(rows) > most else []
     lines = ["<div>", f"<strong>{escape(title)}</strong>"]

@@ -80,11 +80,6 @@ def chunks(shape: tuple[int, ...], engine: str, most: int = LARGEST) -> list[tup
 
     Arguments:
         most: collisions in a chunk.
-
-    Example:
-        >>> from wetdoublet.solvers.many.stream import chunks
-        >>> chunks((1, 100), "rosenbrock")
-        [(slice(0, 1, None), slice(0, 64, None)), (slice(0, 1, None), slice(64, 100, None))]
     """
     left = min(max(math.prod(shape) // _SHARES, _LEAST.get(engine, _LEAST_SLOW)), most)
     block = [1] * len(shape)

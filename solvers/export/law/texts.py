@@ -93,12 +93,7 @@ def source(scene: Scene, rtol: float = RTOL, ledger: bool = False) -> LawSource:
 
 
 def law_name(scene: Scene) -> str:
-    """The prefix of a scene's law and the name of its files, other than those of its neighbours and prefixes within it.
-
-    Examples:
-        >>> law_name(Scene("example", Scene.load("granulation").given))
-        'example_law'
-    """
+    """The prefix of a scene's law and the name of its files, unlike its neighbours' names and prefixes within it."""
     name = file_name(scene)
     return f"{name}_law" if name in _TAKEN else name
 
