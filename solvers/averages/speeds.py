@@ -69,14 +69,11 @@ class Speeds:
 
     @classmethod
     def of(cls, value: Any, label: str = "speeds") -> Speeds:
-        """The distribution that a value describes.
+        """The distribution that a value describes; InputError for anything else.
 
         Arguments:
             value: a Speeds; a number in m/s, or text with its unit; text `maxwell:` with a speed; a pair of arrays
                 (speeds, densities); or a CSV file of two columns.
-
-        Raises:
-            InputError: anything else.
         """
         if isinstance(value, Speeds):
             return value

@@ -46,13 +46,10 @@ def law(slot: str, name: str) -> ModuleType:
 
 @cache
 def module(name: str) -> ModuleType:
-    """An emitted module of the library.
+    """An emitted module of the library; CheckFailed if its file was changed after it was emitted.
 
     Arguments:
         name: dotted name below `generated`; a structure that is not committed is derived.
-
-    Raises:
-        CheckFailed: the file was changed after it was emitted; names the command to run.
     """
     path = name.replace(".", "/") + ".py"
     if not committed(path):

@@ -53,16 +53,13 @@ def information(
     rtol: float = RTOL,
     resolution: Resolution = FINE,
 ) -> Information:
-    """The Fisher information of each planned impact.
+    """The Fisher information of each planned impact; InputError for values that no scene may have.
 
     Arguments:
         names, values: the free entries.
         plan: impacts with their scatter, all other entries the scene's; of `observed` the standard deviation of the
             restitution counts, NaN where it is not measured.
         resolution: of the integrals over the scatter.
-
-    Raises:
-        InputError: values that no scene may have.
     """
     experiment, size = Likelihood(scene, names, plan, rtol).experiment_at(values), plan.size
     lines = ScatterLines.through(plan, _directions(experiment, plan), resolution.lines)

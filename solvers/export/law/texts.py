@@ -99,12 +99,7 @@ def law_name(scene: Scene) -> str:
 
 
 def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
-    """Texts of the files by name.
-
-    Raises:
-        InputError: a law of the scene has no recurrence.
-        ComputationError: no engine can compute the test vectors.
-    """
+    """Texts of the files by name; errors as of `source`, and ComputationError if no engine computes test vectors."""
     name, law_kernels = law_name(scene), kernels(scene, rtol)
     law = source(scene, rtol)
     declared = law.header

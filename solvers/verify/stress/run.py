@@ -80,13 +80,10 @@ class Stress:
 
 
 def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None) -> Stress:
-    """Run `count` cases on all cores.
+    """Run `count` cases on all cores; InputError without scipy.
 
     Arguments:
         tell: called with (done, total).
-
-    Raises:
-        InputError: scipy, which provides the quasi-random sequence, is not installed.
     """
     start, where = time.perf_counter(), environment()
     tell(0, count)
