@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, fields
 
+from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from .outcome import Outcome
 
@@ -39,7 +40,6 @@ class Collision(Outcome, Drawn):
 
     def _repr_html_(self) -> str:
         """Outcome and why, results with units, events, and what the model warns of."""
-        from ..formatting.notebook import view
         from .text import assumed, degrees, name_of, plain, quantity, reason
 
         rows = [

@@ -13,6 +13,7 @@ from ...generated.automaton import OUTCOMES
 from ..fitting.free_entries import COMBINED, IDENTIFIED, FreeEntries, combinations, in_unit, interval
 from ..fitting.measurements import Measurements
 from ..formatting.markdown import aligned, csv_text
+from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
@@ -241,8 +242,6 @@ class Design(Drawn):
         return "\n".join([title, "", *aligned(rows), "", *aligned(entries), "", *sentences])
 
     def _repr_html_(self) -> str:
-        from ..formatting.notebook import view
-
         return view(f"design of {self.size} impacts", self._rows(), self._head())
 
     @property

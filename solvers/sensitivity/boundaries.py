@@ -17,6 +17,7 @@ from ..boundaries.scene_sampler import SceneSampler
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..formatting.markdown import numbers_aligned
+from ..formatting.notebook import frame, view
 from ..host.arguments import check_function
 from ..host.pictures import Drawn
 from ..scene.scene import Scene
@@ -122,8 +123,6 @@ class BoundarySensitivities(Drawn):
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each change and parameter: angle (rad), stokes, before, after, gradients and elasticities."""
-        from ..formatting.frames import frame
-
         rows = [(angle, one, name) for angle, one in self._pairs for name in self.parameters]
         columns: dict[str, list[Any]] = {
             "angle": [angle for angle, *_ in rows],
@@ -138,8 +137,6 @@ class BoundarySensitivities(Drawn):
         return frame(columns)
 
     def _repr_html_(self) -> str:
-        from ..formatting.notebook import view
-
         head = ["parameter", *(f"{np.degrees(angle):.6g}°, {one.change.before} → {one.change.after}"
                                for angle, one in self._pairs)]  # fmt: skip
         rows = [[name, *(_elasticity(one, name) for _, one in self._pairs)] for name in self.parameters]

@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ..formatting.markdown import aligned, csv_text
+from ..formatting.notebook import frame, view
 from ..host.pictures import Drawn
 from ..scene.origin import origin
 from ..scene.scene import Scene
@@ -115,8 +116,6 @@ class Critical(Drawn):
 
     def to_pandas(self) -> pd.DataFrame:
         """The columns as a DataFrame."""
-        from ..formatting.frames import frame
-
         return frame(self.columns())
 
     def to_csv(self) -> str:
@@ -126,8 +125,6 @@ class Critical(Drawn):
         return csv_text([name + units.get(name, "") for name in columns], zip(*columns.values(), strict=True))
 
     def _repr_html_(self) -> str:
-        from ..formatting.notebook import view
-
         head, rows = self.table()
         return view("critical speeds", rows, head, [text for one in self.rows for text in one.sentences])
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...generated.automaton import STICK
 from ..formatting.markdown import numbers_aligned
+from ..formatting.notebook import frame, view
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
@@ -163,8 +164,6 @@ class Sensitivities(Drawn):
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each result and parameter: value, gradient, elasticity and the parameter's own value."""
-        from ..formatting.frames import frame
-
         pairs = [(name, p) for name in self.value for p in self.parameters]
         return frame(
             {
@@ -230,7 +229,6 @@ class Sensitivities(Drawn):
 
     def _repr_html_(self) -> str:
         from ..collision.text import name_of
-        from ..formatting.notebook import view
 
         head = [
             "parameter",
