@@ -21,11 +21,9 @@ from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import Field
 from ..scene.schema import Range as Interval
-from .attack import Attack
 from .attack import attack as attacked
 from .build import Builder
-from .data import Range
-from .law import ANGLE, STOKES, Law
+from .data import ANGLE, STOKES, Attack, Law, Range
 from .read import read
 from .slices import Slicer
 
