@@ -9,7 +9,6 @@ import math
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from casadi import Function, densify, jtimes, vertcat
 
 from ...generated.automaton import CLOSING, KINDS, EventKind
 from ..boundaries.line import Line
@@ -18,12 +17,12 @@ from ..certificates import energy_proof
 from ..engines.casadi.integrators import IntegrationFailed, tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
-from ..host.thread_caches import own_cache
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..scene.contact import ENTRIES, GAPS, TIE, contact_gap
 from ..scene.scene import Scene
 from ..scene.user_model import OwnEvent
+from .boundary_slope import guard_rates
 from .result import Near
 
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
@@ -175,16 +174,6 @@ def _declared(model: Model, path: EventSequence, event: OwnEvent, step: PhaseRun
             yield Near(name, first[-1] ** 2 / (2 * second[-1] * scale), "its guard")
     else:
         yield Near(name, float(guard.min()) / scale, "its guard")
-
-
-@own_cache(256)
-def guard_rates(model: Model, name: str, film: int, shear: int) -> Function:
-    """Function (states, groups) -> guard of an event, its first and second time derivative: three rows."""
-    rates = model.function("right_hand_side", film, shear)(model.column, model.parameters)
-    guard = model("events")[name]
-    first = jtimes(guard, model.column, rates)
-    rows = densify(vertcat(guard, first, jtimes(first, model.column, rates)))
-    return Function("guard_rates", [model.column, model.parameters], [rows])
 
 
 def _criteria(

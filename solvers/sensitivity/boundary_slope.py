@@ -9,7 +9,7 @@ different sides. Its gradient in the groups is one adjoint; the implicit functio
 from dataclasses import dataclass, replace
 
 import numpy as np
-from casadi import SX, Function, densify, gradient, jacobian, substitute, vertcat
+from casadi import SX, Function, densify, gradient, jacobian, jtimes, substitute, vertcat
 from scipy.optimize import brentq
 
 from ...generated.automaton import CRITERIA, KINDS, EventKind
@@ -25,7 +25,6 @@ from ..model.model import Model, load, select_model
 from ..model.phases import Flow
 from ..scene.contact import GAPS, contact_word
 from ..scene.scene import Scene
-from .boundary_distance import guard_rates
 from .derivatives import evaluate, first_derivatives, settled
 from .directions import landed
 from .trajectory_expression import course_of, ending, influential
@@ -280,3 +279,13 @@ def _moving(model: Model, shear: int) -> Function:
     state = substitute([column], [model.column], [vertcat(*there)])[0]
     slopes = [densify(jacobian(state, each)) for each in (held, model.parameters)]
     return Function("moving", [held, model.parameters], slopes)
+
+
+@own_cache(256)
+def guard_rates(model: Model, name: str, film: int, shear: int) -> Function:
+    """Function (states, groups) -> guard of an event, its first and second time derivative: three rows."""
+    rates = model.function("right_hand_side", film, shear)(model.column, model.parameters)
+    guard = model("events")[name]
+    first = jtimes(guard, model.column, rates)
+    rows = densify(vertcat(guard, first, jtimes(first, model.column, rates)))
+    return Function("guard_rates", [model.column, model.parameters], [rows])
