@@ -1,7 +1,5 @@
 """`wetdoublet critical`: the speed up to which they stick."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Annotated
 

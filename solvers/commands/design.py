@@ -1,7 +1,5 @@
 """`wetdoublet design`: where the next impacts should be."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import partial
 from typing import Annotated

@@ -1,7 +1,5 @@
 """`wetdoublet tracks`: two tracked centres become the table that `fit` reads."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import partial
 from typing import Annotated

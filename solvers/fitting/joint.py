@@ -3,8 +3,6 @@
 Noise may be free as well: `noise.restitution` is a factor of the standard deviations that the data give.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
