@@ -162,9 +162,7 @@ def free_entries(
             guess; a prior of another entry.
     """
     known = free_names(scene)
-    chosen = check_names(names, known, "free")
-    if not chosen:
-        raise InputError("free", "", ", ".join(known), "names no entry")
+    chosen = check_names(names, known, "free", "names no entry")
     for name in chosen:
         if name in data.columns:
             raise InputError("free", name, "entries that are not a column of the data", "is given row by row")

@@ -133,9 +133,7 @@ def problem(
         labels = [str(k + 1) for k in range(len(scenes))]
     noise = [_noise(each) for each in measured]
     known = list(dict.fromkeys(name for k, each in enumerate(scenes) for name in (*free_names(each), *noise[k])))
-    chosen = check_names(free, known, "free")
-    if not chosen:
-        raise InputError("free", "", ", ".join(known), "names no entry")
+    chosen = check_names(free, known, "free", "names no entry")
     groups = _groups(own, chosen, labels)
     priors = (
         {} if prior is None else dict(check_mapping(prior, "prior", 'entries and priors, {"NAME": "2 um +- 20 %"}'))
