@@ -183,5 +183,4 @@ class CheckFailed(WetDoubletError):
     """
 
     def __str__(self) -> str:
-        """Return the one line."""
         return " ".join(super().__str__().split())

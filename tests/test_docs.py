@@ -15,7 +15,6 @@ from wetdoublet.generated.automaton import KINDS
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.collision.outcome import Energy
 from wetdoublet.solvers.commands.cli import cli
-from wetdoublet.solvers.scene import meanings
 from wetdoublet.solvers.scene.schema import FIELDS, TABLES
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -28,8 +27,10 @@ SCENES, RESULTS = (
 )
 
 
-def test_every_table_entry_and_choice_has_its_meaning():
+def test_every_table_entry_and_choice_has_its_meaning(monkeypatch):
     """What the reference of scenes is made from knows each table, entry and choice, and no other."""
+    monkeypatch.syspath_prepend(ROOT / "docs/_ext")
+    meanings = import_module("meanings")
     assert set(meanings.TABLES) == set(TABLES)
     assert set(meanings.ENTRIES) == set(FIELDS)
     choices = {name: set(field.choices) for name, field in FIELDS.items() if field.choices}

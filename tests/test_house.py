@@ -189,7 +189,7 @@ def test_files_that_are_named_exist() -> None:
     texts += [*(ROOT / "solvers").rglob("*.h"), ROOT / "README.md"]
     there = {
         path.name
-        for top in ("derive", "examples", "generated", "solvers", "tests")
+        for top in ("derive", "docs", "examples", "generated", "solvers", "tests")
         for path in (ROOT / top).rglob("*.*")
     }
     named = {

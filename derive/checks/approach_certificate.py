@@ -5,7 +5,7 @@ from dataclasses import replace
 import sympy as sp
 
 from ..equations.certificates.approach import DEEPER, GAIN, LARGEST_FORCE, LEFT, PATH, RATIO, braking
-from ..equations.certificates.pendulum import pull_at
+from ..equations.certificates.pendulum import PENDULUM, pull_at
 from ..equations.events import contact_gap
 from ..equations.intermediates import FILM_FORCE, attractions
 from ..equations.model import Model, derive
@@ -13,16 +13,14 @@ from ..physics.forces import FILM
 from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
-from ..physics.structure import Structure
+from ..physics.structure import BRIDGED
 from ..vocabulary.quantities import aspect, beta, gap, normal_velocity, obliquity, orbital_momentum, stokes
 from .base import SIZES, Check, Evidence, check, checks, vanishing
 
-_BRIDGE = Structure(oblique=True, bridge=True, strings=False)
 _ATTRACTED = (
-    replace(_BRIDGE, oblique=False), _BRIDGE, replace(_BRIDGE, bridge=False, attraction=True),
-    replace(_BRIDGE, partner="pair"), replace(_BRIDGE, partner="wall"),
+    replace(BRIDGED, oblique=False), BRIDGED, replace(BRIDGED, bridge=False, attraction=True),
+    replace(BRIDGED, partner="pair"), replace(BRIDGED, partner="wall"),
 )  # fmt: skip
-_STRINGS = Structure(oblique=True, bridge=False, strings=True)
 _PULL, _DEPTH, _LEFT = sp.symbols("pull depth left", positive=True)
 
 
@@ -48,7 +46,7 @@ def closing_speed() -> Evidence:
     Where a bound z is reached, it has to rise by P/z - g/St at least: P/left with z >= left, or P/sqrt(2 P y) with
     z >= sqrt(2 P y). At left = sqrt(P y/2) both gains agree, so that the larger denominator takes the smaller gain.
     """
-    for structure in (*_ATTRACTED, _STRINGS):
+    for structure in (*_ATTRACTED, PENDULUM):
         model = derive(structure)
         rate = model.expanded(model["right_hand_side"]["normal_velocity"], SIZES)
         film = model.expanded(FILM_FORCE, SIZES)
@@ -90,7 +88,7 @@ def rotation_gains() -> Evidence:
 @check("approach: as emitted", "the step and the outward force are the bounds")
 def as_emitted() -> Evidence:
     """The emitted step and outward force are these bounds."""
-    for structure in (*_ATTRACTED, _STRINGS):
+    for structure in (*_ATTRACTED, PENDULUM):
         model = derive(structure)
         named = dict(model.definitions)
         force, deeper = named[LARGEST_FORCE], named[DEEPER]

@@ -20,16 +20,14 @@ from ..physics.laws import Law
 from ..physics.laws.base import filled
 from ..physics.mechanics import F_t, S_t, arm, equations_of_motion, sphere_inertia
 from ..physics.scaling import DISTANCE, nondimensional
-from ..physics.structure import Structure, structures
+from ..physics.structure import FREE, Structure, structures
 from ..vocabulary import quantities as q
 from .base import Check, checks, nonnegative, readable, settled, vanishing
-
-_OBLIQUE = Structure(oblique=True, bridge=False, strings=False)
 
 
 def _taken(term: str) -> sp.Expr:
     """An emitted loss with the forces substituted; distance and orbital rate stay symbols of known sign."""
-    model = derive(_OBLIQUE)
+    model = derive(FREE)
     return model.expanded(model["energy_rates"][term], (ORBITAL_RATE.name, DISTANCE.name))
 
 
@@ -65,7 +63,7 @@ def conserves(lever: Law) -> bool:
 
 
 @cache
-def conserved(lever: Law, structure: Structure = _OBLIQUE) -> tuple[Invariant, ...]:
+def conserved(lever: Law, structure: Structure = FREE) -> tuple[Invariant, ...]:
     """The invariants of a structure with this arm, for any other laws."""
     return invariants(derive(structure), {"arm": lever})
 

@@ -11,11 +11,10 @@ from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.mechanics import F_t, equations_of_motion, sphere_inertia
 from ..physics.scaling import group_definitions, nondimensional
-from ..physics.structure import Structure, structures
+from ..physics.structure import FREE, Structure, structures
 from ..vocabulary import quantities as q
 from .base import Evidence, check
 
-_FREE = Structure(oblique=True, bridge=False, strings=False)
 _MIDGAP = {"arm": LAWS["arm"]["midgap"], "shear": LAWS["shear"]["immersed"]}
 
 
@@ -121,7 +120,7 @@ def tangential_force_is_the_published() -> Evidence:
     published = 8 * sp.pi * q.mu * q.a**2 * (q.omega - q.xi) * sp.log(2 * q.a / q.x)
     force = filled(force_laws()[F_t], _MIDGAP).subs(SHEAR, 1)
     spun = published * q.r / 2 / sphere_inertia() * q.x0 / (q.v0 * q.rate_scale)
-    model = derive(_FREE)
+    model = derive(FREE)
     emitted = filled(model.by_state("right_hand_side")[q.spin], _MIDGAP).subs(SHEAR, 1)
     slip = nondimensional((q.omega - q.xi) / q.rate_scale)
     factor = nondimensional(spun / ((q.omega - q.xi) / q.rate_scale) / sp.log(2 * q.a / q.x))

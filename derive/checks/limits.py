@@ -9,7 +9,7 @@ from ..equations.model import derive
 from ..physics.forces import FILM, SHEAR
 from ..physics.laws import LAWS
 from ..physics.laws.base import filled
-from ..physics.structure import Structure, structures
+from ..physics.structure import BRIDGED, Structure, structures
 from ..vocabulary import quantities as q
 from .base import SIZES, Evidence, check, special_case
 
@@ -70,11 +70,10 @@ def mirror() -> Evidence:
                 yield result - sign * result.subs(reversed_, simultaneous=True)
 
 
-_EQUAL = Structure(oblique=True, bridge=True, strings=False)
 _WITH_A_POTENTIAL = tuple(
-    replace(_EQUAL, bridge=not attraction, attraction=attraction, partner=partner)
+    replace(BRIDGED, bridge=not attraction, attraction=attraction, partner=partner)
     for attraction in (False, True)
-    for partner in (_EQUAL.partner, "pair")
+    for partner in (BRIDGED.partner, "pair")
 )
 
 

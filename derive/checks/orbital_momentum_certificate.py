@@ -9,7 +9,7 @@ from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
-from ..physics.structure import Structure
+from ..physics.structure import BRIDGED
 from ..vocabulary.quantities import aspect, gap, obliquity, orbital_momentum, spin
 from .base import Check, Evidence, check, checks, no_negative, vanishing
 
@@ -18,14 +18,13 @@ _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
 _P, _Q = sp.symbols("root_J root_xi", positive=True)
 _EDGE = sp.Symbol("edge", positive=True)  # centre distance over a beyond which no shear acts
 _CLOSER, _BEYOND = sp.symbols("closer beyond", nonnegative=True)
-_FULL = Structure(oblique=True, bridge=True, strings=False)
 _REACH = 4  # the rupture distance is below 4 a: 2 V^(1/3) (1 + phi/2) with V <= 1 and phi <= pi/2
 
 
 @check("F_t exchanges momenta", "dJ = -(32/5)(d/(2 lever)) a^2 dxi")
 def exchange() -> Evidence:
     """The emitted rates of J and xi have the ratio `exchanged`, for every arm."""
-    rates = derive(_FULL).by_state("right_hand_side")
+    rates = derive(BRIDGED).by_state("right_hand_side")
     here = 4 + aspect * gap
     for law in LAWS["arm"].values():
         to_orbit, to_spin = (filled(rates[state], {"arm": law}) for state in (orbital_momentum, spin))
@@ -145,7 +144,7 @@ def surface_takes() -> Check:
 @check("orbital: as emitted", "slip and slip energies over m v0^2")
 def as_emitted() -> Evidence:
     """The emitted margins are this energy, in units of m v0^2, and the slip."""
-    for structure in (_FULL, replace(_FULL, reduced=True)):
+    for structure in (BRIDGED, replace(BRIDGED, reduced=True)):
         model = derive(structure)
         emitted = model.results("orbital_margins")
         here, turning = model.expanded(DISTANCE), model.expanded(spin) if structure.reduced else spin

@@ -12,12 +12,11 @@ from ..physics.laws.base import filled, is_slot_call
 from ..physics.partners.pair import PARTNER_RADIUS, RADIUS
 from ..physics.partners.rolling import R_1, R_2, torque_matrix
 from ..physics.scaling import DISTANCE
-from ..physics.structure import Structure
+from ..physics.structure import FREE, Structure
 from ..vocabulary import quantities as q
 from .base import SIZES, Check, Evidence, check, checks, vanishing
 
-_ALONE = Structure(oblique=True, bridge=False, strings=False)
-_STRUCTURES = (_ALONE, replace(_ALONE, partner="pair"))
+_STRUCTURES = (FREE, replace(FREE, partner="pair"))
 _MIDGAP = {"arm": LAWS["arm"]["midgap"]}
 _LOG = sp.Symbol("log_factor", positive=True)
 
@@ -165,7 +164,7 @@ def apart_from_shear() -> Evidence:
 @check("spin-down: as emitted", "stays = St max(u, -e_dry u) + St impulse - (S(x) - S(d))")
 def as_emitted() -> Evidence:
     """The emitted margins are these bounds."""
-    for structure in (*_STRUCTURES, replace(_ALONE, reduced=True)):
+    for structure in (*_STRUCTURES, replace(FREE, reduced=True)):
         model = derive(structure)
         named, bounds = dict(model.definitions), dict(spin_down.definitions(structure))
         yield from [named[symbol] - value for symbol, value in bounds.items()]

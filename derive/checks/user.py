@@ -31,11 +31,7 @@ _SIGNED = ("film.resistance", "shear.log_factor", "glass.pressure")
 
 
 def model_checks(path: Path, text: str | None = None, name: str = "") -> tuple[UserModel | None, tuple[Check, ...]]:
-    """The model of a file, None if it cannot be derived, and every check of it.
-
-    Raises:
-        ModelFileError: the file is not a model file.
-    """
+    """The model of a file, None if it cannot be derived, and every check of it; ModelFileError if it is none."""
     try:
         model = read(path, text, name)
     except (DimensionError, ScalingError) as error:

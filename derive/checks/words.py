@@ -9,13 +9,12 @@ from ..equations.invariants import invariants
 from ..equations.model import derive
 from ..physics.laws import LAWS
 from ..physics.laws.base import Law, filled
-from ..physics.structure import Structure
+from ..physics.structure import BRIDGED
 from ..user.own_events import OwnEvent
 from ..user.structures import UserModel
 from .conservation import momentum_rate
 
 _ANGULAR_MOMENTUM = "angular momentum L = m [r^2 omega + (32/5) a^2 xi]"
-_FULL = Structure(True, True, False)  # oblique, with a bridge, without a torque from strings
 
 
 def _arm(model: UserModel) -> Law:
@@ -24,7 +23,7 @@ def _arm(model: UserModel) -> Law:
 
 def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
     """dL/dt without strings, scaled, with the model's own laws; other laws except the arm stay open."""
-    return sp.simplify(filled(momentum_rate(_FULL, {"arm": law or _arm(model)}), {}))
+    return sp.simplify(filled(momentum_rate(BRIDGED, {"arm": law or _arm(model)}), {}))
 
 
 def _of_event(event: OwnEvent) -> str:
@@ -40,7 +39,7 @@ def _of_event(event: OwnEvent) -> str:
         text += "the motion is continuous. "
     if event.harmless:
         return text + "The energy certificate holds beside it."
-    if event.reach(_FULL).known:
+    if event.reach(BRIDGED).known:
         return text + "Sticks are proved where the energy does not suffice for it, or after it."
     return text + "Sticks are proved after it only."
 
@@ -48,7 +47,7 @@ def _of_event(event: OwnEvent) -> str:
 @cache
 def conserved(model: UserModel) -> tuple[str, ...]:
     """The conserved quantities without strings and rebounds, for any other laws."""
-    result = invariants(replace(model, events=()).extended(derive(_FULL)), {"arm": _arm(model)})
+    result = invariants(replace(model, events=()).extended(derive(BRIDGED)), {"arm": _arm(model)})
     return tuple(_ANGULAR_MOMENTUM if each.is_angular_momentum else each.describe() for each in result)
 
 
@@ -60,7 +59,7 @@ def in_words(model: UserModel) -> tuple[str, ...]:
         lines = [f"Angular momentum is not conserved: d/dt of L over its scale is {torque(model)}."]
     takers = "Mechanical energy is not conserved: film and shear take it, the solids' dry contact as well"
     lines.append(f"{takers}; the bridge stores it (its force depends on the gap alone).")
-    groups = model.extended(derive(_FULL)).groups
+    groups = model.extended(derive(BRIDGED)).groups
     new = {group.symbol: group for group in model.groups}
     known = ", ".join(symbol.name for symbol in groups if symbol not in new)
     lines.append(f"An oblique collision with a bridge is governed by the library's groups {known}.")

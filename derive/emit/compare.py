@@ -31,13 +31,10 @@ class Change:
 
 
 def equations(modules: Mapping[str, str]) -> Equations:
-    """Every equation of emitted modules, by name.
+    """Every equation of emitted modules, by name; ReadError for a text that is not emitted.
 
     Arguments:
         modules: room -> text of the module; a law's equations are named after its room (its slot).
-
-    Raises:
-        ReadError: a text is not that of an emitted module.
     """
     result: Equations = {}
     for room, text in modules.items():

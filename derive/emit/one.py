@@ -88,11 +88,11 @@ def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: 
     return _or_error(lambda: header(law, groups), f"law {slot} {name}: ")
 
 
-def user_automaton_texts(source: str, model: str) -> tuple[str, str]:
-    """Texts of the C headers of the automaton with a user's events: enumerations, and the switch over effects."""
+def user_automaton_text(source: str, model: str, effects: bool) -> str:
+    """Text of a C header of the automaton with a user's events: its enumerations, or the switch over `effects`."""
     events = [event.proposed for event in _model(source, model).events]
     rows, meanings = [event.row for event in events], [event.meaning for event in events]
-    return automaton_header(provenance(), rows, meanings), effects_header(provenance(), rows)
+    return effects_header(provenance(), rows) if effects else automaton_header(provenance(), rows, meanings)
 
 
 def _with_ignored_arguments(law: Law, model: UserModel) -> tuple[Law, set[sp.Symbol]]:

@@ -37,11 +37,7 @@ class Read:
 
 
 def functions(text: str) -> tuple[Read, ...]:
-    """Every function of an emitted law, structure or scaling module.
-
-    Raises:
-        ReadError: the text contains something that is never emitted.
-    """
+    """Every function of an emitted law, structure or scaling module; ReadError for text that is never emitted."""
     try:
         tree = ast.parse(text)
     except SyntaxError as error:

@@ -98,7 +98,6 @@ class Word:
 
     @property
     def name(self) -> str:
-        """Its name in an enumeration."""
         return self.word.upper().replace(" ", "_")
 
 
@@ -189,12 +188,10 @@ class Event:
 
     @property
     def ends(self) -> bool:
-        """True if the event ends the collision."""
         return self.actions[-1] in ENDS
 
     @property
     def at_gap(self) -> bool:
-        """True if the event happens at a gap."""
         return self.series == ("gap",)
 
 

@@ -89,11 +89,7 @@ class Invariant:
         return self.expression.subs(dict(state), simultaneous=True)
 
     def solved(self, momentum: sp.Symbol, value: sp.Expr) -> sp.Expr:
-        """The expression for a momentum if the invariant has this value.
-
-        Raises:
-            NoInvariantError: the invariant does not contain the momentum.
-        """
+        """The expression for a momentum if the invariant has this value; NoInvariantError if it does not contain it."""
         if momentum not in dict(self.coefficients):
             raise NoInvariantError(f"{momentum} cannot be eliminated through {self.describe()}")
         return sp.solve(sp.Eq(self.expression, value), momentum)[0]

@@ -88,11 +88,7 @@ def _expanded(expression: sp.Expr, definitions: Mapping[sp.Basic, sp.Expr], know
 
 @cache
 def derive(structure: Structure) -> Model:
-    """The nondimensional model of `structure`.
-
-    Raises:
-        ValueError: an equation uses a group that is not among GROUPS.
-    """
+    """The nondimensional model of `structure`; ValueError if an equation uses a group that is not among GROUPS."""
     states = _states(structure)
     each = functions(structure, states)
     definitions = _definitions(structure)

@@ -63,6 +63,10 @@ class Structure:
         )
 
 
+FREE = Structure(oblique=True, bridge=False, strings=False)
+BRIDGED = Structure(oblique=True, bridge=True, strings=False)
+
+
 def structures() -> tuple[Structure, ...]:
     """The structures of the paper: head-on or oblique, with or without bridge and strings, reduced where possible."""
     full = [Structure(oblique, bridge, strings) for oblique, bridge, strings in product((False, True), repeat=3)]

@@ -98,16 +98,11 @@ class UserModel:
 
 
 def _stopped(function: str, key: str, expression: sp.Expr) -> sp.Expr:
-    """The expression without normal velocity."""
     return expression.subs(normal_velocity, 0) if (function, key) == ("effective_potential", "slope") else expression
 
 
 def express(name: str, meaning: str, declared: Declarations) -> UserModel:
-    """The model of declarations.
-
-    Raises:
-        DimensionError, ScalingError: name law, function, and the wrong term or quantity.
-    """
+    """The model of declarations; DimensionError or ScalingError names law, function, and the wrong term or quantity."""
     all_places = places()
     groups = _groups(declared, all_places)
     laws = []
@@ -148,7 +143,6 @@ def _event(
 
 
 def _as_groups(groups: Mapping[str, Group]) -> dict[sp.Symbol, sp.Expr]:
-    """Declared quantities with a dimension, by their groups."""
     return {g.quantity.symbol: g.symbol * g.over for g in groups.values() if g.quantity.dimension != ONE}
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import MISSING, fields
 
+from meanings import CHOICES, ENTRIES
+from meanings import TABLES as MEANING
 from wetdoublet.solvers.scene import tables
-from wetdoublet.solvers.scene.meanings import CHOICES, ENTRIES
-from wetdoublet.solvers.scene.meanings import TABLES as MEANING
 from wetdoublet.solvers.scene.schema import ALTERNATIVES, FIELDS, TABLES, Field
 
 

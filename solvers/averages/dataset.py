@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..many.csv_map import cells_of, csv_text
+from ..formatting.markdown import csv_text
+from ..many.csv_map import cells_of
 from ..scene.scene import Scene
 from .geometry import BOUNCES, ENERGY, NORMAL, ROTATES, SLOPES, STICKS, TANGENTIAL, TURNING
 
@@ -123,4 +124,4 @@ def to_csv(data: xarray.Dataset) -> str:
         for quantity, row in zip(data["quantity"].values, values, strict=True):
             for parameter, cells in zip(data["parameter"].values, row, strict=True):
                 columns[f"d({quantity})/d({parameter}){suffix}"] = cells.ravel()
-    return csv_text({name: cells_of(values) for name, values in columns.items()})
+    return csv_text(columns, zip(*map(cells_of, columns.values()), strict=True))

@@ -1,7 +1,5 @@
 """Averages of many pairs of sizes by interpolation between fewer: Chebyshev series in the logarithms of the radii."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -62,7 +62,6 @@ class Panels:
         return Panels(*(np.concatenate([values, vars(other)[name]]) for name, values in vars(self).items()))
 
     def part(self, which: np.ndarray) -> Panels:
-        """The panels of these indices, or of this mask."""
         return Panels(*(values[which] for values in vars(self).values()))
 
     def halved(self) -> Panels:

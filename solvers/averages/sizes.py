@@ -28,11 +28,7 @@ _OF_SPHERES = tuple(
 
 
 def experiment_of(scenes: Sequence[Scene], names: tuple[str, ...], rtol: float) -> Experiment:
-    """An experiment with a row for each scene; they have the same entries, with other values.
-
-    Arguments:
-        names: free entries.
-    """
+    """An experiment with a row for each scene, which have the same entries, and with the free entries `names`."""
     first = scenes[0]
     numbers = [name for name, value in first.si if not isinstance(value, str) and name not in MEETING]
     values = {name: np.array([float(one.entries[name]) for one in scenes]) for name in numbers}

@@ -69,14 +69,11 @@ class Speeds:
 
     @classmethod
     def of(cls, value: Any, label: str = "speeds") -> Speeds:
-        """The distribution that a value describes.
+        """The distribution that a value describes; InputError for anything else.
 
         Arguments:
             value: a Speeds; a number in m/s, or text with its unit; text `maxwell:` with a speed; a pair of arrays
                 (speeds, densities); or a CSV file of two columns.
-
-        Raises:
-            InputError: anything else.
         """
         if isinstance(value, Speeds):
             return value
@@ -100,11 +97,6 @@ def maxwellian(deviation: float) -> Speeds:
 
     Each component of the velocities of the particles, of all sizes, has the standard deviation s (m/s), the square root
     of the granular temperature; a collision is the more frequent the faster it is.
-
-    Example:
-        >>> from wetdoublet.solvers.averages.speeds import maxwellian
-        >>> maxwellian(0.3).text
-        'Maxwellian gas, velocity components of standard deviation 0.3 m/s'
     """
 
     def density(speed: np.ndarray) -> np.ndarray:

@@ -1,7 +1,5 @@
 """The exported law by cffi, in its ABI mode: the header's declarations, and the compiled library."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -95,9 +95,7 @@ def pointwise(
     """The checked request; InputError for an unknown name or choice."""
     if undifferentiable not in CHOICES:
         raise InputError("undifferentiable", undifferentiable, ", ".join(CHOICES))
-    loaded, names = Scene.load(scene), check_names(of, (*DIFFERENTIATED, OUTCOME), "of")
-    if not names:
-        raise InputError("of", "", ", ".join((*DIFFERENTIATED, OUTCOME)), "names no result")
+    loaded, names = Scene.load(scene), check_names(of, (*DIFFERENTIATED, OUTCOME), "of", "names no result")
     for name in check_wrt(loaded, tuple(entries), "entries") if entries else ():
         if name.startswith("impact.") and not name.endswith("spin"):
             raise InputError("entries", name, "entries of the scene; speed and angle are arguments of their own")

@@ -26,7 +26,6 @@ class Arc:
     left: int
 
     def reversed(self) -> Arc:
-        """The arc in the opposite direction."""
         return Arc(self.points[::-1], self.left, self.right)
 
 
@@ -102,11 +101,7 @@ def _fold(plane: Plane, near: np.ndarray, arc: Arc) -> np.ndarray:
 
 
 def refined(plane: Plane, arcs: list[Arc], ascending: bool = False) -> list[Arc]:
-    """The curves with more points where chords deviate from the curve.
-
-    Arguments:
-        ascending: keep x ascending.
-    """
+    """The curves with more points where chords deviate from the curve; with `ascending` x stays ascending."""
     for _ in range(_ROUNDS):
         chords = [(k, j) for k, arc in enumerate(arcs) for j in _coarse(arc.points)]
         if not chords:

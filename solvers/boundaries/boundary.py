@@ -12,6 +12,7 @@ from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_function, check_whole
 from ..host.cores import usable_cores
+from ..host.pictures import Drawn
 from ..many.batch import checked_numbers, checked_span
 from ..model.validity import warn
 from ..scene.scene import Scene
@@ -26,8 +27,10 @@ _MOST = 10_000  # most lines
 
 
 @dataclass(frozen=True)
-class Boundaries(Lines):
+class Boundaries(Lines, Drawn):
     """Changes of outcome for each angle, as `boundary` returns them; its attributes are those of `Lines`.
+
+    `plot` draws the regions of each outcome, the curves and where they meet.
 
     Example:
         >>> from wetdoublet.solvers import boundary
@@ -36,16 +39,7 @@ class Boundaries(Lines):
         Frozen({'line': 1, 'change': 2})
     """
 
-    def plot(self, path: str | FilePath | None = None) -> Any:
-        """Draw the regions of each outcome, the curves and where they meet; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-        """
-        from ..host.pictures import saved
-        from .plot import plot
-
-        return saved(lambda: plot(self), path)
+    _picture = "boundaries.plot.plot"
 
 
 @dataclass(frozen=True)

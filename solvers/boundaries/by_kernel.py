@@ -5,11 +5,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES, ROTATE, STICK, Purpose, Status
+from ..certificates import OrbitalMomentumCertificate, limit_of_circling, proof_for
 from ..collision.by_kernel import words_of
 from ..engines.taylor.call import Impacts
-from ..engines.taylor.endless import limits
 from ..engines.taylor.record import run_recorded
-from ..model.model import select_model
+from ..model.dimensionless import nondimensionalise
+from ..model.key import ModelKey
+from ..model.model import load, select_model
 from ..scene.groups import sideways
 from ..scene.scene import Scene
 
@@ -104,9 +106,46 @@ def _take_limits(
     stopped = impacts.part(endless)
     before = run_recorded(stopped, oblique, rtol, trajectory=True, budget=budget // _EARLIER, keep=False, events=False)
     assert before is not None  # the kernel is available
-    held = limits(before.answers, answers[endless], impacts.scene, stopped.speed, stopped.angle, choice, rtol)
+    held = _limits(before.answers, answers[endless], impacts.scene, stopped.speed, stopped.angle, choice, rtol)
     for k, stays in zip(endless.tolist(), held, strict=True):
         if stays is not None:
             reached = BOUNCE if part["reversal"][k] >= 0 else ROTATE
             part["outcome"][k] = OUTCOMES.index(STICK if stays else reached)
             part["restitution"][k] = part["time"][k] = np.nan
+
+
+def _limits(
+    earlier: np.ndarray,
+    answers: np.ndarray,
+    scene: Scene,
+    speed: np.ndarray,
+    angle: np.ndarray,
+    choice: ModelKey,
+    rtol: float,
+) -> list[bool | None]:
+    """For circling doublets, True if a certificate holds in the limit of many turns; None where that is not clear.
+
+    Arguments:
+        earlier, answers: of the same impacts, without strings, after fewer steps and after more.
+    """
+    verdicts: list[bool | None] = []
+    for k in range(answers.size):
+        both = earlier[k], answers[k]
+        circles = all(answer["status"] in (Status.NO_BUDGET, Status.CHATTER) for answer in both)
+        proof = _proof(scene, speed[k], angle[k], choice, rtol) if circles else None
+        verdicts.append(
+            None if proof is None else limit_of_circling(proof, *(_state(proof, answer) for answer in both))
+        )
+    return verdicts
+
+
+def _proof(
+    scene: Scene, speed: float, angle: float, choice: ModelKey, rtol: float
+) -> OrbitalMomentumCertificate | None:
+    model = load(choice)
+    proof = proof_for(model, model.group_values(nondimensionalise(scene, float(speed), float(angle)).groups), rtol)
+    return proof if isinstance(proof, OrbitalMomentumCertificate) else None
+
+
+def _state(proof: OrbitalMomentumCertificate, answer: np.void) -> np.ndarray:
+    return np.array([answer["final_gap"], *answer["shown"][: len(proof.model.state) - 1]])

@@ -29,12 +29,12 @@ from . import by_kernel
 from .by_kernel import Events
 from .resampled import resampled
 from .saddle import barrier_of, saddle_of
+from .scene_sampler import DEEP
 
 _NEVER = 1e30  # a glass number that no pressure reaches
 WITHOUT_SOLIDS = {"glass_number": _NEVER} | dict.fromkeys(GAPS.values(), 0.0)
 _UNMET = {"glass_number": 0.0}  # with this glass number the glass guard is minus the pressure
 _CREEPING = 1e-3  # relative to v0; a slower approach counts as stopped, and contact at this speed is irrelevant
-_DEEP = 1e-3  # relative to the contact gap; an approach to this depth has reached solid contact
 _GRID = (*(float(part) for part in np.geomspace(1e-7, 0.9, 64)), 1.0)  # parts of a phase; dense at its start
 
 
@@ -121,7 +121,7 @@ def approach(model: Model, groups: dict[str, float], rtol: float, machine_code: 
 
     It ends at a turning point, at a certified stick, when it only creeps, or far below the contact gap.
     """
-    deep = _DEEP * contact_gap(groups)
+    deep = DEEP * contact_gap(groups)
     unmet = _UNMET | dict.fromkeys(GAPS.values(), deep)
     start = EventLocator(model, groups | unmet, rtol, (), machine_code)
     y, phase, p = start.y, start.phase, start.p

@@ -89,7 +89,6 @@ class Plane:
         return math.log(self.stokes[1] / self.stokes[0])
 
     def scene_at(self, x: float) -> tuple[Scene, float]:
-        """The scene at a value of the entry, and its impact angle (rad)."""
         if self.over == ANGLE:
             return self.scene, x
         return self.scene.with_si({self.over: x}), float(self.scene.angle or 0.0)

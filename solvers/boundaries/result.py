@@ -14,7 +14,7 @@ from ...generated import scaling
 from ...generated.automaton import OUTCOMES
 from ..collision.text import name_of
 from ..engines.settings import RTOL
-from ..formatting.notebook import view
+from ..formatting.notebook import frame, view
 from ..many.results import outcome_attributes
 from ..scene.origin import origin
 from ..scene.quantities import quantities
@@ -147,8 +147,6 @@ class Lines:
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each change: angle (rad), stokes, centrifugal, normal and relative speed (m/s), outcomes, kind."""
-        from ..formatting.frames import frame
-
         pairs = [(angle, one) for angle, line in zip(self.angles, self.changes, strict=True) for one in line]
         rows = [self.change_dict(one, angle) for angle, one in pairs]
         names = ("stokes", "centrifugal", "speed", "relative_speed")
@@ -377,8 +375,6 @@ class Curves(Lines):
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each point of each curve: curve (a number), before, after, kind, x (rad or SI) and stokes."""
-        from ..formatting.frames import frame
-
         rows = [(k, one, x, stokes) for k, one in enumerate(self.curves) for x, stokes in zip(one.x, one.stokes)]
         columns = {name: [getattr(one, name) for _, one, *_ in rows] for name in ("before", "after", "kind")}
         ends = {"x": [x for *_, x, _ in rows], "stokes": [stokes for *_, stokes in rows]}

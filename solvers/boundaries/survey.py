@@ -54,13 +54,15 @@ class Survey:
             if abs(y - place[1]) < 2 * CHORD:
                 return
             # chords of a curve deviate from it
-            points = crossings(
-                self.plane.labels, np.array([[place[0], y]]), np.array([[0.0, 1.0]]), np.array([_COVERED]),
-                np.array([below]), np.array([above]),
-            )[0]  # fmt: skip
+            points = self._crossing(np.array([place[0], y]), np.array([0.0, 1.0]), _COVERED, below, above)
             if abs(points[1] - place[1]) < _SAME_PLACE:
                 return
         self._start(place, below, above)
+
+    def _crossing(self, centre: np.ndarray, along: np.ndarray, reach: float, low: int, high: int) -> np.ndarray:
+        ends = np.array([reach]), np.array([low]), np.array([high])
+        points: np.ndarray = crossings(self.plane.labels, centre[None], along[None], *ends)[0]
+        return points
 
     def _seek_between(self, low: np.ndarray, high: np.ndarray, zooms: int = _ZOOMS) -> None:
         parts = np.linspace(0, 1, 50)[:, None]
@@ -74,14 +76,7 @@ class Survey:
             way = at[other] - at[one]
             length = float(np.linalg.norm(way))
             centre, along = 0.5 * (at[one] + at[other]), way / length
-            points = crossings(
-                self.plane.labels,
-                centre[None],
-                along[None],
-                np.array([length / 2]),
-                np.array([right]),
-                np.array([left]),
-            )[0]
+            points = self._crossing(centre, along, length / 2, right, left)
             if not np.isnan(points).any():
                 self._start(points, right, left)
             elif zooms:  # there is a third outcome between them

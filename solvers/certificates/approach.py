@@ -27,11 +27,7 @@ def starts(y: np.ndarray, phase: Phase) -> bool:
 
 
 class Approach:
-    """Bounds of the approaches of a model.
-
-    Arguments:
-        margin: relative error of a speed.
-    """
+    """Bounds of the approaches of a model; `margin` is the relative error of a speed."""
 
     def __init__(self, model: Model, p: np.ndarray, margin: float) -> None:
         self.model, self.p, self.margin = model, p, margin

@@ -69,11 +69,7 @@ class Certificate:
         return self.beside.level(y, phase) if self.beside is not None else None
 
     def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        """The verdict on a stick at `y`.
-
-        Arguments:
-            maxima: states at the last maxima of the gap, `y` among them if it is one.
-        """
+        """The verdict on a stick at `y`; `maxima` are states at the last maxima of the gap, with `y` if it is one."""
         certainty = self.beside.decided(y, phase, maxima) if self.beside is not None else Certainty.OPEN
         return certainty or Certainty.of(self.sticks(y, phase, maxima), self.theorem)
 

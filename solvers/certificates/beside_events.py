@@ -53,7 +53,6 @@ class EnergyBesideEvents(EnergyCertificate):
         return float(potential + self.height(there, float(y[0])) - self._least(there, float(y[0])))
 
     def height(self, y: np.ndarray, gap: float) -> float:
-        """The effective potential at a gap."""
         return self._least(y, 1.0) + self._rise(gap, y)
 
     def _floors(self, gaps: Sequence[float], y: np.ndarray) -> list[float]:

@@ -3,19 +3,17 @@
 import numpy as np
 
 from ..model.model import Model
-from .attraction import AttractionCertificate
+from .attraction import AttractionCertificate, FilmAndAttractionCertificate
 from .base import Certificate, NoCertificate
 from .beside_events import beside_events
 from .chatter import ChatterCertificate
 from .energy_barrier import EnergyCertificate
 from .film import FilmCertificate
-from .film_and_attraction import FilmAndAttractionCertificate
+from .in_space import ReboundCertificate, TumblingCertificate
 from .orbital_momentum import OrbitalMomentumCertificate, covers
 from .pendulum import PendulumCertificate
-from .rebounds import ReboundCertificate
 from .spin_down import SpinDownCertificate
 from .spin_down import covers as spins_down
-from .tumbling import TumblingCertificate
 
 
 def proof_for(model: Model, p: np.ndarray, rtol: float) -> Certificate:

@@ -135,11 +135,7 @@ def enclose(
 
 @dataclass(frozen=True)
 class Changes(Brackets):
-    """Enclosed changes, sorted by line and place.
-
-    Attributes:
-        first: (lines,), the label at the lower end of each line.
-    """
+    """Enclosed changes, sorted by line and place; `first` are the labels at the lower ends of the lines."""
 
     first: np.ndarray
 

@@ -168,11 +168,7 @@ class Experiment:
     def answers(
         self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, rotation: bool = False, **options: int
     ) -> np.ndarray:
-        """What `run_kernel` answers, with its options.
-
-        Raises:
-            ComputationError: there is no kernel of this scene on this machine.
-        """
+        """What `run_kernel` answers, with its options; ComputationError if this machine has no kernel of the scene."""
         answers = run_kernel(self.impacts(row, speed, angle), self.rtol, rotation, **options)
         if answers is None:
             raise ComputationError(

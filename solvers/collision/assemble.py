@@ -6,8 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from ..model.cohesion import generalised_centrifugal
-from ..model.dimensionless import DimensionlessGroups
+from ..model.dimensionless import DimensionlessGroups, generalised_centrifugal
 from ..scene.scene import Scene
 from .outcome import Energy, Event
 from .result import Collision

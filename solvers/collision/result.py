@@ -1,17 +1,20 @@
 """The result of one collision: immutable; prints as a table, converts to the JSON object, draws a figure."""
 
 from dataclasses import dataclass, fields
-from pathlib import Path
-from typing import Any
 
+from ..formatting.notebook import view
+from ..host.pictures import Drawn
 from .outcome import Outcome
 
 _ENDS = 20  # events that `repr` shows at each end of a longer list
 
 
 @dataclass(frozen=True, kw_only=True)
-class Collision(Outcome):
+class Collision(Outcome, Drawn):
     """One collision, as `collide` returns it; its attributes are those of `Outcome`.
+
+    `plot` draws gap and velocity, the rotation, and the doublet at a few instants; ValueError if the collision was
+    computed without `trajectory=True`.
 
     Example:
         >>> from wetdoublet.solvers import collide
@@ -19,6 +22,8 @@ class Collision(Outcome):
         >>> one.outcome, one.reversal, [event.kind for event in one.events]
         ('bounce', 'glass', ['glass', 'rupture'])
     """
+
+    _picture = "collision.plot.figure.draw"
 
     def __repr__(self) -> str:
         names = [each.name for each in fields(self) if each.repr and each.name != "events"]
@@ -34,20 +39,34 @@ class Collision(Outcome):
         return table(self)
 
     def _repr_html_(self) -> str:
-        from .notebook import html
+        """Outcome and why, results with units, events, and what the model warns of."""
+        from .text import assumed, degrees, name_of, plain, quantity, reason
 
-        return html(self)
-
-    def plot(self, path: str | Path | None = None) -> Any:
-        """Draw gap and velocity, the rotation, and the doublet at a few instants; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-
-        Raises:
-            ValueError: the collision was computed without `trajectory=True`.
-        """
-        from ..host.pictures import saved
-        from .plot.figure import draw
-
-        return saved(lambda: draw(self), path)
+        rows = [
+            ("outcome", self.outcome, reason(self)),
+            (
+                "impact",
+                f"St {plain(self.stokes)}, {degrees(self.angle)}",
+                f"normal speed {quantity(self.speed, 'm/s')}",
+            ),
+            ("normal restitution e_n", plain(self.restitution), ""),
+        ]
+        results = [
+            ("tangential restitution e_t", plain(self.tangential_restitution), self.tangential_restitution),
+            ("rotation", degrees(self.rotation), self.rotation),
+            ("contact time", quantity(self.contact_time, "s"), self.contact_time),
+            ("smallest gap", quantity(self.smallest_gap, "m"), self.smallest_gap),
+            ("final spin", plain(self.final_spin, "rad/s"), self.final_spin),
+            ("final spin of the partner", plain(self.final_spin_partner, "rad/s"), self.final_spin_partner),
+            ("final rotation rate", plain(self.final_rotation_rate, "rad/s"), self.final_rotation_rate),
+        ]
+        rows += [(name, shown, "") for name, shown, value in results if value is not None]
+        if self.events:
+            happened = [f"{event.kind} at {quantity(event.time, 's')}" for event in self.events[:6]]
+            more = [f"{len(self.events) - 6} more"] if len(self.events) > 6 else []
+            rows.append(("events", "; ".join([*happened, *more]), ""))
+        if self.energy is not None:
+            end = f"{quantity(self.energy.final, 'J')} at the end; residual {self.energy.residual:.1e} J"
+            rows.append(("energy", f"{quantity(self.energy.initial, 'J')} at contact", end))
+        engine = f"{self.engine}, {self.steps} steps" + (f" ({self.engine_reason})" if self.engine_reason else "")
+        return view(name_of(self.scene), rows, notes=[*self.validity, *assumed(self.scene), engine])

@@ -1,7 +1,5 @@
 """`wetdoublet averages`: outcomes and restitution averaged over impact geometry and speeds."""
 
-from __future__ import annotations
-
 from functools import partial
 from pathlib import Path
 from typing import Annotated

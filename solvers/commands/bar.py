@@ -70,7 +70,6 @@ class Bar:
                 say(self._forecast)
 
     def note(self, text: str) -> None:
-        """Show a text behind the counts."""
         if self._shown is not None:
             self._shown.set_postfix_str(text)
 

@@ -1,7 +1,5 @@
 """`wetdoublet boundary`: traces the curves between outcomes."""
 
-from __future__ import annotations
-
 import math
 from functools import partial
 from typing import Annotated

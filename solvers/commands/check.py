@@ -1,7 +1,5 @@
 """`wetdoublet check`: measured impacts looked through before a fit."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from ..errors import CheckFailed, InputError

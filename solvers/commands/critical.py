@@ -1,12 +1,9 @@
 """`wetdoublet critical`: the speed up to which they stick."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Annotated
 
 from ..errors import CheckFailed
-from ..host import files
 from ..scene.schema import FIELDS
 from . import options, texts
 from .bar import Bar
@@ -55,9 +52,6 @@ def command(
         chosen["wrt"] = "all" if wrt == ["all"] else wrt
     with Bar("materials", "fewer materials or angles take less") as progress:
         found = critical(materials, progress=progress, **chosen)
-    if output.file is not None and output.file.suffix == ".csv":
-        files.write(output.file, found.to_csv())
-        output = options.Output(output.as_json, output.picture)
     output.show(found)
     failed = [one for one in found.rows if one.failed]
     if failed:

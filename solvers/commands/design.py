@@ -1,13 +1,10 @@
 """`wetdoublet design`: where the next impacts should be."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import partial
 from typing import Annotated
 
 from ..errors import InputError
-from ..host import files
 from ..scene.schema import FIELDS
 from . import options, texts
 from .bar import Bar
@@ -81,7 +78,4 @@ def command(
     cheaper = "fewer draws take less" if draws else "a smaller window or fewer impacts take less"
     with Bar("impacts", cheaper, factor=3.0) as progress:
         plan = design(request.scene(), free, over, progress=progress, **chosen)
-    if output.file is not None and output.file.suffix == ".csv":
-        files.write(output.file, plan.to_csv())
-        output = options.Output(output.as_json, output.picture)
     output.show(plan)

@@ -1,7 +1,5 @@
 """`wetdoublet fit`: parameters of a scene from measured impacts."""
 
-from __future__ import annotations
-
 from functools import partial
 from pathlib import Path
 from typing import Annotated

@@ -248,8 +248,16 @@ class Output:
             files.write(self.file, text + "\n")
 
     def show(self, result: Any, drawn: Any = None) -> None:
-        """Write a result and draw its picture, or that of another result, as far as requested."""
-        self.put(json_text(result.to_dict()) if self.as_json else str(result))
+        """Write a result and draw its picture, or that of another result, as far as requested.
+
+        A result that has `to_csv` goes to FILE.csv as that, and is shown as well.
+        """
+        text = json_text(result.to_dict()) if self.as_json else str(result)
+        if self.file is not None and self.file.suffix == ".csv" and hasattr(result, "to_csv"):
+            files.write(self.file, result.to_csv())
+            click.echo(text)
+        else:
+            self.put(text)
         if self.picture is not None:
             (drawn or result).plot(self.picture)
 

@@ -1,7 +1,5 @@
 """`wetdoublet prove`: outcomes proved by enclosure."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from ..errors import CheckFailed, InputError

@@ -1,13 +1,10 @@
 """`wetdoublet tracks`: two tracked centres become the table that `fit` reads."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import partial
 from typing import Annotated
 
 from ..errors import InputError
-from ..host import files
 from . import options, texts
 from .signature import as_command, passed
 
@@ -48,7 +45,4 @@ def command(
     if film is None:
         raise InputError("FILM.csv", None, "a CSV file with a row for each frame")
     found = tracks(film, request.scene(), **passed(rate=rate, scale=scale, scale_sd=scale_sd, noise=noise))
-    if output.file is not None and output.file.suffix == ".csv":
-        files.write(output.file, found.to_csv())
-        output = options.Output(output.as_json)
-    output.put(str(found), found.to_dict())
+    output.show(found)

@@ -1,7 +1,5 @@
 """`wetdoublet verify`: checks of the laws with their numbers; or all engines against each other."""
 
-from __future__ import annotations
-
 from functools import partial
 from itertools import pairwise
 from pathlib import Path

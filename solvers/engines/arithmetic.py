@@ -16,13 +16,7 @@ _NONE = "none"
 
 
 def arithmetic() -> dict[str, str]:
-    """Names and descriptions; two processes where all are equal compute the same digits.
-
-    Example:
-        >>> from wetdoublet.solvers.engines.arithmetic import arithmetic
-        >>> arithmetic() == arithmetic()
-        True
-    """
+    """Names and descriptions; two processes where all are equal compute the same digits."""
     tool = compiler()
     return {
         "kernels": shipped_digest() or _NONE,

@@ -44,7 +44,6 @@ class CompiledKernel:
     bytes: int
 
     def to_dict(self) -> dict[str, Any]:
-        """The attributes as JSON has them."""
         return asdict(self) | {"serves": list(self.serves)}
 
 

@@ -51,7 +51,6 @@ class Budget:
 
     @property
     def is_spent(self) -> bool:
-        """True if no call is left."""
         return self.most - self.spent < CALL
 
     @property

@@ -152,7 +152,6 @@ def _interval(value: float | None, accepted: Range, factor: float) -> tuple[floa
 
 
 def _rounded(value: float) -> float:
-    """The number with one digit."""
     return float(f"{value:.0e}")
 
 

@@ -34,6 +34,24 @@ wetdoublet {version}.</p></header>
 <script type="application/json" id="scene">{data}</script>
 <script>{script}</script></body></html>
 """
+_WIDGET = """
+export default {
+  render({ model, el }) {
+    const frame = document.createElement("iframe");
+    frame.title = "Collisions of the scene";
+    frame.style.cssText = "width:100%;height:900px;border:1px solid rgba(128,128,128,.35)";
+    frame.srcdoc = model.get("html");
+    const told = (event) => {
+      if (event.source !== frame.contentWindow || !event.data?.wetdoublet) return;
+      for (const name of ["address", "toml"]) model.set(name, event.data.wetdoublet[name]);
+      model.save_changes();
+    };
+    addEventListener("message", told);
+    el.append(frame);
+    return () => removeEventListener("message", told);
+  },
+};
+"""
 
 
 class Explorer:
@@ -58,7 +76,6 @@ class Explorer:
 
     @property
     def scene(self) -> Scene:
-        """The scene that is shown first."""
         return self.scenes[0]
 
     @cached_property
@@ -93,9 +110,14 @@ class Explorer:
             >>> page = wd.explore("granulation")  # doctest: +SKIP
             >>> wd.Scene.from_toml(page.widget.toml)  # doctest: +SKIP
         """
-        from .widget import widget
-
-        return widget(self.html)
+        try:
+            import anywidget
+            import traitlets
+        except ImportError:
+            return None
+        values = {"html": self.html, "address": "", "toml": ""}
+        traits = {name: traitlets.Unicode(value).tag(sync=True) for name, value in values.items()}
+        return type("ExplorerWidget", (anywidget.AnyWidget,), {"_esm": _WIDGET, "__module__": __name__, **traits})()
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         if self.widget is not None:
@@ -146,8 +168,7 @@ def _of_scene(scene: Scene, modules: dict[str, bytes]) -> dict[str, Any]:
     from ..export.law.texts import source
     from ..formatting.style import FILLS
     from .knobs import knobs
-    from .limits import limits
-    from .module import module
+    from .module import limits, module
 
     ledger = scene.particles.friction is None  # a kernel with a ledger leaves rest with friction to CasADi
     law = source(scene, ledger=ledger)

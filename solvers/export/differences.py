@@ -59,15 +59,12 @@ class Differences:
 
 
 def differences(one: str, other: str, probe: str = "granulation", changes: dict[str, str] | None = None) -> Differences:
-    """Compare two models.
+    """Compare two models; InputError for an argument that is none of these.
 
     Arguments:
         one, other: `library`, a preset, a scene file, a model's folder or file, or a folder of `generate`.
         probe: the scene into which models are put for the compared collisions.
         changes: entries to change in the second scene.
-
-    Raises:
-        InputError: an argument is none of these.
     """
     from ...derive.emit.compare import compare, equations  # imports sympy
     from ...derive.emit.read import ReadError

@@ -16,14 +16,7 @@ _SHORT = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))
 _HEADS = ("angle (deg)", "St", "A", "e_n A", "B", "e_n B", "B - A")
 
 
-def plain(expression: Any) -> str:
-    """An expression as text."""
-    from ...derive.emit.compare import plain  # imports sympy
-
-    return plain(expression)
-
-
-def typeset(expression: Any) -> str:
+def _typeset(expression: Any) -> str:
     """An expression in LaTeX."""
     from ...derive.emit.compare import typeset  # imports sympy
 
@@ -32,6 +25,8 @@ def typeset(expression: Any) -> str:
 
 def as_text(differences: Differences) -> str:
     """The differences as plain text."""
+    from ...derive.emit.compare import plain  # imports sympy
+
     lines = [f"A: {differences.names[0]}", f"B: {differences.names[1]}", ""]
     lines += ["no equation differs"] if not differences.changes else [f"{_count(differences)}:"]
     for equation, of_equation in groupby(differences.changes, key=lambda change: change.equation):
@@ -91,13 +86,13 @@ def _one(change: Change) -> object:
 
 
 def _math(expression: object) -> str:
-    return "" if expression is None else f"${typeset(expression)}$".replace("|", r"\vert ")
+    return "" if expression is None else f"${_typeset(expression)}$".replace("|", r"\vert ")
 
 
 def _aligned(change: Change) -> str:
     if change.kind == "changed":
-        return rf"  &\text{{changed}} & {typeset(change.before)} &\;\to\; {typeset(change.after)}"
-    return rf"  &\text{{{change.kind}}} & {typeset(_one(change))} &"
+        return rf"  &\text{{changed}} & {_typeset(change.before)} &\;\to\; {_typeset(change.after)}"
+    return rf"  &\text{{{change.kind}}} & {_typeset(_one(change))} &"
 
 
 def _rows(differences: Differences) -> list[tuple[str, ...]]:

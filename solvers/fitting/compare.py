@@ -131,11 +131,7 @@ def compare_models(
 
 
 def check_choices(scene: Scene, over: Sequence[str] | str) -> tuple[str, ...]:
-    """The names of `over`, which must be choices of this scene.
-
-    Raises:
-        InputError: an unknown name, or one of a table that the scene has not.
-    """
+    """The names of `over`; InputError for one that is no choice, or of a table that the scene has not."""
     names = check_names(over, CHOICES, "over")
     known = [each for each in CHOICES if getattr(scene, each.partition(".")[0]) is not None]
     for name in names:

@@ -1,7 +1,5 @@
 """What is odd in measured impacts, before anything is fitted to them: `check_data()`, which `fit` runs first."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass

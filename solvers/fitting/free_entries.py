@@ -64,7 +64,6 @@ class Normalisation:
 
     @property
     def offset(self) -> float:
-        """The log-likelihood of a square of 0."""
         return 0.5 - self.count * math.log(self.low)
 
     def misfit(self, value: float) -> tuple[float, float]:
@@ -91,7 +90,6 @@ class FreeEntry:
     prior: Prior | Normalisation | None = None
 
     def inner(self, value: float) -> float:
-        """The variable of the search."""
         return math.log(value) if self.log else value
 
     def outer(self, inner: float) -> float:
@@ -140,11 +138,9 @@ class FreeEntries:
         return np.array([each.inner(float(one)) for each, one in zip(self.entries, values, strict=True)])
 
     def values(self, inner: np.ndarray) -> np.ndarray:
-        """Values of the entries, SI."""
         return np.array([each.outer(float(one)) for each, one in zip(self.entries, inner, strict=True)])
 
     def named(self, inner: np.ndarray) -> dict[str, float]:
-        """The same by dotted name."""
         return dict(zip(self.names, self.values(inner).tolist(), strict=True))
 
     def rates(self, values: np.ndarray) -> np.ndarray:
@@ -166,9 +162,7 @@ def free_entries(
             guess; a prior of another entry.
     """
     known = free_names(scene)
-    chosen = check_names(names, known, "free")
-    if not chosen:
-        raise InputError("free", "", ", ".join(known), "names no entry")
+    chosen = check_names(names, known, "free", "names no entry")
     for name in chosen:
         if name in data.columns:
             raise InputError("free", name, "entries that are not a column of the data", "is given row by row")

@@ -3,8 +3,6 @@
 Noise may be free as well: `noise.restitution` is a factor of the standard deviations that the data give.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -42,7 +40,6 @@ class Part:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The free entries of the scene."""
         return tuple(name for name in self.entries if not name.startswith(NOISE))
 
 
@@ -80,16 +77,13 @@ class Joint:
             each.tell = lambda cost, share=each.size / self.size: self.tell(share * cost)  # type: ignore[misc]
 
     def values(self, values: np.ndarray) -> list[np.ndarray]:
-        """The values of each part's entries."""
         return [values[places] for places in self._places]
 
     def aim(self, values: np.ndarray) -> None:
-        """As of `Likelihood`."""
         for part, own in zip(self.parts, self.values(values), strict=True):
             part.aim(own)
 
     def refine(self, values: np.ndarray, tolerance: float) -> None:
-        """As of `Likelihood`."""
         for part, own in zip(self.parts, self.values(values), strict=True):
             part.refine(own, tolerance)
 
@@ -139,9 +133,7 @@ def problem(
         labels = [str(k + 1) for k in range(len(scenes))]
     noise = [_noise(each) for each in measured]
     known = list(dict.fromkeys(name for k, each in enumerate(scenes) for name in (*free_names(each), *noise[k])))
-    chosen = check_names(free, known, "free")
-    if not chosen:
-        raise InputError("free", "", ", ".join(known), "names no entry")
+    chosen = check_names(free, known, "free", "names no entry")
     groups = _groups(own, chosen, labels)
     priors = (
         {} if prior is None else dict(check_mapping(prior, "prior", 'entries and priors, {"NAME": "2 um +- 20 %"}'))

@@ -159,7 +159,6 @@ class Likelihood:
         return self.experiments.at(values[: len(self.experiments.names)])
 
     def noisier(self, values: np.ndarray) -> Measurements:
-        """The rows with the standard deviations at these values."""
         return self.data.noisier(self._factors(values))
 
     def _factors(self, values: np.ndarray) -> dict[str, float]:

@@ -176,11 +176,7 @@ def stacked(tables: Sequence[Mapping[str, np.ndarray]], sizes: Sequence[int]) ->
 
 
 def rows_of(scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float) -> Rows:
-    """The scenes of the rows, with free entries.
-
-    Raises:
-        ComputationError: the kernel does not differentiate their collisions.
-    """
+    """The scenes of the rows, with free entries; ComputationError if the kernel has no derivatives of them."""
     check_derivatives(scene)
     return Rows(scene, names, data.columns, data.size if data.columns else 1, rtol)
 

@@ -13,6 +13,7 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..errors import InputError
 from ..formatting.markdown import aligned
+from ..formatting.notebook import frame, view
 from ..host import files
 from ..host.arguments import check_whole
 from ..host.outputs import check_file, check_folder
@@ -209,8 +210,6 @@ class Fit:
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each impact: what was observed, and what the fitted scene predicts of it."""
-        from ..formatting.frames import frame
-
         data = self.data
         cells: dict[str, Any] = {
             "row": [data.label(k) for k in range(data.size)], data.speed_name: data.speed, "angle": data.angle,
@@ -233,8 +232,6 @@ class Fit:
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        from ..formatting.notebook import view
-
         head, rows = self.table()
         return view(f"fit of {self.points} impacts", rows, head, [CONTRADICTED] if self.rows.contradicted else [])
 

@@ -194,7 +194,6 @@ class Segments:
         return segments.part(high > low)
 
     def part(self, which: np.ndarray) -> Segments:
-        """The segments of these indices, or of this mask."""
         return Segments(*(values[which] for values in vars(self).values()))
 
     @property

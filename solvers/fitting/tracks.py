@@ -4,8 +4,6 @@ Before the films touch and after the pair has separated the relative motion is u
 straight line is fitted to each part. Its covariance, from the noise of the positions, is carried to every result.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -21,10 +19,10 @@ from ..formatting.markdown import aligned
 from ..scene import units
 from ..scene.columns import Column, columns_of
 from ..scene.scene import Scene
+from .measurements import OBSERVED
 
-_MEASURED = ("restitution", "tangential_restitution", "contact_time", "rotation")
 _SIGNED = ("tangential_restitution", "rotation")
-_NAMES = ("speed", "angle", *_MEASURED)
+_NAMES = ("speed", "angle", *OBSERVED)
 _UNITS = {"speed": "m/s", "angle": "deg", "contact_time": "s", "rotation": "deg"}
 _CLEAR = 4.0  # standard deviations of the noise by which a pair is apart
 _LEAST = 4  # frames of a line

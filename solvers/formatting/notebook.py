@@ -1,7 +1,15 @@
-"""Small HTML tables for notebooks: everything escaped, colours inherited, so that light and dark pages can be read."""
+"""Tables for notebooks: small ones in HTML, everything escaped, in the colours of the page; and pandas DataFrames."""
 
-from collections.abc import Sequence
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
 from html import escape
+from typing import TYPE_CHECKING, Any
+
+from ..errors import ComputationError
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 MOST = 24  # rows; the rest is counted
 _RULE = "border-bottom:1px solid rgba(128,128,128,.35)"
@@ -17,10 +25,6 @@ def view(title: str, rows: Sequence[Row], head: Row = (), notes: Sequence[str] =
     Arguments:
         rows: cells as plain text; rows beyond `most` are only counted.
         head: names of the columns, if they have any.
-
-    Example:
-        >>> "&lt;x&gt;" in view("a title", [("name", "<x>")])
-        True
     """
     more = [f"{len(rows) - most} more rows"] if len(rows) > most else []
     lines = ["<div>", f"<strong>{escape(title)}</strong>"]
@@ -33,6 +37,15 @@ def view(title: str, rows: Sequence[Row], head: Row = (), notes: Sequence[str] =
     lines.append("</tbody></table>")
     lines += [f'<div style="{_FAINT};font-size:.9em">{escape(note)}</div>' for note in (*more, *notes)]
     return "\n".join([*lines, "</div>"])
+
+
+def frame(columns: Mapping[str, Sequence[Any]]) -> pd.DataFrame:
+    """A DataFrame of named columns; ComputationError if pandas, which is optional, is not installed."""
+    try:
+        import pandas as pd
+    except ImportError:
+        raise ComputationError("a DataFrame needs pandas", advice="pip install pandas") from None
+    return pd.DataFrame({name: list(values) for name, values in columns.items()})
 
 
 def _row(row: Row) -> str:

@@ -7,13 +7,19 @@ from typing import Any
 from ..errors import InputError, did_you_mean
 
 
-def check_names(requested: object, known: Sequence[str], label: str) -> tuple[str, ...]:
-    """Return the requested name or names, in order, without duplicates; InputError suggests the nearest known name."""
+def check_names(requested: object, known: Sequence[str], label: str, none: str = "") -> tuple[str, ...]:
+    """Return the requested name or names, in order, without duplicates; InputError suggests the nearest known name.
+
+    Arguments:
+        none: the fault of a list without names ("names no entry"), if it is one.
+    """
     accepted = ", ".join(known)
     if isinstance(requested, str):
         requested = (requested,)
     if not isinstance(requested, Collection) or isinstance(requested, (bytes, bytearray)):
         raise InputError(label, requested, accepted, "is not a list of names")
+    if none and len(requested) == 0:  # an array has no truth value
+        raise InputError(label, "", accepted, none)
     for name in requested:
         if not isinstance(name, str) or name not in known:
             raise InputError(label, name, accepted, "is not known" + did_you_mean(name, known))

@@ -4,29 +4,26 @@ A compiler is accepted if it compiles a two-line program that then runs. Without
 remark on standard error. WETDOUBLET_COMPILE_SECONDS sets the time limit for a file.
 """
 
-from __future__ import annotations
-
 import hashlib
 import math
 import os
 import shlex
+import shutil
 import signal
+import subprocess
 import sys
 import threading
 from collections.abc import Collection, Sequence
 from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from ..errors import InputError
 from . import interrupts
 from . import user_cache as cache
 from .remarks import say
 from .thread_caches import once
-
-if TYPE_CHECKING:
-    import subprocess
 
 _COMPILERS = ("cc", "gcc", "clang")
 _ZIG = "ziglang"  # the module with which pip installs a compiler
@@ -114,8 +111,6 @@ def library(source: str, flags: Sequence[str]) -> bytes:
         CannotCompile: the compilation failed; gives the reason.
         KeyboardInterrupt: the compiler was interrupted, as by Ctrl-C.
     """
-    import subprocess  # slow import
-
     working = compiler()
     if working is None:
         raise CannotCompile("there is no compiler")
@@ -140,8 +135,6 @@ def webassembly(source: str, flags: Sequence[str]) -> bytes:
         CannotCompile: neither is there, or neither compiles it; gives the reason.
         KeyboardInterrupt: the compiler was interrupted, as by Ctrl-C.
     """
-    import subprocess
-
     flags = ("--target=wasm32-wasi", "-mexec-model=reactor", *flags)
     failed = []
     for command in filter(None, map(_command, (*_zig(), "clang"))):
@@ -183,8 +176,6 @@ def _limit() -> float:
 
 def _command(named: str) -> tuple[str, ...] | None:
     """The words of a command, the first an executable's path, which may contain spaces; None if not found."""
-    import shutil  # slow import
-
     whole = shutil.which(named)
     if whole is not None:
         return (whole,)
@@ -208,8 +199,6 @@ def _accepted(command: tuple[str, ...], limit: float) -> Compiler | str:
 
     Success is cached with the compiler's version, size and date, so that later processes skip the test.
     """
-    import subprocess
-
     try:
         status, output = _run((*command, "--version"), limit)
         version = next(iter(output.strip().splitlines()), "")
@@ -231,8 +220,6 @@ def _accepted(command: tuple[str, ...], limit: float) -> Compiler | str:
 
 def _identity(word: str) -> str:
     """Size and date of the executable that a word of a command names."""
-    import shutil
-
     path = shutil.which(word)
     if path is None:
         return ""
@@ -286,8 +273,6 @@ def _run(
         OSError: it cannot be run.
         KeyboardInterrupt: it or this process was interrupted.
     """
-    import subprocess
-
     environment = os.environ | {"LC_ALL": "C"} | ({"TMPDIR": str(place)} if place else {})
     process: subprocess.Popen[bytes] | None = None
     stopped = False

@@ -46,13 +46,10 @@ def law(slot: str, name: str) -> ModuleType:
 
 @cache
 def module(name: str) -> ModuleType:
-    """An emitted module of the library.
+    """An emitted module of the library; CheckFailed if its file was changed after it was emitted.
 
     Arguments:
         name: dotted name below `generated`; a structure that is not committed is derived.
-
-    Raises:
-        CheckFailed: the file was changed after it was emitted; names the command to run.
     """
     path = name.replace(".", "/") + ".py"
     if not committed(path):
@@ -71,13 +68,7 @@ def text(name: str) -> str:
         return with_imports(_read(path), lambda home: _read(f"{home}.py"))
     if "." in name:  # all laws are committed
         raise CheckFailed(f"generated/{path} is neither there nor can it be derived; run `wetdoublet generate`")
-
-    def derived() -> str:
-        from ...derive.emit.one import structure_text  # imports sympy
-
-        return structure_text(name)
-
-    return derived_once(f"{name}.py", derived)
+    return derived_once(f"{name}.py", "structure_text", name)
 
 
 def with_imports(module: str, read: Callable[[str], str]) -> str:
@@ -104,13 +95,7 @@ def header(path: str) -> str:
     if committed(path):
         return _INCLUDED.sub(lambda shared: _read(f"taylor/{shared[1]}").partition("*/\n")[2], _read(path))
     kind, name = path.removesuffix(".h").rsplit("/", 1)
-
-    def derived() -> str:
-        from ...derive.emit.one import header_text  # imports sympy
-
-        return header_text(kind, name)
-
-    return derived_once(f"{kind.replace('/', '-')}-{name}.h", derived)
+    return derived_once(f"{kind.replace('/', '-')}-{name}.h", "header_text", kind, name)
 
 
 def committed(path: str) -> bool:
@@ -152,12 +137,15 @@ def derivation() -> str:
     return digest.hexdigest()
 
 
-def derived_once(name: str, derived: Callable[[], str]) -> str:
-    """A text from the cache, derived if the cache has none of that name from this derivation."""
+def derived_once(name: str, function: str, *arguments: str | bool) -> str:
+    """A text from the cache; `function` of `derive.emit.one` makes it if there is none of that name and derivation."""
     from .user_cache import kept
 
     def alone() -> bytes:
         with DERIVING:  # one thread at a time
-            return derived().encode()
+            from ...derive.emit import one  # imports sympy
+
+            text: str = getattr(one, function)(*arguments)
+            return text.encode()
 
     return kept(f"emitted-{derivation()[:32]}-{name}", alone).decode()

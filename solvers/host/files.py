@@ -19,11 +19,7 @@ if TYPE_CHECKING:
 
 
 def write(path: str | Path, content: bytes | memoryview | str) -> None:
-    """Write a file; text as UTF-8.
-
-    Raises:
-        OSError: it cannot be written; `filename` is the path, and an existing file is unchanged.
-    """
+    """Write a file, text as UTF-8; OSError with its path if that fails: an existing file is then unchanged."""
     target = Path(os.path.realpath(path))  # write to the target of a symbolic link and keep the link
     data = content.encode() if isinstance(content, str) else content
     try:

@@ -16,11 +16,7 @@ _TRIES = 5
 
 @contextmanager
 def held_folder(folder: Path, prefix: str) -> Iterator[Path]:
-    """A new private folder in a folder; removed at the end with its content.
-
-    Raises:
-        OSError: it cannot be made.
-    """
+    """A new private folder in a folder, removed at the end with its content; OSError if it cannot be made."""
     import shutil
     import tempfile
 

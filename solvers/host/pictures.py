@@ -9,7 +9,7 @@ from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ..errors import InputError
 from .files import save
@@ -24,7 +24,7 @@ _HOMES = {  # a variable that only one kind of result has -> what draws it
     "rotation_released": "verify.plot.draw_budget",
     "total_within": "sensitivity.plots.draw_indices",
     "engine": "sensitivity.plots.draw_gradients",
-    "probability": "fitting.predictive_plot.draw",
+    "probability": "fitting.plot.draw_prediction",
     "outcome": "many.plot_map.draw",
 }
 _RESULTS = {"Design": "planning.plot.draw", "Fit": "fitting.plot.draw"}  # results that are no Dataset, by class
@@ -53,8 +53,13 @@ def plot(data: Any, path: str | Path | None = None) -> Any:
     home = _RESULTS.get(type(data).__name__) or next((_HOMES[name] for name in _HOMES if name in variables), None)
     if home is None:
         raise InputError("data", type(data).__name__, "a Dataset that this package has made", "is none")
+    return saved(lambda: _drawing(home)(data), path)
+
+
+def _drawing(home: str) -> Callable[[Any], Any]:
     module, _, function = home.rpartition(".")
-    return saved(lambda: getattr(import_module(f"{_ROOT}.{module}"), function)(data), path)
+    drawing: Callable[[Any], Any] = getattr(import_module(f"{_ROOT}.{module}"), function)
+    return drawing
 
 
 def saved(draw: Callable[[], Any], path: str | Path | None) -> Any:
@@ -66,6 +71,20 @@ def saved(draw: Callable[[], Any], path: str | Path | None) -> Any:
     return figure
 
 
+class Drawn:
+    """A result with a picture."""
+
+    _picture: ClassVar[str]  # what draws it, by name as above
+
+    def plot(self, path: str | Path | None = None) -> Any:
+        """Draw it; returns the matplotlib Figure.
+
+        Arguments:
+            path: file to write (.png, .pdf or .svg); None only draws.
+        """
+        return saved(lambda: _drawing(self._picture)(self), path)
+
+
 class Pictures:
     """The accessor: `data.wetdoublet.plot("picture.png")`."""
 
@@ -73,7 +92,6 @@ class Pictures:
         self._data = data
 
     def plot(self, path: str | Path | None = None) -> Any:
-        """Draw the Dataset; arguments and result as of the function `plot`."""
         return plot(self._data, path)
 
 

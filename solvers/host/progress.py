@@ -21,10 +21,6 @@ def forecast(
         factor: by which the time may be larger or smaller, where `total` is an estimate.
         cheaper: the cheaper way, if there is one.
         at_least: other work follows, which is not counted.
-
-    Example:
-        >>> forecast(12, 300, 1.6, "evaluations")
-        'about 38 s more: 12 of 300 evaluations in 1.6 s'
     """
     if seconds < _SAMPLE or done <= before:
         return None
@@ -70,6 +66,5 @@ class Estimated:
             self._progress(int(self._done), self._total)
 
     def finish(self) -> None:
-        """Report the end."""
         if self._progress is not None:
             self._progress(self._total, self._total)

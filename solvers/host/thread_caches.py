@@ -53,11 +53,9 @@ class OwnCache(Generic[P, T]):
         return result
 
     def cache_clear(self) -> None:
-        """Clear this thread's cache."""
         self._here().cache_clear()
 
     def cache_info(self) -> Any:
-        """Hits, misses and size of this thread's cache."""
         return self._here().cache_info()
 
     def _here(self) -> Any:
@@ -106,7 +104,6 @@ class Once(Generic[P, T]):
         return cast("T", result)
 
     def cache_clear(self) -> None:
-        """Clear all results."""
         self._kept.clear()
 
 

@@ -64,10 +64,6 @@ def kept(name: str, make: Callable[[], bytes]) -> bytes:
     Arguments:
         name: STEM.SUFFIX; must identify everything that the content depends on.
         make: computes the content; its exceptions propagate.
-
-    Example:
-        >>> kept("law-3f2a.py", lambda: b"ONE = 1")  # doctest: +SKIP
-        b'ONE = 1'
     """
     with _BY_NAME(name):  # one thread makes the entry; others wait
         content = found(name)
@@ -292,5 +288,4 @@ def _leave(stack: ExitStack, owner: int) -> None:
 
 @cache
 def _sweep(place: Path, prefix: str) -> None:
-    """Remove stale temporary folders, once per process."""
     sweep(place, prefix)

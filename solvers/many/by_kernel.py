@@ -48,12 +48,10 @@ def collide_by_kernel(
         part = which[first : first + _STRETCH]
         whole = part.size == request.size and bool((part == np.arange(part.size)).all())
         impacts, sound = impacts_of(request if whole else request.part(part))
-        books = None
         if ledger:
-            both = run_with_books(impacts, request.rtol, threads)
-            answers, books = both if both is not None else (None, None)
+            answers, books = run_with_books(impacts, request.rtol, threads)
         else:
-            answers = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps)
+            answers, books = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps), None
         if answers is None:
             if request.partial:  # other parts may have been computed by the kernel
                 advice = 'look at what the compiler reports, or choose another engine, as "rosenbrock"'

@@ -6,8 +6,7 @@ import numpy as np
 
 from ...generated import scaling
 from ..errors import WetDoubletError
-from ..model.cohesion import generalised_centrifugal
-from ..model.dimensionless import nondimensionalise
+from ..model.dimensionless import generalised_centrifugal, nondimensionalise
 from ..model.validity import flags
 from ..scene.groups import si_values
 from ..scene.quantities import quantities

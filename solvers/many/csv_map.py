@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
+from ..formatting.markdown import csv_text
 from ..host import files
 from ..model.validity import FLAGS
 from .results import FAILED, REVERSALS
@@ -36,16 +34,7 @@ def to_csv(data: xarray.Dataset) -> str:
         cells = np.broadcast_to(values, shape).ravel()
         label = name if unit == "1" else f"{name} [{unit}]"
         columns[label] = _flags(cells) if name == "validity" else _words(name, cells)
-    return csv_text(columns)
-
-
-def csv_text(columns: Mapping[str, list[Any]]) -> str:
-    """Columns of cells as CSV, under their names."""
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(columns)
-    table.writerows(zip(*columns.values(), strict=True))
-    return text.getvalue()
+    return csv_text(columns, zip(*columns.values(), strict=True))
 
 
 def write_csv(data: xarray.Dataset, path: str | Path) -> None:

@@ -110,7 +110,6 @@ class Journal:
             os.close(opened)  # another run removed the file between opening and locking
 
     def read(self) -> list[tuple[np.ndarray, Block]]:
-        """The finished blocks of this request."""
         return [_block(record) for record in self._of_this_request() if "columns" in record]
 
     def chunks(self) -> list[int]:

@@ -34,7 +34,7 @@ _PANEL, _ACROSS = 3.1, 3  # width of a panel in inches; panels in a row
 _WIDTH, _HEIGHT = 9.0, 4.7  # size of a map of the impact alone, inches
 _HANDLE = 2.1  # width of an entry of the legend, inches
 _NOTES = 0.062  # width of a character of the notes, inches
-_HIGHEST = 2.0  # most e_n that the colours tell apart: near grazing incidence it grows without bound
+HIGHEST = 2.0  # most e_n that the colours tell apart: near grazing incidence it grows without bound
 _LEVELS = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0)
 _CROSS: Any = {"linestyle": "", "marker": "x", "color": "#B00020", "markersize": 5}
 _OUTSIDE: Any = {"facecolor": "none", "edgecolor": "#303030", "hatch": "...", "linewidth": 0}
@@ -122,7 +122,7 @@ def _pair(data: xarray.Dataset, curves: Curves) -> Figure:
     values = np.ma.masked_invalid(np.where(separated, _upright(data, "restitution"), np.nan))
     right.set_facecolor(NOTHING)
     highest = float(values.max()) if values.count() else 1.0
-    top = min(max(highest, 1.0), _HIGHEST)
+    top = min(max(highest, 1.0), HIGHEST)
     mesh = right.pcolormesh(*_edges(data), values, cmap="viridis", vmin=0, vmax=top, rasterized=True)
     label_scale(figure.colorbar(mesh, ax=right, pad=0.02, extend="max" if highest > top else "neither"), top, highest)
     for axes in (left, right):
@@ -228,7 +228,6 @@ def _hatch(axes: Axes, edges: tuple[np.ndarray, np.ndarray], cells: np.ndarray, 
 
 
 def _exact(axes: Axes, curves: Sequence[Curve]) -> None:
-    """Draw the exact boundaries."""
     for x, y in curves:
         (line,) = axes.plot(np.degrees(x), y, color=INK, linewidth=1.6, zorder=3)
         line.set_gid("boundary")

@@ -69,7 +69,6 @@ class Scan:
         return ", ".join(dict.fromkeys(self.engines.values())) or self.engine or "rosenbrock"
 
     def order(self) -> np.ndarray:
-        """Flat indices in the order of computation."""
         return np.arange(self.size)
 
     def part(self, at: Place) -> Scan:
@@ -148,11 +147,7 @@ class Scan:
         return {name: value for name, value in attrs.items() if value not in ("", None)}
 
     def dataset(self, results: Block, request: Batch | None = None) -> xarray.Dataset:
-        """Results as a labelled Dataset.
-
-        Arguments:
-            request: the batch of the scan, if the caller has it.
-        """
+        """Results as a labelled Dataset; `request` is the batch of the scan, if the caller has it."""
         import xarray as xr
 
         register()

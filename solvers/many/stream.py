@@ -18,7 +18,6 @@ from ..engines.arithmetic import arithmetic
 from ..host.cores import usable_cores
 from ..host.interrupts import check
 from ..host.progress import Progress
-from .chunks import LARGEST, chunks
 from .cluster import Task, agreed, check_scheduler, computed, connected
 from .columns import validity
 from .compute import Slow, complete
@@ -32,14 +31,14 @@ if TYPE_CHECKING:
 
 _Blocks = Callable[[list[int]], Iterator[tuple[int, Block]]]
 _NUMBERS = 1 << 19  # in the request of a chunk, 4 MB; Dask warns of much more
+LARGEST = 65536  # collisions in a chunk: some 0.1 s by the kernel, some 10 MB
+_SHARES = 64  # chunks of a smaller request, for as many workers
+_LEAST = {"taylor": 2048}  # collisions in a chunk that outweigh sending it
+_LEAST_SLOW = 64
 
 
 def check_places(client: object, store: object) -> Path | None:
-    """Check the arguments `client` and `store`, either of which may be None; returns the store's path.
-
-    Raises:
-        InputError: one of them is not what it has to be.
-    """
+    """Check the arguments `client` and `store`, either of which may be None; returns the store's path."""
     if client is not None:
         check_scheduler(client, "client")
     return None if store is None else check_store(store, "store")
@@ -71,6 +70,29 @@ def _chunkwise(scan: Scan, client: Any, cut: list[Place]) -> Iterator[tuple[Mapp
     with connected(client) as cluster:
         expected = agreed(cluster, "taylor" if "taylor" in scan.engines.values() else "")
         yield expected, lambda todo: computed(cluster, task, todo, expected)
+
+
+def chunks(shape: tuple[int, ...], engine: str, most: int = LARGEST) -> list[tuple[slice, ...]]:
+    """Where the chunks of a request of this shape lie: of equal extent along all dimensions, as far as these reach.
+
+    Those at the far ends are smaller; the last dimension varies fastest. Neither the number of cores or workers nor
+    what an earlier run has finished moves them: a chunk holds the same collisions wherever and whenever it is computed.
+
+    Arguments:
+        most: collisions in a chunk.
+    """
+    left = min(max(math.prod(shape) // _SHARES, _LEAST.get(engine, _LEAST_SLOW)), most)
+    block = [1] * len(shape)
+    by_length = sorted(range(len(shape)), key=lambda axis: shape[axis])
+    for place, axis in enumerate(by_length):  # what a short dimension cannot take falls to the longer ones
+        share = math.floor(left ** (1 / (len(shape) - place)) + 1e-9)
+        block[axis] = max(1, min(shape[axis], share))
+        left //= block[axis]
+    corners = np.ndindex(*(-(-size // length) for size, length in zip(shape, block, strict=True)))
+    return [
+        tuple(slice(i * length, min((i + 1) * length, size)) for i, length, size in zip(corner, block, shape))
+        for corner in corners
+    ]
 
 
 def _cut(scan: Scan) -> list[Place]:

@@ -124,7 +124,6 @@ class Model:
 
     @property
     def space(self) -> bool:
-        """True if the states are vectors in space."""
         return "normal_x" in self.state
 
     @property
@@ -133,7 +132,6 @@ class Model:
 
     @property
     def friction(self) -> bool:
-        """True if the dry contact has friction."""
         return self.has("rubbed")
 
     @property
@@ -148,7 +146,6 @@ class Model:
 
     @cached_property
     def own_events(self) -> tuple[OwnEvent, ...]:
-        """The events that a user's model declares, behind the library's."""
         package = self.choice.package
         return () if package is None else package.events_in(self.choice.structure)
 
@@ -169,7 +166,6 @@ class Model:
 
     @cached_property
     def works(self) -> tuple[str, ...]:
-        """Names of the works of attractions in the ledger."""
         return tuple(
             work for work, slot in (("capillary", "bridge"), ("attraction", "attraction")) if self.choice.law(slot)
         )
@@ -252,11 +248,9 @@ class Model:
         return {"film": film, "shear": shear} if name in self.structure.REGIONAL else {}
 
     def group_values(self, groups: Mapping[str, float]) -> np.ndarray:
-        """The structure's groups as a vector."""
         return np.array([groups[name] for name in self.groups])
 
     def start(self, p: np.ndarray) -> np.ndarray:
-        """State at initial contact."""
         return np.array(list(self.values("start", np.zeros(len(self.state)), p).values()))
 
 

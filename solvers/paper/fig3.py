@@ -10,11 +10,10 @@ from ..boundaries.boundary import Atlas
 from ..formatting.document import Picture, Table
 from ..formatting.style import halo
 from ..scene.scene import Scene
-from . import regimes
 from .boundary_cache import BoundaryCache, Job, Line, criterion_met, printed_pressure, shown, sticks_to
 from .parts import Comparison, Part, number
 from .printed import PRINTED
-from .style import ANGLE, COLUMN, GREY, STOKES, sheet
+from .style import ANGLE, COLUMN, GREY, STOKES, draw_map, sheet
 from .variants import PENDULUM, STRING_VARIANTS, described, variant
 
 _REACH = 2.5  # St at the right edge
@@ -93,7 +92,7 @@ def _draw(whole: Atlas, file: Path) -> None:
     printed = PRINTED["stokes_3"]
     with sheet(file, 7.6) as figure:
         axes = figure.add_subplot()
-        regimes.draw(axes, whole)
+        draw_map(axes, whole)
         axes.axvline(printed.value, color=GREY, linestyle=(0, (4, 2)), linewidth=1, zorder=2)
         style: Any = {"textcoords": "offset points", "fontsize": 7.5, "ha": "right"}
         axes.annotate(f"paper: $St_n^*$ = {printed.text}", (printed.value, 4), (-4, 0), **style)

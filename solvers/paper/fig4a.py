@@ -15,11 +15,10 @@ from ..formatting.document import Picture, Table
 from ..formatting.style import INK, halo
 from ..model.dimensionless import nondimensionalise
 from ..scene.scene import Scene
-from . import regimes
 from .boundary_cache import BoundaryCache, Job, Line, change_at, outcomes, printed_pressure, shown, sticks_to
 from .parts import Comparison, Part, degrees, number
 from .printed import PRINTED
-from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, sheet
+from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, draw_map, sheet
 from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant
 
 _REACH = 0.26  # St at the right edge
@@ -44,7 +43,7 @@ def make(cache: BoundaryCache, folder: Path) -> Part:
     stokes = sticks_to(head_on)
     with sheet(folder / "fig4a.png", 7.6) as figure:
         axes = figure.add_subplot()
-        regimes.draw(axes, whole)
+        draw_map(axes, whole)
         _lines_and_labels(axes, scene, critical_centrifugal, _TAIL * stokes)
         _dry(axes, dry_oblique, sticks_to(dry_head_on))
     sides = {dry_oblique.background}.union(*((curve.before, curve.after) for curve in dry_oblique.curves))
@@ -171,7 +170,7 @@ def _dry(axes: Axes, whole: Atlas, stokes: float) -> None:
     inset = axes.inset_axes((0.61, 0.135, 0.36, 0.5))
     inset.patch.set_zorder(5)
     inset.set_zorder(6)
-    regimes.draw(inset, whole, linewidth=0.9)
+    draw_map(inset, whole, linewidth=0.9)
     inset.plot([0, stokes], [0, 0], color=INK, linewidth=3, solid_capstyle="butt", clip_on=False, zorder=7)
     inset.annotate(
         "S", (0.6 * stokes, 1), (0.6 * stokes, 24), ha="center", fontsize=8, arrowprops={"arrowstyle": "->", "lw": 0.8}

@@ -38,7 +38,6 @@ class Curve:
 
     @property
     def highest(self) -> float:
-        """The largest restitution."""
         return float(self.restitution.max())
 
 

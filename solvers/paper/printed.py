@@ -34,7 +34,6 @@ class Printed:
 
     @property
     def digits(self) -> int:
-        """Number of digits printed after the decimal point."""
         return len(self.text.partition(".")[2])
 
 

@@ -20,12 +20,12 @@ from ..fitting.measurements import Measurements
 from ..fitting.scatter import Resolution, ScatterLines, Segments, nearest_normals
 from ..scene.scene import Scene
 from .density import Curve, information_of
+from .window import RESTITUTION
 
 FINE = Resolution(points=64)
 FINEST = Resolution(lines=9, points=128), Resolution(lines=6, points=128)
 # with more lines, some would lie where impacts graze
 _STICK = OUTCOMES.index(STICK)
-_RESTITUTION = "restitution"
 _NEAR = 4.0  # standard deviations within which a boundary turns the lines
 _TRIED = 36  # directions of the lines
 
@@ -53,16 +53,13 @@ def information(
     rtol: float = RTOL,
     resolution: Resolution = FINE,
 ) -> Information:
-    """The Fisher information of each planned impact.
+    """The Fisher information of each planned impact; InputError for values that no scene may have.
 
     Arguments:
         names, values: the free entries.
         plan: impacts with their scatter, all other entries the scene's; of `observed` the standard deviation of the
             restitution counts, NaN where it is not measured.
         resolution: of the integrals over the scatter.
-
-    Raises:
-        InputError: values that no scene may have.
     """
     experiment, size = Likelihood(scene, names, plan, rtol).experiment_at(values), plan.size
     lines = ScatterLines.through(plan, _directions(experiment, plan), resolution.lines)
@@ -77,7 +74,7 @@ def information(
     np.add.at(probability, (segments.row, segments.outcome), share)
     np.add.at(slopes, (segments.row, segments.outcome), share[:, None] * segments.mass_slopes(ends))
     by_restitution = np.zeros((size, len(names), len(names)))
-    noise = plan.observed[_RESTITUTION][1] if _RESTITUTION in plan.observed else np.full(size, np.nan)
+    noise = plan.observed[RESTITUTION][1] if RESTITUTION in plan.observed else np.full(size, np.nan)
     dense = (mass > NEGLIGIBLE) & (segments.outcome != _STICK) & np.isfinite(noise[segments.row])
     counts = np.bincount(lines.row, minlength=size)
     curves = _curves(experiment, lines, segments.part(dense), ends[:, dense], resolution)
@@ -126,7 +123,7 @@ def _curves(
     number = segments.line - np.searchsorted(lines.row, segments.row)
     every: dict[int, Curve] = {}
     exact = replace(resolution, approximate=False)
-    for which, mapping, value, slope in segments.results(experiment, lines, ends, (_RESTITUTION,), exact):
+    for which, mapping, value, slope in segments.results(experiment, lines, ends, (RESTITUTION,), exact):
         for j, k in enumerate(which.tolist()):
             if np.isfinite(value[0, j]).all():
                 span = np.array([segments.low[k], segments.high[k]])

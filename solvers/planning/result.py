@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,8 +12,9 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..fitting.free_entries import COMBINED, IDENTIFIED, FreeEntries, combinations, in_unit, interval
 from ..fitting.measurements import Measurements
-from ..formatting.markdown import aligned
-from ..host.pictures import plot
+from ..formatting.markdown import aligned, csv_text
+from ..formatting.notebook import view
+from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.scene import Scene
@@ -63,8 +61,10 @@ class Expected:
 
 
 @dataclass(frozen=True)
-class Design:
+class Design(Drawn):
     """The result of `design`: planned impacts, what they will tell, and how that is shown and written.
+
+    `plot` draws what single impacts tell over the window, and the planned ones.
 
     Attributes:
         impacts: by angle and speed.
@@ -88,6 +88,8 @@ class Design:
         >>> sum(each.count for each in planned.impacts)
         3
     """
+
+    _picture = "planning.plot.draw"
 
     window: Window
     free: FreeEntries
@@ -140,7 +142,6 @@ class Design:
 
     @property
     def size(self) -> int:
-        """Number of impacts."""
         return sum(each.count for each in self.impacts)
 
     def plan(self) -> Measurements:
@@ -196,17 +197,15 @@ class Design:
     def to_csv(self) -> str:
         """A row for each impact in the form that `fit` reads, its observations empty."""
         scatter, name = self.window.scatter, self._speed
-        file = io.StringIO()
-        writer = csv.writer(file, lineterminator="\n")
         head = [f"{name} [m/s]", f"{name}_sd [m/s]", "angle [deg]", "angle_sd [deg]", "outcome"]
         measured = scatter.restitution is not None
-        writer.writerow(head + (["restitution", "restitution_sd"] if measured else []))
+        rows = []
         for each in self.impacts:
             speed = getattr(each, name)
             row = [f"{speed:.6g}", f"{scatter.speed * speed:.3g}", f"{math.degrees(each.angle):.4f}"]
             row += [f"{math.degrees(scatter.angle):.4g}", ""]
-            writer.writerows([row + (["", f"{scatter.restitution:.4g}"] if measured else [])] * each.count)
-        return file.getvalue()
+            rows += [row + (["", f"{scatter.restitution:.4g}"] if measured else [])] * each.count
+        return csv_text(head + (["restitution", "restitution_sd"] if measured else []), rows)
 
     def __str__(self) -> str:
         scene, scatter = self.given, self.window.scatter
@@ -243,8 +242,6 @@ class Design:
         return "\n".join([title, "", *aligned(rows), "", *aligned(entries), "", *sentences])
 
     def _repr_html_(self) -> str:
-        from ..formatting.notebook import view
-
         return view(f"design of {self.size} impacts", self._rows(), self._head())
 
     @property
@@ -261,14 +258,6 @@ class Design:
              f"{math.degrees(each.angle):.1f} deg")
             for each in self.impacts
         ]  # fmt: skip
-
-    def plot(self, path: str | Path | None = None) -> Any:
-        """Draw what single impacts tell over the window, and the planned ones; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-        """
-        return plot(self, path)
 
 
 def _spread(total: np.ndarray) -> np.ndarray:

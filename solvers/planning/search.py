@@ -132,7 +132,6 @@ class _Candidates:
         return total
 
     def rate(self, chosen: np.ndarray) -> np.ndarray:
-        """Derivatives of the criterion by the weights of the candidates."""
         return self.criterion.rate(self.total(chosen), self.single)
 
     def add(self, points: np.ndarray) -> None:

@@ -44,11 +44,7 @@ class Ways:
 
 
 def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
-    """Quantities by vocabulary name, SI.
-
-    Arguments:
-        entries: by dotted name, SI; choices, flags and words are ignored.
-    """
+    """Quantities by vocabulary name, SI, from entries in SI by dotted name; choices, flags and words are ignored."""
     present = {name.partition(".")[0] for name in entries}
     entries = {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in present} | dict(entries)
     result = {

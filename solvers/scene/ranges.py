@@ -12,7 +12,7 @@ MOST_STORED = 10**10  # the same for a map that is written to disk as it is comp
 
 
 def parse_range(text: str, label: str, read: Ends, *, unit: str = "", most: int = MOST) -> list[float]:
-    """Return the values of a range, evenly spaced, or evenly in the logarithm.
+    """Return the values of a range, evenly spaced, or evenly in the logarithm; InputError for anything else.
 
     Arguments:
         text: `LO:HI:N` or `log:LO:HI:N`, N = 1 only with LO = HI; or a single value.
@@ -20,9 +20,6 @@ def parse_range(text: str, label: str, read: Ends, *, unit: str = "", most: int 
         read: converts both ends to SI numbers, or raises InputError.
         unit: unit of LO and HI for the error (`in degrees`).
         most: largest number of values.
-
-    Raises:
-        InputError: not a range, LO above HI, or an invalid count.
     """
     accepted = (
         f"LO:HI:N or log:LO:HI:N{' ' + unit if unit else ''}, LO < HI and N >= 2 (or LO = HI and N = 1), or one value"

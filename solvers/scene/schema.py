@@ -102,15 +102,12 @@ class Field:
         return text + "".join(f', or "{word}"' for word in self.words)
 
     def read(self, raw: object, *, label: str | None = None, from_file: bool = False) -> float | str:
-        """Return the SI number or the choice given by `raw`.
+        """Return the SI number or the choice given by `raw`; InputError for an invalid value, or one outside the range.
 
         Arguments:
             raw: text with a unit, a number (SI), or a choice.
             label: name in the error, when it is not the field's own (an option).
             from_file: a quantity must be text with a unit, and a plain number must not be text.
-
-        Raises:
-            InputError: an invalid value, or a number outside the range.
         """
         label = label or self.name
         if self.flag:

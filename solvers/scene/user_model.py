@@ -144,7 +144,6 @@ class Package:
         return {name: value for name, value in values.items() if value is not None}
 
     def completed(self, entries: Mapping[str, Any]) -> dict[str, Any]:
-        """The entries of a scene, completed with defaults."""
         return {**entries, **{name: value for name, value in self.defaults.items() if name not in entries}}
 
     def demand(self, entries: Mapping[str, Any]) -> None:
@@ -188,7 +187,6 @@ class Package:
 
     @cached_property
     def events(self) -> tuple[OwnEvent, ...]:
-        """The declared events, in order of precedence behind the library's."""
         return tuple(OwnEvent.from_manifest(entry) for entry in self.manifest.get("events", ()))
 
     def events_in(self, structure: str) -> tuple[OwnEvent, ...]:
@@ -208,18 +206,8 @@ class Package:
 
     def automaton_headers(self) -> tuple[str, str]:
         """C headers of the automaton with the declared events, for the kernel; derived on first use."""
-        source = self.source
-
-        def derived(which: int) -> Callable[[], str]:
-            def text() -> str:
-                from ...derive.emit.one import user_automaton_texts  # imports sympy
-
-                return user_automaton_texts(source, self.name)[which]
-
-            return text
-
-        stem = self.digest[:16]
-        return derived_once(f"{stem}-automaton.h", derived(0)), derived_once(f"{stem}-effects.h", derived(1))
+        automaton = self._derived("automaton.h", "user_automaton_text", False)
+        return automaton, self._derived("effects.h", "user_automaton_text", True)
 
     def changes(self, slots: tuple[str, ...]) -> bool:
         """True if this model changes the structure with these slots."""
@@ -230,7 +218,6 @@ class Package:
         return bool({key.partition(".")[0] for key in self.manifest["extra"]} & set(slots))
 
     def law(self, slot: str, name: str) -> ModuleType:
-        """The module of one of the model's laws."""
         return _module(self, self.law_file(slot, name))
 
     def law_file(self, slot: str, name: str) -> str:
@@ -252,38 +239,21 @@ class Package:
         """Text of the module of a structure that the model changes."""
         if name in self.manifest["structures"]:
             return self.text_of(f"{name}.py")
-        source = self.source
-
-        def derived() -> str:
-            from ...derive.emit.one import user_structure_text  # imports sympy
-
-            return user_structure_text(source, self.name, name)
-
-        return derived_once(f"{self.digest[:16]}-{name}.py", derived)
+        return self._derived(f"{name}.py", "user_structure_text", name)
 
     def structure_header(self, name: str, tangent: bool = False) -> str:
         """C header of a structure that the model changes, or of its tangent, for the kernel; derived on first use."""
-        source = self.source
-
-        def derived() -> str:
-            from ...derive.emit.one import user_structure_header_text  # imports sympy
-
-            return user_structure_header_text(source, self.name, name, tangent)
-
         kind = "tangent-" if tangent else ""
-        return derived_once(f"{self.digest[:16]}-{kind}{name}.h", derived)
+        return self._derived(f"{kind}{name}.h", "user_structure_header_text", name, tangent)
 
     def law_header(self, slot: str, name: str, slopes: bool = False) -> str:
         """C header of a law as called by its structures, or of its derivatives; derived on first use."""
-        source = self.source
-
-        def derived() -> str:
-            from ...derive.emit.one import user_law_header_text  # imports sympy
-
-            return user_law_header_text(source, self.name, slot, name, slopes)
-
         kind = "slopes-" if slopes else ""
-        return derived_once(f"{self.digest[:16]}-{kind}{slot}_{name}.h", derived)
+        return self._derived(f"{kind}{slot}_{name}.h", "user_law_header_text", slot, name, slopes)
+
+    def _derived(self, file: str, function: str, *arguments: str | bool) -> str:
+        """Text of a file that was not emitted, by a function of `derive.emit.one` that takes a model."""
+        return derived_once(f"{self.digest[:16]}-{file}", function, self.source, self.name, *arguments)
 
     @cached_property
     def groups(self) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
@@ -321,7 +291,6 @@ class Package:
 
     @property
     def remedy(self) -> str:
-        """The command that emits the model again."""
         return f"run `wetdoublet generate {self.original or 'MODEL.py'} --out {self.folder}`"
 
     @property

@@ -16,7 +16,10 @@ from ..boundaries.line import Line
 from ..boundaries.scene_sampler import SceneSampler
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
+from ..formatting.markdown import numbers_aligned
+from ..formatting.notebook import frame, view
 from ..host.arguments import check_function
+from ..host.pictures import Drawn
 from ..scene.scene import Scene
 from ..scene.schema import DEFAULTS, FIELDS, SPEEDS
 from .boundary_slope import slope
@@ -63,8 +66,10 @@ class Moving:
 
 
 @dataclass(frozen=True)
-class BoundarySensitivities:
+class BoundarySensitivities(Drawn):
     """The changes of outcome at each angle (rad), ascending in St, with their derivatives.
+
+    `plot` draws the elasticities of every change of outcome as bars.
 
     Example:
         >>> from wetdoublet.solvers import boundary_sensitivities
@@ -72,6 +77,8 @@ class BoundarySensitivities:
         >>> found.parameters
         ('liquid.viscosity',)
     """
+
+    _picture = "sensitivity.tornado.draw_boundaries"
 
     boundaries: Boundaries
     changes: tuple[tuple[Moving, ...], ...]
@@ -116,8 +123,6 @@ class BoundarySensitivities:
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each change and parameter: angle (rad), stokes, before, after, gradients and elasticities."""
-        from ..formatting.frames import frame
-
         rows = [(angle, one, name) for angle, one in self._pairs for name in self.parameters]
         columns: dict[str, list[Any]] = {
             "angle": [angle for angle, *_ in rows],
@@ -131,20 +136,7 @@ class BoundarySensitivities:
                 columns[f"{of}_{kind}"] = [getattr(one, kind).get(of, {}).get(name) for _, one, name in rows]
         return frame(columns)
 
-    def plot(self, path: str | FilePath | None = None) -> Any:
-        """Draw the elasticities of every change of outcome as bars; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-        """
-        from ..host.pictures import saved
-        from .boundaries_plot import draw
-
-        return saved(lambda: draw(self.angles, self.changes, self.parameters), path)
-
     def _repr_html_(self) -> str:
-        from ..formatting.notebook import view
-
         head = ["parameter", *(f"{np.degrees(angle):.6g}°, {one.change.before} → {one.change.after}"
                                for angle, one in self._pairs)]  # fmt: skip
         rows = [[name, *(_elasticity(one, name) for _, one in self._pairs)] for name in self.parameters]
@@ -168,10 +160,12 @@ class BoundarySensitivities:
                 symbols = [_SYMBOLS[of] for of in one.shown]
                 rows = [["", *(f"d ln {symbol}" for symbol in symbols)]]
                 rows += [[name, *(_cell(one, of, name) for of in one.shown)] for name in self.parameters]
-                widths = [max(len(row[k]) for row in rows) for k in range(len(symbols) + 1)]
-                lines_ = ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]) for row in rows]
                 what = "v* the normal speed; elasticities, * d/dp of St*, v* or Ce* itself (SI) where p is zero"
-                tables.append("\n".join([f"{title}, by d ln p: {what}", *(f"  {line}".rstrip() for line in lines_)]))
+                tables.append(
+                    "\n".join(
+                        [f"{title}, by d ln p: {what}", *(f"  {text}".rstrip() for text in numbers_aligned(rows))]
+                    )
+                )
         return tables
 
 

@@ -9,7 +9,6 @@ import math
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from casadi import Function, densify, jtimes, vertcat
 
 from ...generated.automaton import CLOSING, KINDS, EventKind
 from ..boundaries.line import Line
@@ -18,12 +17,12 @@ from ..certificates import energy_proof
 from ..engines.casadi.integrators import IntegrationFailed, tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
-from ..host.thread_caches import own_cache
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..scene.contact import ENTRIES, GAPS, TIE, contact_gap
 from ..scene.scene import Scene
 from ..scene.user_model import OwnEvent
+from .boundary_slope import guard_rates
 from .result import Near
 
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
@@ -59,12 +58,10 @@ def checked(
 ) -> Near | None:
     """The nearest boundary found from a trajectory; ComputationError if it is too near for derivatives."""
     least = limit(rtol)
-    if not path.separated:
-        near = _stick(scene, n, finder, path, least)
+    if path.separated:
+        near = _nearest(scene, n, _suspects(finder, path, least), least)
     else:
-        if KINDS[EventKind.RESTS] in path.kinds:
-            raise refused(CHATTER, least)
-        near = _nearest(scene, n, list(_suspects(finder, path)), least)
+        near = _stick(scene, n, finder, path, least)
     if near is not None and near.distance < least:
         raise refused(near, least)
     return near
@@ -73,9 +70,7 @@ def checked(
 def checked_by_estimates(finder: EventLocator, path: EventSequence, rtol: float) -> Near | None:
     """The boundary nearest to a separated trajectory in space, by estimates only; ComputationError if it is near."""
     least = COMPUTED * limit(rtol)
-    if KINDS[EventKind.RESTS] in path.kinds:
-        raise refused(CHATTER, least)
-    near = min(_suspects(finder, path), key=lambda one: one.distance, default=None)
+    near = min(_suspects(finder, path, least), key=lambda one: one.distance, default=None)
     if near is not None and near.distance < least:
         raise refused(Near(near.boundary, near.distance, _ESTIMATE) if near.of == _HINT else near, least)
     return near
@@ -88,9 +83,9 @@ def explained(scene: Scene, n: DimensionlessGroups, error: ComputationError, rto
     return refused(near, limit(rtol)) if near.distance < limit(rtol) else error
 
 
-def _nearest(scene: Scene, n: DimensionlessGroups, suspects: list[Near], least: float) -> Near | None:
+def _nearest(scene: Scene, n: DimensionlessGroups, suspected: Iterator[Near], least: float) -> Near | None:
     """The nearest of the estimated boundaries; distances of near ones are computed, other hints dropped."""
-    candidates = []
+    candidates, suspects = [], list(suspected)
     hints = sorted((one for one in suspects if one.of == _HINT), key=lambda one: one.distance)
     suspects = [one for one in suspects if one.of != _HINT] + hints[:1]  # one function has the roots of all
     for boundary in dict.fromkeys(one.boundary for one in suspects):
@@ -143,8 +138,10 @@ def _located(scene: Scene, n: DimensionlessGroups, stokes: float, rtol: float) -
 # ---- estimates from a separated trajectory
 
 
-def _suspects(finder: EventLocator, path: EventSequence) -> Iterator[Near]:
-    """Nearby boundaries, with distances estimated from the trajectory."""
+def _suspects(finder: EventLocator, path: EventSequence, least: float) -> Iterator[Near]:
+    """Nearby boundaries, with distances estimated from the trajectory; ComputationError if it rests on the solids."""
+    if KINDS[EventKind.RESTS] in path.kinds:
+        raise refused(CHATTER, least)
     model, groups = finder.model, finder.groups
     contact = contact_gap(groups)
     smaller = sorted(groups[name] for name in GAPS.values())[-2]
@@ -166,7 +163,7 @@ def _suspects(finder: EventLocator, path: EventSequence) -> Iterator[Near]:
 
 def _declared(model: Model, path: EventSequence, event: OwnEvent, step: PhaseRun, y: np.ndarray) -> Iterator[Near]:
     """Boundaries of a declared event: its guard just falls to zero, or is so where it begins to be watched."""
-    guard, first, second = _guards(model, event.name, *_region(step))(y, path.p).full()
+    guard, first, second = guard_rates(model, event.name, *_region(step))(y, path.p).full()
     name, scale = f"{DECLARED} {event.word}", float(np.abs(guard).max())
     if step.duration == 0 or scale == 0:  # it happens where it begins to be watched, or may not
         if step.own == event.name:
@@ -179,22 +176,12 @@ def _declared(model: Model, path: EventSequence, event: OwnEvent, step: PhaseRun
         yield Near(name, float(guard.min()) / scale, "its guard")
 
 
-@own_cache(128)
-def _guards(model: Model, name: str, film: int, shear: int) -> Function:
-    """Function (states, groups) -> guard of a declared event, its first and second time derivative."""
-    rates = model.function("right_hand_side", film, shear)(model.column, model.parameters)
-    guard = model("events")[name]
-    first = jtimes(guard, model.column, rates)
-    return Function(
-        "guards", [model.column, model.parameters], [densify(vertcat(guard, first, jtimes(first, model.column, rates)))]
-    )
-
-
 def _criteria(
     model: Model, path: EventSequence, step: PhaseRun, y: np.ndarray, glass: float, contact: float
 ) -> Iterator[Near]:
     """Boundaries of a closing phase: grazing of its criterion, and margins of the others."""
-    pressure, first, second = _pressures(model, step.phase.region.film, step.phase.region.shear)(y, path.p).full()
+    guard, first, second = guard_rates(model, "glass", *_region(step))(y, path.p).full()
+    pressure, first, second = glass - guard, -first, -second
     met = step.kinds[:1] and step.kinds[0]
     if met == "glass":
         if step.duration == 0:  # met at initial contact
@@ -265,16 +252,6 @@ def _leaving(finder: EventLocator, step: PhaseRun, y: np.ndarray) -> Iterator[Ne
 
 def _region(step: PhaseRun) -> tuple[int, int]:
     return step.phase.region.film, step.phase.region.shear
-
-
-@own_cache(128)
-def _pressures(model: Model, film: int, shear: int) -> Function:
-    """Function (states, groups) -> scaled film pressure, its first and second time derivative."""
-    rates = model.function("right_hand_side", film, shear)(model.column, model.parameters)
-    pressure = model.groups["glass_number"] - model("events")["glass"]
-    first = jtimes(pressure, model.column, rates)
-    second = jtimes(first, model.column, rates)
-    return Function("pressures", [model.column, model.parameters], [densify(vertcat(pressure, first, second))])
 
 
 def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseRun, np.ndarray]]:

@@ -22,7 +22,7 @@ from ..errors import ComputationError
 from ..host.thread_caches import own_cache
 from ..model.dimensionless import nondimensionalise
 from ..model.model import Model, load, select_model
-from ..model.phases import Flow, Region
+from ..model.phases import Flow
 from ..scene.contact import GAPS, contact_word
 from ..scene.scene import Scene
 from .derivatives import evaluate, first_derivatives, settled
@@ -59,7 +59,6 @@ class _Side:
         return self.path.model
 
     def before(self, k: int) -> np.ndarray:
-        """The state before phase k."""
         return self.path.ends[k - 1][: len(self.model.state)] if k else self.model.start(self.path.p)
 
     @property
@@ -68,11 +67,7 @@ class _Side:
 
 
 def slope(scene: Scene, angle: float, change: Change, rtol: float) -> Slope:
-    """The gradient at a change.
-
-    Raises:
-        ComputationError: the trajectory there could not be followed, or no smooth function is known.
-    """
+    """The gradient at a change; ComputationError if no trajectory or no smooth function is found there."""
     if load(select_model(scene, scene.turns(angle))).own_events:
         raise ComputationError("beside declared events a change has no smooth function: not differentiated")
     try:
@@ -151,26 +146,18 @@ def _just_met(low: _Side, high: _Side, k: int) -> Slope | None:
 def _extremum(side: _Side, step: PhaseRun, word: str, before: np.ndarray) -> float | None:
     """Time within the phase of the largest pressure or smallest gap, by Newton's method; None if it is not near."""
     model, p = side.model, side.path.p
-    rates = _rates(model, step.phase.region, word)
+    rates = guard_rates(model, word, *step.phase.region.flags.values())
     integrate = plain(Flow(model.choice, step.phase.region, ()), "rosenbrock", side.tolerance)
     time = step.duration
     for _ in range(_NEWTON):
-        first, second = evaluate(rates, integrate(before, p, time), p)
-        move = -float(first.item()) / float(second.item())
+        _, first, second = evaluate(rates, integrate(before, p, time), p)[0].ravel().tolist()
+        move = -first / second
         time += move
         if not abs(time - step.duration) < _TANGENT * step.duration:
             return None
         if abs(move) < 1e-9 * time:
             break
     return time
-
-
-@own_cache(64)
-def _rates(model: Model, region: Region, word: str) -> Function:
-    """Function (state, groups) -> first and second time derivative of the pressure or gap."""
-    flow = model.function("right_hand_side", **region.flags)(model.column, model.parameters)
-    first = jtimes(model("events")[word], model.column, flow)
-    return Function("rates", [model.column, model.parameters], [first, jtimes(first, model.column, flow)])
 
 
 @own_cache(64)
@@ -292,3 +279,13 @@ def _moving(model: Model, shear: int) -> Function:
     state = substitute([column], [model.column], [vertcat(*there)])[0]
     slopes = [densify(jacobian(state, each)) for each in (held, model.parameters)]
     return Function("moving", [held, model.parameters], slopes)
+
+
+@own_cache(256)
+def guard_rates(model: Model, name: str, film: int, shear: int) -> Function:
+    """Function (states, groups) -> guard of an event, its first and second time derivative: three rows."""
+    rates = model.function("right_hand_side", film, shear)(model.column, model.parameters)
+    guard = model("events")[name]
+    first = jtimes(guard, model.column, rates)
+    rows = densify(vertcat(guard, first, jtimes(first, model.column, rates)))
+    return Function("guard_rates", [model.column, model.parameters], [rows])

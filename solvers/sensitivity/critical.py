@@ -1,7 +1,5 @@
 """`critical()`: the speed up to which impacts stick, and the speed from which on they bounce."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -25,12 +23,11 @@ from ..scene.schema import SPEEDS
 from .boundaries import check_boundary_wrt, moving
 from .critical_result import Critical, CriticalSpeed
 from .materials import Material, materials_of
-from .uncertainty import check_samples, deviations, normal_deviates, possible_values, value_of
+from .uncertainty import LEVELS, check_samples, deviations, normal_deviates, possible_values, value_of
 
 _BESIDE = 1e-6  # relative distance of the collisions that confirm a speed on both sides
 _NEAR, _FINE, _COARSE = 3.0, 100, 12  # factor about the speed within which draws are searched finely; samples a decade
 _WIDTH = 1e-5  # to which the speed of a draw is enclosed, relative
-_LEVELS = (0.025, 0.975)
 _STICK = OUTCOMES.index(STICK)
 
 
@@ -191,8 +188,8 @@ def _with_interval(
     first = np.flatnonzero((changes.before == 0) & (np.append(-1, changes.line[:-1]) != changes.line))
     ends[changes.line[first]] = changes.place[first]
     speeds = ends / per_speed[kept] / np.cos(angle[kept])
-    below, above = (float(np.quantile(speeds, _LEVELS[0], method="lower")),
-                    float(np.quantile(speeds, _LEVELS[1], method="higher")))  # fmt: skip
+    below, above = (float(np.quantile(speeds, LEVELS[0], method="lower")),
+                    float(np.quantile(speeds, LEVELS[1], method="higher")))  # fmt: skip
     interval, said = (below or None, above if np.isfinite(above) else None), list(row.sentences)
     if None in interval:
         which = "all stick" if interval[1] is None else "not even the slowest stick"

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..formatting.markdown import aligned
+from ..formatting.markdown import aligned, csv_text
+from ..formatting.notebook import frame, view
+from ..host.pictures import Drawn
 from ..scene.origin import origin
 from ..scene.scene import Scene
 
@@ -60,8 +59,10 @@ class CriticalSpeed:
 
 
 @dataclass(frozen=True)
-class Critical:
+class Critical(Drawn):
     """Critical speeds, a row for each material and angle.
+
+    `plot` draws the relative speed up to which they stick over the angle, or by material.
 
     Attributes:
         scene: the scene, unless there are several materials.
@@ -71,6 +72,8 @@ class Critical:
         >>> critical("granulation", angle=[0.0, 0.3]).to_dict()["rows"][1]["to"]
         'bounce'
     """
+
+    _picture = "sensitivity.plots.draw_critical"
 
     rows: tuple[CriticalSpeed, ...]
     scene: Scene | None
@@ -113,37 +116,17 @@ class Critical:
 
     def to_pandas(self) -> pd.DataFrame:
         """The columns as a DataFrame."""
-        from ..formatting.frames import frame
-
         return frame(self.columns())
 
     def to_csv(self) -> str:
         """A row for each material and angle: speeds in m/s, angles in rad; empty where there is none."""
-        file, columns = io.StringIO(), self.columns()
-        writer = csv.writer(file, lineterminator="\n")
-        units = {"angle": " [rad]"} | dict.fromkeys(
-            ("relative_speed", "low", "high", "speed", "bounces_above"), " [m/s]"
-        )
-        writer.writerow([name + units.get(name, "") for name in columns])
-        writer.writerows(zip(*columns.values(), strict=True))
-        return file.getvalue()
+        columns, speeds = self.columns(), ("relative_speed", "low", "high", "speed", "bounces_above")
+        units = {"angle": " [rad]"} | dict.fromkeys(speeds, " [m/s]")
+        return csv_text([name + units.get(name, "") for name in columns], zip(*columns.values(), strict=True))
 
     def _repr_html_(self) -> str:
-        from ..formatting.notebook import view
-
         head, rows = self.table()
         return view("critical speeds", rows, head, [text for one in self.rows for text in one.sentences])
-
-    def plot(self, path: str | Path | None = None) -> Any:
-        """Draw the relative speed up to which they stick over the angle, or by material; returns the Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-        """
-        from ..host.pictures import saved
-        from .critical_plot import draw
-
-        return saved(lambda: draw(self.rows), path)
 
 
 def _number(value: float | None) -> str:

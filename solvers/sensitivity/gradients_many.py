@@ -73,7 +73,6 @@ class _Request:
 
     @property
     def relative_speed(self) -> np.ndarray:
-        """Magnitudes of the relative velocities, m/s."""
         return np.asarray(self.speed / np.cos(self.angle))
 
     def impacts(self, which: np.ndarray, stretch: float = 1.0) -> Impacts:

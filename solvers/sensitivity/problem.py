@@ -96,11 +96,7 @@ class Problem:
         along: Along = None,
         near: Near | None = None,
     ) -> Slopes:
-        """Derivatives of the quantities of a located trajectory.
-
-        Raises:
-            ComputationError: the engine could not integrate or differentiate it.
-        """
+        """Derivatives of the quantities of a located trajectory; ComputationError if the engine fails."""
         full = "energy.tangential_lubrication" in of
         course = course_of(path, select_model(self.scene, path.model.oblique, full=full))
         rtol = sharpened(rtol, near, path)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...generated.automaton import STICK
+from ..formatting.markdown import numbers_aligned
+from ..formatting.notebook import frame, view
+from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.schema import SPEEDS
@@ -41,8 +43,10 @@ class Near:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sensitivities:
+class Sensitivities(Drawn):
     """Derivatives of a collision's results; SI and radians; None where undefined.
+
+    `plot` draws a tornado chart of the elasticities.
 
     Attributes:
         value: each quantity's value.
@@ -61,6 +65,8 @@ class Sensitivities:
         >>> round(found.elasticity["restitution"]["liquid.viscosity"], 3)
         -0.003
     """
+
+    _picture = "sensitivity.tornado.draw"
 
     value: Mapping[str, float | None]
     gradient: Mapping[str, Row]
@@ -158,8 +164,6 @@ class Sensitivities:
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each result and parameter: value, gradient, elasticity and the parameter's own value."""
-        from ..formatting.frames import frame
-
         pairs = [(name, p) for name in self.value for p in self.parameters]
         return frame(
             {
@@ -192,10 +196,9 @@ class Sensitivities:
         head = ["", *names]
         units = ["value", *(_number(self.value[y], DIFFERENTIATED[y].unit) for y in names)]
         rows = [[p, *(self._cell(y, p) for y in names)] for p in order]
-        widths = [max(len(row[k]) for row in (head, units, *rows)) for k in range(len(head))]
-
         title = "elasticities d ln y/d ln p (* dy/dp where y or p is zero)"
-        return "\n".join([*_aligned([head, units], widths), "", title, *_aligned(rows, widths)])
+        lines = numbers_aligned([head, units, *rows])
+        return "\n".join([*lines[:2], "", title, *lines[2:]])
 
     def _second_derivatives(self) -> list[str]:
         """Tables of second derivatives, one per quantity, and of the Hessian times a vector, if requested."""
@@ -204,11 +207,11 @@ class Sensitivities:
             for k in range(0, len(names), _SHOWN):
                 some = names[k : k + _SHOWN]
                 cells = [["", *some], *([p, *(_number(rows[p][q], "1") for q in some)] for p in names)]
-                tables.append("\n".join([f"d2y/dp dq of y = {y} (SI units, rad)", *_aligned(cells)]))
+                tables.append("\n".join([f"d2y/dp dq of y = {y} (SI units, rad)", *numbers_aligned(cells)]))
         if self.hessian_times is not None:
             of = list(self.hessian_times)
             cells = [["", *of], *([p, *(_number(self.hessian_times[y][p], "1") for y in of)] for p in names)]
-            tables.append("\n".join(["Hessian times the vector (SI units, rad)", *_aligned(cells)]))
+            tables.append("\n".join(["Hessian times the vector (SI units, rad)", *numbers_aligned(cells)]))
         return tables
 
     def _cell(self, y: str, p: str) -> str:
@@ -226,7 +229,6 @@ class Sensitivities:
 
     def _repr_html_(self) -> str:
         from ..collision.text import name_of
-        from ..formatting.notebook import view
 
         head = [
             "parameter",
@@ -237,23 +239,6 @@ class Sensitivities:
         near = [f"nearest: {self.near}"] if self.near else []
         stick = [" ".join(_STICK_NOTES)] if self.outcome == STICK else []
         return view(title, rows, head, ["* dy/dp where y or p is zero", *near, *stick])
-
-    def plot(self, path: str | Path | None = None) -> Any:
-        """A tornado chart of the elasticities; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-        """
-        from ..host.pictures import saved
-        from .tornado import draw
-
-        return saved(lambda: draw(self), path)
-
-
-def _aligned(rows: list[list[str]], widths: list[int] | None = None) -> list[str]:
-    """Lines of aligned cells, the first column left-aligned; column widths as needed or as in `widths`."""
-    widths = widths or [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    return ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]).rstrip() for row in rows]
 
 
 def _number(value: float | None, unit: str) -> str:

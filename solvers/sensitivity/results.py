@@ -3,7 +3,6 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from ..errors import InputError
 from ..host.arguments import check_names
 
 
@@ -55,10 +54,7 @@ SPENT = (*LEDGER[2:-1],)
 
 def check_quantities(of: Sequence[str] | str, label: str = "of") -> tuple[str, ...]:
     """The requested quantities; InputError with the nearest name for an unknown one."""
-    requested = check_names(of, tuple(DIFFERENTIATED), label)
-    if not requested:
-        raise InputError(label, "", ", ".join(DIFFERENTIATED), "names no quantity")
-    return requested
+    return check_names(of, tuple(DIFFERENTIATED), label, "names no quantity")
 
 
 def computed(of: Sequence[str]) -> tuple[str, ...]:

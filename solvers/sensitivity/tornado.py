@@ -1,5 +1,6 @@
-"""Tornado chart: elasticities as bars, the largest on top."""
+"""Elasticities as bars: of a collision a tornado chart, the largest on top; of boundaries a panel for each change."""
 
+import math
 import textwrap
 from collections.abc import Sequence
 from typing import Any
@@ -13,6 +14,7 @@ _UP, _DOWN, _INK = "#2a6f97", "#c1554a", "#222222"
 _MOST = 16  # most bars in a panel
 _SEEN = 0.005  # shortest bar, relative to a panel's longest
 _LONG = 6  # most columns of panels
+_PANELS, _ACROSS = 6, 3  # of changes of outcome, and side by side
 _NAMES = {
     "impact.speed": "normal speed, Stokes",
     "impact.angle": "impact angle",
@@ -62,9 +64,7 @@ def _ranked(result: Any, names: Sequence[str]) -> list[str]:
 def _panel(axis: Any, result: Any, name: str, order: Sequence[str]) -> None:
     """Draw the bars of one quantity, each labelled with its elasticity."""
     values = [result.elasticity[name][p] or 0.0 for p in order]
-    bars = axis.barh(range(len(order)), values, color=[_UP if v >= 0 else _DOWN for v in values], height=0.7)
-    axis.set_yticks(range(len(order)), [_label(p) for p in order])
-    axis.axvline(0, color=_INK, linewidth=0.8)
+    bars = _bars(axis, values, [_label(p) for p in order])
     reach = max((abs(v) for v in values), default=1.0) or 1.0
     axis.set_xlim(-1.45 * reach, 1.45 * reach)
     for bar, value in zip(bars, values):
@@ -76,8 +76,15 @@ def _panel(axis: Any, result: Any, name: str, order: Sequence[str]) -> None:
         )  # fmt: skip
     unit = DIFFERENTIATED[name].unit
     axis.set_title(f"{name.replace('_', ' ')}\n{result.value[name]:.4g}{'' if unit == '1' else ' ' + unit}", color=_INK)
-    axis.spines[["top", "right", "left"]].set_visible(False)
     axis.tick_params(axis="y", length=0)
+
+
+def _bars(axis: Any, values: Sequence[float], labels: Sequence[str], **of_labels: Any) -> Any:
+    bars = axis.barh(range(len(values)), values, color=[_UP if v >= 0 else _DOWN for v in values], height=0.7)
+    axis.set_yticks(range(len(values)), labels, **of_labels)
+    axis.axvline(0, color=_INK, linewidth=0.8)
+    axis.spines[["top", "right", "left"]].set_visible(False)
+    return bars
 
 
 def _label(name: str) -> str:
@@ -86,3 +93,25 @@ def _label(name: str) -> str:
 
 def _short(names: Sequence[str]) -> list[str]:
     return [_label(name) for name in names if name != "impact.stokes"]
+
+
+def draw_boundaries(found: Any) -> Figure:
+    """A panel for each change (at most six), a bar for each parameter; of Ce* where there is one, else of the speed."""
+    parameters = found.parameters
+    panels = [(angle, one) for angle, line in zip(found.angles, found.changes, strict=True) for one in line][:_PANELS]
+    across = max(1, min(_ACROSS, len(panels)))
+    down = max(1, -(-len(panels) // across))
+    height = 1.1 + 0.22 * len(parameters)
+    figure = Figure(figsize=(2.2 + 3.0 * across, 0.5 + height * down), layout="constrained")
+    grid = figure.subplots(down, across, sharey=True, squeeze=False)
+    for axis in grid.ravel()[len(panels) :]:
+        axis.set_visible(False)
+    for axis, (angle, one) in zip(grid.ravel(), panels):
+        of = one.shown[-1]
+        values = [one.elasticity[of][name] or 0.0 if one.elasticity else 0.0 for name in parameters]
+        _bars(axis, values, parameters, fontsize=7.5)
+        symbol = {"centrifugal": "Ce*", "speed": "(normal speed)"}[of]
+        axis.set_title(f"{math.degrees(angle):.4g}°, {one.change.before} → {one.change.after}", fontsize=8)
+        axis.set_xlabel(f"d ln {symbol}/d ln p" if not one.reason else one.reason[:40], fontsize=8)
+    figure.suptitle("how the boundaries move with the parameters" if panels else "no change of outcome", fontsize=11)
+    return figure

@@ -29,9 +29,8 @@ if TYPE_CHECKING:
     import xarray
 
 _MOST = 2**20  # most samples
-_LEVELS = (0.025, 0.975)
+LEVELS = (0.025, 0.975)
 _BLOCK = 64  # values that are computed together where progress is reported
-_OVER = (*SPEEDS, "impact.angle")
 
 
 def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncertainty") -> dict[str, float]:
@@ -128,7 +127,7 @@ def band(
     import xarray as xr
 
     register()
-    over, of = check_name(over, _OVER, "over"), check_name(of, tuple(MANY), "of")
+    over, of = check_name(over, MEETING, "over"), check_name(of, tuple(MANY), "of")
     loaded = Scene.load(scene)
     check_mapping(uncertainty, "uncertainty", "standard deviations by dotted name")
     where = checked_numbers(over, values).reshape(-1)
@@ -157,7 +156,7 @@ def band(
             spreads[k] = list(deviations(_held(one, hold), uncertainty).values())
     known = gradients.outcome.values >= 0
     drawn = _sampled(at, impacts, uncertainty, of, samples, rtol, hold)
-    low, high = np.nanquantile(drawn, _LEVELS, axis=1)
+    low, high = np.nanquantile(drawn, LEVELS, axis=1)
     unit = FIELDS[over].unit or "1"
     return xr.Dataset(
         {
@@ -217,7 +216,6 @@ def _sampled(
 
 
 def _held(scene: Scene, hold: str) -> Scene:
-    """The scene with its impact as what is held."""
     return scene.with_impact(**{hold: impact_value(scene, hold)})
 
 

@@ -48,17 +48,13 @@ class Planar:
 def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar | None:
     """Planar collisions by the kernel; None if none is available. They share its steps."""
     budget = KERNEL_STEPS // (4 if ledger else 2)
-    terms = np.full((impacts.speed.size, len(TERMS)), np.nan)
     if ledger:
-        both = run_with_books(impacts, rtol, threads, budget)
-        if both is None:
-            return None
-        answers, terms = both[0], of_kernel(both[1])
+        answers, books = run_with_books(impacts, rtol, threads, budget)
     else:
-        plain = run_kernel(impacts, rtol, False, threads, budget)
-        if plain is None:
-            return None
-        answers = plain
+        answers, books = run_kernel(impacts, rtol, False, threads, budget), None
+    if answers is None:
+        return None
+    terms = np.full((answers.size, len(TERMS)), np.nan) if books is None else of_kernel(books)
     reason = np.full(answers.size, "", object)
     opening, slide, _, roll = answers["shown"].T[:4]
     left = answers["status"] > LAST_ANSWER

@@ -56,20 +56,16 @@ def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> 
     """Ends of the pairs, and a mask of those that need another engine; None if no kernel is available."""
     ends, left = Ends.blank(pairs.size), np.zeros(pairs.size, bool)
     motion = planes(pairs)
-    which = np.flatnonzero(motion.planar)
-    if which.size:
-        flat = _in_planes(pairs.part(which), _part(motion, which), rtol, threads, ledger)
-        if flat is None:
+    for planar in (True, False):
+        which = np.flatnonzero(motion.planar == planar)
+        if not which.size:
+            continue
+        part = pairs.part(which), _part(motion, which)
+        found = _in_planes(*part, rtol, threads, ledger) if planar else _in_space(part[0], rtol, threads, ledger)
+        if found is None:
             return None
-        ends.put(which, flat[0])
-        left[which] = flat[1]
-    which = np.flatnonzero(~motion.planar)
-    if which.size:
-        solid = _in_space(pairs.part(which), rtol, threads, ledger)
-        if solid is None:
-            return None
-        ends.put(which, solid[0])
-        left[which] = solid[1]
+        ends.put(which, found[0])
+        left[which] = found[1]
     if ledger:  # where it is open the trajectory is wrong
         left |= is_open(ends.energy, ends.outcome > 0, rtol)
     return ends, left
@@ -132,12 +128,10 @@ def _in_planes(pairs: Pairs, motion: Planes, rtol: float, threads: int, ledger: 
     spins = sense[:, None] * motion.spins
     others = {name: np.ascontiguousarray(spins[:, k]) for k, name in enumerate(_SPINS)}
     impacts = Impacts(scene, -pairs.opening, angle, others)
-    books = None
     if ledger:
-        both = run_with_books(impacts, rtol, threads)
-        answers, books = both if both is not None else (None, None)
+        answers, books = run_with_books(impacts, rtol, threads)
     else:
-        answers = run_kernel(impacts, rtol, True, threads)
+        answers, books = run_kernel(impacts, rtol, True, threads), None
     if answers is None:
         return None
     ends, left = _of_answers(pairs, answers, books)

@@ -64,7 +64,6 @@ class Ends:
         )
 
     def put(self, where: np.ndarray, other: Ends) -> None:
-        """Write the ends of some rows."""
         for name, values in vars(other).items():
             getattr(self, name)[where] = values
 

@@ -48,7 +48,6 @@ class Bodies:
 
     @classmethod
     def of(cls, scene: Scene) -> Bodies:
-        """The spheres of a scene without a wall."""
         return cls.made_of(scene.material)
 
     @classmethod
@@ -111,17 +110,12 @@ class Pairs:
         return velocity
 
     def part(self, which: np.ndarray) -> Pairs:
-        """A subset, as a request of its own."""
         rows = (self.normal[which], self.velocities[which], self.spins[which])
         return Pairs(self.scene, rows[0].shape[:1], *rows)
 
 
 def checked(scene: Scene, normal: Any, velocities: Any, spins: Any) -> Pairs:
-    """The pairs of a request, broadcast against each other.
-
-    Raises:
-        InputError: a shape.
-    """
+    """The pairs of a request, broadcast against each other; InputError for a wrong shape."""
     directions = _numbers("normal", normal, (3,), "three components")
     wall = scene.wall
     either = "(..., 1, 3), or (..., 2, 3) with the wall's velocity" if wall else "(..., 2, 3)"

@@ -1,4 +1,4 @@
-"""Attack on a table: its answers against the kernel's, at random impacts and beside boundaries.
+"""Attack on a table: its answers against the kernel's, at random impacts and beside boundaries, angles and edges.
 
 An answer holds if the kernel gives the same outcome and results at some impact whose Stokes number and angle differ by
 at most 1e-6 relative: beside a boundary either side is right.
@@ -7,16 +7,15 @@ at most 1e-6 relative: beside a boundary either side is right.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..scene.scene import Scene
 from .collisions import Signatures, collisions
-from .data import Data
-from .queries import queries
-from .read import read
+from .data import Attack, Data
+from .read import Place, read, slice_of
 
 WITHIN = 1e-6  # relative distance of the impact at which the kernel has to agree
 _STEPS = WITHIN * np.array([1e-3, 1e-2, 0.03, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0])
@@ -25,26 +24,7 @@ _SURE = 0.3  # of the error: answers that are off by less are not held against c
 _GIVE_UP_AFTER = 1000  # wrong answers after which the rest need not be asked
 _MOST_FAILURES = 40  # failures kept
 _SHARES = np.linspace(0, 1, 17)
-
-
-@dataclass
-class Attack:
-    """What an attack has found.
-
-    Attributes:
-        queries: number of queries.
-        largest: largest error of an answer that holds; of all answers if some do not.
-        at: where it is: third variable, angle (rad), St.
-        direct: number of queries that agree with the collision at their own impact; the others beside it.
-        failures: impacts (third variable, angle, St) at which the table is wrong, with what it says and what is right.
-    """
-
-    queries: int = 0
-    largest: float = 0.0
-    at: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    direct: int = 0
-    failures: list[tuple[np.ndarray, str]] = field(default_factory=list)
-    failed: int = 0
+_NEAREST, _FARTHEST = -9.0, -1.5  # decimal logarithms of distances from a boundary
 
 
 def attack(
@@ -155,3 +135,53 @@ class _Kernel:
     def __call__(self, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         vary = {} if self.third is None else {self.third: np.exp(at[0]) if self.logarithmic else at[0]}
         return collisions(self.scene, at[1], np.exp(at[2]), self.rtol, self.of, self.known, vary)
+
+
+def queries(data: Data, count: int, random: np.random.Generator) -> np.ndarray:
+    """Queries (3 x count: third variable, angle, ln St); 40 % random, 40 % beside boundaries, the rest beside cuts."""
+    low, high = data.low[:, None], data.high[:, None]
+    at = low + random.random((3, count)) * (high - low)
+    kind = random.random(count)
+    beside = np.flatnonzero(kind > 0.6)
+    cut = np.flatnonzero((kind > 0.4) & (kind < 0.7))  # some of them are beside a boundary as well
+    edge = np.flatnonzero(kind < 0.02)
+    at[1, cut] = _near(random, *_cuts(data, at[0, cut]))
+    at[2, beside] = _near(random, *heights(data, at[0, beside], np.clip(at[1, beside], low[1], high[1])))
+    axis = random.integers(0, 3, edge.size)
+    ends = np.where(random.random(edge.size) < 0.5, data.low[axis], data.high[axis])
+    at[axis, edge] = ends
+    return np.asarray(np.clip(at, low, high))
+
+
+def _near(random: np.random.Generator, places: np.ndarray, count: np.ndarray) -> np.ndarray:
+    """Values near one of the first `count` of each column of places."""
+    size = count.size
+    which = (random.random(size) * count).astype(int)
+    sign = np.where(random.random(size) < 0.5, -1.0, 1.0)
+    return np.asarray(places[which, np.arange(size)] + sign * 10 ** random.uniform(_NEAREST, _FARTHEST, size))
+
+
+def _cuts(data: Data, third: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Angles between panels (cuts x n, padded with the last), and their number."""
+    part, t = slice_of(data, third)
+    first, last = data.first_panel[part], data.first_panel[part + 1]
+    most, none = int((last - first).max(initial=1)), np.zeros(third.size)
+    places = [data.shapes.values(data.cuts[first, 0], t, none, none)[0][:, 0]]
+    ends = (data.cuts[np.minimum(first + k, last - 1), 1] for k in range(most))
+    places += [data.shapes.values(end, t, none, none)[0][:, 0] for end in ends]
+    return np.array(places), last - first + 1
+
+
+def heights(data: Data, third: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Boundaries at angles as ln St, and both ends of the range (places x n, padded), and their number."""
+    none = np.zeros(angle.size)
+    place = Place(data, np.stack([third, angle, none + data.low[2]]), False)
+    panel, t, x = place.panel, place.t, place.x
+    first, last = data.first_edge[panel], data.first_edge[panel + 1]
+    places = [none + data.low[2], none + data.high[2]]
+    for k in range(int((last - first).max(initial=0))):
+        there = np.flatnonzero(first + k < last)
+        top = none + data.high[2]
+        top[there] = data.shapes.values(data.edges[first[there] + k], t[there], x[there], none[there])[0][:, 0]
+        places.append(top)
+    return np.array(places), last - first + 2

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ...generated.automaton import CRITERIA
 from ..errors import ComputationError
+from ..many.results import REVERSALS
 from .cells import Strip
 from .collisions import Signatures
 from .data import Data
@@ -21,7 +21,6 @@ _SLICES = (0.04, 0.5, 0.96)  # places across a panel at which maps of a cell are
 _UNRESOLVED = 10_000  # coefficients as which a line counts that a map does not resolve
 _WORTH = 0.8  # a map is taken instead of a simpler one where it needs fewer coefficients by this factor
 _PART = 0.15  # of the error asked for: tolerance of the series
-_REASONS = tuple(CRITERIA)
 
 
 @dataclass
@@ -62,7 +61,6 @@ class Builder:
     slices: list[float] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        """Begin with no trees."""
         self.shapes, self.values = Forest(1), Forest(len(self.of))
 
     def mark(self) -> tuple[int, ...]:
@@ -154,7 +152,7 @@ class Builder:
     def _cell(self, strip: Strip, k: int, label: int) -> tuple[int, int, int, int]:
         """Outcome, first criterion, map and root of a cell."""
         outcome = self.signatures.outcomes[label]
-        met = next((_REASONS.index(one) for one in self.signatures.events[label] if one in _REASONS), -1)
+        met = next((REVERSALS.index(one) for one in self.signatures.events[label] if one in REVERSALS), -1)
         if outcome == 0:
             return 0, -1, 0, -1
         tolerance = _PART * self.error

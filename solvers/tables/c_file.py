@@ -10,8 +10,8 @@ import numpy as np
 from ...generated.automaton import CRITERIA, KINDS, OUTCOMES
 from ..export.equations import file_name
 from ..many.results import attributes
+from .data import Law
 from .labelled import where
-from .law import Law
 from .maps import LEAST
 
 _WIDTH = 110

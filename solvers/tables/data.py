@@ -1,11 +1,14 @@
-"""Data of a table: its ranges; panels, boundaries, cells and series as flat arrays, as files and readers have them."""
+"""A tabulated collision law as plain data: scene, ranges, errors, and arrays as files and readers have them."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..scene.scene import Scene
 from .series import Trees
+
+STOKES, ANGLE = "impact.stokes", "impact.angle"
 
 
 @dataclass
@@ -81,3 +84,51 @@ class Range:
         third = np.log(self.ends) if self.logarithmic else np.array(self.ends)
         low, high = zip(third.tolist(), self.angle, (math.log(one) for one in self.stokes), strict=True)
         return np.array(low), np.array(high)
+
+
+@dataclass
+class Attack:
+    """What an attack has found.
+
+    Attributes:
+        queries: number of queries.
+        largest: largest error of an answer that holds; of all answers if some do not.
+        at: where it is: third variable, angle (rad), St.
+        direct: number of queries that agree with the collision at their own impact; the others beside it.
+        failures: impacts (third variable, angle, St) at which the table is wrong, with what it says and what is right.
+    """
+
+    queries: int = 0
+    largest: float = 0.0
+    at: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    direct: int = 0
+    failures: list[tuple[np.ndarray, str]] = field(default_factory=list)
+    failed: int = 0
+
+
+@dataclass(frozen=True)
+class Law:
+    """A tabulated law.
+
+    Attributes:
+        scene: the scene.
+        of: results.
+        range: ranges of the variables.
+        error: largest error that it states, over the magnitude of a result where that is above 1.
+        found: what the attack found: number of `queries`, `largest` error and where.
+        rtol: relative tolerance of the collisions.
+        data: its arrays.
+    """
+
+    scene: Scene
+    of: tuple[str, ...]
+    range: Range
+    error: float
+    found: Attack
+    rtol: float
+    data: Data
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Dotted names of the variables."""
+        return (STOKES, ANGLE) + (() if self.range.third is None else (self.range.third,))

@@ -14,7 +14,7 @@ from .read import Read
 if TYPE_CHECKING:
     import xarray
 
-    from .law import Law
+    from .data import Law
 
 
 def answers(table: Law, columns: list[np.ndarray], results: Read, slopes: bool) -> xarray.Dataset:

@@ -11,8 +11,8 @@ from ...generated.automaton import OUTCOMES
 from ..collision.text import against, name_of
 from ..formatting import ticks
 from ..formatting.style import FILLS, INK, NOTE, patch, picture, plain_text
-from .law import Law
-from .queries import heights
+from .attack import heights
+from .data import Law
 from .read import Read, read
 
 _ACROSS, _UP = 480, 400

@@ -117,7 +117,6 @@ class Forest:
         self.coefficients: list[np.ndarray] = []
 
     def mark(self) -> tuple[int, int]:
-        """Numbers of nodes and patches, for `reset`."""
         return len(self.axis), len(self.box)
 
     def reset(self, mark: tuple[int, ...]) -> None:

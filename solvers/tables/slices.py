@@ -24,11 +24,7 @@ _APART = 3e-7  # relative distance between values with different layouts at whic
 
 @dataclass
 class Slicer:
-    """Makes slices and adds them to a builder.
-
-    Arguments:
-        doubts: impacts (third variable, angle, St) to look at as well.
-    """
+    """Makes slices and adds them to a builder; looks at the impacts `doubts` (third variable, angle, St) as well."""
 
     scene: Scene
     range: Range

@@ -13,9 +13,7 @@ from ..errors import InputError
 from ..host import files
 from ..host.outputs import check_file
 from ..many.regime_map import netcdf, scene_of
-from .attack import Attack
-from .data import Data, Range
-from .law import Law
+from .data import Attack, Data, Law, Range
 from .series import Trees
 
 if TYPE_CHECKING:
@@ -75,7 +73,7 @@ def _attributes(table: Law) -> dict[str, Any]:
     third, angle, stokes = table.found.at
     attributes = {
         "Conventions": "CF-1.11",
-        "title": f"Table of a collision law: {table.scene.name or 'unnamed scene'}",
+        "title": f"Law of a collision law: {table.scene.name or 'unnamed scene'}",
         "source": f"wetdoublet {version('wetdoublet')}",
         "format": _FORMAT,
         "scene": table.scene.to_toml(),

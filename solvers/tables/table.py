@@ -14,17 +14,16 @@ from ..engines.choice import collision_engine
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function, check_mapping, check_names, check_whole
+from ..host.pictures import Drawn
 from ..host.progress import Estimated, Progress
 from ..many.batch import ascending, checked_numbers, checked_span, checked_vary
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import Field
 from ..scene.schema import Range as Interval
-from .attack import Attack
 from .attack import attack as attacked
 from .build import Builder
-from .data import Range
-from .law import ANGLE, STOKES, Law
+from .data import ANGLE, STOKES, Attack, Law, Range
 from .read import read
 from .slices import Slicer
 
@@ -44,8 +43,10 @@ _ACCEPTED = '{"stokes": (LO, HI), "angle": (LO, HI)}, and at most one other nume
 
 
 @dataclass(frozen=True)
-class Table(Law):
+class Table(Law, Drawn):
     """A collision law as a table, as `table` returns it; its attributes are those of `Law`.
+
+    `plot` draws restitution, boundaries and patches.
 
     Example:
         >>> from wetdoublet.solvers import table
@@ -53,6 +54,8 @@ class Table(Law):
         >>> law([0.17, 0.3], 0.35).outcome.values  # a bounce, and an impact outside
         array([ 2, -1])
     """
+
+    _picture = "tables.plot.draw"
 
     def __call__(self, stokes: Any, angle: Any, third: Any = None, slopes: bool = False) -> xarray.Dataset:
         """Outcome and results at impacts.
@@ -111,17 +114,6 @@ class Table(Law):
         from .store import load
 
         return cls(**vars(load(path)))
-
-    def plot(self, path: str | FilePath | None = None) -> Any:
-        """Draw restitution, boundaries and patches; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-        """
-        from ..host.pictures import saved
-        from .plot import draw
-
-        return saved(lambda: draw(self), path)
 
     def __str__(self) -> str:
         from .labelled import text

@@ -16,7 +16,7 @@ from ..collision.text import name_of
 from ..engines.choice import collision_engine
 from ..formatting import ticks
 from ..formatting.style import INK, NOTHING, picture, plain_text
-from ..many.plot_map import draw_contours, label_scale
+from ..many.plot_map import HIGHEST, draw_contours, label_scale
 from ..many.regime_map import regime_map
 from ..scene.scene import Scene
 from .budget import LOSSES
@@ -30,7 +30,6 @@ COLOURS = {
     "dry_contact": "#E69F00",
     "strings": "#8C6D31",
 }
-_HIGHEST = 2.0  # most e_n that the colours tell apart
 _FINE = 160  # rows and columns of the map of e_n, where the kernel computes it
 _STEEP = math.radians(75)  # angle of the upper panel, degrees; the lower one is less oblique
 
@@ -69,11 +68,11 @@ def _map(figure: Figure, axes: Axes, data: xarray.Dataset, shown: list[int]) -> 
     e_n = np.ma.masked_where(fine["outcome"].values <= 0, fine["restitution"].values)
     angles, stokes = np.degrees(fine["angle"].values), fine["stokes"].values
     axes.set_facecolor(NOTHING)
-    norm = TwoSlopeNorm(1.0, 0.0, _HIGHEST)
+    norm = TwoSlopeNorm(1.0, 0.0, HIGHEST)
     mesh = axes.pcolormesh(angles, stokes, e_n.T, cmap="RdBu_r", norm=norm, shading="nearest", rasterized=True)
     highest = float(e_n.max()) if e_n.count() else 0.0
-    bar = figure.colorbar(mesh, ax=axes, pad=0.02, extend="max" if highest > _HIGHEST else "neither")
-    label_scale(bar, _HIGHEST, max(highest, _HIGHEST))
+    bar = figure.colorbar(mesh, ax=axes, pad=0.02, extend="max" if highest > HIGHEST else "neither")
+    label_scale(bar, HIGHEST, max(highest, HIGHEST))
     axes.set_yscale("log")
     axes.set_xlim(angles[0], angles[-1])
     axes.set_ylim(stokes[0], stokes[-1])

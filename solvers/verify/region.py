@@ -36,7 +36,6 @@ def grid(scene: Scene, extent: Extent = WHOLE) -> xarray.Dataset:
 
 
 def _fast(scene: Scene) -> Collide:
-    """`collide` by the fastest engine of a scene."""
     return partial(collide, engine=collision_engine(scene))
 
 

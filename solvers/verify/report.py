@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..formatting.markdown import unpadded
+from ..formatting.notebook import frame, view
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -73,8 +74,6 @@ class Report:
 
     def _repr_html_(self) -> str:
         """The first line, the failures, and how each group fares."""
-        from ..formatting.notebook import view
-
         rows = [("FAIL", f"{one.group}: {one.name}", one.statement, one.figure, one.where) for one in self.failed]
         for group, members in self._groups().items():
             held = [one.ok for one in members if one.ok is not None]
@@ -87,8 +86,6 @@ class Report:
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each finding: group, name, statement, figure, bound, ok, where."""
-        from ..formatting.frames import frame
-
         return frame({name: [getattr(one, name) for one in self.findings] for name in _COLUMNS})
 
     def to_dataset(self) -> xarray.Dataset:

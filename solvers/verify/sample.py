@@ -56,7 +56,6 @@ class Sample:
 
     @property
     def separated(self) -> Iterator[Collision]:
-        """The reference engine's collisions that separate."""
         for impact in self.impacts:
             if REFERENCE in impact and impact[REFERENCE].outcome != "stick":
                 yield impact[REFERENCE]

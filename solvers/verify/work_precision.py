@@ -142,7 +142,6 @@ class WorkPrecision:
 
     @property
     def engines(self) -> tuple[str, ...]:
-        """The measured engines."""
         return tuple(dict.fromkeys(row.engine for row in self.rows))
 
 

@@ -16,7 +16,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from wetdoublet.solvers import Scene, collide_pair
-from wetdoublet.solvers.certificates.rebounds import ReboundCertificate
+from wetdoublet.solvers.certificates.in_space import ReboundCertificate
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.errors import WetDoubletError
 from wetdoublet.solvers.model.model import load, select_model

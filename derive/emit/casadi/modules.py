@@ -1,7 +1,8 @@
 """Texts of the emitted modules: laws, structures, scaling."""
 
+import re
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import sympy as sp
 
@@ -11,8 +12,10 @@ from ...physics.laws.base import Law, needed
 from ...physics.scaling import first_rates, group_definitions, impact_groups, scale_definitions
 from ...vocabulary.quantities import VOCABULARY, obliquity, obliquity_pair, obliquity_space, obliquity_wall, rate_scale
 from ..provenance import Own, describe, digest, header, law_digest, model_digest
-from ..text import INDENT, WIDTH, assignment, docstring, module, operations
 from .printer import Printer
+
+_WIDTH = 110
+_INDENT = "    "
 
 
 def law_module(law: Law) -> str:
@@ -23,17 +26,17 @@ def law_module(law: Law) -> str:
         kept, _ = needed([function.result], function.definitions)
         arguments = ", ".join(f"{argument.name}: Any" for argument in function.arguments)
         body += ["", f"def {function.name}({arguments}) -> Any:"]
-        count = operations([function.result, *(expression for _, expression in kept)])
-        body += docstring(f"{function.doc}\n\nTotal operations: {count}", INDENT)
+        count = _operations([function.result, *(expression for _, expression in kept)])
+        body += _docstring(f"{function.doc}\n\nTotal operations: {count}", _INDENT)
         for symbol, expression in kept:
-            body += assignment(symbol.name, expression, printer)
-        lines = [*assignment("result", function.result, printer), f"{INDENT}return result"]
-        body += [f"{INDENT}return {printer(function.result)}"] if len(lines) == 2 else lines
+            body += _assignment(symbol.name, expression, printer)
+        lines = [*_assignment("result", function.result, printer), f"{_INDENT}return result"]
+        body += [f"{_INDENT}return {printer(function.result)}"] if len(lines) == 2 else lines
         body.append("")
     doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
     falls = any(each.falls and each.name in ("force", "log_factor") for each in law.functions)  # with the gap
     body = [*_validity(law), *(["", "FALLS = True", ""] if falls else []), *body]
-    return module(header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
+    return _module(header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
 
 
 def _validity(law: Law) -> list[str]:
@@ -44,7 +47,7 @@ def _validity(law: Law) -> list[str]:
     lines = ["", "VALIDITY: dict[str, tuple[float | None, float | None]] = {"]
     for quantity in ("volume", "contact_angle", "separation"):
         bounds = ", ".join("None" if bound is None else repr(float(bound)) for bound in getattr(known, quantity))
-        lines.append(f'{INDENT}"{quantity}": ({bounds}),')
+        lines.append(f'{_INDENT}"{quantity}": ({bounds}),')
     return [*lines, "}", f'VALIDITY_SOURCE = "{known.source}"', ""]
 
 
@@ -83,14 +86,14 @@ def structure_module(model: Model, additions: Own | None = None, shared: Mapping
     for home, names in sorted(elsewhere.items()):
         start = f"from .{home} import"
         imports += _listed(f"{start} {', '.join(sorted(names))}", start, sorted(names))
-    return module(header(model_digest(model)), describe(model, additions or {}), imports, body)
+    return _module(header(model_digest(model)), describe(model, additions or {}), imports, body)
 
 
 def _listed(line: str, start: str, words: Sequence[str]) -> list[str]:
     """A line with a list of words, or `start` and the list over several lines in brackets."""
-    if len(line) <= WIDTH:
+    if len(line) <= _WIDTH:
         return [line]
-    inside = textwrap.wrap(", ".join(words) + ",", WIDTH, initial_indent=INDENT, subsequent_indent=INDENT)
+    inside = textwrap.wrap(", ".join(words) + ",", _WIDTH, initial_indent=_INDENT, subsequent_indent=_INDENT)
     return [f"{start} (", *inside, ")"]
 
 
@@ -107,19 +110,19 @@ def function_lines(model: Model, name: str, printer: Printer) -> list[str]:
     flags = "".join(f", {flag}: int = 1" for flag in region)
     flags += "".join(f", {symbol.name}: Any = 0" for symbol in function.further)
     lines = ["", f"def {name}(state: Values, groups: Values, laws: Any{flags}) -> dict[str, Any]:"]
-    count = operations([*(e for _, e in function.outputs), *(e for _, e in kept)])
+    count = _operations([*(e for _, e in function.outputs), *(e for _, e in kept)])
     doc = function.doc
     if region:
         doc += "\n\nRegion: film is 1 inside the film, shear 1 inside the tangential edge, else 0."
-    lines += docstring(f"{doc}\n\nTotal operations: {count}", INDENT)
+    lines += _docstring(f"{doc}\n\nTotal operations: {count}", _INDENT)
     defined = {symbol for symbol, _ in kept}
-    lines += [f'{INDENT}{s.name} = state["{s.name}"]' for s in model.states if s in used and s not in defined]
-    lines += [f'{INDENT}{s.name} = groups["{s.name}"]' for s in model.groups if s in used]
+    lines += [f'{_INDENT}{s.name} = state["{s.name}"]' for s in model.states if s in used and s not in defined]
+    lines += [f'{_INDENT}{s.name} = groups["{s.name}"]' for s in model.groups if s in used]
     for symbol, expression in kept:
-        lines += assignment(symbol.name, expression, printer)
-    lines.append(f"{INDENT}return {{")
-    lines += [f'{INDENT * 2}"{key}": {printer(expression)},' for key, expression in function.outputs]
-    return [*lines, f"{INDENT}}}", ""]
+        lines += _assignment(symbol.name, expression, printer)
+    lines.append(f"{_INDENT}return {{")
+    lines += [f'{_INDENT * 2}"{key}": {printer(expression)},' for key, expression in function.outputs]
+    return [*lines, f"{_INDENT}}}", ""]
 
 
 def scaling_digest() -> str:
@@ -154,13 +157,58 @@ def groups_module(definitions: Mapping[sp.Symbol, sp.Expr], known: Own, source: 
         for group, expression in definitions.items()
     }
     for name, wanted in arguments.items():
-        body.append(f'{INDENT}"{name}": {_tuple(wanted)},')
+        body.append(f'{_INDENT}"{name}": {_tuple(wanted)},')
     body += ["}", ""]
     for group, expression in definitions.items():
         names = arguments[group.name]
         body += ["", f"def {group.name}({', '.join(f'{name}: Any' for name in names)}) -> Any:"]
         units = "\n".join(f"- {name} [{known[name][0]}]: {known[name][1]}" for name in names)
         unit, meaning = known[group.name]
-        body += docstring(f"{meaning} [{unit}].\n\n{units}", INDENT)
-        body += [f"{INDENT}return {printer(expression)}", ""]
-    return module(header(source), doc, ["from typing import Any", "", *_casadi(printer)], body)
+        body += _docstring(f"{meaning} [{unit}].\n\n{units}", _INDENT)
+        body += [f"{_INDENT}return {printer(expression)}", ""]
+    return _module(header(source), doc, ["from typing import Any", "", *_casadi(printer)], body)
+
+
+def _docstring(text: str, indent: str = "") -> list[str]:
+    """Lines of a docstring; its first paragraph is the first line."""
+    paragraphs = text.strip("\n").split("\n")
+    wrapped: list[str] = []
+    for paragraph in paragraphs:
+        hanging = "  " if paragraph.startswith(("- ", "  ")) else ""
+        wrapped += textwrap.wrap(
+            paragraph, _WIDTH - len(indent), subsequent_indent=hanging, break_long_words=False, break_on_hyphens=False
+        ) or [""]
+    if len(wrapped) == 1 and len(wrapped[0]) + len(indent) + 6 <= _WIDTH:
+        return [f'{indent}"""{wrapped[0]}"""']
+    return [f'{indent}"""{wrapped[0]}', *(f"{indent}{line}" if line else "" for line in wrapped[1:]), f'{indent}"""']
+
+
+def _assignment(name: str, expression: sp.Expr, printer: Printer) -> list[str]:
+    """`name = expression`, with a sum too long for one line broken at its terms."""
+    line = f"{_INDENT}{name} = {printer(expression)}"
+    if len(line) <= _WIDTH:
+        return [line]
+    if not isinstance(expression, sp.Add):
+        return [f"{_INDENT}{name} = (", f"{_INDENT * 2}{printer(expression)}", f"{_INDENT})"]
+    lines = [f"{_INDENT}{name} = ("]
+    for position, term in enumerate(expression.as_ordered_terms()):
+        negative = term.could_extract_minus_sign()
+        body = printer(-term if negative else term)
+        sign = "-" if negative else ("+" if position else "")
+        lines.append(f"{_INDENT * 2}{sign}{' ' if sign else ''}{body}")
+    return [*lines, f"{_INDENT})"]
+
+
+def _operations(expressions: Iterable[sp.Expr]) -> int:
+    """Number of arithmetic operations and function calls in the expressions."""
+    return sum(int(sp.count_ops(expression)) for expression in expressions)
+
+
+def _module(header: str, doc: str, imports: Sequence[str], body: Sequence[str]) -> str:
+    """Text of a module."""
+    lines = [f"# {line}" for line in header.splitlines()]
+    lines += [*_docstring(doc), "", "from __future__ import annotations", ""]
+    if imports:
+        lines += [*imports]
+    text = "\n".join([*lines, "", *body]).rstrip() + "\n"
+    return re.sub(r"\n{4,}", "\n\n\n", text)

@@ -47,11 +47,7 @@ def naming(names: Mapping[str, str]) -> Iterator[None]:
 
 
 def latex(expression: sp.Expr) -> str:
-    """An expression in LaTeX.
-
-    Raises:
-        EmissionError: a node or symbol without LaTeX; the message names it.
-    """
+    """An expression in LaTeX; EmissionError names a node or symbol that has none."""
     return _print(sp.sympify(expression))
 
 

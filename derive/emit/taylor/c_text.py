@@ -186,7 +186,6 @@ class Constants:
         return text if expression.free_symbols else f"splat({text})"
 
     def define(self, symbol: sp.Symbol, expression: sp.Expr) -> None:
-        """Add a named constant."""
         if symbol not in self._defined:
             self.prepared[symbol.name] = expression
             self._defined[symbol] = f"{self._place}{symbol.name}"
@@ -284,7 +283,6 @@ class Recurrences:
         return list(dict.fromkeys(lines))
 
     def lines(self) -> list[str]:
-        """One line per series for coefficient k."""
         return [self._line(operation) for operation in self.program.operations]
 
     def _line(self, operation: Operation) -> str:

@@ -82,11 +82,9 @@ class Ledger:
         return compiled_if(_FLAG, [f"enum {{ {', '.join([start, *others])} }};", *tangential])
 
     def states(self) -> list[str]:
-        """Series of the ledger's states."""
         return compiled_if(_FLAG, [f"vec {name}[TERMS]; /* {_MEANING[name]} */" for name in self._rates])
 
     def series(self) -> list[str]:
-        """All other series of the ledger."""
         return compiled_if(_FLAG, self.recurrences.fields())
 
     def coefficients(self) -> list[str]:
@@ -105,7 +103,6 @@ class Ledger:
         return compiled_if(_FLAG, ["ledger_constants ledger;"] if self.constants.prepared else [])
 
     def prepare(self) -> list[str]:
-        """Statements that compute the ledger's constants."""
         return compiled_if(_FLAG, self.constants.assignments())
 
     def functions(self, valued: Valued) -> list[str]:

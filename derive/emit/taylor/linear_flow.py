@@ -101,5 +101,4 @@ class LinearFlow:
         return self._flow | set(self.states)
 
     def array(self, name: str) -> str:
-        """C text of the array of a series."""
         return self.recurrences.array(name)

@@ -77,7 +77,6 @@ class Program:
 
     @property
     def cost(self) -> float:
-        """Total cost in products of series."""
         return sum(COST[operation.kind] for operation in self.operations)
 
     def passing(self, beside: AbstractSet[str] = frozenset()) -> frozenset[str]:

@@ -80,7 +80,6 @@ class Law:
 
     @property
     def module(self) -> str:
-        """Name of the emitted module."""
         return f"{self.slot}_{self.name.replace('-', '_')}"
 
     def __getitem__(self, function: str) -> LawFunction:

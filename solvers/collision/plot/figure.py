@@ -21,11 +21,7 @@ _STRIP = WIDTH - 0.5
 
 @picture
 def draw(collision: Outcome) -> Figure:
-    """Draw a collision.
-
-    Raises:
-        ValueError: it has no trajectory.
-    """
+    """Draw a collision; ValueError if it has no trajectory."""
     pictures = frames(collision)
     data = collision.trajectory
     duration = float(data["time"][-1]) if data is not None else 0.0
@@ -46,7 +42,6 @@ def draw(collision: Outcome) -> Figure:
 
 
 def _turns(collision: Outcome) -> bool:
-    """True if something moves sideways: the impact has an angle, or a sphere spins."""
     return collision.scene.turns(collision.angle)
 
 
@@ -64,7 +59,6 @@ def _title(collision: Outcome) -> str:
 
 
 def _spins(collision: Outcome) -> str:
-    """The spins at initial contact, where there are any."""
     spins = [spin for spin in (collision.scene.impact.spin, collision.scene.impact.partner_spin) if spin is not None]
     return f", ξ₀ = {' and '.join(f'{spin:.4g}' for spin in spins)} rad/s" if any(spins) else ""
 

@@ -48,7 +48,6 @@ class Column:
         return factor, micro(name + "s")
 
     def shows(self, time: float) -> bool:
-        """True if an event at `time` is labelled in this column."""
         return (self.shaded < time or not self.shaded) and time <= self.end
 
 

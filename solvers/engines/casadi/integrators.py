@@ -144,7 +144,6 @@ class Plain:
 
     @property
     def steps(self) -> int:
-        """Number of steps in the last call."""
         return _buffered(self.function).steps
 
 

@@ -73,15 +73,12 @@ class Replay:
 def replay(
     path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray, budget: Budget | None = None
 ) -> Replay:
-    """Integrate the event sequence `path` with an integrator plugin.
+    """Integrate the event sequence `path` with an integrator plugin; Stopped if the engine fails or misses an event.
 
     Arguments:
         kind: the model and its extras (flags of film and shear are taken from the sequence).
         start: state at initial contact.
         budget: of its steps; None for those of the tolerance.
-
-    Raises:
-        Stopped: the engine failed, or its solution does not meet an event of the sequence.
     """
     model = kind.model
     known = dict(zip(path.model.groups, path.p, strict=True))

@@ -38,11 +38,9 @@ class Impacts:
 
     @property
     def oblique(self) -> np.ndarray:
-        """Mask of the collisions in which something moves sideways."""
         return sideways(self.scene, self.angle, self.others)
 
     def part(self, which: np.ndarray | slice) -> Impacts:
-        """A subset of the collisions."""
         others = {name: values[which] for name, values in self.others.items()}
         return Impacts(self.scene, self.speed[which], self.angle[which], others)
 
@@ -60,11 +58,7 @@ def variant(
 
 
 def variant_for_many(scene: Scene, oblique: bool, rtol: float, rotation: bool, fold: bool = True) -> Variant:
-    """The variant that `run_kernel` takes.
-
-    Arguments:
-        fold: no quantity varies, so that a partner equal to the sphere stays so.
-    """
+    """The variant that `run_kernel` takes; with `fold` no quantity varies: a partner equal to the sphere stays so."""
     return variant(scene, select_model(scene, oblique, fold=fold), rtol, rotation)
 
 

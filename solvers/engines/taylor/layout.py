@@ -139,11 +139,9 @@ class Task:
         self.buffer("quantities", np.array(rows, BUFFER))
 
     def buffer(self, name: str, array: np.ndarray) -> None:
-        """Set the buffer of that name, for input or output."""
         self._task[name] = self._hold(array)
 
     def number(self, name: str, value: float) -> None:
-        """Set a number of the task."""
         self._task[name] = value
 
     def _hold(self, array: np.ndarray) -> tuple[int, int]:

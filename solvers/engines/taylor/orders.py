@@ -12,11 +12,7 @@ LEAST, LARGEST = 8, 16
 
 
 def order_for(rtol: float) -> int:
-    """Order of the series for a tolerance.
-
-    >>> order_for(1e-6), order_for(1e-9)
-    (9, 11)
-    """
+    """Order of the series for a tolerance."""
     return next(order for least, order in ORDERS if rtol >= least)
 
 

@@ -133,8 +133,8 @@ def run_recorded(
 
 def run_with_books(
     impacts: Impacts, rtol: float, threads: int, budget: int = KERNEL_STEPS
-) -> tuple[np.ndarray, np.ndarray] | None:
-    """Answers and ledgers of impacts, oblique or head-on; None if there is no kernel here."""
+) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """Answers and ledgers of impacts, oblique or head-on; None for both if there is no kernel here."""
     answers, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, LEDGER)
     turns, fold, done = impacts.oblique, not impacts.others, []
     for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns))):
@@ -147,4 +147,4 @@ def run_with_books(
                 answers[part], books[part] = recorded.answers, recorded.ledger
 
         in_chunks(which.size, chunk, threads)
-    return (answers, books) if all(done) else None
+    return (answers, books) if all(done) else (None, None)

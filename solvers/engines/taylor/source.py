@@ -62,7 +62,6 @@ class Variant:
 
     @property
     def space(self) -> bool:
-        """True if the states are vectors in space."""
         return "_space" in self.choice.structure
 
 
@@ -73,11 +72,7 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
 
 
 def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
-    """Files of a variant that the runtime includes besides its own, by name.
-
-    Arguments:
-        emitted: its emitted headers.
-    """
+    """Files by name that a variant's runtime includes besides its own, from its emitted headers."""
     slots, own = dict(variant.choice.laws), has_events(variant.choice)
     settings = {
         "LANES": variant.lanes,

@@ -1,5 +1,5 @@
 // Bundles the page and its worker into ../built, with the digest of what they are built from. `npm ci && npm run build`
-import { build } from "esbuild";
+import { build } from "esbuild-wasm";
 import { createHash } from "node:crypto";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 

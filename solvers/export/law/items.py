@@ -31,16 +31,11 @@ class Item:
 
     @property
     def text(self) -> str:
-        """The whole text of the item."""
         return self.comment + self.code
 
 
 def items(file: str, text: str) -> tuple[str, list[Item]]:
-    """The comment at the head of a file, and its items in order.
-
-    Raises:
-        CheckFailed: a part that is not understood.
-    """
+    """The comment at the head of a file, and its items in order; CheckFailed for a part that is not understood."""
     head, text = _head(text)
     return head, list(_items(file, text))
 
@@ -155,7 +150,6 @@ def _item(file: str, comment: str, code: str) -> Item:
 
 
 def _declared(text: str) -> list[str]:
-    """Names of variables in a declaration."""
     names = [re.search(r"(\w+)\s*(?:\[[^\]]*\]\s*)*$", part.split("=")[0].strip()) for part in _parts(text)]
     return [name[1] for name in names if name]
 

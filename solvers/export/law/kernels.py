@@ -43,7 +43,6 @@ class Kernel:
 
     @property
     def choice(self) -> ModelKey:
-        """The key of its model."""
         return self.variant.choice
 
     @property
@@ -76,7 +75,6 @@ class Kernel:
         return tuple(re.findall(r'"(\w+) ?"', names[1]))
 
     def source(self, roots: tuple[str, ...]) -> Source:
-        """The kernel before it is merged with others."""
         return Source(self.prefix, self.generated_files, roots)
 
     def _header_in_si(self) -> str:

@@ -93,23 +93,13 @@ def source(scene: Scene, rtol: float = RTOL, ledger: bool = False) -> LawSource:
 
 
 def law_name(scene: Scene) -> str:
-    """The prefix of a scene's law and the name of its files, other than those of its neighbours and prefixes within it.
-
-    Examples:
-        >>> law_name(Scene("example", Scene.load("granulation").given))
-        'example_law'
-    """
+    """The prefix of a scene's law and the name of its files, unlike its neighbours' names and prefixes within it."""
     name = file_name(scene)
     return f"{name}_law" if name in _TAKEN else name
 
 
 def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
-    """Texts of the files by name.
-
-    Raises:
-        InputError: a law of the scene has no recurrence.
-        ComputationError: no engine can compute the test vectors.
-    """
+    """Texts of the files by name; errors as of `source`, and ComputationError if no engine computes test vectors."""
     name, law_kernels = law_name(scene), kernels(scene, rtol)
     law = source(scene, rtol)
     declared = law.header

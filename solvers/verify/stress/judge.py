@@ -46,13 +46,11 @@ class LocatedTrajectories:
         self.spared = 0.0  # s of CPU time saved so far
 
     def forget(self) -> None:
-        """Clear the cache for a new case."""
         self._known.clear()
 
     def find(
         self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...], **_: object
     ) -> EventSequence:
-        """The located trajectory, as `locate` returns it with a budget of its own."""
         return self.locator(model, groups, rtol, extras).path
 
     def locator(

@@ -5,7 +5,7 @@ import re
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any
@@ -17,6 +17,7 @@ from ...host.compiled import FLAGS
 from ...host.compiler import CannotCompile, compiler, key, library
 from ...host.cores import usable_cores
 from ...host.environment import environment
+from ...host.progress import Progress
 from ...host.user_cache import kept, room
 from ...host.workers import undisturbed, workers
 from ...model.model import select_model
@@ -28,8 +29,6 @@ _LAST, _SMALL = 0.2, 4  # share of the cases that comes last, in blocks so small
 _COSTS = {"sampled": 1, "lines": 3, "beside": 3}  # of a case, about
 _CLOCK = "#include <time.h>\nclock_t clock(void) { return 0; }\n"
 _ALONE = 40  # fewest cases for which starting workers pays
-
-Tell = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
@@ -48,7 +47,6 @@ class Stress:
     wanted: int = 0
 
     def issues(self, *kinds: str) -> list[tuple[Verdict, Issue]]:
-        """All issues of these kinds, with their cases."""
         return [(one, issue) for one in self.verdicts for issue in one.issues if issue.kind in kinds]
 
     @property
@@ -80,14 +78,11 @@ class Stress:
         )
 
 
-def stress(count: int, seed: int = SEED, tell: Tell = lambda _done, _total: None) -> Stress:
-    """Run `count` cases on all cores.
+def stress(count: int, seed: int = SEED, tell: Progress = lambda _done, _total: None) -> Stress:
+    """Run `count` cases on all cores; InputError without scipy.
 
     Arguments:
         tell: called with (done, total).
-
-    Raises:
-        InputError: scipy, which provides the quasi-random sequence, is not installed.
     """
     start, where = time.perf_counter(), environment()
     tell(0, count)

@@ -6,6 +6,7 @@ from itertools import islice, product
 from typing import Any
 
 import numpy as np
+from scipy.stats import qmc
 
 from ...boundaries.boundary import boundary
 from ...errors import InputError
@@ -27,7 +28,7 @@ _FASTEST = 5.0  # surface speed of a spin, over v0
 
 
 def sample(count: int, seed: int = SEED) -> list[Case]:
-    """`count` cases, deterministic for a count and seed. InputError without scipy, which provides the sequence."""
+    """`count` cases, deterministic for a count and seed."""
     beside, traced = max(1, int(_BESIDE * count)) if count else 0, int(_LINES * count)
     cases = [*lines.drawn(traced, count // _PER_LINE_MODEL, seed), *islice(_beside_boundaries(beside), beside)]
     cases += _drawn(count - beside - traced, seed)
@@ -36,8 +37,6 @@ def sample(count: int, seed: int = SEED) -> list[Case]:
 
 def _drawn(count: int, seed: int) -> Iterator[Case]:
     """Valid scenes along a Halton sequence; invalid ones are skipped."""
-    from scipy.stats import qmc
-
     models = list(_models(min(max(count // _PER_MODEL, _MODELS[0]), _MODELS[1]), seed))
     points, taken = qmc.Halton(_NUMBERS, seed=seed), 0
     while taken < count:
@@ -52,13 +51,8 @@ def _drawn(count: int, seed: int) -> Iterator[Case]:
                 return
 
 
-Model = dict[str, str]
-
-
-def _models(count: int, seed: int) -> Iterator[Model]:
+def _models(count: int, seed: int) -> Iterator[lines.Model]:
     """Combinations of structure and laws, few enough that several scenes share what an engine builds."""
-    from scipy.stats import qmc
-
     for k, point in enumerate(qmc.Halton(_CHOICES, seed=seed + 1).random(count)):
         bridge = "" if point[0] < 0.25 else BRIDGE_LAWS[int((point[0] - 0.25) / 0.75 * len(BRIDGE_LAWS))]
         films = FILM_LAWS if bridge else FILM_LAWS[:-1]  # the last has the volume of the bridge
@@ -81,7 +75,7 @@ def _models(count: int, seed: int) -> Iterator[Model]:
         }
 
 
-def _scene(name: str, model: Model, point: Sequence[float]) -> Scene:
+def _scene(name: str, model: lines.Model, point: Sequence[float]) -> Scene:
     """The scene of a point in the unit cube; InputError where its entries contradict each other."""
     at = iter(point)
 

@@ -53,7 +53,6 @@ class Result:
 
     @property
     def numbers(self) -> str:
-        """Restitution and spins as text."""
         return " ".join(f"{value:.12g}" for value in (self.restitution, *self.spins))
 
     def apart(self, other: Result) -> float:

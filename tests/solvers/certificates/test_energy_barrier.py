@@ -9,7 +9,7 @@ from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 from wetdoublet.solvers import ComputationError, Scene, collide_many
 from wetdoublet.solvers.certificates import EnergyCertificate, NoCertificate, energy_proof
-from wetdoublet.solvers.certificates.film_and_attraction import FilmAndAttractionCertificate
+from wetdoublet.solvers.certificates.attraction import FilmAndAttractionCertificate
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.settings import STEPS, Budget
 from wetdoublet.solvers.errors import ModelWarning

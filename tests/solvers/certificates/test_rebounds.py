@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide_pair
 from wetdoublet.solvers.certificates import at_maximum
-from wetdoublet.solvers.certificates.rebounds import ReboundCertificate
+from wetdoublet.solvers.certificates.in_space import ReboundCertificate
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.space.by_casadi import groups_of, own_axes

@@ -123,12 +123,15 @@ def test_a_damaged_kernel_is_compiled_again(
     assert re.fullmatch(rf"{tmp_path}/taylor-head_on-\S+.so was damaged: it is made again", said)
 
 
-def test_a_damaged_derivation_is_derived_again(shelf: Path, capfd: pytest.CaptureFixture[str]):
+def test_a_damaged_derivation_is_derived_again(
+    shelf: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+):
     """An emitted module in the cache that was edited is not run but derived again."""
+    monkeypatch.setattr("wetdoublet.derive.emit.one.structure_text", lambda name: f"STATES = ('{name}',)\n")
     text = "STATES = ('gap',)\n"
-    assert emitted.derived_once("one.py", lambda: text) == text
+    assert emitted.derived_once("one.py", "structure_text", "gap") == text
     only(shelf).write_text("raise SystemExit('run')\n")
-    assert emitted.derived_once("one.py", lambda: text) == text
+    assert emitted.derived_once("one.py", "structure_text", "gap") == text
     assert "was damaged: it is made again" in capfd.readouterr().err
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from wetdoublet.solvers import ComputationError, InputError, collide_many, regime_map, sobol_indices
-from wetdoublet.solvers.many.chunks import chunks
+from wetdoublet.solvers.many.stream import chunks
 
 from ...helpers.command import run
 

@@ -86,7 +86,7 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 /* Film certificate with an attraction, without a bridge, for motion along the line of centres.
  *
  * If the approach velocity with the film only is w, it is at most w + g with the attraction, where g^2/2 is the work
- * of the attraction from x0 on (solvers/certificates/film_and_attraction.py).
+ * of the attraction from x0 on (solvers/certificates/attraction.py).
  */
 static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
 {
@@ -274,7 +274,7 @@ static inline mask proved_sticks(
 
 #if SPACE && PROOF_BY_ENERGY
 /* Lanes whose doublet tumbles as one body, and is held even if all of its angular momentum turns across the line of
- * centres (solvers/certificates/tumbling.py). Decides a stick, but is no certificate.
+ * centres (solvers/certificates/in_space.py). Decides a stick, but is no certificate.
  */
 static mask tumbles(const constants *c, const vec *y, const barrier *b, double tolerance)
 {

@@ -3,7 +3,7 @@
  * Equal spheres with the library's laws: the orbital-momentum certificate (solvers/certificates/orbital_momentum.py); on
  * strings for cycles whose maxima do not grow. Others without strings: such cycles, confined by an
  * attraction (solvers/certificates/chatter.py). In space: rebounds that take more than the rotation gives
- * (solvers/certificates/rebounds.py).
+ * (solvers/certificates/in_space.py).
  */
 #pragma once
 

@@ -1,12 +1,13 @@
-"""Certificate for chatter in space: every rebound ends below the last maximum of the gap."""
+"""Two spheres in space that stay together: every rebound ends below the last maximum, or they tumble as one body."""
 
 from collections.abc import Sequence
 
 import numpy as np
 
-from ...generated.automaton import comes_back
+from ...generated.automaton import comes_back, tumbles_for_good
 from ..model.phases import Phase
 from .base import Certificate, at_maximum
+from .energy_barrier import EnergyCertificate
 
 
 class ReboundCertificate(Certificate):
@@ -33,3 +34,27 @@ class ReboundCertificate(Certificate):
         far, near = (centres + aspect * gap for gap in (float(y[0]), self.contact))
         outward = (np.sqrt(here["outward"]) + np.sqrt(2 * work * aspect / far)) ** 2 * (far / near) ** 4
         return bool(comes_back(outward, (1 - self.groups["dry_restitution"] ** 2) * here["inward"], self.margin))
+
+
+class TumblingCertificate(Certificate):
+    """A stick of two spheres in space that move as one body.
+
+    Twist about the line of centres has no friction to leading logarithm. Where the film lets little slip, a doublet
+    with twist precesses like a top, and loses energy slowly while the line of centres turns across the angular momentum
+    L. Its energy stays above the barrier meanwhile, although twist cannot separate the spheres. The criterion leaves
+    twist out and takes all of L across the line of centres, where it turns to: the doublet is held if this energy is
+    below the barrier. It is taken only where little else is left than the motion of one body. As slip takes some energy
+    out of twist, this is no theorem.
+
+    Arguments:
+        beside: the energy certificate.
+    """
+
+    theorem = False
+    beside: EnergyCertificate
+
+    def sticks(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray]) -> bool:
+        rest, rigid = self.values("wobble", y)["wobble"], self.values("effective_potential", y)["energy"]
+        ahead = self.beside.ahead(y)
+        work, largest = self.beside.work(y), self.beside.largest
+        return ahead is not None and bool(tumbles_for_good(rest, rigid, work, ahead.height, self.margin, largest))
