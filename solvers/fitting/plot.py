@@ -226,12 +226,14 @@ def _profile(axes: Axes, fit: Fit, k: int) -> None:
 
 
 def _followed(fit: Fit, k: int, start: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Heights of the profile at places of entry k, the other entries each time from where they were before."""
-    heights = []
+    """Heights of the profile at places of entry k, the other entries each time from the line through the last two."""
+    heights, before = [], fit.best
     for at in places.tolist():
-        point = profile_point(fit.objective, start, k, at)
+        step = (at - start[k]) / (start[k] - before[k]) if start[k] != before[k] else 0.0
+        ahead = np.clip(start + step * (start - before), fit.free.low, fit.free.high)
+        point = profile_point(fit.objective, ahead if np.isfinite(fit.objective.value(ahead)) else start, k, at)
         heights.append(fit.objective.value(point))
-        start = point if np.isfinite(heights[-1]) else start
+        before, start = (start, point) if np.isfinite(heights[-1]) else (before, start)
     return np.array(heights)
 
 

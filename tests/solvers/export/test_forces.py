@@ -9,7 +9,7 @@ import pytest
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.space.pairs import Bodies
 
-from ...helpers.exported_law import COMPILERS, FOUND, Law, written
+from ...helpers.exported_law import COMPILERS, FOUND, SANITIZED, Law, written
 from ...helpers.host_of_forces import Host
 from .test_law_in_space import GRANULATION, OWN, arrivals
 
@@ -322,8 +322,8 @@ def test_hostile_numbers_under_sanitizers(compiler: str, folder: Path, law: Law,
     """Any bits at all: no undefined behaviour, no NaN with the status that says there is an answer."""
     (tmp_path / "hostile.c").write_text(HOSTILE.format(name=law.name))
     program = str(tmp_path / "hostile")
-    sanitize = ["-fsanitize=undefined,address", "-fno-sanitize-recover=all", "-g", "-O1", f"-I{folder}"]
     sources = [str(tmp_path / "hostile.c"), str(folder / f"{law.name}.c")]
+    sanitize = [*SANITIZED[compiler], f"-I{folder}"]
     subprocess.run([compiler, "-std=c99", *sanitize, "-o", program, *sources, "-lm"], check=True)
     run = subprocess.run([program], capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr[:2000]

@@ -11,7 +11,7 @@ import pytest
 from wetdoublet.solvers import InputError, Scene, collide_many
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 
-from ...helpers.exported_law import FOUND, Law, written
+from ...helpers.exported_law import FOUND, SANITIZED, Law, written
 
 pytestmark = pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
 PAGE = Path(__file__).parents[3] / "docs" / "how-to" / "c-law.md"
@@ -91,7 +91,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Pairs]:
 
 def pairs(name: str, made: dict[str, Pairs], folder: Path) -> Pairs:
     if name not in made:
-        made[name] = Pairs(SCENES[name], folder)
+        made[name] = Pairs(SCENES[name], folder, "-O0")
     return made[name]
 
 
@@ -187,9 +187,8 @@ def test_hostile_entries_under_the_sanitizers(tmp_path: Path):
             subprocess.run(
                 [*compiler, *warned, "-fsyntax-only", f"{law}.c", "hostile.c", "check.c"], cwd=folder, check=True
             )
-        safe = ["-std=c99", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
         built = subprocess.run(
-            ["gcc", *safe, "-o", "hostile", "hostile.c", f"{law}.c", "-lm"],
+            ["gcc", "-std=c99", *SANITIZED["gcc"], "-o", "hostile", "hostile.c", f"{law}.c", "-lm"],
             cwd=folder,
             check=False,
             capture_output=True,
