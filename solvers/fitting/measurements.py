@@ -53,6 +53,7 @@ _SPELT = {  # as people name columns, in small letters with underscores
     "rotation": "rotation_angle",
 }
 _CANONICAL = {word: name for name, words in _SPELT.items() for word in (name, *words.split())}
+_EITHER = ("v", "velocity", "impact_speed", "impact_velocity")  # taken for the normal speed, often the magnitude
 _SPREAD_WORDS = re.compile(r"(.*?)_*(sd|std|err|error|sigma|uncertainty)")
 _MISSPELT = 0.75  # similarity to a known name from which an unknown column is refused and not left out
 _NOISE = 5.0  # standard deviations by which a measured restitution may lie below 0
@@ -69,6 +70,7 @@ class Measurements:
         outcome: 0 stick, 1 stick-rotate-separate, 2 bounce, -1 not recorded.
         observed: result -> values and standard deviations of its measurement; NaN where it was not measured.
         columns: other entries that differ from row to row, by dotted name.
+        kind_unsaid: the name of the column does not say which speed it is.
         remarks: sentences on what the data left to defaults.
         labels: what names a row in messages.
     """
@@ -81,6 +83,7 @@ class Measurements:
     observed: Mapping[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
     columns: Mapping[str, np.ndarray] = field(default_factory=dict)
     relative: bool = False
+    kind_unsaid: bool = False
     remarks: tuple[str, ...] = ()
     labels: tuple[str, ...] = ()
 
@@ -214,13 +217,16 @@ class _Table:
             raise InputError(label, None, "at least one row", "has no rows")
         self.by_name: dict[str, Column] = {}
         self.remarks: list[str] = []
+        self.kind_unsaid = False
         ignored = []
         for column in columns:
             name = _canonical(column.name)
             if self._is_known(name):
                 self.by_name[name] = replace(column, name=name)
                 if name != column.name:
-                    self.remarks.append(f'Column "{column.name}" is read as {_MEANT.get(name, name)}.')
+                    self.kind_unsaid |= name == "speed" and _word(column.name) in _EITHER
+                    meant = _MEANT.get("unsaid" if name == "speed" and self.kind_unsaid else name, name)
+                    self.remarks.append(f'Column "{column.name}" is read as {meant}.')
             else:
                 ignored.append(column.name)
         if ignored:
@@ -315,7 +321,7 @@ class _Table:
         labels = tuple(row_name(k, line) for k, line in enumerate(self.lines, 1))
         data = Measurements(
             speed, angle, speed_sd, angle_sd, outcome.astype(np.int8), observed, columns, of_speed == "relative_speed",
-            (), labels,
+            self.kind_unsaid, (), labels,
         )  # fmt: skip
         observation = data.measured | (outcome != UNKNOWN)
         if not observation.any():
@@ -426,15 +432,21 @@ class _Table:
 
 def _canonical(text: str) -> str:
     """The name of a column as people write it: `v`, `COR`, `theta err`; a dotted name and an unknown one stay."""
-    word = re.sub(r"[\s-]+", "_", text.strip().lower())
+    word = _word(text)
     if word in _CANONICAL or "." in word:
         return _CANONICAL.get(word, text)
     spread = _SPREAD_WORDS.fullmatch(word)
     return f"{_CANONICAL[spread[1]]}_sd" if spread and spread[1] in _CANONICAL else text
 
 
+def _word(text: str) -> str:
+    """In small letters with underscores."""
+    return re.sub(r"[\s-]+", "_", text.strip().lower())
+
+
 _MEANT = {
-    "speed": "the normal speed (name it relative_speed if it is the magnitude of the relative velocity)",
+    "speed": "the normal speed",
+    "unsaid": "the normal speed (name it relative_speed if it is the magnitude of the relative velocity)",
     "relative_speed": "the magnitude of the relative velocity",
 }
 
