@@ -210,8 +210,8 @@ def _kind_of_speed(experiment: Experiment, data: Measurements, seen: _Predicted)
     if gained - lost <= _SIGNS * math.sqrt(gained + lost):
         return []
     text = (
-        f"as the scene is, {seen.agreement:.0%} of the impacts come out as observed; with these speeds as the magnitude of "
-        f"the relative velocity it is {other.agreement:.0%}. Which are they? Name the column v_n or v_rel"
+        f"as the scene is, {seen.agreement:.0%} of the impacts come out as observed; with these speeds as the "
+        f"magnitude of the relative velocity it is {other.agreement:.0%}. Which are they? Name the column v_n or v_rel"
     )
     return [Finding("speed", (), text)]
 

@@ -54,9 +54,11 @@ _SPELT = {  # as people name columns, in small letters with underscores
 }
 _CANONICAL = {word: name for name, words in _SPELT.items() for word in (name, *words.split())}
 _EITHER = ("v", "velocity", "impact_speed", "impact_velocity")  # taken for the normal speed, often the magnitude
+_DOTTED = re.compile(r"\w+\.\w+")  # no "Temp."
 _SPREAD_WORDS = re.compile(r"(.*?)_*(sd|std|err|error|sigma|uncertainty)")
 _MISSPELT = 0.75  # similarity to a known name from which an unknown column is refused and not left out
 _NOISE = 5.0  # standard deviations by which a measured restitution may lie below 0
+_NAMED = 8  # rows in a sentence
 _WIDEST = 1 / 3  # relative scatter of a speed
 
 
@@ -199,7 +201,8 @@ def read_data(source: Any, scene: Scene, label: str = "data") -> Measurements:
     Columns, also as people name them (`v (mm/s)`, `COR`, `theta err`): speed, relative_speed or stokes, and angle;
     speed_sd, angle_sd; outcome; restitution, tangential_restitution, contact_time, rotation, each with NAME_sd; entries
     of the scene by their dotted names. Standard deviations may be in %. Empty cells are missing. Restitution 0 without
-    an outcome is a stick. Other columns are not used, and named in a remark, unless they look like a misspelt name.
+    an outcome is a stick. Other columns are not used, and named in a remark, unless they look like a misspelt name,
+    or are in a unit of speed or angle where no column is the speed or the angle.
 
     Raises:
         InputError: an unknown column or unit, or a bad cell, named by row and column.
@@ -218,7 +221,7 @@ class _Table:
         self.by_name: dict[str, Column] = {}
         self.remarks: list[str] = []
         self.kind_unsaid = False
-        ignored = []
+        self.unused: list[Column] = []
         for column in columns:
             name = _canonical(column.name)
             if self._is_known(name):
@@ -228,16 +231,17 @@ class _Table:
                     meant = _MEANT.get("unsaid" if name == "speed" and self.kind_unsaid else name, name)
                     self.remarks.append(f'Column "{column.name}" is read as {meant}.')
             else:
-                ignored.append(column.name)
-        if ignored:
-            self.remarks.append(f"Columns that are not used: {', '.join(ignored)}.")
+                self.unused.append(column)
+        if self.unused:
+            self.remarks.append(f"Columns that are not used: {', '.join(one.name for one in self.unused)}.")
 
     def _is_known(self, name: str) -> bool:
         """Whether a column is used; InputError for a name that is close to a known one, and for a repeated one."""
         entries = [each for each in self.scene.fields if each not in MEETING and not self.scene.fields[each].choices]
         if name not in (*_PLAIN, *entries):
-            known = entries if "." in name else [*_PLAIN, *_CANONICAL]
-            if "." not in name and not get_close_matches(name.lower(), known, cutoff=_MISSPELT):
+            dotted = _DOTTED.fullmatch(name)
+            known = entries if dotted else [*_PLAIN, *_CANONICAL]
+            if not dotted and not get_close_matches(name.lower(), known, cutoff=_MISSPELT):
                 return False
             accepted = f"{', '.join(_PLAIN)}, and entries of the scene by dotted name"
             raise InputError(self.header, name, accepted, "is unknown" + did_you_mean(name, known))
@@ -246,6 +250,14 @@ class _Table:
         if name in entries and name.partition(".")[0] not in {entry.partition(".")[0] for entry, _ in self.scene.si}:
             raise InputError(self.header, name, "entries of the scene's tables", "has no table there")
         return True
+
+    def _refuse_unused(self, kind: str) -> None:
+        """InputError for an unused column in a unit of this kind, which no column is: its name is unknown."""
+        for column in self.unused:
+            if units.COMMON.get(units.spelling(column.unit or ""), ("", 0))[0] == _IMPACT[kind]:
+                accepted = f'a column named {kind}, or "{column.name}" without its unit if it is another one'
+                problem = f"is in {column.unit}, and no column is the {kind}"
+                raise InputError(self.header, column.name, accepted, problem)
 
     def _where(self, row: int, name: str) -> str:
         return f"{self.label}, {row_name(row + 1, self.lines[row])}, column {name}"
@@ -328,8 +340,10 @@ class _Table:
             accepted = "outcome, restitution or another result in at least one row"
             raise InputError(self.label, None, accepted, "says nothing of any impact")
         if not observation.all():
-            left = ", ".join(labels[k] for k in np.flatnonzero(~observation)[:8])
-            self.remarks.append(f"Left out, for neither outcome nor result is given: {left}.")
+            left = np.flatnonzero(~observation)
+            named, more = ", ".join(labels[k] for k in left[:_NAMED]), f" ... ({left.size} rows)"
+            more = more if left.size > _NAMED else ""
+            self.remarks.append(f"Left out, for neither outcome nor result is given: {named}{more}.")
             data = data.part(np.flatnonzero(observation))
         return replace(data, remarks=tuple(self.remarks))
 
@@ -337,6 +351,7 @@ class _Table:
         if "angle" in self.by_name:
             words = "an angle from 0 to below 90 deg"
             return self._numbers("angle", "rad", lambda v: 0 <= v < math.pi / 2, words, gaps=False)
+        self._refuse_unused("angle")
         if self.scene.angle is None:
             raise InputError(self.label, None, "a column angle [deg], or an impact angle in the scene", "has no angle")
         self.remarks.append(f"Angles are the scene's, {math.degrees(self.scene.angle):.6g} deg.")
@@ -349,6 +364,7 @@ class _Table:
             accepted = "only one of speed, relative_speed, stokes"
             raise InputError(self.header, names[1], accepted, f"is given together with {names[0]}")
         if not names:
+            self._refuse_unused("speed")
             if self.scene.speed is None:
                 raise InputError(self.label, None, "a column speed [m/s], or a speed in the scene", "has no speed")
             self.remarks.append(f"Normal speeds are the scene's, {self.scene.speed:.6g} m/s.")
