@@ -22,6 +22,7 @@ from .measurements import UNKNOWN, Measurements, read_data, rows_of
 RTOL = 1e-8
 _TOLERATED = 0.25  # difference from the scene's restitution at which a row counts as not as observed
 _POOR, _GOOD, _BETTER = 0.8, 0.75, 0.3  # shares of agreement: as given, otherwise, and the least gain
+_SIGNS = 2.0  # standard deviations of the sign test from which the other kind of speed is asked about
 _NOISE = 5.0  # standard deviations by which a restitution must exceed what is possible
 _SPEEDS, _MOST = 48, 2000  # speeds of the search for the largest restitution; most rows
 _WIDE = 3.0  # standard deviations of speed and angle that are allowed for
@@ -47,7 +48,7 @@ class Checkup:
     """The result of `check_data`.
 
     Attributes:
-        findings: what is odd; kinds "units", "energy", "restitution", "outlier", "duplicate", "contradiction".
+        findings: what is odd; kinds "units", "energy", "restitution", "speed", "outlier", "duplicate", "contradiction".
         agreement: share of the impacts that come out as observed with the scene as it is.
         differing: labels of the impacts that do not.
         telling: entry -> number of impacts that would visibly differ if it were twice or half as large.
@@ -124,7 +125,8 @@ def examine(scene: Scene, data: Measurements) -> list[Finding]:
         findings = [Finding("energy", (), str(error))]
     experiment = _as_it_is(scene, data)
     seen = _predicted(experiment, data)
-    findings = [*_units(experiment, data, seen.agreement), *findings, *_beyond(experiment, data, seen)]
+    units = _units(experiment, data, seen.agreement) or _kind_of_speed(experiment, data, seen)
+    findings = [*units, *findings, *_beyond(experiment, data, seen)]
     return [*findings, *_outliers(experiment, data, seen), *_duplicates(data)]
 
 
@@ -195,6 +197,21 @@ def _units(experiment: Experiment, data: Measurements, share: float) -> list[Fin
         f"as the scene is, {share:.0%} of the impacts come out as observed; with {words} it is {best:.0%}. {question}"
     )
     return [Finding("units", (), f"{text} Or are entries of the scene far off?")]
+
+
+def _kind_of_speed(experiment: Experiment, data: Measurements, seen: _Predicted) -> list[Finding]:
+    """Whether speeds whose column does not say which they are agree better as magnitudes, by a sign test."""
+    if not data.kind_unsaid:
+        return []
+    other = _predicted(experiment, data, data.speed * np.cos(data.angle))
+    gained, lost = (int(np.count_nonzero(each)) for each in (other.agrees & ~seen.agrees, seen.agrees & ~other.agrees))
+    if gained - lost <= _SIGNS * math.sqrt(gained + lost):
+        return []
+    text = (
+        f"as the scene is, {seen.agreement:.0%} of the impacts come out as observed; with these speeds as the "
+        f"magnitude of the relative velocity it is {other.agreement:.0%}. Which are they? Name the column v_n or v_rel"
+    )
+    return [Finding("speed", (), text)]
 
 
 def _beyond(experiment: Experiment, data: Measurements, seen: _Predicted) -> list[Finding]:

@@ -105,7 +105,7 @@ def fit(
         else:
             best, ends = intervals(likelihood, entries, best)
         for k, (each, findings) in enumerate(zip(parts, odd, strict=True)):
-            about = [one.text for one in findings if contradicts or one.kind in ("outlier", "duplicate")]
+            about = [one.text for one in findings if contradicts or one.kind in ("speed", "outlier", "duplicate")]
             remarks = (*(f"Before the fit: {text}" for text in about), *each.data.remarks)
             parts = (*parts[:k], replace(each, data=replace(each.data, remarks=remarks)), *parts[k + 1 :])
         result = _result(parts, likelihood, entries, best, ends)

@@ -53,9 +53,12 @@ _SPELT = {  # as people name columns, in small letters with underscores
     "rotation": "rotation_angle",
 }
 _CANONICAL = {word: name for name, words in _SPELT.items() for word in (name, *words.split())}
+_EITHER = ("v", "velocity", "impact_speed", "impact_velocity")  # taken for the normal speed, often the magnitude
+_DOTTED = re.compile(r"\w+\.\w+")  # no "Temp."
 _SPREAD_WORDS = re.compile(r"(.*?)_*(sd|std|err|error|sigma|uncertainty)")
 _MISSPELT = 0.75  # similarity to a known name from which an unknown column is refused and not left out
 _NOISE = 5.0  # standard deviations by which a measured restitution may lie below 0
+_NAMED = 8  # rows in a sentence
 _WIDEST = 1 / 3  # relative scatter of a speed
 
 
@@ -69,6 +72,7 @@ class Measurements:
         outcome: 0 stick, 1 stick-rotate-separate, 2 bounce, -1 not recorded.
         observed: result -> values and standard deviations of its measurement; NaN where it was not measured.
         columns: other entries that differ from row to row, by dotted name.
+        kind_unsaid: the name of the column does not say which speed it is.
         remarks: sentences on what the data left to defaults.
         labels: what names a row in messages.
     """
@@ -81,6 +85,7 @@ class Measurements:
     observed: Mapping[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
     columns: Mapping[str, np.ndarray] = field(default_factory=dict)
     relative: bool = False
+    kind_unsaid: bool = False
     remarks: tuple[str, ...] = ()
     labels: tuple[str, ...] = ()
 
@@ -192,7 +197,8 @@ def read_data(source: Any, scene: Scene, label: str = "data") -> Measurements:
     Columns, also as people name them (`v (mm/s)`, `COR`, `theta err`): speed, relative_speed or stokes, and angle;
     speed_sd, angle_sd; outcome; restitution, tangential_restitution, contact_time, rotation, each with NAME_sd; entries
     of the scene by their dotted names. Standard deviations may be in %. Empty cells are missing. Restitution 0 without
-    an outcome is a stick. Other columns are not used, and named in a remark, unless they look like a misspelt name.
+    an outcome is a stick. Other columns are not used, and named in a remark, unless they look like a misspelt name,
+    or are in a unit of speed or angle where no column is the speed or the angle.
 
     Raises:
         InputError: an unknown column or unit, or a bad cell, named by row and column.
@@ -210,24 +216,28 @@ class _Table:
             raise InputError(label, None, "at least one row", "has no rows")
         self.by_name: dict[str, Column] = {}
         self.remarks: list[str] = []
-        ignored = []
+        self.kind_unsaid = False
+        self.unused: list[Column] = []
         for column in columns:
             name = _canonical(column.name)
             if self._is_known(name):
                 self.by_name[name] = replace(column, name=name)
                 if name != column.name:
-                    self.remarks.append(f'Column "{column.name}" is read as {_MEANT.get(name, name)}.')
+                    self.kind_unsaid |= name == "speed" and _word(column.name) in _EITHER
+                    meant = _MEANT.get("unsaid" if name == "speed" and self.kind_unsaid else name, name)
+                    self.remarks.append(f'Column "{column.name}" is read as {meant}.')
             else:
-                ignored.append(column.name)
-        if ignored:
-            self.remarks.append(f"Columns that are not used: {', '.join(ignored)}.")
+                self.unused.append(column)
+        if self.unused:
+            self.remarks.append(f"Columns that are not used: {', '.join(one.name for one in self.unused)}.")
 
     def _is_known(self, name: str) -> bool:
         """Whether a column is used; InputError for a name that is close to a known one, and for a repeated one."""
         entries = [each for each in self.scene.fields if each not in MEETING and not self.scene.fields[each].choices]
         if name not in (*_PLAIN, *entries):
-            known = entries if "." in name else [*_PLAIN, *_CANONICAL]
-            if "." not in name and not get_close_matches(name.lower(), known, cutoff=_MISSPELT):
+            dotted = _DOTTED.fullmatch(name)
+            known = entries if dotted else [*_PLAIN, *_CANONICAL]
+            if not dotted and not get_close_matches(name.lower(), known, cutoff=_MISSPELT):
                 return False
             accepted = f"{', '.join(_PLAIN)}, and entries of the scene by dotted name"
             raise InputError(self.header, name, accepted, "is unknown" + did_you_mean(name, known))
@@ -236,6 +246,14 @@ class _Table:
         if name in entries and name.partition(".")[0] not in {entry.partition(".")[0] for entry, _ in self.scene.si}:
             raise InputError(self.header, name, "entries of the scene's tables", "has no table there")
         return True
+
+    def _refuse_unused(self, kind: str) -> None:
+        """InputError for an unused column in a unit of this kind, which no column is: its name is unknown."""
+        for column in self.unused:
+            if units.COMMON.get(units.spelling(column.unit or ""), ("", 0))[0] == _IMPACT[kind]:
+                accepted = f'a column named {kind}, or "{column.name}" without its unit if it is another one'
+                problem = f"is in {column.unit}, and no column is the {kind}"
+                raise InputError(self.header, column.name, accepted, problem)
 
     def _where(self, row: int, name: str) -> str:
         return f"{self.label}, {row_name(row + 1, self.lines[row])}, column {name}"
@@ -311,15 +329,17 @@ class _Table:
         labels = tuple(row_name(k, line) for k, line in enumerate(self.lines, 1))
         data = Measurements(
             speed, angle, speed_sd, angle_sd, outcome.astype(np.int8), observed, columns, of_speed == "relative_speed",
-            (), labels,
+            self.kind_unsaid, (), labels,
         )  # fmt: skip
         observation = data.measured | (outcome != UNKNOWN)
         if not observation.any():
             accepted = "outcome, restitution or another result in at least one row"
             raise InputError(self.label, None, accepted, "says nothing of any impact")
         if not observation.all():
-            left = ", ".join(labels[k] for k in np.flatnonzero(~observation)[:8])
-            self.remarks.append(f"Left out, for neither outcome nor result is given: {left}.")
+            left = np.flatnonzero(~observation)
+            named, more = ", ".join(labels[k] for k in left[:_NAMED]), f" ... ({left.size} rows)"
+            more = more if left.size > _NAMED else ""
+            self.remarks.append(f"Left out, for neither outcome nor result is given: {named}{more}.")
             data = data.part(np.flatnonzero(observation))
         return replace(data, remarks=tuple(self.remarks))
 
@@ -327,6 +347,7 @@ class _Table:
         if "angle" in self.by_name:
             words = "an angle from 0 to below 90 deg"
             return self._numbers("angle", "rad", lambda v: 0 <= v < math.pi / 2, words, gaps=False)
+        self._refuse_unused("angle")
         if self.scene.angle is None:
             raise InputError(self.label, None, "a column angle [deg], or an impact angle in the scene", "has no angle")
         self.remarks.append(f"Angles are the scene's, {math.degrees(self.scene.angle):.6g} deg.")
@@ -339,6 +360,7 @@ class _Table:
             accepted = "only one of speed, relative_speed, stokes"
             raise InputError(self.header, names[1], accepted, f"is given together with {names[0]}")
         if not names:
+            self._refuse_unused("speed")
             if self.scene.speed is None:
                 raise InputError(self.label, None, "a column speed [m/s], or a speed in the scene", "has no speed")
             self.remarks.append(f"Normal speeds are the scene's, {self.scene.speed:.6g} m/s.")
@@ -422,15 +444,21 @@ class _Table:
 
 def _canonical(text: str) -> str:
     """The name of a column as people write it: `v`, `COR`, `theta err`; a dotted name and an unknown one stay."""
-    word = re.sub(r"[\s-]+", "_", text.strip().lower())
+    word = _word(text)
     if word in _CANONICAL or "." in word:
         return _CANONICAL.get(word, text)
     spread = _SPREAD_WORDS.fullmatch(word)
     return f"{_CANONICAL[spread[1]]}_sd" if spread and spread[1] in _CANONICAL else text
 
 
+def _word(text: str) -> str:
+    """In small letters with underscores."""
+    return re.sub(r"[\s-]+", "_", text.strip().lower())
+
+
 _MEANT = {
-    "speed": "the normal speed (name it relative_speed if it is the magnitude of the relative velocity)",
+    "speed": "the normal speed",
+    "unsaid": "the normal speed (name it relative_speed if it is the magnitude of the relative velocity)",
     "relative_speed": "the magnitude of the relative velocity",
 }
 

@@ -27,6 +27,8 @@ _UNITS = {"speed": "m/s", "angle": "deg", "contact_time": "s", "rotation": "deg"
 _CLEAR = 4.0  # standard deviations of the noise by which a pair is apart
 _LEAST = 4  # frames of a line
 _STRAY = 10.0  # times the usual distance from a line, which a frame of a film that is tracked well does not reach
+_QUANTUM = 0.3  # pixels: jitter of positions in whole pixels
+_PIXELS = (None, "px", "pixel", "pixels", "")
 _ROUNDING = 1e-9  # of positions, over the distance of the centres
 _SIDEWAYS = 3.0  # standard deviations from which an impact is oblique
 _STEP = 1e-2  # of differences, over the standard deviation of a parameter
@@ -129,6 +131,7 @@ def tracks(
         scale = units.quantity(scale, "m", "scale", '"12.5 um"')
     positions = np.stack([_numbers(known[name], "m", scale, "scale") for name in ("x1", "y1", "x2", "y2")], axis=1)
     unit = _factor(known["x1"], "m", scale, "scale")
+    least = _QUANTUM * unit if known["x1"].unit in _PIXELS else 0.0
     if "time" in known:
         time = _numbers(known["time"], "s", None, "")
     elif "frame" in known:
@@ -145,7 +148,7 @@ def tracks(
         relative = positions[which, 2:] - positions[which, :2]
         given = None if noise is None else math.sqrt(2) * noise * unit
         try:
-            values, sigma, said = _impact(f"impact {label}", time[which], relative, reaches, given, scale_sd)
+            values, sigma, said = _impact(f"impact {label}", time[which], relative, reaches, given, scale_sd, least)
         except InputError as error:
             left_out.append(error)
             remarks.append(f"left out: {error}")
@@ -156,6 +159,11 @@ def tracks(
         remarks += [f"impact {label}: {said}"] if said else []
     if not rows:
         raise left_out[0]
+    gaps = f"x0 = {1e6 * loaded.liquid.film_thickness:.4g} um and x_f = {1e6 * loaded.rupture_gap:.4g} um"
+    remarks.append(
+        f"Speed, angle, contact time and rotation are those at the scene's gaps, {gaps}; no standard deviation holds "
+        "an error of these. Do not fit the film or the bridge to this contact time and rotation."
+    )
     columns = {name: [row[name] for row in rows] for name in rows[0]}
     always = ("speed", "angle", "speed_sd", "angle_sd", "outcome")
     kept = {name: each for name, each in columns.items() if name in always or any(one == one for one in each)}
@@ -163,9 +171,19 @@ def tracks(
 
 
 def _impact(
-    label: str, time: np.ndarray, relative: np.ndarray, reaches: tuple[float, ...], noise: float | None, scale_sd: float
+    label: str,
+    time: np.ndarray,
+    relative: np.ndarray,
+    reaches: tuple[float, ...],
+    noise: float | None,
+    scale_sd: float,
+    least: float,
 ) -> tuple[dict[str, Any], float, str]:
-    """Results of one impact, the noise of a relative coordinate (m), and a remark."""
+    """Results of one impact, the noise of a relative coordinate (m), and a remark.
+
+    Arguments:
+        least: jitter from frame to frame that rounding to pixels makes, m.
+    """
     distance, (solids, touch, apart) = np.linalg.norm(relative, axis=1), reaches
     jitter = np.abs(np.diff(relative, 2, axis=0))  # of a uniform motion noise alone
     sigma = noise or (float(np.median(jitter)) / (0.6745 * math.sqrt(6)) if jitter.size else 0.0)
@@ -203,6 +221,15 @@ def _impact(
                 f"{off[worst]:.3g} m off its line at {since_first + time[part][worst]:.6g} s, others {usual:.2g} m"
             )
             raise InputError(f"tracks, {label}", None, "positions along straight lines", problem)
+        steps, times = np.diff(relative[part], axis=0), np.diff(time[part])
+        jumps = np.linalg.norm(steps - times[:, None] * np.median(steps / times[:, None], axis=0), axis=1)
+        worst, usual = int(np.argmax(jumps)), max(float(np.median(jumps)), noise or 0.0, least)
+        if jumps[worst] > _STRAY * usual + _ROUNDING * touch:
+            problem = (
+                f"jump by {jumps[worst]:.3g} m after {since_first + time[part][worst]:.6g} s, others by {usual:.2g} m: "
+                "is a frame missing that the numbers of the frames do not count, or are the two spheres exchanged?"
+            )
+            raise InputError(f"tracks, {label}", None, "a uniform motion", problem)
 
     def results(parameters: np.ndarray) -> np.ndarray:
         lines = (1 + parameters[-1]) * parameters[:-1].reshape(-1, 2, 2)
@@ -264,7 +291,7 @@ def _state(line: np.ndarray, distance: float, side: int) -> tuple[float, float, 
 
 
 def _factor(column: Column, si: str, plain: float | None, option: str) -> float:
-    if column.unit in (None, "px", "pixel", "pixels", ""):
+    if column.unit in _PIXELS:
         if plain is None:
             accepted = f"{option}, or a unit in the column's name" if option else "a unit in the column's name"
             raise InputError("tracks, header", column.name, accepted, "has no unit")

@@ -18,7 +18,7 @@ _LARGEST = 20_000_000  # bytes of a file
 _MOST_ROWS = 100_000
 _HEADER = re.compile(r"\s*([^\[\]()]+?)\s*(?:[\[(]\s*([^\[\]()]*?)\s*[\])])?\s*")
 DECIMAL_COMMA = re.compile(r"\s*[-+]?\d*,\d+\s*")
-_DECIMAL_POINT = re.compile(r"\s*[-+]?\d*\.\d+.*")
+_DECIMAL_POINT = re.compile(r"\s*[-+]?\d*\.\d+(?!\d*[.,]).*")  # no date 12.03.2026, no thousands 1.798,7
 
 
 @dataclass(frozen=True)

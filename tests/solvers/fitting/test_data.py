@@ -69,6 +69,38 @@ def test_bad_cells_are_named(tmp_path, header, row, field, said):
     assert said in str(error.value)
 
 
+def test_dates_and_texts_with_dots_leave_a_german_spreadsheet_german(tmp_path):
+    """A date, `Temp.` and a remark are no decimal points: the commas are read; thousands with a point are named."""
+    head = "Datum;Temp. (°C);Bemerkung;speed (mm/s);angle (°);outcome\n"
+    rows = "12.03.2026;21,5;v. oben;500,5;30;B\n13.03.2026;;ok;200;29,5;S\n"
+    found = read_data(written(tmp_path, head + rows), SCENE)
+    np.testing.assert_allclose(found.speed, [0.5005, 0.2])
+    assert "Columns that are not used: Datum, Temp., Bemerkung." in found.remarks
+    with pytest.raises(InputError, match="is not a number") as error:
+        read_data(written(tmp_path, f"{head}12.03.2026;21,5;ok;1.500,5;30,1;B\n"), SCENE)
+    assert "column speed" in error.value.field
+    assert error.value.value == "1.500,5"
+
+
+@pytest.mark.parametrize(
+    ("header", "kind"), [("speed [m/s],Winkel [°]", "angle"), ("v_imp (m/s),angle [deg]", "speed")]
+)
+def test_the_only_column_in_a_unit_of_speed_or_angle_is_not_passed_over(tmp_path, header, kind):
+    """In its place all impacts would have the scene's; without its unit it is another column."""
+    scene = SCENE.with_impact(speed=1.0, angle=0.1)
+    with pytest.raises(InputError, match=f"no column is the {kind}"):
+        read_data(written(tmp_path, f"{header},outcome\n0.5,30,B\n"), scene)
+    bare = header.replace(" [°]", "").replace("v_imp (m/s)", "v_imp")
+    assert read_data(written(tmp_path, f"{bare},outcome\n0.5,30,B\n"), scene).size == 1
+
+
+def test_rows_that_are_left_out_are_counted_where_not_all_are_named(tmp_path):
+    """Eight are named."""
+    text = "speed [m/s],angle [deg],outcome\n0.5,30,B\n" + "0.5,30,\n" * 11
+    [remark] = [one for one in read_data(written(tmp_path, text), SCENE).remarks if one.startswith("Left out")]
+    assert remark.endswith("row 9 (line 10) ... (11 rows).")
+
+
 def test_empty_columns_at_the_right_are_no_columns(tmp_path):
     """A spreadsheet's file, with a byte order mark, semicolons and empty columns at the right, is read."""
     text = "\ufeffspeed [m/s];angle [deg];outcome;;\n0.5;30;Bounce;;\n0.2;30;Stick Rotate Separate;;\n"

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from wetdoublet.generated.automaton import OUTCOMES
 from wetdoublet.solvers import Scene, check_data, collide, fit
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements, read_data
 
@@ -71,6 +72,27 @@ def test_wrong_units_are_asked_about(change, question: str) -> None:
     assert units.kind == "units"
     assert question in units.text
     assert {one.kind for one in others} <= {"restitution"}
+
+
+def table_of(data: Measurements, name: str) -> dict[str, list]:
+    """Columns in SI, the normal speed or the magnitude under this name."""
+    speed = data.speed / np.cos(data.angle) if "rel" in name or name == "v" else data.speed
+    outcome = [OUTCOMES[code] for code in data.outcome]
+    restitution = data.observed["restitution"][0]
+    return {name: list(speed), "angle": list(data.angle), "restitution": list(restitution), "outcome": outcome}
+
+
+def test_the_kind_of_speed_is_asked_about_where_its_name_does_not_say() -> None:
+    """Magnitudes in a column `v` are read as normal speeds: `check` and `fit` say that the other kind agrees better."""
+    data = impacts(60)
+    [kind] = [one for one in check_data(table_of(data, "v"), PENDULUM).findings if one.kind == "speed"]
+    assert "Name the column v_n or v_rel" in kind.text
+    for name in ("v_rel", "v_n", "relative_speed"):
+        found = check_data(table_of(data, name), PENDULUM)
+        assert not [one for one in found.findings if one.kind in ("speed", "units", "contradiction")]
+        assert not any("name it relative_speed" in each for each in found.notes)
+    found = fit(PENDULUM, table_of(data, "v"), ["liquid.viscosity"])
+    assert any("Name the column v_n or v_rel" in each for each in str(found).split("\n"))
 
 
 def test_what_does_not_come_out_is_named_and_no_contradiction_is_nothing_odd() -> None:

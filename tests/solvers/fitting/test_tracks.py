@@ -131,6 +131,29 @@ def test_a_frame_that_is_tracked_wrongly_is_named() -> None:
         tracks(film | {"x1": [np.nan, *film["x1"][1:]]}, scene, rate=rate, scale=PIXEL)
 
 
+def test_a_frame_that_is_not_counted_and_exchanged_spheres_are_named() -> None:
+    """Either shows as a jump of one step or more; a frame that is missing and counted does not matter."""
+    film, rate, scene, _ = film_of("lactose-pvp", 12, 40, 0.2, 1)
+    fewer = {name: np.delete(values, 11) for name, values in film.items()}
+    assert tracks(fewer, scene, rate=rate, scale=PIXEL).labels == ("1",)
+    with pytest.raises(InputError, match="is a frame missing"):
+        tracks(fewer | {"frame": np.arange(fewer["frame"].size)}, scene, rate=rate, scale=PIXEL)
+    late = np.arange(film["frame"].size) > 60
+    for one, two in (("x1", "x2"), ("y1", "y2")):
+        film |= {one: np.where(late, film[two], film[one]), two: np.where(late, film[one], film[two])}
+    with pytest.raises(InputError, match="exchanged"):
+        tracks(film, scene, rate=rate, scale=PIXEL)
+
+
+def test_the_gaps_that_are_taken_from_the_scene_are_said() -> None:
+    """Contact times with another film are off by many of their standard deviations, and a remark says of what."""
+    film, rate, scene, one = film_of("lactose-pvp", 12, 40, 0.2, 1)
+    thinner = scene.with_entries({"liquid.coating_thickness": 0.8 * scene.entries["liquid.coating_thickness"]})
+    found = tracks(film, thinner, rate=rate, scale=PIXEL)
+    assert abs(found.columns["contact_time"][0] - one.contact_time) > 5 * found.columns["contact_time_sd"][0]
+    assert f"x0 = {1e6 * thinner.liquid.film_thickness:.4g} um" in found.remarks[-1]
+
+
 def test_what_is_wrong_is_named() -> None:
     """No scale, no rate, a missing column, too short a film, two that pass each other, a wall."""
     film, rate, scene, _ = film_of("granulation", 0.2, 30, 0.2, 1)
