@@ -191,19 +191,6 @@ static void rebound(const constants *c, const dual *y, dual *after)
     after[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
 }
 
-/* Energies of the state over m v0^2. */
-static dual stored_energy(const constants *c, const dual *y)
-{
-    (void)c; (void)y;
-    dual distance = d_add(d_mul(c->aspect, y[GAP]), d_ratio(4.0, 1.0));
-    dual orbital_rate = d_div(y[ORBITAL_MOMENTUM], d_power(distance, 2));
-    dual spin = d_add(d_mul(d_ratio(5.0, 32.0), c->momentum), d_mul(d_mul(d_ratio(-1.0, 1.0), d_ratio(5.0,
-        32.0)), y[ORBITAL_MOMENTUM]));
-    return d_add(d_add(d_mul(d_mul(d_mul(d_ratio(1.0, 32.0), d_power(distance, 2)), d_power(c->obliquity, 2)),
-        d_power(orbital_rate, 2)), d_mul(d_ratio(1.0, 2.0), d_power(y[NORMAL_VELOCITY], 2))),
-        d_mul(d_mul(d_ratio(1.0, 5.0), d_power(c->obliquity, 2)), d_power(spin, 2)));
-}
-
 /* Energy above the least at the same gap and angular momentum, over m v0^2. */
 static dual excess_energy(const constants *c, const dual *y)
 {
@@ -227,4 +214,34 @@ static dual least_energy(const constants *c, const dual *y)
     dual inertia_ratio = d_add(d_power(distance, 2), d_ratio(32.0, 5.0));
     return d_div(d_mul(d_power(c->momentum, 2), d_power(c->obliquity, 2)), d_mul(d_ratio(32.0, 1.0),
         inertia_ratio));
+}
+
+/* Energy over m v0^2 that may carry the state to a larger gap. */
+static dual held_energy(const constants *c, const dual *y)
+{
+    (void)c; (void)y;
+    dual distance = d_add(d_mul(c->aspect, y[GAP]), d_ratio(4.0, 1.0));
+    dual rotation_energy_unit = d_mul(d_ratio(1.0, 16.0), d_power(c->obliquity, 2));
+    return d_add(d_mul(d_ratio(1.0, 2.0), d_power(y[NORMAL_VELOCITY], 2)),
+        d_div(d_mul(d_power(y[ORBITAL_MOMENTUM], 2), rotation_energy_unit), d_mul(d_ratio(2.0, 1.0),
+        d_power(distance, 2))));
+}
+
+/* What is needed of it at this gap with this momentum, over m v0^2, without work. */
+static dual needed_energy(const constants *c, const dual *y)
+{
+    (void)c; (void)y;
+    dual distance = d_add(d_mul(c->aspect, y[GAP]), d_ratio(4.0, 1.0));
+    dual spin = d_add(d_mul(d_ratio(5.0, 32.0), c->momentum), d_mul(d_mul(d_ratio(-1.0, 1.0), d_ratio(5.0,
+        32.0)), y[ORBITAL_MOMENTUM]));
+    dual rotation_energy_unit = d_mul(d_ratio(1.0, 16.0), d_power(c->obliquity, 2));
+    dual rigid_momentum = d_div(d_mul(d_mul(d_ratio(5.0, 1.0), d_power(distance, 2)), d_add(d_mul(d_ratio(5.0,
+        1.0), y[ORBITAL_MOMENTUM]), d_mul(d_ratio(32.0, 1.0), spin))), d_add(d_mul(d_ratio(25.0, 1.0),
+        d_power(distance, 2)), d_ratio(160.0, 1.0)));
+    return d_add(d_div(d_mul(d_mul(d_mul(d_ratio(-1.0, 1.0), rotation_energy_unit), d_add(d_mul(d_ratio(5.0,
+        1.0), d_power(distance, 2)), d_ratio(32.0, 1.0))), d_power(d_add(d_mul(d_ratio(-1.0, 1.0),
+        rigid_momentum), d_larger(d_smaller(d_ratio(0.0, 1.0), rigid_momentum), d_smaller(y[ORBITAL_MOMENTUM],
+        d_larger(d_ratio(0.0, 1.0), rigid_momentum)))), 2)), d_mul(d_ratio(64.0, 1.0), d_power(distance, 2))),
+        d_div(d_mul(d_power(y[ORBITAL_MOMENTUM], 2), rotation_energy_unit), d_mul(d_ratio(2.0, 1.0),
+        d_power(distance, 2))));
 }

@@ -260,22 +260,6 @@ static void rebound(const constants *c, const dual *y, dual *after)
     after[SPIN] = y[SPIN];
 }
 
-/* Energies of the state over m v0^2. */
-static dual stored_energy(const constants *c, const dual *y)
-{
-    (void)c; (void)y;
-    dual distance = d_add(d_mul(c->aspect, y[GAP]), c->centres);
-    dual orbital_rate = d_div(y[ORBITAL_MOMENTUM], d_power(distance, 2));
-    dual partner_spin = d_div(d_add(d_add(c->momentum, d_mul(d_ratio(-1.0, 1.0), y[ORBITAL_MOMENTUM])),
-        d_mul(d_mul(d_ratio(-1.0, 1.0), y[SPIN]), c->spin_inertia)), c->partner_inertia);
-    return d_add(d_add(d_add(d_mul(d_ratio(1.0, 2.0), d_power(y[NORMAL_VELOCITY], 2)),
-        d_div(d_mul(d_mul(d_power(distance, 2), d_power(c->obliquity, 2)), d_power(orbital_rate, 2)),
-        d_mul(d_ratio(2.0, 1.0), d_power(c->centres, 2)))), d_div(d_mul(d_mul(d_power(c->obliquity, 2),
-        c->partner_inertia), d_power(partner_spin, 2)), d_mul(d_ratio(2.0, 1.0), d_power(c->centres, 2)))),
-        d_div(d_mul(d_mul(d_power(c->obliquity, 2), d_power(y[SPIN], 2)), c->spin_inertia), d_mul(d_ratio(2.0,
-        1.0), d_power(c->centres, 2))));
-}
-
 /* Energy above the least at the same gap and angular momentum, over m v0^2. */
 static dual excess_energy(const constants *c, const dual *y)
 {
@@ -297,6 +281,32 @@ static dual excess_energy(const constants *c, const dual *y)
 /* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
  * least energy along the gap, capillary work included. */
 static dual least_energy(const constants *c, const dual *y)
+{
+    (void)c; (void)y;
+    dual distance = d_add(d_mul(c->aspect, y[GAP]), c->centres);
+    dual inertia_ratio = d_add(d_add(d_power(distance, 2), c->partner_inertia), c->spin_inertia);
+    return d_div(d_mul(d_power(c->momentum, 2), d_power(c->obliquity, 2)), d_mul(d_mul(d_ratio(2.0, 1.0),
+        d_power(c->centres, 2)), inertia_ratio));
+}
+
+/* Energy over m v0^2 that may carry the state to a larger gap. */
+static dual held_energy(const constants *c, const dual *y)
+{
+    (void)c; (void)y;
+    dual distance = d_add(d_mul(c->aspect, y[GAP]), c->centres);
+    dual orbital_rate = d_div(y[ORBITAL_MOMENTUM], d_power(distance, 2));
+    dual partner_spin = d_div(d_add(d_add(c->momentum, d_mul(d_ratio(-1.0, 1.0), y[ORBITAL_MOMENTUM])),
+        d_mul(d_mul(d_ratio(-1.0, 1.0), y[SPIN]), c->spin_inertia)), c->partner_inertia);
+    return d_add(d_add(d_add(d_mul(d_ratio(1.0, 2.0), d_power(y[NORMAL_VELOCITY], 2)),
+        d_div(d_mul(d_mul(d_power(distance, 2), d_power(c->obliquity, 2)), d_power(orbital_rate, 2)),
+        d_mul(d_ratio(2.0, 1.0), d_power(c->centres, 2)))), d_div(d_mul(d_mul(d_power(c->obliquity, 2),
+        c->partner_inertia), d_power(partner_spin, 2)), d_mul(d_ratio(2.0, 1.0), d_power(c->centres, 2)))),
+        d_div(d_mul(d_mul(d_power(c->obliquity, 2), d_power(y[SPIN], 2)), c->spin_inertia), d_mul(d_ratio(2.0,
+        1.0), d_power(c->centres, 2))));
+}
+
+/* What is needed of it at this gap with this momentum, over m v0^2, without work. */
+static dual needed_energy(const constants *c, const dual *y)
 {
     (void)c; (void)y;
     dual distance = d_add(d_mul(c->aspect, y[GAP]), c->centres);

@@ -164,19 +164,6 @@ static void rebound(const constants *c, const dual *y, dual *after)
     after[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
 }
 
-/* Energies of the state over m v0^2. */
-static dual stored_energy(const constants *c, const dual *y)
-{
-    (void)c; (void)y;
-    dual distance = d_add(d_mul(c->aspect, y[GAP]), d_ratio(4.0, 1.0));
-    dual orbital_rate = d_div(y[ORBITAL_MOMENTUM], d_power(distance, 2));
-    dual spin = d_add(d_mul(d_ratio(5.0, 32.0), c->momentum), d_mul(d_mul(d_ratio(-1.0, 1.0), d_ratio(5.0,
-        32.0)), y[ORBITAL_MOMENTUM]));
-    return d_add(d_add(d_mul(d_mul(d_mul(d_ratio(1.0, 32.0), d_power(distance, 2)), d_power(c->obliquity, 2)),
-        d_power(orbital_rate, 2)), d_mul(d_ratio(1.0, 2.0), d_power(y[NORMAL_VELOCITY], 2))),
-        d_mul(d_mul(d_ratio(1.0, 5.0), d_power(c->obliquity, 2)), d_power(spin, 2)));
-}
-
 /* Energy above the least at the same gap and angular momentum, over m v0^2. */
 static dual excess_energy(const constants *c, const dual *y)
 {
@@ -194,6 +181,29 @@ static dual excess_energy(const constants *c, const dual *y)
 /* Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope of the
  * least energy along the gap, capillary work included. */
 static dual least_energy(const constants *c, const dual *y)
+{
+    (void)c; (void)y;
+    dual distance = d_add(d_mul(c->aspect, y[GAP]), d_ratio(4.0, 1.0));
+    dual inertia_ratio = d_add(d_power(distance, 2), d_ratio(32.0, 5.0));
+    return d_div(d_mul(d_power(c->momentum, 2), d_power(c->obliquity, 2)), d_mul(d_ratio(32.0, 1.0),
+        inertia_ratio));
+}
+
+/* Energy over m v0^2 that may carry the state to a larger gap. */
+static dual held_energy(const constants *c, const dual *y)
+{
+    (void)c; (void)y;
+    dual distance = d_add(d_mul(c->aspect, y[GAP]), d_ratio(4.0, 1.0));
+    dual orbital_rate = d_div(y[ORBITAL_MOMENTUM], d_power(distance, 2));
+    dual spin = d_add(d_mul(d_ratio(5.0, 32.0), c->momentum), d_mul(d_mul(d_ratio(-1.0, 1.0), d_ratio(5.0,
+        32.0)), y[ORBITAL_MOMENTUM]));
+    return d_add(d_add(d_mul(d_mul(d_mul(d_ratio(1.0, 32.0), d_power(distance, 2)), d_power(c->obliquity, 2)),
+        d_power(orbital_rate, 2)), d_mul(d_ratio(1.0, 2.0), d_power(y[NORMAL_VELOCITY], 2))),
+        d_mul(d_mul(d_ratio(1.0, 5.0), d_power(c->obliquity, 2)), d_power(spin, 2)));
+}
+
+/* What is needed of it at this gap with this momentum, over m v0^2, without work. */
+static dual needed_energy(const constants *c, const dual *y)
 {
     (void)c; (void)y;
     dual distance = d_add(d_mul(c->aspect, y[GAP]), d_ratio(4.0, 1.0));

@@ -27,6 +27,7 @@ from .cells import UNDECIDED, Cell
 DEPTH = 12  # halvings of a cell
 _MOVING = ("stokes", "angle")
 _POINTS = 6  # collisions along each side of a cell that say where a proof is worth a try
+_BOUNDED = 1.01  # of narrower boxes nothing is proved by bounds on the approach
 _ROTATE = OUTCOMES.index(ROTATE)
 
 
@@ -128,16 +129,20 @@ def prove_map(
     asked = 0
 
     def decided(cell: Cell, left: int) -> Iterator[tuple[Cell, bool]]:
-        expected = guide.expected(cell)
+        expected, spread = guide.expected(cell), -1
         if expected is not None or not left:
             ranges = inputs.ranges | {"stokes": cell.stokes, "angle": cell.angle}  # type: ignore[operator]
-            settings = BOX._replace(funnels=1) if expected == _ROTATE else BOX
-            number = enclose(engine, ranges, inputs.moving, settings).outcome - 1
+            narrow = cell.stokes[1] < cell.stokes[0] * _BOUNDED
+            settings = BOX._replace(funnels=1) if narrow or expected == _ROTATE else BOX
+            if expected is not None:
+                settings = settings._replace(expected=expected + 1)
+            found = enclose(engine, ranges, inputs.moving, settings)
+            number, spread = found.outcome - 1, found.spread if found.rebounds else -1
             yield cell._replace(outcome=number), number >= 0 or not left
             if number >= 0:
                 return
         if left:
-            for half in _halves(cell):
+            for half in _halves(cell, spread):
                 yield from decided(half, left - 1)
 
     def whole(cell: Cell) -> list[tuple[Cell, bool]]:
@@ -181,11 +186,12 @@ class _Guide(NamedTuple):
         return int(inside.flat[0]) if np.ptp(inside) == 0 else None
 
 
-def _halves(cell: Cell) -> tuple[Cell, Cell]:
-    """Both halves, across the side that changes the collision more: relative widths of St and of tan^2 of the angle."""
+def _halves(cell: Cell, spread: int) -> tuple[Cell, Cell]:
+    """Both halves, across the side that spreads trajectories more; unless it is known, by St and tan^2 of the angle."""
     (low, high), (flat, steep) = cell.stokes, cell.angle
     middle = 0.5 * (flat + steep)
-    if math.log(high / low) * math.sin(middle) * math.cos(middle) > 2 * (steep - flat):
+    finer = math.log(high / low) * math.sin(middle) * math.cos(middle) > 2 * (steep - flat)
+    if _MOVING[spread] == "stokes" if spread >= 0 else finer:
         between = math.sqrt(low * high)
         return cell._replace(stokes=(low, between)), cell._replace(stokes=(between, high))
     return cell._replace(angle=(flat, middle)), cell._replace(angle=(middle, steep))

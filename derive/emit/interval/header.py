@@ -6,12 +6,13 @@ from collections.abc import Mapping
 
 import sympy as sp
 
+from ...equations.certificates.orbital_momentum import UNIT, clamped_slip_energy, rigid_momentum
 from ...equations.events import CONTACT_GAPS, contact_gap
 from ...equations.model import Model, without_partner_spin
 from ...equations.observables import excess_energy
 from ...physics.forces import FILM, SHEAR
-from ...physics.laws.base import Law, needed, slot_call
-from ...physics.scaling import group_definitions
+from ...physics.laws.base import Definition, Law, needed, slot_call
+from ...physics.scaling import DISTANCE, group_definitions
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..casadi.printer import EmissionError
@@ -21,6 +22,8 @@ from ..taylor.law_header import COMPARED, LIMIT, clearance, moves
 from ..taylor.layout import comment, documented, function, struct
 from ..taylor.program import Program, cheapest
 from .text import Constants, dual, recurrences
+
+_RIGID = sp.Symbol("rigid_momentum", real=True)
 
 
 def refused(structure: Structure) -> str:
@@ -214,23 +217,42 @@ def _values(model: Model, constants: Constants) -> list[str]:
         further = ", const dual *y, dual *after" if array == "after" else ", dual *y"
         wanted = {f"{array}[{state.name.upper()}]": model[name][state.name] for state in model.states}
         lines += _value(model, constants, f"static void {name}(const constants *c{further})", model[name].doc, wanted)
-    energies, least = model["energies"], model["effective_potential"]
-    stored = sp.Add(*energies.by_name.values())
-    lines += _energy(model, constants, "stored", energies.doc, stored)
+    least = model["effective_potential"]
+    held = sp.Add(*model["energies"].by_name.values())
     doc = "Energy above the least at the same gap and angular momentum, over m v0^2."
-    lines += _energy(model, constants, "excess", doc, excess_energy(stored))
-    return lines + _energy(model, constants, "least", least.doc, least["energy"])
+    lines += _energy(model, constants, "excess", doc, excess_energy(held))
+    lines += _energy(model, constants, "least", least.doc, least["energy"])
+    needed_there = least["energy"]
+    rigid: tuple[Definition, ...] = ()
+    if "orbital_margins" in model and not shape.partner:  # its margin is the smaller one
+        orbit = model["orbital_margins"]["orbital_energy"]
+        rigid = ((_RIGID, rigid_momentum(DISTANCE, q.orbital_momentum, q.spin)),)
+        held = q.normal_velocity**2 / 2 + orbit
+        needed_there = orbit - UNIT * clamped_slip_energy(DISTANCE, q.orbital_momentum, _RIGID)
+    lines += _energy(model, constants, "held", "Energy over m v0^2 that may carry the state to a larger gap.", held)
+    doc = "What is needed of it at this gap with this momentum, over m v0^2, without work."
+    return lines + _energy(model, constants, "needed", doc, needed_there, rigid)
 
 
-def _energy(model: Model, constants: Constants, name: str, doc: str, value: sp.Expr) -> list[str]:
+def _energy(
+    model: Model, constants: Constants, name: str, doc: str, value: sp.Expr, further: tuple[Definition, ...] = ()
+) -> list[str]:
     head = f"static dual {name}_energy(const constants *c, const dual *y)"
-    return _value(model, constants, head, doc, {"return": value})
+    return _value(model, constants, head, doc, {"return": value}, further)
 
 
-def _value(model: Model, constants: Constants, head: str, doc: str, wanted: Mapping[str, sp.Expr]) -> list[str]:
-    """A C function of the states `y`, by C text of each target, or "return"."""
+def _value(
+    model: Model,
+    constants: Constants,
+    head: str,
+    doc: str,
+    wanted: Mapping[str, sp.Expr],
+    further: tuple[Definition, ...] = (),
+) -> list[str]:
+    """A C function of the states `y`, by C text of each target, or "return"; `further` definitions are its own."""
     places = {state: f"y[{state.name.upper()}]" for state in model.states}
-    definitions = [each for each in needed(list(wanted.values()), model.definitions)[0] if each[0] not in constants]
+    known = needed(list(wanted.values()), (*model.definitions, *further))[0]
+    definitions = [each for each in known if each[0] not in constants]
     local = {symbol: symbol.name for symbol, _ in definitions}
 
     def name(symbol: sp.Symbol) -> str:

@@ -39,6 +39,7 @@ class Settings(NamedTuple):
         tolerance: of the remainder of a step.
         widest: the widest set that is followed, in units of the states.
         panel: relative width of the panels of these bounds; for a box at least this, and up to PANEL with its width.
+        expected: the outcome to look for, as in `Enclosure`, so that nothing else is tried; 0 for any.
     """
 
     order: int
@@ -47,6 +48,7 @@ class Settings(NamedTuple):
     tolerance: float
     widest: float = 0.5
     panel: float = 0.01
+    expected: int = 0
 
 
 SHARP = Settings(14, 900, 0, 1e-13)  # what takes longer is proved with bounds over the gap, to fewer digits
@@ -56,7 +58,11 @@ PANEL = 0.08  # bounds over wider panels lose more than they save (maps of 12 x 
 
 
 class Enclosure(NamedTuple):
-    """What the engine has proved; `outcome` is 0 for nothing, then as in the report: stick, separation, bounce."""
+    """What the engine has proved; `outcome` is 0 for nothing, then as in the report: stick, separation, bounce.
+
+    Arguments:
+        spread: the moving quantity that spread the set most, by number; -1 if none did.
+    """
 
     outcome: int
     why: Why
@@ -65,6 +71,7 @@ class Enclosure(NamedTuple):
     restitution: Range
     smallest_gap: float
     panels: int
+    spread: int
 
 
 _EXCHANGED = {"impact_spin": "impact_partner_spin", "impact_partner_spin": "impact_spin"}
@@ -101,5 +108,6 @@ def enclose(engine: Engine, ranges: Mapping[str, Range], moving: tuple[str, ...]
     place = -(-ctypes.addressof(room) // _ALIGNED) * _ALIGNED
     data = (pairs.ctypes.data, columns.ctypes.data, numbers.ctypes.data, place, result.ctypes.data)
     engine.library.interval_prove(*data)
-    outcome, why, steps, rebounds, _, low, high, gap, panels = result[:9].tolist()
-    return Enclosure(int(outcome), Why(int(why)), int(steps), int(rebounds), (low, high), gap, int(panels))
+    outcome, why, steps, rebounds, _, low, high, gap, panels, spread = result.tolist()
+    counts = (int(panels), int(spread))
+    return Enclosure(int(outcome), Why(int(why)), int(steps), int(rebounds), (low, high), gap, *counts)

@@ -163,6 +163,8 @@ static int approach(proof *w, const options *o)
         x[GAP] = gap;
         box_of(TOGETHER, &within, x);
         if (first > 0.0 || touches || clearance_of(w, x) <= 0) { /* some may rebound from here on */
+            if (o->expected == STICK)
+                return 0;
             if (!(first > 0.0)) {
                 first = at;
                 met = within;
@@ -175,13 +177,15 @@ static int approach(proof *w, const options *o)
         } else {
             x[GAP] = iv_point(to);
             box_of(TOGETHER, &after, x);
-            if (below_barrier(&w->p, &w->wall, x) || stopped(w, x)) {
+            set all;
+            set_of(x, &all);
+            if (below_barrier(&w->p, &w->wall, &all) || stopped(w, x)) {
                 w->smallest = 0.0;
                 end(w, STICK, PROVED);
                 return 1;
             }
         }
-        if (last && iv_hi(contact) == iv_lo(contact)) /* contact is a number: all arrive there */
+        if (o->expected != STICK && last && iv_hi(contact) == iv_lo(contact)) /* contact is a number: all arrive there */
             return rebounds_apart(w, to, first > 0.0 ? first : to, first > 0.0 ? &met : &after, o->panel);
         now = after;
         at = to;

@@ -1,15 +1,15 @@
 #pragma once
-/* The energy barrier over intervals: a doublet with less energy than the least that any state at some larger gap has,
- * work of the attractions included, never gets there. Dissipation only takes energy (derive/checks/certificate.py). */
+/* The barrier over intervals: a doublet with less energy than it needs to reach some larger gap, work of the attractions included,
+ * never gets there. That is the margin of the orbital-momentum certificate where that is derived
+ * (derive/checks/orbital_momentum_certificate.py), and else the energy above the least one (derive/checks/certificate.py). */
 #include "set.h"
 
 enum { WORK_ORDER = 10, PANELS = 96 };
 
 typedef struct {
     int known, count;
-    double middle[PANELS], upper[PANELS], first, gap; /* the first gap, and the barrier's */
-    iv force[PANELS][WORK_ORDER + 1], sum[PANELS]; /* coefficients of the force; work up to the panel's middle */
-    iv level; /* least energy and work at the barrier */
+    double middle[PANELS], upper[PANELS], first, gap, reach; /* `gap` has the barrier */
+    iv force[PANELS][WORK_ORDER + 1], below[PANELS], above[PANELS]; /* coefficients; integrals from the middle to both ends */
 } barrier;
 
 /* Attraction at rest as a series in the gap. */
@@ -39,38 +39,43 @@ static iv panel_work(const barrier *b, int n, iv gap)
     return sum;
 }
 
-/* Work from the first gap up to `gap`, which lies within the panels. */
-static iv work_to(const barrier *b, iv gap)
+/* Work between two gaps within the panels; what all of it has in common cancels. */
+static iv work(const barrier *b, iv from, iv to)
 {
-    iv work = {-INFINITY, -INFINITY};
-    for (int n = 0; n < b->count; n++) {
-        iv part = iv_meet(gap, iv_of(n ? b->upper[n - 1] : b->first, b->upper[n]));
-        if (iv_lo(part) <= iv_hi(part))
-            work = iv_hull(work, iv_add(b->sum[n], panel_work(b, n, part)));
+    iv all = {-INFINITY, -INFINITY};
+    if (!b->count)
+        return iv_point(0.0);
+    if (!(smaller(iv_lo(from), iv_lo(to)) >= b->first && larger(iv_hi(from), iv_hi(to)) <= b->upper[b->count - 1]))
+        return iv_line();
+    for (int m = 0; m < b->count; m++) {
+        const iv start = iv_meet(from, iv_of(m ? b->upper[m - 1] : b->first, b->upper[m]));
+        for (int n = 0; iv_width(start) >= 0.0 && n < b->count; n++) {
+            const iv end = iv_meet(to, iv_of(n ? b->upper[n - 1] : b->first, b->upper[n]));
+            if (!(iv_width(end) >= 0.0))
+                continue;
+            iv sum = iv_sub(panel_work(b, n, end), panel_work(b, m, start));
+            for (int k = m; k < n; k++)
+                sum = iv_add(sum, iv_sub(b->above[k], b->below[k + 1]));
+            for (int k = n; k < m; k++)
+                sum = iv_sub(sum, iv_sub(b->above[k], b->below[k + 1]));
+            all = iv_hull(all, sum);
+        }
     }
-    return work;
-}
-
-static iv energy_at(const problem *p, const iv *x, dual (*function)(const constants *, const dual *))
-{
-    dual y[STATES];
-    for (int i = 0; i < STATES; i++)
-        y[i] = d_value(x[i]);
-    return function(&p->box, y).v;
+    return all;
 }
 
 static void find_barrier(const problem *p, flow *s, barrier *b)
 {
     const double first = larger(0.5*iv_lo(p->level[CONTACT_GAP].v), 1e-9), last = iv_lo(p->level[RUPTURE_GAP].v);
-    iv rest[WORK_ORDER + 1], work = iv_point(0.0), x[STATES];
-    double at = first, best = -INFINITY;
+    iv rest[WORK_ORDER + 1];
+    double at = first;
     b->known = 1;
     b->first = first;
     b->count = 0;
     b->gap = -1.0;
+    b->reach = 0.05;
     if (!(BRIDGE || ATTRACTION))
         return;
-    memset(x, 0, sizeof x);
     while (at < last && b->count < PANELS) {
         const int n = b->count++;
         double to = b->count == PANELS || at*1.3 >= last ? last : at*1.3;
@@ -79,35 +84,78 @@ static void find_barrier(const problem *p, flow *s, barrier *b)
         attraction(p, s, iv_point(b->middle[n]), WORK_ORDER - 1, b->force[n]);
         attraction(p, s, iv_of(at, to), WORK_ORDER, rest);
         b->force[n][WORK_ORDER] = rest[WORK_ORDER];
-        b->sum[n] = iv_sub(work, panel_work(b, n, iv_point(at)));
-        work = iv_add(b->sum[n], panel_work(b, n, iv_point(to)));
+        b->below[n] = panel_work(b, n, iv_point(at));
+        b->above[n] = panel_work(b, n, iv_point(to));
         at = to;
-    }
-    double from = first, to = last;
-    for (int pass = 0; pass < 5; pass++) { /* any gap is a valid choice */
-        const double step = (to - from)/24.0;
-        double where = b->gap;
-        for (int i = 0; i <= 24; i++) {
-            x[GAP] = iv_point(smaller(from + step*i, last));
-            iv level = iv_add(energy_at(p, x, least_energy), work_to(b, x[GAP]));
-            if (iv_lo(level) > best) {
-                best = iv_lo(level);
-                where = iv_lo(x[GAP]);
-                b->level = level;
-            }
-        }
-        b->gap = where;
-        from = larger(where - step, first);
-        to = smaller(where + step, last);
     }
 }
 
-/* True if all states of a box are behind the barrier. */
-static int below_barrier(const problem *p, const barrier *b, const iv *x)
+/* A function of the states over the set: its value at the centre, and its derivatives. */
+static iv over_set(const problem *p, const set *s, iv centre, const dual *by)
 {
-    if (!(iv_hi(x[GAP]) < b->gap && iv_lo(x[GAP]) >= b->first))
+    for (int j = 0; j < PARAMETERS; j++) {
+        iv slope = HAS(by, STATES + j) ? by->d[STATES + j] : iv_point(0.0);
+        for (int l = 0; l < STATES; l++)
+            slope = iv_add(slope, iv_mul(by->d[l], iv_point(s->parameter[l][j])));
+        centre = iv_add(centre, iv_mul(slope, p->rho[j]));
+    }
+    for (int j = 0; j < STATES; j++) {
+        iv slope = iv_point(0.0);
+        for (int l = 0; l < STATES; l++)
+            slope = iv_add(slope, iv_mul(by->d[l], iv_point(s->q[l][j])));
+        centre = iv_add(centre, iv_mul(slope, s->r[j]));
+    }
+    return centre;
+}
+
+/* Energy that a set has above what it needs to reach a gap, work included: the margin of the orbital-momentum certificate. */
+static iv margin(const problem *p, const barrier *b, const set *s, iv gap)
+{
+    const constants *each[2] = {&p->centre, &p->box};
+    dual y[STATES], rest[STATES], above[2];
+    iv x[STATES];
+    hull_of(p, s, x);
+    for (int n = 0; n < 2; n++) {
+        for (int i = 0; i < STATES; i++) {
+            y[i] = d_value(n ? x[i] : iv_point(s->z[i]));
+            for (int j = 0; j < STATES; j++)
+                y[i].d[j] = iv_point(i == j);
+            y[i].mask = n ? (1u << STATES) - 1 : 0;
+        }
+        memcpy(rest, y, sizeof y);
+        rest[GAP] = d_value(gap);
+        above[n] = d_add(held_energy(each[n], y), d_negative(needed_energy(each[n], rest)));
+    }
+    const iv energy = iv_meet(over_set(p, s, above[0].v, &above[1]), above[1].v);
+    return iv_sub(energy, work(b, x[GAP], gap));
+}
+
+/* True if no state of a set ever reaches some larger gap. Any will do: the one that asks most of the centre is followed from
+ * call to call. */
+static int below_barrier(const problem *p, barrier *b, const set *s)
+{
+    iv x[STATES];
+    dual y[STATES];
+    double best = -INFINITY, from = b->gap;
+    hull_of(p, s, x);
+    const double least = iv_hi(x[GAP]), last = b->count ? b->upper[b->count - 1] : 0.0;
+    if (!(iv_lo(x[GAP]) >= b->first && least < last))
         return 0;
-    return iv_negative(iv_sub(iv_add(energy_at(p, x, stored_energy), work_to(b, x[GAP])), b->level));
+    for (int i = 0; i < STATES; i++)
+        y[i] = d_value(iv_point(s->z[i]));
+    const int tries = from > 0.0 ? 3 : 24;
+    for (int i = 0; i < tries; i++) {
+        const double at = tries > 3 ? least + (last - least)*(i + 1)/tries : from*(1.0 + (i - 1)*b->reach);
+        const double to = smaller(larger(at, least), last);
+        y[GAP] = d_value(iv_point(to));
+        const double level = iv_middle(iv_add(needed_energy(&p->centre, y).v, work(b, iv_point(least), iv_point(to))));
+        if (level > best) {
+            best = level;
+            b->gap = to;
+        }
+    }
+    b->reach = b->gap == from ? larger(0.5*b->reach, 1e-3) : smaller(2.0*b->reach, 0.1);
+    return iv_negative(margin(p, b, s, iv_point(b->gap)));
 }
 
 /* Slope over the gap of the least energy, work included. */
@@ -130,7 +178,10 @@ static iv slope_of(const problem *p, flow *s, iv gap)
  * (derive/checks/enclosure.py). */
 static int below_rise(const problem *p, flow *s, const iv *x)
 {
-    const iv excess = energy_at(p, x, excess_energy);
+    dual y[STATES];
+    for (int i = 0; i < STATES; i++)
+        y[i] = d_value(x[i]);
+    const iv excess = excess_energy(&p->box, y).v;
     const double rise = iv_lo(slope_of(p, s, x[GAP])), length = 2.0*iv_hi(excess)/rise;
     const iv way = iv_of(iv_lo(x[GAP]), iv_hi(x[GAP]) + length);
     if (!(rise > 0.0 && length > 0.0 && iv_hi(way) < iv_lo(p->level[RUPTURE_GAP].v)))

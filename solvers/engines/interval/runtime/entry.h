@@ -37,6 +37,8 @@ static void prove(proof *w, const options *o)
     while (w->steps < o->most_steps) {
         iv x[STATES];
         double width = 0.0;
+        if (PARAMETERS && w->rebounds) /* before, bounds over the gap are sharper */
+            straighten(w);
         hull_of(&w->p, &w->s, x);
         for (int i = 0; i < STATES; i++) {
             width = larger(width, iv_width(x[i]));
@@ -47,17 +49,17 @@ static void prove(proof *w, const options *o)
         }
         if (!w->wall.known && (w->rebounds || iv_lo(x[NORMAL_VELOCITY]) > -0.1))
             find_barrier(&w->p, &w->rest, &w->wall);
-        if (w->wall.known && (below_barrier(&w->p, &w->wall, x) || below_rise(&w->p, &w->rest, x) || stopped(w, x))) {
+        if (w->wall.known && (below_barrier(&w->p, &w->wall, &w->s) || below_rise(&w->p, &w->rest, x) || stopped(w, x))) {
             end(w, STICK, PROVED);
             return;
         }
-        if (PARAMETERS && o->funnels && !w->rebounds && iv_lo(x[NORMAL_VELOCITY]) < 0.0 &&
+        if (PARAMETERS && o->funnels && o->expected != STICK && !w->rebounds && iv_lo(x[NORMAL_VELOCITY]) < 0.0 &&
             -iv_lo(x[NORMAL_VELOCITY]) < slow && in_shear(w)) {
             slow = -0.7*iv_lo(x[NORMAL_VELOCITY]);
             if (turns_apart(w, x, o->panel))
                 return;
         }
-        if (o->funnels && ++since > wait && iv_positive(x[NORMAL_VELOCITY]) &&
+        if (o->funnels && o->expected != STICK && ++since > wait && iv_positive(x[NORMAL_VELOCITY]) &&
             iv_hi(x[GAP]) < iv_lo(w->p.level[RUPTURE_GAP].v)) {
             since = 0;
             wait = wait < 64 ? 2*wait : 64;
@@ -144,15 +146,30 @@ typedef struct {
     double *result;
 } request;
 
+/* The parameter that spreads gaps and velocities the most; -1 where none has yet. */
+static int most_spread(const proof *w)
+{
+    double most = 0.0;
+    int column = -1;
+    for (int j = 0; j < PARAMETERS; j++) {
+        double spread = iv_magnitude(w->p.rho[j])*(fabs(w->s.parameter[GAP][j]) + fabs(w->s.parameter[NORMAL_VELOCITY][j]));
+        if (spread > most) {
+            most = spread;
+            column = j;
+        }
+    }
+    return column;
+}
+
 static void run_proof(void *argument)
 {
     request *r = argument;
     proof *w = r->w;
-    const options o = {(int)r->settings[0], (int)r->settings[1], (int)r->settings[2], r->settings[3], r->settings[4], r->settings[5]};
+    const options o = {(int)r->settings[0], (int)r->settings[1], (int)r->settings[2], r->settings[3], r->settings[4], r->settings[5], (int)r->settings[6]};
     set_up(w, r->quantities, r->moving);
     prove(w, &o);
     const double result[RESULTS] = {w->outcome, w->why, w->steps, w->rebounds, w->criterion, iv_lo(w->speed), iv_hi(w->speed),
-        w->smallest, (double)w->panels, w->s.z[GAP], w->s.z[NORMAL_VELOCITY], w->here.film};
+        w->smallest, (double)w->panels, most_spread(w)};
     memcpy(r->result, result, sizeof result);
 }
 

@@ -11,6 +11,7 @@ enum { MOST_REBOUNDS = 200 };
 typedef struct {
     int order, most_steps, funnels; /* funnels: 1 once the pair opens or turns, 2 on the approach, too */
     double tolerance, widest, panel;
+    int expected; /* the only outcome that is looked for; UNPROVED: any */
 } options;
 
 typedef struct {

@@ -62,6 +62,17 @@ static void hull_of(const problem *p, const set *s, iv *x)
     }
 }
 
+/* A box as a set. */
+static void set_of(const iv *x, set *s)
+{
+    memset(s, 0, sizeof *s);
+    for (int i = 0; i < STATES; i++) {
+        s->z[i] = iv_middle(x[i]);
+        s->q[i][i] = 1.0;
+        s->r[i] = iv_sub(x[i], iv_point(s->z[i]));
+    }
+}
+
 static double dot(const double *a, const double *b)
 {
     double sum = 0.0;
