@@ -17,7 +17,7 @@ from ...generated.automaton import STICK
 from ..errors import InputError
 from ..formatting.markdown import aligned
 from ..scene import units
-from ..scene.columns import Column, columns_of
+from ..scene.columns import Column, columns_of, row_name
 from ..scene.scene import Scene
 from .measurements import OBSERVED
 
@@ -124,18 +124,20 @@ def tracks(
     loaded = Scene.load(scene)
     if loaded.radius_ratio is None or loaded.pendulum is not None:
         raise InputError("tracks", loaded.name, "two spheres in free flight", "has a wall or strings")
-    known = {column.name: column for column in columns_of(film, "tracks")[0]}
+    columns, lines = columns_of(film, "tracks")
+    known = {column.name: column for column in columns}
     for name in [each for each in ("x1", "y1", "x2", "y2") if each not in known]:
         raise InputError("tracks", ", ".join(known), "columns x1, y1, x2, y2, and frame or time", f"has no {name}")
     if isinstance(scale, str):
         scale = units.quantity(scale, "m", "scale", '"12.5 um"')
-    positions = np.stack([_numbers(known[name], "m", scale, "scale") for name in ("x1", "y1", "x2", "y2")], axis=1)
+    coordinates = [_numbers(known[name], lines, "m", scale, "scale", gaps=True) for name in ("x1", "y1", "x2", "y2")]
+    positions = np.stack(coordinates, axis=1)
     unit = _factor(known["x1"], "m", scale, "scale")
     least = _QUANTUM * unit if known["x1"].unit in _PIXELS else 0.0
     if "time" in known:
-        time = _numbers(known["time"], "s", None, "")
+        time = _numbers(known["time"], lines, "s", None, "")
     elif "frame" in known:
-        time = _numbers(known["frame"], "s", 1 / rate if rate else None, "rate")
+        time = _numbers(known["frame"], lines, "s", 1 / rate if rate else None, "rate")
     else:
         raise InputError("tracks", ", ".join(known), "a column frame, or time [s]", "has no time")
     films = [str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size
@@ -143,8 +145,11 @@ def tracks(
     reaches = radii, radii + loaded.liquid.film_thickness, radii + loaded.rupture_gap
     rows, sigmas, remarks, labels, left_out = [], [], [], list[str](), list[InputError]()
     for label in dict.fromkeys(films):
-        which = np.flatnonzero([each == label for each in films])
+        frames = np.flatnonzero([each == label for each in films])
+        which = frames[np.isfinite(positions[frames]).all(axis=1)]
         which = which[np.argsort(time[which], kind="stable")]
+        if lost := frames.size - which.size:
+            remarks.append(f"impact {label}: {lost} of {frames.size} frames lack a position and are not used")
         relative = positions[which, 2:] - positions[which, :2]
         given = None if noise is None else math.sqrt(2) * noise * unit
         try:
@@ -164,9 +169,9 @@ def tracks(
         f"Speed, angle, contact time and rotation are those at the scene's gaps, {gaps}; no standard deviation holds "
         "an error of these. Do not fit the film or the bridge to this contact time and rotation."
     )
-    columns = {name: [row[name] for row in rows] for name in rows[0]}
+    results = {name: [row[name] for row in rows] for name in rows[0]}
     always = ("speed", "angle", "speed_sd", "angle_sd", "outcome")
-    kept = {name: each for name, each in columns.items() if name in always or any(one == one for one in each)}
+    kept = {name: each for name, each in results.items() if name in always or any(one == one for one in each)}
     return Tracks(tuple(labels), kept, tuple(sigmas), tuple(remarks))
 
 
@@ -299,12 +304,18 @@ def _factor(column: Column, si: str, plain: float | None, option: str) -> float:
     return units.factor(column.unit, si, "tracks, header", f"{column.name} in {si}", column.name)
 
 
-def _numbers(column: Column, si: str, plain: float | None, option: str) -> np.ndarray:
-    factor = _factor(column, si, plain, option)
-    try:
-        numbers = np.array([float(cell) for cell in column.cells])
-    except (TypeError, ValueError):
-        numbers = np.array([np.nan])
-    if not np.isfinite(numbers).all():
-        raise InputError("tracks", column.name, "numbers in every row", "has a cell that is none")
-    return factor * numbers
+def _numbers(
+    column: Column, lines: list[int], si: str, plain: float | None, option: str, *, gaps: bool = False
+) -> np.ndarray:
+    """A column in SI; with `gaps` empty cells and "nan", which trackers write for a lost sphere, are NaN."""
+    factor, numbers = _factor(column, si, plain, option), []
+    for row, cell in enumerate(column.cells):
+        try:
+            number = math.nan if gaps and cell in (None, "") else float(cell)
+        except (TypeError, ValueError):
+            number = math.inf
+        if not (math.isfinite(number) or (gaps and math.isnan(number))):
+            where = f"tracks, {row_name(row + 1, lines[row])}, column {column.name}"
+            raise InputError(where, cell, "a number")
+        numbers.append(number)
+    return factor * np.array(numbers)

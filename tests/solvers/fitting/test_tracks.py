@@ -127,8 +127,19 @@ def test_a_frame_that_is_tracked_wrongly_is_named() -> None:
         tracks(stray, scene, rate=rate, scale=PIXEL)
     with pytest.raises(InputError, match="is the scale or the"):
         tracks(film, scene, rate=rate, scale=3 * PIXEL)
-    with pytest.raises(InputError, match="has a cell that is none"):
-        tracks(film | {"x1": [np.nan, *film["x1"][1:]]}, scene, rate=rate, scale=PIXEL)
+    with pytest.raises(InputError, match="row 1, column x1"):
+        tracks(film | {"x1": ["lost", *film["x1"][1:]]}, scene, rate=rate, scale=PIXEL)
+
+
+def test_frames_in_which_a_sphere_is_lost_are_not_used() -> None:
+    """An empty cell or "nan" costs its frame, as if the film did not have it."""
+    film, rate, scene, _ = film_of("granulation", 0.2, 30, 0.2, 1)
+    keep = np.arange(len(film["x1"])) != 3
+    lost = film | {"x1": [*film["x1"][:3], "", *film["x1"][4:]], "y2": [*film["y2"][:3], np.nan, *film["y2"][4:]]}
+    found = tracks(lost, scene, rate=rate, scale=PIXEL)
+    without = tracks({name: np.array(each)[keep] for name, each in film.items()}, scene, rate=rate, scale=PIXEL)
+    assert found.columns == without.columns
+    assert f"1 of {len(film['x1'])} frames lack a position" in found.remarks[0]
 
 
 def test_a_frame_that_is_not_counted_and_exchanged_spheres_are_named() -> None:
