@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from scipy.stats import chi2
 
 from ...generated.automaton import OUTCOMES
-from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, halo, patch, picture
+from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, halo, patch, picture, plain_text
 from ..formatting.ticks import plain
 from ..many.collide_many import collide_many
 from ..scene.held import AXIS_LABELS
@@ -56,6 +56,8 @@ def draw(fit: Fit) -> Figure:
         rows = np.arange(at, at := at + part.data.size)
         _map(left, part, own, fit.rows.contradicting[np.isin(fit.rows.contradicting, rows)] - rows[0])
         _results(right, part, own, {name: each[rows] for name, each in fit.rows.expected.items()})
+        for axes in (left, right) if count > 1 else ():
+            axes.set_title(f"{plain_text(part.label)}\n{axes.get_title()}", fontsize=9)
     axes = bottom.subplots(1, free.size + 1, width_ratios=[1.0] * free.size + [1.5], squeeze=False)[0]
     for k in range(free.size):
         _profile(axes[k], fit, k)
@@ -219,9 +221,9 @@ def _profile(axes: Axes, fit: Fit, k: int) -> None:
     if entry.log and values.max() > 20 * values.min():
         axes.set_xscale("log")
     axes.set_ylim(max(min(min(heights), -objective.drop) * 1.1, min(-5.0, -1.5 * objective.drop)), 0.4)
-    axes.set_xlabel(
-        f"{entry.name.removeprefix('noise.').rpartition('.')[2].replace('_', ' ')}" + (f" ({unit})" if unit else "")
-    )
+    name, _, owner = entry.name.partition("@")
+    shown = f"{'noise of ' * name.startswith('noise.')}{name.rpartition('.')[2].replace('_', ' ')}"
+    axes.set_xlabel(plain_text(f"{owner}: {shown}" if owner else shown) + (f" ({unit})" if unit else ""))
     axes.set_title(f"{estimate.verdict} {estimate.precision}".rstrip(), fontsize=8)
 
 
@@ -282,7 +284,8 @@ def draw_prediction(data: xarray.Dataset) -> Figure:
         axes.set_yscale("log")
     plain(axes.yaxis)
     axes.set(xlabel="impact angle (deg)", ylabel=AXIS_LABELS[kind])
-    axes.set_title("probability of sticking, with the uncertainty of the fitted entries", fontsize=9)
+    title = "probability of sticking, with the uncertainty of the fitted entries"
+    axes.set_title(f"{plain_text(data.attrs['title'])}: {title}", fontsize=9)
     handles = [patch(name) for name, each in zip(names, share, strict=True) if each.max() > _PROBABILITIES[0]]
     for each in handles:
         each.set(edgecolor=INK, hatch=None, linewidth=0.6)

@@ -102,6 +102,9 @@ def predicted(
     share = np.stack([np.tensordot(weight, outcome == code, 1) for code in range(len(OUTCOMES))])
     columns = {"probability": (("outcome", "angle", kind), share, {"units": "1", "long_name": "probability"})}
     axes = {"angle": (("angle",), across, LABELS["angle"]), kind: ((kind,), along, LABELS[kind])}
-    about = {"scene": part.scene.to_toml(), "draws": int(weight.size), "effective_draws": float(1 / (weight**2).sum())}
+    about = {
+        "title": part.scene.name, "scene": part.scene.to_toml(), "draws": int(weight.size),
+        "effective_draws": float(1 / (weight**2).sum()),
+    }  # fmt: skip
     register()
     return xarray.Dataset(columns, axes | {"outcome": list(OUTCOMES)}, about)
