@@ -16,6 +16,7 @@ _STOKES, _ANGLE = FIELDS["impact.stokes"], FIELDS["impact.angle"]
 def command(
     stokes: str | None,
     speed: str | None,
+    relative_speed: str | None,
     angle: str | None,
     within: tuple[str, ...],
     cells: bool,
@@ -38,6 +39,7 @@ def command(
     Options:
         --stokes VALUE: Stokes number; edges of the cells of a map, LO:HI:N or log:LO:HI:N; LO:HI of a boundary.
         --speed VALUE: Normal speed instead, as "0.4 m/s", of a single proof.
+        --relative-speed VALUE: Magnitude of the relative velocity instead, of a single proof.
         --angle VALUE: Impact angle in degrees; edges of the cells of a map, LO:HI:N.
         --within REL|NAME=RANGE: Prove it for a box: a relative uncertainty of the impact, or of an entry NAME=REL, or
             both its ends NAME=LO:HI; repeatable.
@@ -52,8 +54,9 @@ def command(
     if depth is not None and not cells:
         raise InputError("--depth", depth, "--depth with --map")
     if cells or boundary:
-        if speed is not None:
-            raise InputError("--speed", speed, "Stokes numbers, --stokes")
+        for option, given in (("--speed", speed), ("--relative-speed", relative_speed)):
+            if given is not None:
+                raise InputError(option, given, "Stokes numbers, --stokes")
         if stokes is None:
             raise InputError("--stokes", None, "LO:HI:N or log:LO:HI:N" if cells else "LO:HI")
         if angle is None:
@@ -81,7 +84,12 @@ def command(
         output.show(prove_boundary(scene, angle=texts.with_degrees(_ANGLE, angle), stokes=(float(low), float(high))))
         return
     box = _box(within, request)
-    impact = passed(stokes=stokes, speed=speed, angle=None if angle is None else texts.with_degrees(_ANGLE, angle))
+    impact = passed(
+        stokes=stokes,
+        speed=speed,
+        relative_speed=relative_speed,
+        angle=None if angle is None else texts.with_degrees(_ANGLE, angle),
+    )
     scene = request.scene().with_impact(**{name: _number(name, text) for name, text in impact.items()})
     scene.need_impact()
 

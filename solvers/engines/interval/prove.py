@@ -81,6 +81,7 @@ def prove(
     stokes: float | str | None = None,
     speed: float | str | None = None,
     angle: float | str | None = None,
+    relative_speed: float | str | None = None,
     within: Within | None = None,
 ) -> Proof:
     """Prove the outcome of a collision from its initial data on, by interval arithmetic.
@@ -92,6 +93,7 @@ def prove(
         stokes: Stokes number of the impact, in place of the scene's.
         speed: normal speed of the impact instead, m/s or a string with its unit.
         angle: impact angle, rad or a string with its unit.
+        relative_speed: magnitude of the relative velocity, in place of the normal speed.
         within: prove the outcome for a whole box: a relative uncertainty of Stokes number (or speed) and angle, or by
             entry an uncertainty or both ends, as {"liquid.viscosity": ("1.9 Pa s", "2.1 Pa s")}.
 
@@ -103,7 +105,7 @@ def prove(
         >>> prove("granulation", stokes=0.02, angle="75 deg").outcome
         'stick-rotate-separate'
     """
-    loaded = Scene.load(scene).with_impact(stokes, speed, angle)
+    loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     return prove_inputs(Inputs.of(loaded, within))
 
 
