@@ -137,6 +137,32 @@ def test_reference_collisions_lie_in_their_enclosures() -> None:
     assert proved >= 10
 
 
+@pytest.mark.parametrize(("name", "about"), [("granulation", 0.3), ("lactose-pvp", 10)])
+@pytest.mark.parametrize("entry", ["impact.stokes", "impact.angle", "liquid.viscosity"])
+def test_a_narrow_box_has_the_restitutions_of_its_ends(name: str, about: float, entry: str) -> None:
+    """Followed step by step through all events: the ends lie within, and the range is little wider.
+
+    A box of viscosities keeps the Stokes number.
+    """
+    random, tried, near = np.random.default_rng(3), 0, 2e-6
+    for _ in range(12):
+        scene = Scene.load(name).with_impact(stokes=about * 3 ** random.uniform(-1, 1), angle=random.uniform(0.1, 1.4))
+        inputs = Inputs.of(scene, {entry: near})
+        settings = BOX._replace(funnels=0, steps=5000, tolerance=1e-13)
+        found = enclose(inputs.engine(), inputs.ranges, inputs.moving, settings)
+        (quantity,) = inputs.moving
+        same = {"impact.stokes": scene.entries["impact.stokes"]}
+        at = [scene.with_entries(same | {entry: scene.entries[entry] * f}) for f in (1 - near, 1 + near)]
+        ends = sorted(collide(each, rtol=1e-12, ledger=False).restitution for each in at)
+        low, high = found.restitution
+        if found.outcome < 2 or ends[1] - ends[0] < 1e-9:
+            continue
+        tried += 1
+        assert low - 1e-11 <= ends[0] < ends[1] <= high + 1e-11, quantity
+        assert high - low < 1.1 * (ends[1] - ends[0]) + 1e-9
+    assert tried > 3
+
+
 NEAR = Scene.load("lactose-pvp").with_impact(stokes=7.3, angle="57 deg")
 """Pairs that rebound, open beyond the film, turn and fall back; from St 7.331 on they bounce."""
 

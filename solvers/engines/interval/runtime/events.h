@@ -69,8 +69,8 @@ static void expand(flow *s, const constants *c, const iv *x, int order, int deri
     active = derivatives ? (1u << DIRECTIONS) - 1 : 0;
     for (int i = 0; i < STATES; i++) {
         s->state[i].v[0] = x[i];
-        s->state[i].mask = active & ((1u << STATES) - 1);
-        EACH_DIRECTION(j, s->state[i].mask) s->state[i].d[j][0] = iv_point(i == (int)j ? 1.0 : 0.0);
+        s->state[i].mask = active; /* parameters, too: they move a gap by its velocity, from order 2 on */
+        EACH_DIRECTION(j, active) s->state[i].d[j][0] = iv_point(i == (int)j ? 1.0 : 0.0);
     }
     for (int k = 0; k < order; k++)
         advance(s, c, k);
