@@ -27,7 +27,7 @@ from .cells import UNDECIDED, Cell
 DEPTH = 12  # halvings of a cell
 _MOVING = ("stokes", "angle")
 _POINTS = 6  # collisions along each side of a cell that say where a proof is worth a try
-_BOUNDED = 1.01  # of narrower boxes nothing is proved by bounds on the approach
+_BOUNDED = 1.01  # narrower boxes are followed in steps at once
 _ROTATE = OUTCOMES.index(ROTATE)
 
 
@@ -134,7 +134,7 @@ def prove_map(
             ranges = inputs.ranges | {"stokes": cell.stokes, "angle": cell.angle}  # type: ignore[operator]
             narrow = cell.stokes[1] < cell.stokes[0] * _BOUNDED
             settings = BOX._replace(funnels=1) if narrow or expected == _ROTATE else BOX
-            if expected is not None:
+            if expected is not None and left:
                 settings = settings._replace(expected=expected + 1)
             found = enclose(engine, ranges, inputs.moving, settings)
             number, spread = found.outcome - 1, found.spread if found.rebounds else -1

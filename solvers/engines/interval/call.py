@@ -23,7 +23,7 @@ REASONS = {
     Why.START: "too near a boundary: a criterion is barely met at initial contact",
     Why.TOO_WIDE: "the set of trajectories becomes too wide",
     Why.TOO_MANY_REBOUNDS: "the budget of rebounds is spent",
-    Why.CHATTER: "it comes to rest in contact, where its rotation may release it",
+    Why.CHATTER: "it comes to rest in contact, and may be released",
 }
 """What is said of a collision that is not proved."""
 

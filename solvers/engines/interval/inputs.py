@@ -78,22 +78,30 @@ class Inputs:
         absent |= set() if scene.pair else {"impact_partner_spin"}
         if quantity not in values or quantity in absent:
             raise InputError(label, width, "an entry that this scene has", "is not there")
+
+        def at(end: float) -> dict[str, float]:
+            try:
+                changed = scene.with_entries({name: end / field.factor})
+            except InputError:
+                raise InputError(label, width, "an entry that this scene has", "is not there") from None
+            return {quantity: end, **si_values(changed, *changed.need_impact())}
+
+        times = round(at(values[quantity])[quantity] / values[quantity]) if values[quantity] else 1  # 2 beside a wall
         if isinstance(width, tuple) and len(width) == 2:
-            low, high = (field.number(end, label=label) * field.factor for end in width)
+            low, high = (field.number(end, label=label) * field.factor * times for end in width)
             if not low < high:
                 raise InputError(label, list(width), _ACCEPTED, "is empty or reversed")
         else:
             low, high = _around(values[quantity], _relative(width, label))
             for end in (low, high):
-                field.number(end / field.factor, label=label)
-        try:
-            changed = scene.with_entries({name: low / field.factor})
-        except InputError:
-            raise InputError(label, width, "an entry that this scene has", "is not there") from None
-        moved = si_values(changed, *changed.need_impact())
-        for other, number in values.items():
-            if moved.get(other, number) != number and other not in {quantity, *absent}:
-                raise InputError(label, width, "an entry that decides nothing else", f"decides {other} as well")
+                field.number(end / field.factor / times, label=label)
+        for end in (low, high):
+            moved = at(end / times)
+            known_others = values.keys() & moved.keys() - {quantity, *absent}
+            others = sorted(each for each in known_others if moved[each] != values[each])
+            if others or not math.isclose(moved[quantity], end, rel_tol=1e-12):
+                problem = f"decides {others[0]} as well" if others else f"is not {quantity} alone"
+                raise InputError(label, width, "an entry that decides nothing else", problem)
         return quantity, (low, high)
 
     def engine(self) -> Engine:

@@ -25,7 +25,7 @@ class Proof:
         outcome: "stick", "stick-rotate-separate" or "bounce"; None if nothing is proved.
         restitution: low and high of e_n, (0, 0) for a stick; None if nothing is proved.
         reason: why nothing is proved; "" for a proof.
-        smallest_gap: a bound below the gap, m; None if nothing is proved.
+        smallest_gap: a bound below the gap up to separation, m; None for a stick, and if nothing is proved.
         steps: of the enclosure.
         ranges: low and high of the quantities that the proof holds for, SI.
 
@@ -127,7 +127,7 @@ def prove_inputs(inputs: Inputs, digits: bool = True) -> Proof:
         outcome=OUTCOMES[found.outcome - 1] if found and proved else None,
         restitution=found.restitution if found and proved else None,
         reason=reason,
-        smallest_gap=found.smallest_gap * x0 if found and proved else None,
+        smallest_gap=found.smallest_gap * x0 if found and found.outcome > 1 else None,
         steps=found.steps if found else 0,
         rebounds=found.rebounds if found else 0,
         ranges=inputs.ranges,

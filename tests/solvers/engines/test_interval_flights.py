@@ -44,7 +44,7 @@ static void run_flight(void *argument)
             width = larger(width, iv_width(x[i]));
         if (!w->wall.known && (w->rebounds || iv_lo(x[NORMAL_VELOCITY]) > -0.1))
             find_barrier(&w->p, &w->rest, &w->wall);
-        if (!(width < o.widest) || (w->wall.known && below_barrier(&w->p, &w->wall, x)))
+        if (!(width < o.widest) || (w->wall.known && below_barrier(&w->p, &w->wall, &w->s)))
             return;
         goes = step(w, &o, x, width);
         if (!goes && w->outcome < ROTATE) /* none, or a stick */

@@ -161,6 +161,26 @@ def test_an_entry_that_decides_several_quantities_is_no_box(changes: dict[str, o
         prove(scene, within={entry: 1e-4})
 
 
+def test_the_far_end_of_a_range_is_looked_at_and_a_wall_counts_twice() -> None:
+    """A spin from its present value on would move the partner's, too; the radius beside a wall is twice the pair's."""
+    pair = {"partner.radius": "200 um", "partner.mass": "8e-5 g"}
+    with pytest.raises(InputError, match="partner_spin"):
+        prove(
+            Scene.load("granulation").with_entries(pair),
+            stokes=0.0522,
+            angle=1.0,
+            within={"impact.spin": (0.0, 1000.0)},
+        )
+    wall = Scene.load("granulation").with_entries({"partner.wall": True}).with_impact(stokes=0.1, angle=0.3)
+    box = prove(wall, within={"particles.reduced_radius": ("50 um", "50.001 um")})
+    ends = [
+        collide(wall.with_entries({"particles.reduced_radius": r}).with_impact(stokes=0.1)) for r in (50e-6, 50.001e-6)
+    ]
+    assert box.restitution is not None
+    assert {box.outcome} == {each.outcome for each in ends}
+    assert all(box.restitution[0] <= each.restitution <= box.restitution[1] for each in ends)
+
+
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [

@@ -19,6 +19,9 @@ static int begin(proof *w, const options *o)
             (void)approach(w, o);
         return 0;
     }
+    const iv edge = w->p.level[TANGENTIAL_EDGE].v;
+    if (OBLIQUE && iv_lo(edge) < 1.0 && iv_hi(edge) > 1.0) /* whether friction acts there is open */
+        return end(w, UNPROVED, START);
     if (!bounce(w, glass ? AT_GLASS : AT_CONTACT))
         return 0;
     hull_of(&w->p, &w->s, x);

@@ -49,9 +49,9 @@ static int a_priori(proof *w, const options *o, const iv *x, double width, iv *b
     return contained || end(w, UNPROVED, STEP_TOO_SMALL);
 }
 
-/* The set along its trajectories onto a plane through its centre that the flow crosses, as how far each has come does not
- * matter: x - v(x) times a mean of f over v', with v = g (x - z). g is that flow, with velocities over what the acceleration
- * gives within the gap. Left as it is where an event is near. */
+/* The set along its trajectories onto a plane g (x - z) = 0 through its centre, as how far each has come does not matter: x
+ * becomes x - v m with v = g (x - z) and m a mean of f/(g f) over its way. Any g will do that keeps g f positive there; this
+ * one is near the flow of gap and velocity, both scaled. Left as it is where an event is near. */
 static void straighten(proof *w)
 {
     iv x[STATES], way[STATES], f[STATES], z[STATES], by[STATES][DIRECTIONS], along, centre;
@@ -94,9 +94,8 @@ static void straighten(proof *w)
         for (int j = 0; j < DIRECTIONS; j++)
             by[i][j] = j < STATES ? iv_sub(iv_point(i == j), iv_mul(part, g.d[j])) : iv_point(0.0);
     }
-    const set before = w->s;
-    if (!map_set(&w->p, &w->s, z, by))
-        w->s = before;
+    if (map_set(&w->p, &w->s, z, by)) /* else the set is as before */
+        w->smallest = smaller(w->smallest, iv_lo(way[GAP]));
 }
 
 /* One step, or up to the next event and across it. False at the end. */
