@@ -190,8 +190,9 @@ def _halves(cell: Cell, spread: int) -> tuple[Cell, Cell]:
     """Both halves, across the side that spreads trajectories more; unless it is known, by St and tan^2 of the angle."""
     (low, high), (flat, steep) = cell.stokes, cell.angle
     middle = 0.5 * (flat + steep)
-    finer = math.log(high / low) * math.sin(middle) * math.cos(middle) > 2 * (steep - flat)
-    if _MOVING[spread] == "stokes" if spread >= 0 else finer:
+    wider = math.log(high / low) * math.sin(middle) * math.cos(middle) > 2 * (steep - flat)
+    by_stokes = wider if spread < 0 else _MOVING[spread] == "stokes"
+    if by_stokes:
         between = math.sqrt(low * high)
         return cell._replace(stokes=(low, between)), cell._replace(stokes=(between, high))
     return cell._replace(angle=(flat, middle)), cell._replace(angle=(middle, steep))

@@ -52,7 +52,8 @@ static void prove(proof *w, const options *o)
         }
         if (!w->wall.known && (w->rebounds || iv_lo(x[NORMAL_VELOCITY]) > -0.1))
             find_barrier(&w->p, &w->rest, &w->wall);
-        if (w->wall.known && (below_barrier(&w->p, &w->wall, &w->s) || below_rise(&w->p, &w->rest, x) || stopped(w, x))) {
+        if (w->wall.known &&
+            (below_barrier(&w->p, &w->wall, &w->s) || below_rise(&w->p, &w->rest, x) || stopped(w, x))) {
             end(w, STICK, PROVED);
             return;
         }
@@ -168,7 +169,8 @@ static void run_proof(void *argument)
 {
     request *r = argument;
     proof *w = r->w;
-    const options o = {(int)r->settings[0], (int)r->settings[1], (int)r->settings[2], r->settings[3], r->settings[4], r->settings[5], (int)r->settings[6]};
+    const double *s = r->settings;
+    const options o = {(int)s[0], (int)s[1], (int)s[2], s[3], s[4], s[5], (int)s[6]};
     set_up(w, r->quantities, r->moving);
     prove(w, &o);
     const double result[RESULTS] = {w->outcome, w->why, w->steps, w->rebounds, w->criterion, iv_lo(w->speed), iv_hi(w->speed),
