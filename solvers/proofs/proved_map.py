@@ -25,7 +25,6 @@ from ..scene.scene import Scene
 from .cells import UNDECIDED, Cell
 
 DEPTH = 12  # halvings of a cell
-_MOVING = ("stokes", "angle")
 _POINTS = 6  # collisions along each side of a cell that say where a proof is worth a try
 _BOUNDED = 1.01  # narrower boxes are followed in steps at once
 _ROTATE = OUTCOMES.index(ROTATE)
@@ -95,7 +94,7 @@ def prove_map(
     Arguments:
         scene: a Scene, a path to a scene file, or a preset's name; its impact is not used.
         stokes: edges of the cells, rising Stokes numbers.
-        angle: edges of the cells, rising angles above 0, rad.
+        angle: edges of the cells, rising angles from 0 on, rad; a cell from 0 on holds head-on impacts, too.
         progress: called with the numbers of finished and of all cells.
 
     Raises:
@@ -114,10 +113,8 @@ def prove_map(
             raise InputError(name, list(edges), "at least two rising edges")
     if isinstance(depth, bool) or not isinstance(depth, int) or not 0 <= depth <= 40:
         raise InputError("depth", depth, "a whole number from 0 to 40")
-    if not angle[0] > 0:
-        raise InputError("angle", float(angle[0]), "angles above 0, as head-on impacts have a model of their own")
     loaded = Scene.load(scene).with_impact(stokes=float(stokes[-1]), angle=float(angle[-1]))
-    loaded.with_impact(stokes=float(stokes[0]))
+    loaded.with_impact(stokes=float(stokes[0]), angle=float(angle[0]))
     inputs = Inputs.of(loaded, {"impact.stokes": 1e-6, "impact.angle": 1e-6})
     try:
         engine = inputs.engine()
@@ -129,7 +126,7 @@ def prove_map(
     asked = 0
 
     def decided(cell: Cell, left: int) -> Iterator[tuple[Cell, bool]]:
-        expected, spread = guide.expected(cell), -1
+        expected, spread = guide.expected(cell), ""
         if expected is not None or not left:
             ranges = inputs.ranges | {"stokes": cell.stokes, "angle": cell.angle}  # type: ignore[operator]
             narrow = cell.stokes[1] < cell.stokes[0] * _BOUNDED
@@ -137,7 +134,9 @@ def prove_map(
             if expected is not None and left:
                 settings = settings._replace(expected=expected + 1)
             found = enclose(engine, ranges, inputs.moving, settings)
-            number, spread = found.outcome - 1, found.spread if found.rebounds else -1
+            number, spread = found.outcome - 1, ""
+            if found.rebounds and found.spread >= 0:
+                spread = inputs.moving[found.spread]
             yield cell._replace(outcome=number), number >= 0 or not left
             if number >= 0:
                 return
@@ -186,12 +185,12 @@ class _Guide(NamedTuple):
         return int(inside.flat[0]) if np.ptp(inside) == 0 else None
 
 
-def _halves(cell: Cell, spread: int) -> tuple[Cell, Cell]:
+def _halves(cell: Cell, spread: str) -> tuple[Cell, Cell]:
     """Both halves, across the side that spreads trajectories more; unless it is known, by St and tan^2 of the angle."""
     (low, high), (flat, steep) = cell.stokes, cell.angle
     middle = 0.5 * (flat + steep)
     wider = math.log(high / low) * math.sin(middle) * math.cos(middle) > 2 * (steep - flat)
-    by_stokes = wider if spread < 0 else _MOVING[spread] == "stokes"
+    by_stokes = wider if not spread else spread == "stokes"
     if by_stokes:
         between = math.sqrt(low * high)
         return cell._replace(stokes=(low, between)), cell._replace(stokes=(between, high))
