@@ -222,8 +222,8 @@ def event(
     """Declare an event; it happens once in a collision, where its guard is not positive while it is watched.
 
     Arguments:
-        name: its name in emitted code.
-        guard: positive before the event: an SI expression of x, u, omega, xi and quantities.
+        name: its name; in emitted code with underscores for spaces.
+        guard: positive before the event: an SI expression of x, u, omega, xi, beta (rad), t (s) and quantities.
         where: "closing", "opening" or "any", and "inside the film" or "beyond the film" if it matters.
         jump: u, omega or xi just after the event, in SI; what is left out is continuous.
         ends: "separated" (while opening only) or "stick" if the event ends the collision.
@@ -236,13 +236,13 @@ def event(
     Raises:
         ModelFileError: names the wrong argument and what is accepted.
     """
-    there = _declarations()
-    label = f"event {name}"
+    there, label = _declarations(), f"event {name}"
+    name = name.replace(" ", "_") if isinstance(name, str) else name
     _check_name("event", name, there)
     if name in own_events.TAKEN_NAMES:
         raise ModelFileError("event", name, "a name of your own", "is an event of the library")
     _check_name(f"{label}, mark", own_events.MARK + name, there)
-    reported = word or name.replace("_", " ") if isinstance(name, str) else word
+    reported = word or name.replace("_", " ")
     if not isinstance(reported, str) or not own_events.WORD.fullmatch(reported):
         raise ModelFileError(f"{label}.word", reported, "small letters, digits and single spaces")
     taken = own_events.TAKEN_WORDS.union(known.word for known in there.events.values())
@@ -258,7 +258,7 @@ def event(
     _check_texts(label, meaning=meaning, source=source)
     tested = _of_event(f"{label}.guard", guard, there)
     if not unfolded(tested, there).free_symbols & set(own_events.MOVING):
-        raise ModelFileError(f"{label}.guard", guard, "an expression of x, u, omega or xi", "never changes")
+        raise ModelFileError(f"{label}.guard", guard, "an expression of x, u, omega, xi, beta or t", "never changes")
     if jump is not None and not isinstance(jump, Mapping):
         raise ModelFileError(f"{label}.jump", jump, "a table of u, omega or xi, as {u: u/2}")
     after = []
