@@ -9,7 +9,6 @@ A law fills a slot of the library's (`film`, `shear`, `arm`, `glass`, `bridge`, 
 as they are in SI, or dimensionless in the slot's own arguments; `declared` reads such a file.
 """
 
-import keyword
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -23,11 +22,11 @@ from ..vocabulary.allowed_values import Bounds, BoundsError
 from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, UnitError, dimension_of, dimension_of_unit
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, omega, u, x, xi
 from . import own_events
+from .names import EMITTED, taken
 
 _LAW_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _BIBTEX = re.compile(r"\s*@\w+\s*\{[^{},]+,.*\}\s*", re.S)
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
-_TAKEN = {"film", "groups", "laws", "result", "shear", "state", "values", *keyword.kwlist, *keyword.softkwlist}
 
 
 class ModelFileError(ValueError):
@@ -132,15 +131,15 @@ def quantity(
         ModelFileError: names the wrong argument and what is accepted.
     """
     there = _declarations()
-    _check_name("quantity", name, there)
     group = group or f"{name}_number"
-    _check_name(f"{name}.group", group, there)
     try:
         dimension, limits = dimension_of_unit(unit), Bounds.read(bounds)
     except UnitError as error:
         raise ModelFileError(f"{name}.unit", unit, 'coherent SI, as "Pa", "N/m", "kg m^2/s", "1"', str(error)) from None
     except BoundsError:
         raise ModelFileError(f"{name}.bounds", bounds, '"> 0", ">= 0", "0 to 1", "> 0 and <= 5"') from None
+    _check_name("quantity", name, there, in_functions=dimension == ONE)
+    _check_name(f"{name}.group", group, there)
     if over is not None and not isinstance(over, sp.Expr):
         raise ModelFileError(f"{name}.over", over, "an expression of the vocabulary, as mu*v0/x0")
     sign = {"positive": True} if limits.positive else {"nonnegative": True} if limits.not_negative else {"real": True}
@@ -152,12 +151,15 @@ def quantity(
 
 
 def let(name: str, expression: object, latex: str = "") -> sp.Symbol:
-    """Name a part of an expression; the name is kept in emitted code and in print."""
+    """Name a part of an expression; the name is kept in print, and in emitted code unless it means something there."""
     there = _declarations()
-    _check_name("let", name, there)
-    symbol = sp.Symbol(name, real=True)
+    written = f"{name}_" if isinstance(name, str) and name in taken().keys() - VOCABULARY.keys() else name
+    _check_name("let", written, there)
+    value = _expression(name, expression)
+    sign = next((known for known in ("positive", "nonnegative") if getattr(value, f"is_{known}")), "real")
+    symbol = sp.Symbol(written, **{sign: True})
     upright = rf"\mathrm{{{name}}}".replace("_", r"\_")
-    there.intermediates[name] = Intermediate(symbol, _expression(name, expression), latex or upright)
+    there.intermediates[written] = Intermediate(symbol, value, latex or upright)
     return symbol
 
 
@@ -245,9 +247,9 @@ def event(
     reported = word or name.replace("_", " ")
     if not isinstance(reported, str) or not own_events.WORD.fullmatch(reported):
         raise ModelFileError(f"{label}.word", reported, "small letters, digits and single spaces")
-    taken = own_events.TAKEN_WORDS.union(known.word for known in there.events.values())
-    if reported in taken:
-        raise ModelFileError(f"{label}.word", reported, f"any word but {', '.join(sorted(taken))}", "exists already")
+    words = own_events.TAKEN_WORDS.union(known.word for known in there.events.values())
+    if reported in words:
+        raise ModelFileError(f"{label}.word", reported, f"any word but {', '.join(sorted(words))}", "exists already")
     if where not in own_events.PLACES:
         raise ModelFileError(f"{label}.where", where, ", ".join(own_events.PLACES))
     if ends not in own_events.ENDINGS:
@@ -325,13 +327,16 @@ def _check_texts(label: str, **texts: object) -> None:
             raise ModelFileError(f"{label}.{what}", text, "text")
 
 
-def _check_name(what: str, name: object, there: Declarations) -> None:
+def _check_name(what: str, name: object, there: Declarations, in_functions: bool = True) -> None:
+    """ModelFileError for a name that is declared already, or means something where it is written."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         raise ModelFileError(what, name, "a name of small letters, digits and underscores")
-    taken = name in VOCABULARY or name in _TAKEN or name in there.quantities or name in there.intermediates
-    taken |= any(name in (known, own_events.MARK + known) for known in there.events)
-    if taken or any(name == known.group for known in there.quantities.values()):
-        raise ModelFileError(what, name, "a name that is not taken", "is taken already")
+    declared = {*there.quantities, *there.intermediates, *(known.group for known in there.quantities.values())}
+    declared |= {word for known in there.events for word in (known, own_events.MARK + known)}
+    meaning = taken().get(name, "")
+    if name in declared or (meaning and (in_functions or meaning != EMITTED)):
+        problem = "is taken already" + (f": it is {meaning}" if meaning else "")
+        raise ModelFileError(what, name, "a name that is not taken", problem)
 
 
 def _expression(label: str, value: object) -> sp.Expr:

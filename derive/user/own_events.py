@@ -257,7 +257,9 @@ def _in_order(events: Sequence[OwnEvent], forms: Mapping[str, Form]) -> dict[str
             ratio, jump = sp.simplify(guard / forms[first.name][0]), forms[first.name][1]
             if event.proposed.where == first.proposed.where and ratio.is_positive:
                 keeps = sp.simplify(guard.xreplace(jump) - guard) == 0
-                keeps &= bool(sp.simplify(jump.get(q.normal_velocity, q.normal_velocity) / q.normal_velocity).is_positive)
+                keeps &= bool(
+                    sp.simplify(jump.get(q.normal_velocity, q.normal_velocity) / q.normal_velocity).is_positive
+                )
                 guards[event.name] = first.mark - sp.Rational(1, 2) if keeps else guard * (1 - first.mark) + first.mark
                 break
     return guards

@@ -24,7 +24,10 @@ def model(body: str) -> UserModel:
     ("body", "said"),
     [
         ('event("snap", guard=k - u)', "line 4: event snap.guard: 'k - separation_rate' term"),
-        ('event("snap", guard=k)', "event snap.guard: k never changes; accepted: an expression of x, u, omega or xi"),
+        (
+            'event("snap", guard=k)',
+            "event snap.guard: k never changes; accepted: an expression of x, u, omega, xi, beta or t",
+        ),
         ('event("snap", guard=sp.Symbol("speed_of_light") - u)', "is not known to an event; accepted: x, u, omega"),
         ('event("snap", guard=d - x, where="outside")', "event snap.where: 'outside' is not accepted; accepted: "),
         ('event("snap", guard=d - x, jump={x: d})', "surfaces move apart and together continuously: a gap"),

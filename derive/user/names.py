@@ -1,0 +1,43 @@
+"""Names that a declaration may not bear: words of the languages, and those of the functions that are emitted."""
+
+import ast
+import keyword
+from functools import cache
+from pathlib import Path
+
+from sympy.printing.c import known_functions_C99, reserved_words, reserved_words_c99
+from sympy.printing.cxx import reserved
+
+from ..vocabulary.quantities import VOCABULARY
+
+EMITTED = "a name in emitted functions"
+_GENERATED = Path(__file__).resolve().parents[2] / "generated"  # as text: it is not imported here
+_MACROS = {"asm", "errno", "far", "linux", "near", "typeof", "unix"}  # of compilers and C's headers
+_ARGUMENTS = {"after", "c", "guard", "of", "s", "splat", "v", "vec", "y"}  # of C functions in which own names stand
+
+
+@cache
+def taken() -> dict[str, str]:
+    """Every such name, and what it is."""
+    c_words = {word.strip(",") for word in (*reserved_words, *reserved_words_c99, *reserved["C++17"])}
+    functions = {name for name in known_functions_C99.values() if isinstance(name, str)}
+    result = dict.fromkeys(_names("*.py") | _ARGUMENTS, EMITTED)
+    result |= dict.fromkeys(_names("laws/*.py"), "an argument of laws")
+    result |= dict.fromkeys(functions | {"fabs", "if_else", "pi", "result"}, "a name that laws are emitted with")
+    result |= dict.fromkeys(c_words | _MACROS, "a word of C")
+    result |= dict.fromkeys([*keyword.kwlist, *keyword.softkwlist], "a word of Python")
+    return result | dict.fromkeys(VOCABULARY, "a quantity of the library")
+
+
+def _names(files: str) -> set[str]:
+    """Arguments of the library's emitted functions, and in its structures what these import and assign as well."""
+    names = set()
+    for path in _GENERATED.glob(files):
+        for node in ast.walk(ast.parse(path.read_bytes())):
+            if isinstance(node, ast.arg):
+                names.add(node.arg)
+            elif path.stem.startswith(("oblique", "head_on")) and isinstance(node, ast.alias):
+                names.add(node.name)
+            elif path.stem.startswith(("oblique", "head_on")) and isinstance(node, ast.Name):
+                names.add(node.id)
+    return names
