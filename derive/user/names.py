@@ -1,10 +1,11 @@
-"""Names that a declaration may not bear: words of the languages, and those of the functions that are emitted."""
+"""Names in model files: those that a declaration may not bear, and those that are there to be used."""
 
 import ast
 import keyword
 from functools import cache
 from pathlib import Path
 
+import sympy as sp
 from sympy.printing.c import known_functions_C99, reserved_words, reserved_words_c99
 from sympy.printing.cxx import reserved
 
@@ -41,3 +42,22 @@ def _names(files: str) -> set[str]:
             elif path.stem.startswith(("oblique", "head_on")) and isinstance(node, ast.Name):
                 names.add(node.id)
     return names
+
+
+_MORE = {
+    "R": ("m", "radius of one of two equal spheres, 2 a"),
+    "r": ("m", "distance between the centres, 4 a + x"),
+    "h": ("1", "gap over the radius of a sphere, x/R: argument of a bridge's law"),
+    "distance": ("1", "distance between the centres over the reduced radius, r/a: argument of an arm's law"),
+    "approach": ("1", "speed of approach, -u/v0: argument of a glass law"),
+    "offset_squared": ("1", "squared offset of the pendulum over a^2: argument of a law of the strings"),
+}
+
+
+def listed() -> str:
+    """A table of the names that a model file gets by `from wetdoublet.derive.user import *`: name, unit, meaning."""
+    from .. import user
+
+    of = {quantity.symbol: (quantity.unit, quantity.meaning) for quantity in VOCABULARY.values()}
+    rows = {name: _MORE.get(name) or of.get(value) for name, value in vars(user).items() if isinstance(value, sp.Expr)}
+    return "\n".join(f"{name:<16}{row[0]:<8}{row[1]}" for name, row in sorted(rows.items()) if row)
