@@ -65,7 +65,7 @@ def _law_checks(model: UserModel, law: Law) -> Iterator[Check]:
     yield _finite(model, law, label)
     if law.slot == "arm":
         rate = torque(model, law)
-        figure = "identity" if rate == 0 else f"dL/dt over its scale = {rate}; known: accept=(\"angular momentum\",)"
+        figure = "identity" if rate == 0 else f'dL/dt over its scale = {rate}; known: accept=("angular momentum",)'
         yield Check(f"angular momentum: {label}", "dL/dt = 0 without strings, for every other law", rate == 0, figure)
     for function in law.functions:
         if f"{law.slot}.{function.name}" in _SIGNED:

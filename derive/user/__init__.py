@@ -28,6 +28,7 @@ from ..physics.laws.bridge import h
 from ..physics.laws.glass import approach
 from ..physics.laws.strings import offset_squared
 from ..vocabulary.quantities import (
+    A_H,
     E,
     R,
     a,

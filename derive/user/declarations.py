@@ -121,9 +121,11 @@ def quantity(
     Arguments:
         name: its name in scene files and in emitted code.
         latex: its symbol in print; by default the name, upright.
-        unit: coherent SI, as "Pa", "N/m", "kg m^2/s"; "1" for a plain number.
+        unit: coherent SI, as "Pa", "N/m", "kg m^2/s"; "1" for a plain number. One that is declared before may stand as
+            an exponent, as in "Pa s^index".
         default: value with unit for scenes that give none, as "10 Pa"; None: scenes must give one.
-        bounds: allowed values, in `unit`: "> 0", ">= 0", "0 to 1", "> 0 and <= 5".
+        bounds: allowed values, in `unit`: ">", ">=", "<" or "<=" and a number, two of them joined by "and", or
+            "0 to 1", which includes its ends.
         over: quantities that make it dimensionless: quantity/over is a group; determined if not given.
         group: name of that group; by default NAME_number.
 
@@ -132,8 +134,9 @@ def quantity(
     """
     there = _declarations()
     group = group or f"{name}_number"
+    numbers = {one.name: one.symbol for one in there.quantities.values() if one.dimension == ONE}
     try:
-        dimension, limits = dimension_of_unit(unit), Bounds.read(bounds)
+        dimension, limits = dimension_of_unit(unit, numbers), Bounds.read(bounds)
     except UnitError as error:
         raise ModelFileError(f"{name}.unit", unit, 'coherent SI, as "Pa", "N/m", "kg m^2/s", "1"', str(error)) from None
     except BoundsError:
@@ -318,7 +321,10 @@ def functions_of(slot: str) -> dict[str, bool]:
     """The functions of a slot's laws, and whether each is required: it is if all laws of the library have it."""
     laws = LAWS[slot].values()
     names = dict.fromkeys(function.name for law in laws for function in law.functions)
-    return {name: all(name in [f.name for f in law.functions if not f.for_proof] for law in laws) for name in names}
+    return {
+        name: name != "potential" and all(name in [f.name for f in law.functions if not f.for_proof] for law in laws)
+        for name in names
+    }
 
 
 def _check_texts(label: str, **texts: object) -> None:

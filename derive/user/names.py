@@ -2,6 +2,7 @@
 
 import ast
 import keyword
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -54,10 +55,8 @@ _MORE = {
 }
 
 
-def listed() -> str:
-    """A table of the names that a model file gets by `from wetdoublet.derive.user import *`: name, unit, meaning."""
-    from .. import user
-
+def listed(names: Mapping[str, object]) -> str:
+    """A table of the symbols among the names of a model file: name, unit, meaning."""
     of = {quantity.symbol: (quantity.unit, quantity.meaning) for quantity in VOCABULARY.values()}
-    rows = {name: _MORE.get(name) or of.get(value) for name, value in vars(user).items() if isinstance(value, sp.Expr)}
+    rows = {name: _MORE.get(name) or of.get(value) for name, value in names.items() if isinstance(value, sp.Expr)}
     return "\n".join(f"{name:<16}{row[0]:<8}{row[1]}" for name, row in sorted(rows.items()) if row)

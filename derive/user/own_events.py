@@ -275,7 +275,7 @@ def groups_of(events: tuple[OwnEvent, ...], structure: Structure) -> set[sp.Basi
 
 def scale_of(dimension: Dimension) -> sp.Expr:
     """m^i x0^j v0^k of a dimension."""
-    mass, length, time = (sp.Rational(power) for power in dimension.exponents)
+    mass, length, time = map(sp.sympify, dimension.exponents)
     return q.m**mass * q.x0 ** (length + time) * q.v0**-time
 
 

@@ -38,10 +38,11 @@ def command(model: str | None, out: options.Folder, check: bool, template: bool,
         others = {"MODEL.py": model, "--out": out, "--check": check or None, "--names": (names and template) or None}
         for option, value in passed(**others).items():
             raise InputError(option, value, f"{alone} alone: it prints and writes nothing", f"is given with {alone}")
-        from ...derive.user import names as vocabulary
+        from ...derive import user
+        from ...derive.user.names import listed
         from ...derive.user.template import TEMPLATE
 
-        click.echo(TEMPLATE.rstrip("\n") if template else vocabulary.listed())
+        click.echo(TEMPLATE.rstrip("\n") if template else listed(vars(user)))
         return
     if model is not None:
         _model(model, out, check)
