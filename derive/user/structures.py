@@ -177,7 +177,9 @@ def _groups(declared: Declarations, all_places: Mapping[str, Place]) -> dict[str
             result[one.name] = Group(one.symbol, one, sp.Integer(1))
             continue
         over = one.over if one.over is not None else _scale(one, declared, all_places)
-        dimension = dimension_of(over, DIMENSIONS)
+        dimension = dimension_of(
+            over, DIMENSIONS | {each.symbol: each.dimension for each in declared.quantities.values()}
+        )
         if dimension != one.dimension:
             raise DimensionError(f"{one.name}.over: {over} has dimension {dimension}, {one.name} has {one.dimension}")
         signs = [key for key in ("positive", "nonnegative", "real") if one.symbol.assumptions0.get(key)]
@@ -199,7 +201,7 @@ def _scale(one: Declared, declared: Declarations, all_places: Mapping[str, Place
         if one.symbol in full.free_symbols:
             near += _by_vocabulary(scale.free_symbols) + _by_vocabulary(full.free_symbols)
     candidates = [s for s in dict.fromkeys([*near, *_ALWAYS]) if s.name not in _MOVING and any(DIMENSIONS[s].exponents)]
-    target = sp.Matrix([sp.Rational(power) for power in one.dimension.exponents])
+    target = sp.Matrix(one.dimension.exponents)
     for count in (1, 2, 3):
         for chosen in combinations(candidates, count):
             matrix = dimension_matrix(chosen)

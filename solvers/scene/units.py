@@ -165,7 +165,11 @@ def quantity(text: str, si: str, field: str, accepted: str) -> float:
         raise InputError(field, text, accepted, "has no unit")
     if re.match(r",\d", unit):
         raise InputError(field, text, accepted, "has a comma in place of a decimal point")
-    if unit in COMMON and (si in DIMENSIONS or COMMON[unit][0] == si):  # 1/s is also that of a user's rate
+    if re.search(r"\^[a-z]", si):  # an exponent that is a number of the scene, which no other unit can be converted by
+        if unit != si:
+            raise InputError(field, text, accepted, f"is not in {si}")
+        value = size
+    elif unit in COMMON and (si in DIMENSIONS or COMMON[unit][0] == si):  # 1/s is also that of a user's rate
         dimension, factor = COMMON[unit]
         if dimension != si:
             raise InputError(field, text, accepted, f"is {DIMENSIONS[dimension]}, not {_demanded(si)}")

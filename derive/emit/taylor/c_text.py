@@ -204,7 +204,7 @@ class Constants:
             return self.name(rest)
         if rest not in self._hoisted:
             name, count = hint, 1
-            while name in self.prepared:
+            while name in self.prepared or f"{self._place}{name}" in self._places.values():
                 count += 1
                 name = f"{hint}_{count}"
             self.prepared[name] = rest
