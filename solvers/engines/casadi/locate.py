@@ -205,8 +205,6 @@ class EventLocator:
         why, remedy = CREEPS, "a larger --rtol, or "
         if self.phase.resting:
             why = RESTS
-            if not (self.model.space and self.model.friction):  # the kernel has no such rest in space
-                remedy = f"engine taylor, {remedy}"
         elif phases > min(CHATTER_PHASES, most // (4 * CALL)):
             why, remedy = CHATTERS, ""  # which no tolerance shortens
         return self._error(

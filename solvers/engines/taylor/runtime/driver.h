@@ -136,7 +136,11 @@ static void expand_states(expansion *e, const lanes *l, const fixed *f)
 #endif
 #if RUBS
     if (bits(l->alive & l->resting))
+#if SPACE
+        expand_rubbing(&e->r, &e->s, &f->c, l, bits(e->turns) ? &e->turning : 0);
+#else
         expand_rubbing(&e->r, &e->s, &f->c, l);
+#endif
 #endif
 }
 
@@ -180,7 +184,7 @@ static first_event event_of_step(queue *q, expansion *e, const lanes *l, const f
     }
 #endif
     first_event first = find_events(&e->s, l, f, h);
-#if RUBS
+#if ROLLS
     if (bits(l->alive & l->resting))
         find_events_at_rest(&e->r, l, h, &first);
 #endif
