@@ -83,7 +83,7 @@ class Explorer:
         """The page, which loads nothing.
 
         Raises:
-            InputError: a law that has no recurrence, or whose module is not shipped, without a compiler for WebAssembly.
+            InputError: a law that has no recurrence, or whose module is neither shipped nor can be compiled.
         """
         data = self._data()
         first = data["scenes"][0]

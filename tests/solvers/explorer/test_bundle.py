@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import InputError, Scene
-from wetdoublet.solvers.explorer.knobs import knobs
 from wetdoublet.solvers.explorer import module as modules
 from wetdoublet.solvers.explorer.build import compilations
+from wetdoublet.solvers.explorer.knobs import knobs
 from wetdoublet.solvers.explorer.module import BUILT as FOLDER
 from wetdoublet.solvers.explorer.module import module
 from wetdoublet.solvers.explorer.page_of_scene import explore
