@@ -1,5 +1,6 @@
 """`wetdoublet averages`: outcomes and restitution averaged over impact geometry and speeds."""
 
+import sys
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -29,7 +30,8 @@ def command(
     """Sticking probability and mean restitution of SCENE over all impact angles and speeds, for each pair of radii.
 
     Impact angles have the density sin(2 theta) of isotropic relative velocities. With maxwell:S speeds are those of a
-    gas whose velocity components have the standard deviation S, weighted by flux. Without -o the table is printed.
+    gas whose velocity components have the standard deviation S, weighted by flux. Without -o a table is
+    printed, into a pipe as CSV.
 
     \b
     Example:
@@ -48,7 +50,7 @@ def command(
     scene = request.scene_without_impact("has no influence on averages")
 
     from ..averages.averages import collision_averages
-    from ..averages.dataset import to_csv
+    from ..averages.dataset import table, to_csv
     from ..averages.hosts import to_openfoam, to_pysdm
     from ..many.regime_map import write
     from .resumable import resumable
@@ -64,7 +66,7 @@ def command(
                 write(data, output)
             journal.remove()
     if output is None:
-        click.echo(to_csv(data), nl=False)
+        click.echo(table(data) if sys.stdout.isatty() else to_csv(data), nl=False)
     reasons = [str(reason) for reason in data["reason"].values.ravel() if reason]
     if reasons:
         click.echo(f"{len(reasons)} of {data['reason'].size} pairs failed; the first: {reasons[0]}", err=True)

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..collision.text import prefix
-from ..formatting.style import NOTE, picture
+from ..formatting.style import NOTE, broken, picture
 
 if TYPE_CHECKING:
     import xarray
@@ -31,7 +31,7 @@ def draw_gradients(data: xarray.Dataset) -> Figure:
     axes = figure.subplots(len(quantities), 1, sharex=True, squeeze=False)[:, 0]
     x, label = _across(data)
     order = np.argsort(x, kind="stable")
-    jumps = np.flatnonzero(np.diff(data["outcome"].values[order])) + 1  # lines are not joined across them
+    outcome = data["outcome"].values[order]
     for axis, name in zip(axes, quantities, strict=True):
         values = data["elasticity"].sel(quantity=name).values
         with warnings.catch_warnings():
@@ -42,9 +42,8 @@ def draw_gradients(data: xarray.Dataset) -> Figure:
             size[parameters.index("impact.stokes")] = 0.0
         strongest = [k for k in np.argsort(-size) if size[k] > 0]
         for k, colour in zip(strongest, _COLOURS):
-            y = np.insert(values[order, k], jumps, np.nan)
-            axis.plot(np.insert(x[order], jumps, np.nan), y, ".-", color=colour, linewidth=1.0, markersize=4,
-                      label=parameters[k])  # fmt: skip
+            style: Any = {"color": colour, "linewidth": 1.0, "markersize": 4, "label": parameters[k]}
+            axis.plot(*broken(outcome, x[order], values[order, k]), ".-", **style)
         axis.axhline(0, color="#202020", linewidth=0.6)
         axis.set_ylabel(str(name).replace("_", " "))
         axis.spines[["top", "right"]].set_visible(False)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
@@ -260,29 +259,26 @@ def draw(data: xarray.Dataset) -> Any:
 def _drawn(data: xarray.Dataset) -> Any:
     from matplotlib.figure import Figure
 
+    from ..formatting.style import broken, title
+
     over = str(next(iter(data.dims)))
     of = next(name for name in MANY if name in data)
     x = np.degrees(data[over].values) if over == "impact.angle" else data[over].values
-    y, spread = data[of].values, 2 * data.first_order.values
+    y, spread, low, high = data[of].values, 2 * data.first_order.values, data.low.values, data.high.values
+    x, y, spread, low, high = broken(data.outcome.values, x, y, spread, low, high)
     figure = Figure(figsize=(6.6, 4.2), layout="constrained")
     axis = figure.subplots()
-    outcomes = data.outcome.values
-    starts = [0, *(k for k in range(1, x.size) if outcomes[k] != outcomes[k - 1]), x.size]
-    for k, (start, stop) in enumerate(pairwise(starts)):  # no line across a jump
-        part = slice(start, stop)
-        label, shade = ("as given", "±2σ, first order") if k == 0 else (None, None)
-        axis.fill_between(
-            x[part], (y - spread)[part], (y + spread)[part], color="#2a6f97", alpha=0.25, linewidth=0, label=shade
-        )
-        axis.plot(x[part], y[part], color="#2a6f97", linewidth=1.6, label=label)
-    axis.plot(x, data.low.values, color="#c1554a", linewidth=0.9, linestyle="--",
-              label=f"2.5 and 97.5 % of {data.attrs['samples']} samples")  # fmt: skip
-    axis.plot(x, data.high.values, color="#c1554a", linewidth=0.9, linestyle="--")
+    shade: Any = {"color": "#2a6f97", "alpha": 0.25, "linewidth": 0, "label": "±2σ, first order"}
+    axis.fill_between(x, y - spread, y + spread, **shade)
+    axis.plot(x, y, color="#2a6f97", linewidth=1.6, label="as given")
+    dashes: Any = {"color": "#c1554a", "linewidth": 0.9, "linestyle": "--"}
+    axis.plot(x, low, label=f"2.5 and 97.5 % of {data.attrs['samples']} samples", **dashes)
+    axis.plot(x, high, **dashes)
     unit = data[of].attrs["units"]
     axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
     name = over.partition(".")[2]
     axis.set_xlabel(AXIS_LABELS.get(name, "impact angle (deg)"))
-    axis.set_title(f"{of.replace('_', ' ')} with {data.attrs['uncertainty']} uncertain")
+    title(figure, f"{of.replace('_', ' ')} with {data.attrs['uncertainty']} uncertain")
     axis.spines[["top", "right"]].set_visible(False)
     axis.legend()
     return figure

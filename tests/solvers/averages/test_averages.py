@@ -1,6 +1,7 @@
 """Collision averages against sums over many collisions, and against derivatives that are exact."""
 
 import csv
+import re
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from wetdoublet.solvers import (
     collide_pair,
     collision_averages,
 )
-from wetdoublet.solvers.averages.dataset import QUANTITIES
+from wetdoublet.solvers.averages.dataset import QUANTITIES, table
 from wetdoublet.solvers.averages.sizes import PROPORTIONAL, scene_of_sizes
 from wetdoublet.solvers.averages.speeds import Speeds
 from wetdoublet.solvers.host.compiler import compiler
@@ -260,6 +261,22 @@ def test_the_command_writes_both_formats(tmp_path: Path) -> None:
     done = run("averages", "granulation", "--speeds", "1 m")
     assert done.exit_code == 2
     assert "--speeds" in done.output
+
+
+def test_a_table_for_a_person_has_units_and_the_numbers() -> None:
+    """Each column has a name and a unit; what is not defined is a dash; a line for each pair."""
+    radii = ["50 um", "200 um"]
+    found = collision_averages("granulation", speeds="1 m/s", radii=radii, tolerance=1e-3, wrt="liquid.viscosity")
+    lines = table(found).splitlines()
+    assert lines[0] == "relative speed 1 m/s, all impact angles"
+    heads, units, *pairs = (re.split(r"  +", line.strip()) for line in lines[2:8])
+    assert len(heads) == len(units) == 11
+    assert (units[:2], units[-1]) == (["um", "um"], "m^3/s")
+    assert [pair[:2] for pair in pairs] == [["50", "50"], ["50", "200"], ["200", "50"], ["200", "200"]]
+    assert [float(pair[2]) for pair in pairs] == pytest.approx(found.stick_probability.values.ravel(), rel=1e-4)
+    assert pairs[0][heads.index("e_n apart")] == "-"  # none separates
+    last = lines[-1].split()
+    assert float(last[-1]) == pytest.approx(float(found.gradient[1, 1, -1, 0]), rel=1e-4)
 
 
 def test_without_a_compiler_it_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

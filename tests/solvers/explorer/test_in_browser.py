@@ -2,20 +2,48 @@
 
 import json
 import math
+import os
 import random
+import subprocess
+import sys
 import time
 import urllib.parse
 from pathlib import Path
 from typing import Any
 
 import pytest
-from wetdoublet.solvers import Scene, explore
+from wetdoublet.solvers import Scene, collide, explore
+from wetdoublet.solvers.scene.scenefile import PRESETS
 
-from .page import GRANULATION
+from .page import GRANULATION, Page
 
 pytestmark = pytest.mark.slow
 
 ADDRESSES = 200
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A cache that begins empty."""
+    return tmp_path_factory.mktemp("cache")
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_a_preset_opens_without_a_compiler(preset: str, browser: Any, cache: Path, tmp_path: Path):
+    """The command on a machine without one writes the page, and the page has the answer of Python."""
+    (tmp_path / "ziglang.py").write_text("raise ImportError")
+    blocked = {"PATH": str(tmp_path), "PYTHONPATH": str(tmp_path), "WETDOUBLET_CACHE": str(cache)}
+    command = [sys.executable, "-m", "wetdoublet", "explore", preset, "-o", str(tmp_path / "page.html")]
+    done = subprocess.run(command, env=os.environ | blocked, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    tab = browser.new_page()
+    page, expected = Page(tab, tmp_path / "page.html"), collide(preset)
+    found = page.ask("wetdoublet.shown().found")
+    assert ("stick", "stick-rotate-separate", "bounce")[found["outcome"]] == expected.outcome
+    if expected.outcome != "stick":
+        assert found["restitution"] == pytest.approx(expected.restitution, rel=1e-7)
+    assert page.complaints == []
+    tab.close()
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
