@@ -280,23 +280,26 @@ def _impact(
         if gap is None:
             problem = "lie off a straight path the more, the nearer the spheres are: does the tracker bend it?"
             raise InputError(where, None, f"at least {LEAST} frames of a uniform approach", problem)
-    far = distance >= solids + gap
-    blank = int(((before | after) & ~far).sum())
-    before, after = before & far, after & far
-    if gap and blank:
-        bend = (
-            ""
+    near_frames = distance < solids + gap
+    turned_only = [each & near_frames & (near is None) for each in (before, after)]
+    if blank := int(((before | after) & near_frames).sum()):
+        use = (
+            "are left out"
             if near is not None
-            else (", for they lie off the straight path of the others, as of a tracker that displaces near discs")
+            else (
+                "count by the direction of their line of centres only: they lie off the straight path of the others, "
+                "as of a tracker that displaces near discs"
+            )
         )
-        remarks.append(f"{blank} frames in which the gap is below {gap:.3g} m are left out{bend}")
+        remarks.append(f"{blank} frames in which the gap is below {gap:.3g} m {use}")
+    before, after = before & ~near_frames, after & ~near_frames
     check_count()
     time = time - time[first]
-    lines = [_line(time, relative, part) for part in ((before,) if sticks else (before, after))]
-    freedom = sum(2 * int(each.sum()) - 4 for each in (before, after) if each.any())
-    sigma = noise or math.sqrt(sum(line[2] for line in lines) / freedom)
+    parts = list(zip((before, after), turned_only))[: 1 if sticks else 2]
+    lines = [_line(time, relative, *each) for each in parts]
+    sigma = noise or math.sqrt(sum(line[2] for line in lines) / sum(line[3] for line in lines))
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
-    for part, reach, (line, _, _) in zip((before, after), (touch, apart), lines):
+    for part, reach, (line, *_) in zip((before, after), (touch, apart), lines):
         passing = abs(line[0, 0] * line[1, 1] - line[0, 1] * line[1, 0]) / np.linalg.norm(line[1])
         if passing >= reach:
             problem = f"pass each other at {passing:.4g} m, beyond {reach:.4g} m: is the scale or the diameter off?"
@@ -307,15 +310,6 @@ def _impact(
         if off[worst] > _STRAY * usual + _ROUNDING * touch:
             problem = f"{off[worst]:.3g} m off its line at {names[frames[worst]]}, others {usual:.2g} m"
             raise InputError(where, None, "positions along straight lines", problem)
-        steps, times = np.diff(relative[part], axis=0), np.diff(time[part])
-        jumps = np.linalg.norm(steps - times[:, None] * np.median(steps / times[:, None], axis=0), axis=1)
-        worst, usual = int(np.argmax(jumps)), max(float(np.median(jumps)), noise or 0.0, rounding)
-        if jumps[worst] > _STRAY * usual + _ROUNDING * touch:
-            problem = (
-                f"jump by {jumps[worst]:.3g} m after {names[frames[worst]]}, others by {usual:.2g} m: "
-                "is a sphere taken for another one?"
-            )
-            raise InputError(where, None, "a uniform motion", problem)
     check_times(explained=False)
     if sticks:
         end = float(np.median(distance[max(first, time.size - LEAST) :]))
@@ -348,7 +342,7 @@ def _impact(
         return np.array(found)
 
     centre = np.array([*(each for one in lines for each in one[0].ravel()), 0.0])
-    blocks = [np.kron(np.linalg.cholesky(one[1]), np.eye(2)) * sigma for one in lines]
+    blocks = [np.linalg.cholesky(covariance) * sigma for _, covariance, *_ in lines]
     steps = block_diag(*blocks, [[scale_sd]]).T  # independent deviations of the parameters
     moved = [(results(centre + _STEP * step) - results(centre - _STEP * step)) / (2 * _STEP) for step in steps]
     sd = np.sqrt((np.array(moved) ** 2).sum(axis=0))
@@ -378,11 +372,21 @@ def _rests_from(time: np.ndarray, distance: np.ndarray, tolerance: float) -> int
     return since if would_go > 4 * tolerance else time.size
 
 
-def _line(time: np.ndarray, relative: np.ndarray, part: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
-    """Position at time 0 and velocity, (2, 2); their covariance over the noise's variance; sum of squared residuals."""
-    design = np.stack([np.ones(int(part.sum())), time[part]], axis=1)
-    solution = np.linalg.lstsq(design, relative[part], rcond=None)[0]
-    return solution, np.linalg.inv(design.T @ design), float(((relative[part] - design @ solution) ** 2).sum())
+def _line(
+    time: np.ndarray, relative: np.ndarray, part: np.ndarray, turned_only: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, float, int]:
+    """Position at time 0 and velocity, (2, 2); their covariance over the noise's variance; sum of squares; freedom.
+
+    Arguments:
+        turned_only: frames of which the direction counts: by symmetry a tracker displaces near discs along their line.
+    """
+    across = relative[turned_only] @ [[0, 1], [-1, 0]] / np.linalg.norm(relative[turned_only], axis=1)[:, None]
+    whole = np.kron(np.stack([np.ones(int(part.sum())), time[part]], axis=1), np.eye(2))
+    design = np.concatenate([whole, np.hstack([across, time[turned_only, None] * across])])
+    values = np.append(relative[part].ravel(), np.zeros(len(across)))
+    solution = np.linalg.lstsq(design, values, rcond=None)[0]
+    squares = float(((values - design @ solution) ** 2).sum())
+    return solution.reshape(2, 2), np.linalg.inv(design.T @ design), squares, values.size - 4
 
 
 def _state(line: np.ndarray, distance: float, side: int) -> tuple[float, float, float, float]:
