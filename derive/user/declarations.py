@@ -316,7 +316,10 @@ def functions_of(slot: str) -> dict[str, bool]:
     """The functions of a slot's laws, and whether each is required: it is if all laws of the library have it."""
     laws = LAWS[slot].values()
     names = dict.fromkeys(function.name for law in laws for function in law.functions)
-    return {name: all(name in [f.name for f in law.functions if not f.for_proof] for law in laws) for name in names}
+    return {
+        name: name != "potential" and all(name in [f.name for f in law.functions if not f.for_proof] for law in laws)
+        for name in names
+    }
 
 
 def _check_texts(label: str, **texts: object) -> None:

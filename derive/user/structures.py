@@ -16,7 +16,7 @@ from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_vel
 from . import own_events
 from .declarations import Declarations, Declared, Proposed, unfolded
 from .own_events import OwnEvent
-from .rounding import rounded
+from .kinks import smooth
 
 _ALWAYS = (a, x0, mu, v0, m)  # quantities of every scene, in the order in which a scale is sought
 _MOVED = ("separation", "separation_rate", "rotation_rate", "spin_rate")
@@ -121,7 +121,7 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     printed = tuple(_in_si(law, groups, all_places) for law in laws)
     still = {*GROUPS, *(group.symbol for group in groups.values())}
     written = tuple(laws)
-    laws = [replace(law, functions=tuple(rounded(each, still) for each in law.functions)) for law in laws]
+    laws = [replace(law, functions=tuple(smooth(each, still) for each in law.functions)) for law in laws]
     called = {symbol for symbols in extra.found.values() for symbol in symbols}
     events = tuple(_event(one, declared, groups, called) for one in declared.events.values())
     used = called.union(*(one.symbols for one in events))

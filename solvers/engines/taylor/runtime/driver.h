@@ -10,6 +10,7 @@
 #include "effects.h"
 #include "guards.h"
 #include "implicit.h"
+#include "kinks.h"
 #include "model.h"
 #include "nearness.h"
 #include "queue.h"
@@ -288,6 +289,9 @@ static void run(queue *q)
 #endif
         mask creeps;
         vec h = length_of_step(q, &e, &l, &f, &creeps);
+#if KINKS
+        h = before_kinks(&e.s, h, creeps);
+#endif /* KINKS */
         first_event first = event_of_step(q, &e, &l, &f, h);
         mask falls = l.alive & (first.time <= 1.0);
         h = choose(falls, h*first.time, h);
