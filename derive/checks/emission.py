@@ -92,7 +92,9 @@ def _different(casadi: list[float], kernel: list[float], function: LawFunction) 
     return ""
 
 
-def _by_casadi(function: LawFunction, emitted: Callable[..., Any]) -> Callable[[Mapping[sp.Symbol, float]], list[float]]:
+def _by_casadi(
+    function: LawFunction, emitted: Callable[..., Any]
+) -> Callable[[Mapping[sp.Symbol, float]], list[float]]:
     """Value and slopes of the emitted Python, by the values of the arguments."""
     column = SX.sym("arguments", len(function.arguments))
     value = SX(emitted(*vertsplit(column)))

@@ -1,7 +1,7 @@
 """Kinks of a law: each a guard, on either side of which the law is smooth.
 
 `Abs`, `Max`, `Min`, `sign` and the conditions of a `Piecewise` have no Taylor series where they change. Each becomes a
-guard k, a named part of the law, and a side, k/|k|: |k| is side k. Engines end a step or a phase where a guard vanishes.
+guard k, a named part of the law, and a side, k/|k|, so that |k| is side k. A step or a phase ends where a guard is zero.
 Where a side is asked for elsewhere it is k/sqrt(k^2 + WIDTH^2), which no result can tell from it. Powers, roots and
 logarithms of what may vanish are rounded alike, and need no guard: steps shrink in front of their singularity.
 """
@@ -42,6 +42,15 @@ def smooth(function: LawFunction, still: Collection[sp.Symbol]) -> LawFunction:
     return replace(function, result=result, definitions=tuple(smoothing.definitions), kinks=tuple(smoothing.kinks))
 
 
+def rounded(expression: sp.Expr) -> sp.Expr:
+    """An expression with its kinks rounded within WIDTH."""
+    smoothing = _Smoothing(expression.free_symbols)
+    result = smoothing(expression)
+    for symbol, value in reversed(smoothing.definitions):
+        result = result.subs(symbol, value)
+    return result
+
+
 class _Smoothing:
     """Expressions with kinks -> smooth ones; their guards and sides are added to `definitions`."""
 
@@ -68,12 +77,14 @@ class _Smoothing:
             return self._extreme(arguments, 1 if isinstance(node, sp.Max) else -1)
         if isinstance(node, sp.log) and self._vanishes(node.args[0]):
             inner = node.args[0]
-            return sp.log(_squared(self(inner.args[0] if isinstance(inner, sp.Abs) else inner))) / 2
+            return sp.log(self._squared(self(inner.args[0] if isinstance(inner, sp.Abs) else inner))) / 2
         return node.func(*arguments) if node.args else node
 
     def _moves(self, expression: sp.Expr) -> bool:
         definitions = dict(self.definitions)
-        return any(s in self.moving or s in definitions and self._moves(definitions[s]) for s in expression.free_symbols)
+        return any(
+            s in self.moving or (s in definitions and self._moves(definitions[s])) for s in expression.free_symbols
+        )
 
     def _vanishes(self, base: sp.Expr) -> bool:
         """True if an expression may pass zero along a trajectory."""
@@ -89,13 +100,23 @@ class _Smoothing:
         if -rest in self._sides:
             known, rest = -known, -rest
         if rest not in self._sides:
-            names = [sp.Symbol(f"{what}_{len(self._sides) + 1}", real=True) for what in ("kink", "side")]
-            kink, side = names
-            self.definitions += [(kink, rest), (side, kink / sp.sqrt(_squared(kink)))]
+            kink, side = self._named("kink", rest), sp.Symbol(f"side_{len(self._sides) + 1}", real=True)
+            self.definitions.append((side, kink / sp.sqrt(self._squared(kink))))
             self._sides[rest] = side
             if self._moves(rest):
                 self.kinks.append((kink, side))
         return known * self._sides[rest]
+
+    def _named(self, what: str, value: sp.Expr) -> sp.Expr:
+        """A part with a name, which no expansion takes apart: differences keep their digits."""
+        if value.is_Symbol and what != "kink":
+            return value
+        symbol = sp.Symbol(f"{what}_{len(self.definitions) + 1}", real=True)
+        self.definitions.append((symbol, value))
+        return symbol
+
+    def _squared(self, inner: sp.Expr) -> sp.Expr:
+        return self._named("base", inner) ** 2 + WIDTH**2
 
     def _step(self, inner: sp.Expr) -> sp.Expr:
         """1 where an expression is positive and 0 where it is negative."""
@@ -113,17 +134,17 @@ class _Smoothing:
         if not self._vanishes(base) or (exponent.is_Integer and exponent.is_positive):
             return self(base) ** exponent
         if isinstance(base, sp.Abs):
-            return _squared(self(base.args[0])) ** (exponent / 2)
+            return self._squared(self(base.args[0])) ** (exponent / 2)
         inner = self(base)
         if exponent.is_Integer:
             if base == normal_velocity:  # of a force that vanishes with it
-                return (inner / _squared(inner)) ** -exponent
+                return (inner / self._squared(inner)) ** -exponent
             return inner**exponent
         if isinstance(base, sp.Pow) and base.exp == 2:
-            return _squared(self(base.base)) ** exponent
+            return self._squared(self(base.base)) ** exponent
         if base.xreplace(self.written).has(*_FLAT):  # stays zero where the base is
-            return inner * _squared(inner) ** ((exponent - 1) / 2)
-        return _squared(inner) ** (exponent / 2)
+            return inner * self._squared(inner) ** ((exponent - 1) / 2)
+        return self._squared(inner) ** (exponent / 2)
 
     def _piecewise(self, node: sp.Piecewise) -> sp.Expr:
         *cases, (result, last) = node.args
@@ -151,7 +172,3 @@ class _Smoothing:
         if isinstance(condition, sp.Not):
             return 1 - parts[0]
         raise KinkError(f"the condition {condition} is no comparison; accepted: <, <=, >, >=, &, |, ~")
-
-
-def _squared(inner: sp.Expr) -> sp.Expr:
-    return inner**2 + WIDTH**2

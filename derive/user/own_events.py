@@ -21,6 +21,7 @@ from ..physics.scaling import DISTANCE, EQUAL, cancelled, to_groups
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import RATE, SPEED, Dimension
+from .kinks import rounded
 
 ACCEPTED = "x, u, omega, xi, r, quantities of a scene and of the model file, marks of other events"
 MOVING = (q.x, q.u, q.omega, q.xi)  # a guard depends on one of them at least
@@ -209,7 +210,10 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     if not present:
         return model
     marks = tuple(each.mark for each in present)
-    forms = {each.name: each.in_structure(model.structure) for each in present}
+    forms = {}
+    for each in present:
+        guard, jump, released = each.in_structure(model.structure)
+        forms[each.name] = rounded(guard), {state: rounded(value) for state, value in jump.items()}, rounded(released)
     still, same = dict.fromkeys(marks, sp.Integer(0)), {mark: mark for mark in marks}
     more: dict[str, Mapping[sp.Symbol, sp.Expr]] = {
         "right_hand_side": still, "resting_rates": still, "rebound": same, "rigid_rotation": same, "rubbed": same,

@@ -15,8 +15,8 @@ from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
 from . import own_events
 from .declarations import Declarations, Declared, Proposed, unfolded
-from .own_events import OwnEvent
 from .kinks import smooth
+from .own_events import OwnEvent
 
 _ALWAYS = (a, x0, mu, v0, m)  # quantities of every scene, in the order in which a scale is sought
 _MOVED = ("separation", "separation_rate", "rotation_rate", "spin_rate")

@@ -186,7 +186,9 @@ class Model:
         """Slot, function and number of every kink of the forces' laws."""
         slots = (slot for slot, _ in self.choice.laws if slot != "glass")
         counts = {slot: getattr(getattr(self.laws, slot), "KINKS", {}) for slot in slots}
-        return tuple((slot, name, k) for slot, each in counts.items() for name, count in each.items() for k in range(count))
+        return tuple(
+            (slot, name, k) for slot, each in counts.items() for name, count in each.items() for k in range(count)
+        )
 
     def _sided(self, sides: Sequence[int], guards: Mapping[str, dict[str, tuple[SX, ...]]] | None = None) -> Laws:
         """The laws on given sides of their kinks."""

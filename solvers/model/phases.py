@@ -6,20 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from casadi import (
-    SX,
-    Function,
-    cross,
-    densify,
-    fabs,
-    fmax,
-    fmin,
-    horzcat,
-    if_else,
-    jtimes,
-    logic_and,
-    vertcat,
-)
+from casadi import SX, Function, cross, densify, fabs, fmax, fmin, horzcat, if_else, jtimes, logic_and, vertcat
 
 from ...generated.automaton import CLOSING, EVENTS, VOID_WITHOUT
 from ...generated.automaton import Event as Row

@@ -66,5 +66,7 @@ def random_law(number: int) -> tuple[str, str]:
     grammar = _Grammar(random, slot in ("film", "shear"))
     factor = f"{grammar.number()} + {grammar.positive(random.choice([1, 2, 2, 3]))}"
     text = _LAWS[slot].format(factor=factor)
-    quantities = [each.format(reach=f"{random.uniform(2, 7):.2g}") for each in _QUANTITIES if each.split(" = ")[0] in text]
+    quantities = [
+        each.format(reach=f"{random.uniform(2, 7):.2g}") for each in _QUANTITIES if each.split(" = ")[0] in text
+    ]
     return slot, _HEAD + "\n".join([*quantities, text]) + "\n"

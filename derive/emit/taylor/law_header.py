@@ -87,7 +87,12 @@ def _constants(name: str, constants: Constants, fixed: tuple[sp.Symbol, ...]) ->
 
 
 def _recurrences(
-    name: str, doc: str, program: Program, result: str | sp.Expr, constants: Constants, moving: tuple[sp.Symbol, ...],
+    name: str,
+    doc: str,
+    program: Program,
+    result: str | sp.Expr,
+    constants: Constants,
+    moving: tuple[sp.Symbol, ...],
     kinks: Sequence[sp.Symbol] = (),
 ) -> list[str]:
     recurrences = Recurrences(program, constants, lambda series: series)

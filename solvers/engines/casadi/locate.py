@@ -256,7 +256,8 @@ class EventLocator:
         if sides != self.phase.sides and not self.phase.resting:
             where = ", ".join(name for name, one, other in zip(model.kinks, sides, self.phase.sides) if one != other)
             raise self._error(
-                f"the motion stays on a step of a law's force ({where})", "write the step as a steep slope, as tanh(u/u0)"
+                f"the motion stays on a step of a law's force ({where})",
+                "write the step as a steep slope, as tanh(u/u0)",
             )
 
     def _proved(self, elapsed: float) -> bool:
@@ -350,7 +351,8 @@ class EventLocator:
             for name in (*rows, *self.model.kinks)
             if name in find.events
             and name != stop.event
-            and find.value(name, stop.y, self.p, self.phase.motion, level) < (-_ON_KINK if name in self.model.kinks else 0)
+            and find.value(name, stop.y, self.p, self.phase.motion, level)
+            < (-_ON_KINK if name in self.model.kinks else 0)
         ]
         return min(crossed, key=lambda hit: hit.time, default=stop)
 

@@ -23,7 +23,8 @@ RECORD_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *_CO
 _ONCE = "#pragma once"
 # What only kernels of models with declared events contain is taken out of the others' text, and so out of their digest.
 _OWN_EVENTS, _KINKS = (
-    re.compile(rf"#if {name}\n.*?^#endif /\* {name} \*/\n", re.MULTILINE | re.DOTALL) for name in ("OWN_EVENTS", "KINKS")
+    re.compile(rf"#if {name}\n.*?^#endif /\* {name} \*/\n", re.MULTILINE | re.DOTALL)
+    for name in ("OWN_EVENTS", "KINKS")
 )
 _GUARDS = re.compile(r"^#define (\w+)_kinks\(s\) (.*)$", re.MULTILINE)
 _STRUCT, _MEMBER = re.compile(r"typedef struct \{([^}]*)\} series;"), re.compile(r"\b(\w+)_series (\w+);")
