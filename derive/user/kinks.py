@@ -2,8 +2,8 @@
 
 `Abs`, `Max`, `Min`, `sign` and the conditions of a `Piecewise` have no Taylor series where they change. Each becomes a
 guard k, a named part of the law, and a side, k/|k|, so that |k| is side k. A step or a phase ends where a guard is zero.
-Where a side is asked for elsewhere it is k/sqrt(k^2 + WIDTH^2), which no result can tell from it. Powers, roots and
-logarithms of what may vanish are rounded alike, and need no guard: steps shrink in front of their singularity.
+Where a side is asked for elsewhere it is k/sqrt(k^2 + WIDTH^2), which no result can tell from it. Powers,
+roots and logarithms of what may vanish are rounded alike, and what vanishes is a guard.
 """
 
 from collections.abc import Collection, Iterable
@@ -101,7 +101,7 @@ class _Smoothing:
             known, rest = -known, -rest
         if rest not in self._sides:
             kink, side = self._named("kink", rest), sp.Symbol(f"side_{len(self._sides) + 1}", real=True)
-            self.definitions.append((side, kink / sp.sqrt(self._squared(kink))))
+            self.definitions.append((side, kink / sp.sqrt(kink**2 + WIDTH**2)))
             self._sides[rest] = side
             if self._moves(rest):
                 self.kinks.append((kink, side))
@@ -116,6 +116,8 @@ class _Smoothing:
         return symbol
 
     def _squared(self, inner: sp.Expr) -> sp.Expr:
+        """The rounded square of what may vanish, which is a guard."""
+        self._side(inner)
         return self._named("base", inner) ** 2 + WIDTH**2
 
     def _step(self, inner: sp.Expr) -> sp.Expr:

@@ -58,7 +58,7 @@ def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str
     moving = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if moved)
     fixed = tuple(argument for argument in each.arguments if argument not in moving)
     name = f"{law.slot}_{each.name}"
-    intermediates, _ = needed([each.result], each.definitions)
+    intermediates, _ = needed([each.result, *(kink for kink, _ in each.kinks)], each.definitions)
     if not moving:
         return _plain(name, each)
     if (law.slot, each.name) in COMPARED:

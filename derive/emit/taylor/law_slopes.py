@@ -103,7 +103,7 @@ def slope_program(
     each: LawFunction, moving: tuple[sp.Symbol, ...]
 ) -> tuple[Program, str | sp.Expr, Program, dict[sp.Symbol, str | sp.Expr]]:
     """The program of a function and its result, its continuation by the slopes, and these by argument."""
-    kept, _ = needed([each.result], each.definitions)
+    kept, _ = needed([each.result, *(kink for kink, _ in each.kinks)], each.definitions)
     value, result = cheapest(each.result, kept, moving)
     program, chain = value.continued(), Chain(kept)
     slopes = {argument: chain.by(each.result, argument) for argument in each.arguments}

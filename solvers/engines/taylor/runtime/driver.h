@@ -246,6 +246,9 @@ static void leave_to_others(queue *q, lanes *l, fixed *f, mask lost, mask falls)
     /* only steps of series are recorded, and implicit.h ignores the purpose */
     slow = q->step_room || q->t->purpose != WHOLE ? 0 : slow;
 #endif
+#if KINKS
+    slow = 0; /* implicit.h takes derivatives across kinks */
+#endif /* KINKS */
     EACH_OF(lane, slow)
         park(q, l, f, lane);
     EACH_OF(lane, bits(spent)) {
