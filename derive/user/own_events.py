@@ -21,6 +21,7 @@ from ..physics.scaling import DISTANCE, EQUAL, cancelled, to_groups
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import RATE, SPEED, Dimension
+from .kinks import rounded
 
 ACCEPTED = "x, u, omega, xi, beta, t, r, quantities of a scene and of the model file, marks of other events"
 MOVING = (q.x, q.u, q.omega, q.xi, q.beta, q.t)  # a guard depends on one of them at least
@@ -213,7 +214,10 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     if not present:
         return model
     marks = tuple(each.mark for each in present)
-    forms = {each.name: each.in_structure(model.structure) for each in present}
+    forms = {}
+    for each in present:
+        guard, jump, released = each.in_structure(model.structure)
+        forms[each.name] = rounded(guard), {state: rounded(value) for state, value in jump.items()}, rounded(released)
     guards = _in_order(present, forms)
     watched = groups_of(events, model.structure)
     rates: dict[sp.Symbol, sp.Expr] = dict.fromkeys(marks, sp.Integer(0))

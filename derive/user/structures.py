@@ -15,6 +15,7 @@ from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
 from . import own_events
 from .declarations import Declarations, Declared, Proposed, unfolded
+from .kinks import smooth
 from .own_events import OwnEvent
 
 _ALWAYS = (a, x0, mu, v0, m)  # quantities of every scene, in the order in which a scale is sought
@@ -46,13 +47,15 @@ class InSI(LawFunction):
 class UserModel:
     """A derived model file: laws in the library's form, groups, and additional arguments of each slot's functions.
 
-    `si` holds the laws in SI except for the slot's arguments, for print.
+    `laws` are as they are emitted, with kinks rounded; `written` has the kinks, and `si` is in SI except for the slot's
+    arguments, for print.
     """
 
     name: str
     meaning: str
     declarations: Declarations
     laws: tuple[Law, ...]
+    written: tuple[Law, ...]
     si: tuple[Law, ...]
     groups: tuple[Group, ...]
     extra: Mapping[str, tuple[sp.Symbol, ...]]
@@ -116,6 +119,9 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
         extra.add(laws[-1], all_places)
     laws = [extra.widened(law) for law in laws]
     printed = tuple(_in_si(law, groups, all_places) for law in laws)
+    still = {*GROUPS, *(group.symbol for group in groups.values())}
+    written = tuple(laws)
+    laws = [replace(law, functions=tuple(smooth(each, still) for each in law.functions)) for law in laws]
     called = {symbol for symbols in extra.found.values() for symbol in symbols}
     events = tuple(_event(one, declared, groups, called) for one in declared.events.values())
     used = called.union(*(one.symbols for one in events))
@@ -123,7 +129,7 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
     if unused:
         raise ScalingError(f"{', '.join(unused)}: declared, but no law or event depends on it")
-    return UserModel(name, meaning, declared, tuple(laws), printed, kept, extra.found, events)
+    return UserModel(name, meaning, declared, tuple(laws), written, printed, kept, extra.found, events)
 
 
 def _event(

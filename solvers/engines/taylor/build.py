@@ -89,7 +89,11 @@ def _compiled(variant: Variant) -> bytes | None:
         try:
             return kept(_entry(variant, text, flagged), lambda: compiled(text, flagged))
         except (CannotCompile, OSError) as error:
-            say_once(f"{tool} cannot compile the Taylor kernel ({error}): other engines answer")
+            ours = "source.c:" in str(error)  # a place in the text that we emit, not a failure of the compiler
+            what = (
+                "the C emitted for the Taylor kernel is wrong" if ours else f"{tool} cannot compile the Taylor kernel"
+            )
+            say_once(f"{what} ({error}): {'please report the model; ' * ours}other engines answer")
             return None
 
 

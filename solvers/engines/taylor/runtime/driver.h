@@ -10,6 +10,7 @@
 #include "effects.h"
 #include "guards.h"
 #include "implicit.h"
+#include "kinks.h"
 #include "model.h"
 #include "nearness.h"
 #include "queue.h"
@@ -249,6 +250,9 @@ static void leave_to_others(queue *q, lanes *l, fixed *f, mask lost, mask falls)
     /* only steps of series are recorded, and implicit.h ignores the purpose */
     slow = q->step_room || q->t->purpose != WHOLE ? 0 : slow;
 #endif
+#if KINKS
+    slow = 0; /* implicit.h takes derivatives across kinks */
+#endif /* KINKS */
     EACH_OF(lane, slow)
         park(q, l, f, lane);
     EACH_OF(lane, bits(spent)) {
@@ -292,6 +296,9 @@ static void run(queue *q)
 #endif
         mask creeps;
         vec h = length_of_step(q, &e, &l, &f, &creeps);
+#if KINKS
+        h = before_kinks(&e.s, h, creeps);
+#endif /* KINKS */
         first_event first = event_of_step(q, &e, &l, &f, h);
         mask falls = l.alive & (first.time <= 1.0);
         h = choose(falls, h*first.time, h);
