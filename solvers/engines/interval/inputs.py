@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...errors import InputError
@@ -64,21 +64,9 @@ class Inputs:
         if len(box) > MOST:
             raise InputError("within", len(box), f"at most {MOST} entries")
         corners = [dict(zip(box, corner, strict=True)) for corner in itertools.product(*box.values())]
-        for corner in corners if box else ():
-            try:
-                scene.with_si(corner, hold=given)
-            except InputError as error:
-                problem = f"{error.problem}, at a corner of the box"
-                raise InputError(f"within {error.field}", error.value, error.accepted, problem) from None
-        values = [quantities({**entries, **corner}, scene.ways) for corner in corners]
-        if given == "stokes":  # enters as it is, without rounding the speed
-            values = [
-                {**each, "stokes": {**entries, **corner}["impact.stokes"]} for each, corner in zip(values, corners)
-            ]
+        values = [_quantities(scene, entries, corner) for corner in corners]
         exact = {end * scene.fields[name].factor for name, pair in box.items() for end in pair}
-        ranges = {name: _hull((each[name] for each in values), exact) for name in values[0]}
-        if given == "stokes":
-            del ranges["speed"]
+        ranges = {name: _hull([corner[name] for corner in values], exact) for name in values[0]}
         moving = tuple(name for name, (low, high) in ranges.items() if low < high)
         if scene.ways.volume == "coating" and {"volume", "radius_ratio"} <= {*moving}:
             accepted = "entries but the radii, whose volume from coatings need not be monotone"
@@ -102,6 +90,22 @@ class Inputs:
             raise NotProvable("friction of the dry contact is not enclosed")
         own = self.scene.bridge is not None and self.scene.bridge.rupture == "own"
         return engine(select_model(self.scene, oblique, fold=True), own, len(self.moving))
+
+
+def _quantities(scene: Scene, entries: Mapping[str, float | str], corner: Mapping[str, float]) -> dict[str, float]:
+    """The quantities at a corner, whose scene must be admissible; of an impact by Stokes number that, and no speed."""
+    try:
+        if corner:
+            scene.with_si(corner, hold=impact_quantity(scene))
+    except InputError as error:
+        problem = f"{error.problem}, at a corner of the box"
+        raise InputError(f"within {error.field}", error.value, error.accepted, problem) from None
+    entries = {**entries, **corner}
+    values = quantities(entries, scene.ways)
+    if "impact.stokes" in entries:
+        values["stokes"] = entries["impact.stokes"]
+        del values["speed"]
+    return values
 
 
 def _ends(scene: Scene, name: str, width: object) -> Range:
@@ -134,10 +138,9 @@ def _outward(low: float, high: float, part: float) -> Range:
     return math.nextafter(low - abs(low) * part, -math.inf), math.nextafter(high + abs(high) * part, math.inf)
 
 
-def _hull(values: Iterable[float], exact: Container[float]) -> Range:
+def _hull(values: Sequence[float], exact: Container[float]) -> Range:
     """The range of a quantity with these values at the corners, of which those in `exact` are an entry's own."""
-    known = sorted(values)
-    low, high = known[0], known[-1]
+    low, high = min(values), max(values)
     if low == high:
         return low, high
     outer = _outward(low, high, _COMPUTED)
