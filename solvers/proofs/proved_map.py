@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -20,9 +20,13 @@ from ..engines.interval.inputs import Inputs
 from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
 from ..many.collide_many import collide_many
+from ..many.results import outcome_attributes
 from ..scene.origin import origin
 from ..scene.scene import Scene
 from .cells import UNDECIDED, Cell
+
+if TYPE_CHECKING:
+    import xarray
 
 DEPTH = 12  # halvings of a cell
 _POINTS = 6  # collisions along each side of a cell that say where a proof is worth a try
@@ -57,6 +61,28 @@ class ProvedMap:
         total = sum(areas.values())
         return {name: areas[k] / total for k, name in (*enumerate(OUTCOMES), (UNDECIDED, "undecided"))}
 
+    @property
+    def undecided_area(self) -> float:
+        """The part of the area that is not proved."""
+        return self.shares["undecided"]
+
+    @property
+    def outcome(self) -> np.ndarray:
+        """Outcome of each cell: 0 stick, 1 stick-rotate-separate, 2 bounce, -1 undecided."""
+        return np.array([cell.outcome for cell in self.cells], dtype=np.int8)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """A Dataset over `cell`: `outcome`, the ends of `stokes` and `angle` (rad); attribute `undecided_area`."""
+        import xarray
+
+        ends = {
+            name: (("cell", "end"), np.array([getattr(cell, name) for cell in self.cells]), {"units": unit})
+            for name, unit in (("stokes", "1"), ("angle", "rad"))
+        }
+        outcome = ("cell", self.outcome, outcome_attributes("proved outcome", "undecided"))
+        attributes = {"undecided_area": self.undecided_area, "scene": self.scene.to_toml()}
+        return xarray.Dataset({"outcome": outcome, **ends}, attrs=attributes)
+
     def __str__(self) -> str:
         shown = [f"{100 * part:8.3f} %  {name}" for name, part in self.shares.items()]
         return "\n".join([f"{len(self.cells)} cells, {self.proofs} boxes enclosed; shares of the area:", *shown])
@@ -65,7 +91,13 @@ class ProvedMap:
         """The JSON object of `wetdoublet prove --map --json`."""
         words = dict(enumerate(OUTCOMES)) | {UNDECIDED: None}
         cells = [{"stokes": list(c.stokes), "angle": list(c.angle), "outcome": words[c.outcome]} for c in self.cells]
-        return {"shares": self.shares, "proofs": self.proofs, "cells": cells, **origin(self.scene)}
+        return {
+            "shares": self.shares,
+            "undecided_area": self.undecided_area,
+            "proofs": self.proofs,
+            "cells": cells,
+            **origin(self.scene),
+        }
 
     def plot(self, path: str | Path | None = None) -> Any:
         """Draw the cells; returns the matplotlib Figure.
