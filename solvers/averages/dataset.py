@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
-from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..formatting.markdown import csv_text, numbers_aligned
+from ..formatting.markdown import csv_text
 from ..many.csv_map import cells_of
 from ..scene.scene import Scene
 from .geometry import BOUNCES, ENERGY, NORMAL, ROTATES, SLOPES, STICKS, TANGENTIAL, TURNING
@@ -41,17 +40,12 @@ _ENERGIES = {  # name: column, factor and constant, meaning
     ),
 }
 
-_SHOWN = {  # name: head and unit in a table
-    "stick_probability": ("stick", "1"),
-    "rotate_probability": ("rotate", "1"),
-    "bounce_probability": ("bounce", "1"),
-    "restitution_all": ("e_n of all", "1"),
-    "tangential_restitution_all": ("e_t of all", "1"),
-    "restitution_separated": ("e_n apart", "1"),
-    "tangential_restitution_separated": ("e_t apart", "1"),
-    "normal_dissipation": ("dissipated", "1"),
-}
-_RATES = {"m3 s-1": "m^3/s", "m s-1": "m/s"}
+_SHOWN = {  # name: head of its column in a table
+    "stick_probability": "stick", "rotate_probability": "rotate", "bounce_probability": "bounce",
+    "restitution_all": "e_n of all", "tangential_restitution_all": "e_t of all", "restitution_separated": "e_n apart",
+    "tangential_restitution_separated": "e_t apart", "normal_dissipation": "dissipated",
+}  # fmt: skip
+_SIZES = {"radius": "radius (um)", "partner_radius": "partner (um)"}
 _AXES = {"radius": "radius of the first sphere", "partner_radius": "radius of the second sphere"}
 
 
@@ -140,33 +134,13 @@ def to_csv(data: xarray.Dataset) -> str:
 
 
 def table(data: xarray.Dataset) -> str:
-    """The averages for a person: a line for each pair below names and units, and below them the derivatives."""
-    axes = [str(name) for name in data["stick_probability"].dims]
-    heads = [("radius", "um"), ("partner", "um")][: len(axes)]
-    pairs = [tuple(f"{1e6 * radius:.4g}" for radius in pair) for pair in product(*(data[name].values for name in axes))]
-    shown = {**_SHOWN, "collision_rate": ("rate", _RATES[data["collision_rate"].attrs["units"]])}
-    cells = [
-        [*pair, *map(_cell, row)]
-        for pair, row in zip(pairs, np.stack([data[name].values.ravel() for name in shown], 1))
-    ]
-    lines = [
-        f"{data.attrs['speeds']}, all impact angles",
-        "",
-        *numbers_aligned([*zip(*heads, *shown.values()), *cells]),
-    ]
-    if "gradient" in data:
-        slopes = (
-            data["gradient"].transpose(..., "quantity", "parameter").values.reshape(len(pairs), len(QUANTITIES), -1)
-        )
-        rows = [
-            [name, *pair, *map(_cell, slopes[k, place])]
-            for k, pair in enumerate(pairs)
-            for place, name in enumerate(QUANTITIES)
-        ]
-        top = ["derivative by (SI)", *(f"{name} {unit}" for name, unit in heads), *map(str, data["parameter"].values)]
-        lines += ["", *numbers_aligned([top, *rows])]
-    return "\n".join(lines) + "\n"
-
-
-def _cell(value: float) -> str:
-    return "-" if np.isnan(value) else f"{value:.5g}"
+    """The averages for a person: a line for each pair below names and units, and below them the derivatives (SI)."""
+    sizes = {name: head for name, head in _SIZES.items() if name in data.dims}
+    rate = data["collision_rate"].attrs["units"].replace("m s-1", "m/s").replace("m3 s-1", "m^3/s")
+    heads = {**_SHOWN, "collision_rate": f"rate ({rate})"}
+    data = data.assign_coords({name: 1e6 * data[name] for name in sizes}).rename(sizes)
+    blocks = [data[list(heads)].rename(heads).expand_dims([] if sizes else ["pair"])]
+    blocks += [data["gradient"].to_dataset("parameter")] if "gradient" in data else []
+    frames = [each.to_dataframe().reset_index(drop="pair" in each.dims) for each in blocks]
+    texts = [each.to_string(index=False, na_rep="-", float_format="{:.5g}".format) for each in frames]
+    return "\n\n".join([f"{data.attrs['speeds']}, all impact angles", *texts]) + "\n"

@@ -40,8 +40,9 @@ class Bar:
         self._options: dict[str, Any] = {"cheaper": cheaper, "factor": factor, "at_least": at_least}
         self._first: tuple[int, float] | None = None
         self._forecast_written = False
-        self.done, self.total = 0, 0  # type: int, int | None
-        self._shown: Any = None
+        self.done = 0
+        self.total: int | None = 0
+        self.shown: Any = None
 
     def __call__(self, done: int, total: int | None) -> None:
         Bar.latest = self
@@ -53,17 +54,22 @@ class Bar:
                 return
         except (ValueError, AttributeError):  # closed, or none
             return
-        self._write_forecast()
+        line = None if self._forecast_written else self.forecast()
+        if line is not None:  # once, as soon as a sample of the work allows one
+            self._forecast_written = True
+            if self.shown is not None:
+                self.shown.clear()
+            say(line)
         from tqdm import tqdm
 
-        if self._shown is None:  # starts at the first count, because work of an earlier run would distort the speed
+        if self.shown is None:  # starts at the first count, because work of an earlier run would distort the speed
             size: dict[str, Any] = {"ncols": 80, "nrows": 24}  # where the terminal does not report its size
             with suppress(OSError, ValueError, AttributeError):
                 if os.get_terminal_size(sys.stderr.fileno()).columns > 0:
                     size = {"dynamic_ncols": True}
-            self._shown = tqdm(total=total, initial=done, unit=f" {self.unit}", disable=None, leave=False, **size)
-        self._shown.total = total
-        self._shown.update(done - self._shown.n)
+            self.shown = tqdm(total=total, initial=done, unit=f" {self.unit}", disable=None, leave=False, **size)
+        self.shown.total = total
+        self.shown.update(done - self.shown.n)
 
     def forecast(self) -> str | None:
         """How long the rest takes; None where that cannot be told yet."""
@@ -72,35 +78,17 @@ class Bar:
         first, began = self._first
         return forecast(self.done, self.total, self.clock() - began, self.unit, before=first, **self._options)
 
-    def _write_forecast(self) -> None:
-        """Write the forecast, once, as soon as a sample of the work allows one."""
-        line = None if self._forecast_written else self.forecast()
-        if line is not None:
-            self._forecast_written = True
-            if self._shown is not None:
-                self._shown.clear()
-            say(line)
-
-    @property
-    def visible(self) -> bool:
-        return self._shown is not None
-
-    @property
-    def count(self) -> str:
-        """How much is done, in words."""
-        return f"{self.done} {'' if self.total is None else f'of {self.total} '}{self.unit}"
-
     def note(self, text: str) -> None:
-        if self._shown is not None:
-            self._shown.set_postfix_str(text)
+        if self.shown is not None:
+            self.shown.set_postfix_str(text)
 
     def __enter__(self) -> Bar:
         return self
 
     def __exit__(self, *_: object) -> None:
         Bar.latest = None
-        if self._shown is not None:
-            self._shown.close()
+        if self.shown is not None:
+            self.shown.close()
 
 
 class AtWork:
@@ -120,9 +108,11 @@ class AtWork:
         passed = self.clock() - self._began
         if passed >= self._next:
             bar = Bar.latest
-            if bar is None or not bar.visible:
-                rest = "" if bar is None else f": {bar.forecast() or bar.count}"
-                say(f"at work for {duration(passed)}{rest}")
+            if bar is None:
+                say(f"at work for {duration(passed)}")
+            elif bar.shown is None:
+                count = f"{bar.done} {'' if bar.total is None else f'of {bar.total} '}{bar.unit}"
+                say(f"at work for {duration(passed)}: {bar.forecast() or count}")
             while self._next <= passed:
                 self._next *= 2
         return self._next - passed

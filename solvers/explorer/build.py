@@ -12,7 +12,7 @@ from ..host.compiler import webassembly
 from ..host.user_cache import digest_of
 from ..scene.scene import Scene
 from ..scene.scenefile import PRESETS, template
-from .module import BUILT, SUFFIX, compilation
+from .module import BUILT, FLAGS, SUFFIX, compilation
 from .page_of_scene import law_of
 
 _CHOICES: tuple[dict[str, str | float], ...] = (
@@ -29,21 +29,19 @@ def scenes() -> Iterator[Scene]:
     yield from map(Scene.load, PRESETS)
     own = Scene.from_toml(template("template"))
     yield from (own.with_entries(choice) for choice in ({}, *_CHOICES))
-    dry = (entry for entry in own.given if not entry[0].startswith("bridge."))
-    yield Scene("", tuple(dry))
+    yield Scene("", tuple(entry for entry in own.given if not entry[0].startswith("bridge.")))
 
 
-def compilations() -> dict[str, tuple[str, tuple[str, ...]]]:
-    """Text and flags of every module, by their digest."""
-    wanted = (compilation(*law_of(scene)[:2]) for scene in scenes())
-    return {digest_of("\0".join([text, *flags]).encode()): (text, flags) for text, flags in wanted}
+def texts() -> dict[str, str]:
+    """The C of every module, by its digest."""
+    return {digest: text for text, digest in (compilation(*law_of(scene)[:2]) for scene in scenes())}
 
 
 if __name__ == "__main__":
-    missing = compilations()
+    missing = texts()
     for path in BUILT.glob(f"*{SUFFIX}"):
         if missing.pop(path.name.partition(".")[0], None) is None:
             path.unlink()
-    for digest, (text, flags) in missing.items():
-        packed = gzip.compress(webassembly(text, flags), 9, mtime=0)
+    for digest, text in missing.items():
+        packed = gzip.compress(webassembly(text, FLAGS), 9, mtime=0)
         (BUILT / f"{digest}.{digest_of(packed)}{SUFFIX}").write_bytes(packed)

@@ -21,7 +21,7 @@ BUILT = Path(__file__).with_name("built")
 """Folder of the bundle and the modules that come with the package."""
 SUFFIX = ".wasm.gz"
 _EXPORTED = ("place", "size", "set_material", "many", "follow", "followed_events", "message", "outside")
-_FLAGS = (
+FLAGS = (
     "-O2",
     "-msimd128",
     "-DLAW_LANES=2",
@@ -51,15 +51,16 @@ int outside(int k)
 """
 
 
-def compilation(law: LawSource, behind: str = "") -> tuple[str, tuple[str, ...]]:
-    """Text and flags that a law's module is compiled from: the same for all scenes of a structure.
+def compilation(law: LawSource, behind: str = "") -> tuple[str, str]:
+    """The C that a law's module is compiled from, the same for all scenes of a structure, and its digest.
 
     Arguments:
         behind: more C, which follows that of `shim.h`.
     """
     text = _VALUES.sub("", _HEAD.sub("", law.c))  # without what differs between scenes: its name and its numbers
     text = text.replace('#include "law.h"', _VALUES.sub("", law.header))
-    return text + Path(__file__).with_name("shim.h").read_text() + behind, _FLAGS
+    text += Path(__file__).with_name("shim.h").read_text() + behind
+    return text, digest_of("\0".join([text, *FLAGS]).encode())
 
 
 def module(law: LawSource, behind: str = "") -> bytes:
@@ -71,13 +72,9 @@ def module(law: LawSource, behind: str = "") -> bytes:
     Raises:
         InputError: it is not shipped, and no compiler makes WebAssembly here.
     """
-    text, flags = compilation(law, behind)
-    digest = digest_of("\0".join([text, *flags]).encode())
-    content = shipped(digest)
-    if content is not None:
-        return content
+    text, digest = compilation(law, behind)
     try:
-        return kept(f"explorer-{digest}.wasm", lambda: webassembly(text, flags))
+        return shipped(digest) or kept(f"explorer-{digest}.wasm", lambda: webassembly(text, FLAGS))
     except CannotCompile as error:
         accepted = "an installed ziglang (pip install 'wetdoublet[explorer]'), or clang with lld and wasi-libc"
         problem = f"has no module of this law in the package, and no compiler for WebAssembly ({error})"
@@ -85,7 +82,7 @@ def module(law: LawSource, behind: str = "") -> bytes:
 
 
 def shipped(digest: str) -> bytes | None:
-    """The module that came with the package for a digest of text and flags; None if there is none that is whole."""
+    """The module that came with the package for the digest of a text; None if there is none that is whole."""
     for path in BUILT.glob(f"{digest}.*{SUFFIX}"):
         packed = path.read_bytes()
         if path.name == f"{digest}.{digest_of(packed)}{SUFFIX}":

@@ -339,14 +339,9 @@ def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = Tru
     if lowest:
         axes.set_xlabel("impact angle $\\theta_0$ (deg)")
     if left_most:
-        labels: Mapping[str, str] = {
-            "stokes": "Stokes number $St_n$",
-            "speed": "normal approach speed $v_0$ (m/s)",
-            "relative_speed": r"relative speed $v_0/\cos\theta_0$ (m/s)",
-        }
         unit = data[name].attrs.get("units", "1")
         entry = f"{name.rpartition('.')[2].replace('_', ' ')}{'' if unit == '1' else f' ({unit})'}"
-        axes.set_ylabel(labels.get(name, entry))
+        axes.set_ylabel(AXIS_LABELS.get(name, entry))
 
 
 def _handles(data: xarray.Dataset, curves: Curves) -> list[Any]:

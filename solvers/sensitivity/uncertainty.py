@@ -16,7 +16,7 @@ from ..host.progress import Progress
 from ..many.batch import checked_numbers
 from ..many.collide_many import collide_many
 from ..many.results import QUANTITIES as MANY
-from ..scene.held import AXIS_LABELS, held_quantity, impact_value
+from ..scene.held import held_quantity, impact_value
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS, Field
@@ -243,42 +243,3 @@ def possible_values(entry: Field, value: float, deviation: np.ndarray) -> np.nda
             return value + moved
         moved[bad] /= 2
     return value + np.where(bad, 0.0, moved)
-
-
-def draw(data: xarray.Dataset) -> Any:
-    """Draw the result with bands of two first-order standard deviations and of the samples' 2.5 to 97.5 %.
-
-    Returns:
-        The matplotlib Figure.
-    """
-    from ..formatting.style import picture
-
-    return picture(_drawn)(data)
-
-
-def _drawn(data: xarray.Dataset) -> Any:
-    from matplotlib.figure import Figure
-
-    from ..formatting.style import broken, title
-
-    over = str(next(iter(data.dims)))
-    of = next(name for name in MANY if name in data)
-    x = np.degrees(data[over].values) if over == "impact.angle" else data[over].values
-    y, spread, low, high = data[of].values, 2 * data.first_order.values, data.low.values, data.high.values
-    x, y, spread, low, high = broken(data.outcome.values, x, y, spread, low, high)
-    figure = Figure(figsize=(6.6, 4.2), layout="constrained")
-    axis = figure.subplots()
-    shade: Any = {"color": "#2a6f97", "alpha": 0.25, "linewidth": 0, "label": "±2σ, first order"}
-    axis.fill_between(x, y - spread, y + spread, **shade)
-    axis.plot(x, y, color="#2a6f97", linewidth=1.6, label="as given")
-    dashes: Any = {"color": "#c1554a", "linewidth": 0.9, "linestyle": "--"}
-    axis.plot(x, low, label=f"2.5 and 97.5 % of {data.attrs['samples']} samples", **dashes)
-    axis.plot(x, high, **dashes)
-    unit = data[of].attrs["units"]
-    axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
-    name = over.partition(".")[2]
-    axis.set_xlabel(AXIS_LABELS.get(name, "impact angle (deg)"))
-    title(figure, f"{of.replace('_', ' ')} with {data.attrs['uncertainty']} uncertain")
-    axis.spines[["top", "right"]].set_visible(False)
-    axis.legend()
-    return figure

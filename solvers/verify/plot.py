@@ -116,7 +116,8 @@ def _terms(axes: Axes, data: xarray.Dataset, row: int, letter: str) -> None:
         colour = RELEASED if name == "rotation_released" else COLOURS[name]
         # a bridge may release energy, so each sign is stacked on its side
         for side, stack in ((np.maximum(taken, 0), gains), (np.minimum(taken, 0), losses)):
-            axes.fill_between(*broken(outcome, stokes, stack, stack + side), color=colour, linewidth=0)
+            at, low, high = broken(outcome, stokes, stack, stack + side)
+            axes.fill_between(at, low, high, color=colour, linewidth=0)
             stack += side
     excess = data["excess"].values[row]
     axes.plot(*broken(outcome, stokes, excess), color=INK, linewidth=1.8)

@@ -27,7 +27,6 @@ BLUE, ORANGE, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", 
 _ZOOM = 5.0  # the approach has its own column if the collision lasts longer than this many approaches
 _NEXT = 2.6  # this column extends to the next event if that comes within this many approaches
 _DECADE = 10.0  # gaps whose largest and smallest values differ by more are drawn on a logarithmic axis
-_SMALL = 0.1  # a velocity after the approach below this part of the largest is drawn on a scale that shows both
 _LETTER = 0.078  # width of a character of an event's label, inches
 _MANY, _LABELS = 50, 6  # most lines and labels of events in a column
 _RATES = ("rotation_rate", "spin", "spin_partner")
@@ -112,9 +111,8 @@ def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
         label = "ξ, sphere" if pair or wall else "ξ, each sphere"
         rates.plot(time, np.asarray(data["spin"]) / size, color=PURPLE, linestyle=(0, (5, 1.5)), label=label)
         if pair:
-            rates.plot(
-                time, np.asarray(data["spin_partner"]) / size, color=ORANGE, linestyle=(0, (1, 1)), label="ξ, partner"
-            )
+            partner = np.asarray(data["spin_partner"]) / size
+            rates.plot(time, partner, color=ORANGE, linestyle=(0, (1, 1)), label="ξ, partner")
         rates.axhline(0, color=GREY, linewidth=0.6)
         rates.set_ylabel(f"rotation\nrate{'s' * (not wall)} ({name}rad/s)")
         if wall:  # a wall has no rotating line of centres; show the distance moved along it
@@ -231,29 +229,10 @@ def _match(columns: Sequence[Column], time: np.ndarray) -> None:
         if row == 3:
             turned = np.asarray(panel.lines[0].get_ydata())[time <= zoomed.end * (1 + 1e-9)]
             panel.set_ylim(-0.08 * turned.max(), 1.12 * turned.max())
-        elif row != 1 or not _both_seen(whole, time):
+        else:
             whole.panels[row].sharey(panel)
             whole.panels[row].tick_params(labelleft=False)
         whole.panels[row].set_ylabel("")
-
-
-def _both_seen(column: Column, time: np.ndarray) -> bool:
-    """Whether the velocity after the approach is so small that its panel becomes linear there, logarithmic beyond."""
-    axes = column.panels[1]
-    velocity = np.asarray(axes.lines[0].get_ydata())[1:]
-    low, high = min(float(velocity.min()), 0.0), max(float(velocity.max()), 0.0)
-    linear = float(np.abs(velocity[time > column.shaded]).max())
-    if not 0 < linear < _SMALL * max(high, -low):
-        return False
-    axes.set_yscale("symlog", linthresh=linear, linscale=2)
-    axes.set_ylim(1.5 * low, 1.5 * max(high, linear))
-    axes.set_yticks(shown := [low, 0.0, max(high, linear)], [f"{value:.3g}" for value in shown])
-    axes.yaxis.set_minor_locator(NullLocator())
-    axes.annotate(
-        f"logarithmic beyond ±{linear:.2g}", (1, 0), (-3, 3), xycoords="axes fraction", textcoords="offset points",
-        color=GREY, fontsize=7, ha="right", va="bottom",
-    )  # fmt: skip
-    return True
 
 
 def letter(axes: Axes, text: str) -> None:

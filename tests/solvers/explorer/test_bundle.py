@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from wetdoublet.solvers import InputError, Scene
 from wetdoublet.solvers.explorer import module as modules
-from wetdoublet.solvers.explorer.build import compilations
+from wetdoublet.solvers.explorer.build import texts
 from wetdoublet.solvers.explorer.knobs import knobs
 from wetdoublet.solvers.explorer.module import BUILT as FOLDER
 from wetdoublet.solvers.explorer.module import module
@@ -92,7 +92,7 @@ def test_all_presets_open_without_a_compiler(monkeypatch: pytest.MonkeyPatch, tm
 def test_the_modules_in_the_package_are_those_of_its_laws():
     """`python -m wetdoublet.solvers.explorer.build` writes what is missing and removes what is left over."""
     names = [path.name.split(".") for path in FOLDER.glob("*.wasm.gz")]
-    assert {name for name, *_ in names} == {*compilations()}
+    assert {name for name, *_ in names} == {*texts()}
     for path in FOLDER.glob("*.wasm.gz"):
         assert path.name.split(".")[1] == hashlib.sha256(path.read_bytes()).hexdigest()[:32]
 

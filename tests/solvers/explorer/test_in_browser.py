@@ -181,6 +181,41 @@ def test_no_width_needs_scrolling_sideways(width: int, opened: Any):
     assert page.ask("document.documentElement.scrollWidth <= innerWidth")
 
 
+@pytest.mark.parametrize("width", [400, 1400])
+def test_choices_stay_in_their_panel(width: int, opened: Any):
+    """That of a scene with a long name too."""
+    page = opened("coating", viewport={"width": width, "height": 900})
+    inside = "s => { const a = s.getBoundingClientRect(), b = s.closest('.card').getBoundingClientRect(); "
+    inside += "return a.left >= b.left && a.right <= b.right }"
+    choices = page.ask(f"[...document.querySelectorAll('select')].map({inside})")
+    assert len(choices) == 5 and all(choices)
+
+
+def test_energies_have_no_negative_zero(opened: Any):
+    """While the collision goes on no part of the energy is written as -0.0 %."""
+    page = opened("coating", "impact.speed=3")
+    scrub = page.tab.locator(".player input")
+    for step in range(0, 1000, 25):
+        scrub.fill(str(step))
+        assert "-0.0 %" not in page.tab.inner_text(".energy")
+
+
+def test_a_stretched_axis_of_time_says_so(opened: Any):
+    """Where it is logarithmic stands in its label, as long as it is stretched."""
+    page = opened("coating", "impact.speed=3")
+    page.ask(
+        "() => { const c = CanvasRenderingContext2D.prototype, f = c.fillText; window.texts = [];"
+        " c.fillText = function (text, ...rest) { texts.push(text); return f.call(this, text, ...rest) } }"
+    )
+    box = page.tab.get_by_label("slow down the fast beginning")
+    for stretched in (False, True):
+        page.ask("() => { texts.length = 0 }")
+        box.set_checked(stretched)
+        page.until("texts.some(text => text.startsWith('time, '))")
+        label = page.ask("texts.find(text => text.startsWith('time, '))")
+        assert ("logarithmic beyond" in label) == stretched
+
+
 @pytest.mark.parametrize("outcome", [0, 1, 2])
 def test_the_legend_shows_an_outcome(outcome: int, opened: Any):
     """Each of its buttons chooses an impact that has the outcome, and the answer says so."""
