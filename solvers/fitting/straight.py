@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import stats
+from scipy.special import fdtri, stdtr, stdtrit
 
 LEAST = 4  # frames of a line
 _RARE = 1e-6  # probability of an alarm about a film without fault
@@ -81,7 +81,7 @@ def _refined(path: Flight, lost: np.ndarray, interval: float, sigma: float, free
     The most significant jump is a number of whole steps of the motion: frames behind it are later by so many.
     """
     along, number = path.places @ path.axes[0], np.arange(path.time.size - 1, 0, -1)  # of frames behind each
-    least = stats.t.isf(_RARE / path.time.size, freedom) * sigma
+    least = -stdtrit(freedom, _RARE / path.time.size) * sigma
     for _ in range(_JUMPS):
         time = path.time + np.append(0, lost.cumsum()) * interval
         off, since = replace(path, time=time).residuals(along), time - time.mean()
@@ -100,11 +100,12 @@ def _refined(path: Flight, lost: np.ndarray, interval: float, sigma: float, free
 
 def _odd(off: np.ndarray, sigma: float, freedom: int) -> bool:
     """Whether residuals of a line are larger than the noise makes them."""
-    return bool((off**2).sum() / (off.size - 2) > sigma**2 * stats.f.isf(_RARE, off.size - 2, freedom))
+    return bool((off**2).sum() / (off.size - 2) > sigma**2 * fdtri(off.size - 2, freedom, 1 - _RARE))
 
 
 def uneven(paths: Sequence[Flight], interval: float, floor: float) -> tuple[str, float]:
-    """What is wrong with the times of the paths, in words, and the frames lost; infinite if these do not explain it.
+    """What is wrong with the times of the paths, in words, and at how many places frames are lost (or how many, where
+    steps are not clear of the noise); infinite if these do not explain it.
 
     Arguments:
         interval: time between two frames.
@@ -119,7 +120,7 @@ def uneven(paths: Sequence[Flight], interval: float, floor: float) -> tuple[str,
         lost, clear = _lost(path, interval, sigma, freedom)
         if lost.any() or (_odd(raw, sigma, freedom) and scatter > _UNEVEN * step):
             most, explained = max(most, scatter / sigma), explained and clear
-        total += float(np.abs(lost).sum())
+        total += np.count_nonzero(lost) if step > _CLEAR * sigma else float(np.abs(lost).sum())
         for k in np.flatnonzero(lost):
             where.append(f"{f'{lost[k]:.0f} lost' if lost[k] > 0 else 'the same picture again'} after {path.names[k]}")
     text = f"scatter {most:.2g} times as much along the motion as across it: "
@@ -147,7 +148,7 @@ def _bent(paths: Sequence[Flight], edge: float, solids: float, floor: float) -> 
             size = math.sqrt(float((push**2).sum()))
             if size > 1e-9 * solids**2:
                 away = float((push * path.residuals(path.places)).sum()) / (size * sigma)
-                chance = 2 * len(_ZONES) * len(paths) * float(stats.t.sf(abs(away), freedom))
+                chance = 2 * len(_ZONES) * len(paths) * float(stdtr(freedom, -abs(away)))
                 most, rare = (away, chance) if chance < rare else (most, rare)
     return most, rare
 

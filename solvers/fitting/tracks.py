@@ -48,7 +48,7 @@ _ROUNDING = 1e-9  # of positions, over the distance of the centres
 _SIDEWAYS = 3.0  # standard deviations from which an impact is oblique
 _NAMED = 6  # frames in a sentence
 _STEP = 1e-2  # of differences, over the standard deviation of a parameter
-_FEW = 2  # frames lost that explain a path better than a tracker does
+_FEW = 4  # places at which frames are lost that explain a path better than a tracker does
 _REFITS = 3  # of a line whose frames near contact are those before it meets
 _RESTING = 0.01  # of the distance of touching solids, within which a distance no longer changes
 _FASTEST = math.pi / 2  # rotation between two frames from which turns may have been missed
@@ -290,13 +290,9 @@ def _impact(
     turned_only = [each & near_frames & (near is None) for each in (before, after)]  # if free: contact is hidden there
     if blank := int(((before | after) & near_frames).sum()):
         use = (
-            "are left out"
-            if near is not None
-            else (
-                "count by the direction of their line of centres only: they lie off the straight path of the others, "
-                "as of a tracker that displaces near discs"
-            )
+            "count by the direction of their line of centres only: they lie off the straight path of the others, as of"
         )
+        use = "are left out" if near is not None else f"{use} a tracker that displaces near discs"
         remarks.append(f"{blank} frames in which the gap is below {gap:.3g} m {use}")
     before, after = before & ~near_frames, after & ~near_frames
     check_count()
@@ -438,7 +434,7 @@ def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain
     accepted, text = _ACCEPTED[option], with_unit(value)
     written = units.unit_of(text) if isinstance(text, str) else ""
     digits = text.strip().removesuffix(written) if isinstance(text, str) else text
-    unit = re.sub(r"\bfps\b", "Hz", units.spelling(written.replace(" per ", "/").replace("dpi", "px/inch")))
+    unit = re.sub(r"\b(k?)fps\b", r"\1Hz", units.spelling(written.replace(" per ", "/").replace("dpi", "px/inch")))
     unit = re.sub(r"\bframes?/", "1/", unit)
     try:
         size = math.nan if isinstance(digits, bool) else float(digits)
@@ -450,10 +446,10 @@ def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain
     if pixels_per:
         return units.quantity(f"1 {pixels_per[1]}", si, option, accepted) / size
     if unit not in _PIXELS or (isinstance(text, str) and plain is None and not unit):
-        return units.quantity(f"{digits} {per_pixel[1] if per_pixel else unit}", si, option, accepted)
+        return units.quantity(f"{str(digits).strip()} {per_pixel[1] if per_pixel else unit}", si, option, accepted)
     factor = pixel if unit else plain
-    if unit and (option == "scale" or factor is None):
-        raise InputError(option, value, accepted, "is in pixels" + ", and no scale is given" * (option != "scale"))
+    if unit and (option in ("scale", "rate") or factor is None):
+        raise InputError(option, value, accepted, "is in pixels" + ", and no scale is given" * (factor is None))
     return size * (1.0 if factor is None else factor)
 
 
