@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import stats
+from scipy.special import fdtri, stdtr, stdtrit
 
 LEAST = 4  # frames of a line
 _RARE = 1e-6  # probability of an alarm about a film without fault
@@ -81,7 +81,7 @@ def _refined(path: Flight, lost: np.ndarray, interval: float, sigma: float, free
     The most significant jump is a number of whole steps of the motion: frames behind it are later by so many.
     """
     along, number = path.places @ path.axes[0], np.arange(path.time.size - 1, 0, -1)  # of frames behind each
-    least = stats.t.isf(_RARE / path.time.size, freedom) * sigma
+    least = -stdtrit(freedom, _RARE / path.time.size) * sigma
     for _ in range(_JUMPS):
         time = path.time + np.append(0, lost.cumsum()) * interval
         off, since = replace(path, time=time).residuals(along), time - time.mean()
@@ -100,18 +100,19 @@ def _refined(path: Flight, lost: np.ndarray, interval: float, sigma: float, free
 
 def _odd(off: np.ndarray, sigma: float, freedom: int) -> bool:
     """Whether residuals of a line are larger than the noise makes them."""
-    return bool((off**2).sum() / (off.size - 2) > sigma**2 * stats.f.isf(_RARE, off.size - 2, freedom))
+    return bool((off**2).sum() / (off.size - 2) > sigma**2 * fdtri(off.size - 2, freedom, 1 - _RARE))
 
 
-def uneven(paths: Sequence[Flight], interval: float, floor: float) -> tuple[str, bool]:
-    """What is wrong with the times of the paths, and whether frames that are lost explain all of it.
+def uneven(paths: Sequence[Flight], interval: float, floor: float) -> tuple[str, float]:
+    """What is wrong with the times of the paths, in words, and at how many places frames are lost (or how many, where
+    steps are not clear of the noise); infinite if these do not explain it.
 
     Arguments:
         interval: time between two frames.
         floor: standard deviation of a coordinate that rounding makes.
     """
     sigma, freedom = _noise(paths, floor)
-    where, most, explained = list[str](), 0.0, True
+    where, most, explained, total = list[str](), 0.0, True, 0.0
     for path in paths:
         raw = path.residuals(path.places @ path.axes[0])
         scatter = math.sqrt(float((raw**2).sum()) / (raw.size - 2))
@@ -119,21 +120,25 @@ def uneven(paths: Sequence[Flight], interval: float, floor: float) -> tuple[str,
         lost, clear = _lost(path, interval, sigma, freedom)
         if lost.any() or (_odd(raw, sigma, freedom) and scatter > _UNEVEN * step):
             most, explained = max(most, scatter / sigma), explained and clear
+        total += np.count_nonzero(lost) if step > _CLEAR * sigma else float(np.abs(lost).sum())
         for k in np.flatnonzero(lost):
             where.append(f"{f'{lost[k]:.0f} lost' if lost[k] > 0 else 'the same picture again'} after {path.names[k]}")
-    if not most:
-        return "", False
-    text = f"scatter {most:.2g} times as much along the motion as across it"
-    if explained:
+    text = f"scatter {most:.2g} times as much along the motion as across it: "
+    if most and explained:
         more = f" and at {len(where) - _NAMED} other places" if len(where) > _NAMED else ""
-        text += f": is a frame missing that the numbers of the frames do not count? {', '.join(where[:_NAMED])}{more}"
-        return text, True
-    return f"{text}: are frames missing here and there that their numbers do not count, or are times rounded?", False
+        text += f"is a frame missing that the numbers of the frames do not count? {', '.join(where[:_NAMED])}{more}"
+    elif most:
+        text += "are frames missing here and there that their numbers do not count, or are times rounded?"
+    return text if most else "", total if explained else math.inf
 
 
-def _bent(paths: Sequence[Flight], edge: float, solids: float, floor: float) -> float:
-    """Probability that scatter displaces frames near a gap along the line of centres as much as they are."""
-    rare = 1.0
+def _bent(paths: Sequence[Flight], edge: float, solids: float, floor: float) -> tuple[float, float]:
+    """How far frames near a gap are displaced outward along the line of centres, against those farther away.
+
+    Returns:
+        standard deviations, and the probability of as many by the scatter across the motion.
+    """
+    most, rare = 0.0, 1.0
     for zone in _ZONES:
         far = edge + zone * solids
         sigma, freedom = _noise([each.part(each.gaps(solids) >= far) for each in paths], floor)
@@ -142,23 +147,22 @@ def _bent(paths: Sequence[Flight], edge: float, solids: float, floor: float) -> 
             push = path.residuals(weight * path.places / np.linalg.norm(path.places, axis=1)[:, None])
             size = math.sqrt(float((push**2).sum()))
             if size > 1e-9 * solids**2:
-                away = abs(float((push * path.residuals(path.places)).sum())) / (size * sigma)
-                rare = min(rare, 2 * len(_ZONES) * len(paths) * float(stats.t.sf(away, freedom)))
-    return rare
+                away = float((push * path.residuals(path.places)).sum()) / (size * sigma)
+                chance = 2 * len(_ZONES) * len(paths) * float(stdtr(freedom, -abs(away)))
+                most, rare = (away, chance) if chance < rare else (most, rare)
+    return most, rare
 
 
-def bent_below(paths: Sequence[Flight], solids: float, floor: float, *, suspect: bool) -> float | None:
-    """Gap from which all paths are straight: 0 if they are; None if they are nowhere.
+def near_contact(paths: Sequence[Flight], solids: float, floor: float) -> tuple[float, float]:
+    """Standard deviations by which frames near contact are displaced outward, and the gap from which they are not.
 
-    At least the gap to which trackers are known to displace, where the film has frames beyond it.
-
-    Arguments:
-        suspect: whether the spheres rest where they do not touch, so that frames near contact are displaced.
+    At least the gap to which trackers are known to displace, where the film has frames beyond it; infinity if nowhere.
     """
-    if not suspect and _bent(paths, 0.0, solids, floor) > _BENT:
-        return 0.0
+    most, rare = _bent(paths, 0.0, solids, floor)
+    if rare > _BENT:
+        return 0.0, 0.0
     for gap in solids * np.append(_GAPS[_GAPS >= REACH], _GAPS):
         far = [each.part(each.gaps(solids) >= gap) for each in paths]
-        if min(each.time.size for each in far) >= LEAST and _bent(far, gap, solids, floor) > _STRAIGHT:
-            return float(gap)
-    return None
+        if min(each.time.size for each in far) >= LEAST and _bent(far, gap, solids, floor)[1] > _STRAIGHT:
+            return most, float(gap)
+    return (most, math.inf) if rare < _RARE else (0.0, 0.0)

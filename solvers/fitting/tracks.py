@@ -6,6 +6,7 @@ straight line is fitted to each part. Its covariance, from the noise of the posi
 
 import math
 import re
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -22,7 +23,7 @@ from ..scene.columns import Column, columns_of, row_name
 from ..scene.scene import Scene
 from ..scene.values import with_unit
 from .measurements import OBSERVED
-from .straight import LEAST, REACH, Flight, bent_below, uneven
+from .straight import LEAST, REACH, Flight, near_contact, uneven
 
 _ACCEPTED = {
     "rate": 'a frequency > 0, as 4000 or "150 kHz"',
@@ -47,6 +48,8 @@ _ROUNDING = 1e-9  # of positions, over the distance of the centres
 _SIDEWAYS = 3.0  # standard deviations from which an impact is oblique
 _NAMED = 6  # frames in a sentence
 _STEP = 1e-2  # of differences, over the standard deviation of a parameter
+_FEW = 4  # places at which frames are lost that explain a path better than a tracker does
+_REFITS = 3  # of a line whose frames near contact are those before it meets
 _RESTING = 0.01  # of the distance of touching solids, within which a distance no longer changes
 _FASTEST = math.pi / 2  # rotation between two frames from which turns may have been missed
 
@@ -237,8 +240,9 @@ def _impact(
     jitter = np.abs(np.diff(relative, 2, axis=0))  # of a uniform motion noise alone
     sigma = noise or (float(np.median(jitter)) / (0.6745 * math.sqrt(6)) if jitter.size else 0.0)
     nearest = int(np.argmin(distance))
-    met = np.append(np.flatnonzero(distance[:nearest] <= touch + _CLEAR * sigma), nearest)
-    left = np.append(nearest, nearest + np.flatnonzero(distance[nearest:] <= apart + _CLEAR * sigma))
+    nearly = distance[nearest] + _RESTING * solids  # a tracker may never see them touch
+    met = np.append(np.flatnonzero(distance[:nearest] <= max(touch, nearly) + _CLEAR * sigma), nearest)
+    left = np.append(nearest, nearest + np.flatnonzero(distance[nearest:] <= max(apart, nearly) + _CLEAR * sigma))
     rest = _rests_from(time, distance, max(_CLEAR * sigma, _RESTING * solids))
     first, last = int(min(met[0], rest)), int(left[-1])
     before, after = np.arange(time.size) < first, (np.arange(time.size) > last) & (rest == time.size)
@@ -253,50 +257,53 @@ def _impact(
     check_count()
     floor, interval = max(rounding, noise or 0.0, _ROUNDING * touch), per_frame or float(np.median(np.diff(time)))
 
-    def check_times(*, explained: bool) -> list[Flight]:
-        """The free flights; InputError for lost frames; unless `explained`, for whatever makes times uneven."""
-        free = [path.part(each) for each in (before, after) if each.any()]
-        text, clear = uneven(free, interval, floor)
-        if text and (clear or not explained):
-            text = "; ".join([*([f"give {', '.join(repeated)} more than once"] if repeated else []), text])
-            raise InputError(where, None, "frames numbered as they were filmed", text)
-        return free
+    def free(gap: float) -> list[Flight]:
+        """Both flights, or the approach to a stick, where the spheres are farther apart than a gap."""
+        flights = [path.part(each & (distance >= solids + gap)) for each in (before, after) if each.any()]
+        return flights if min(each.time.size for each in flights) >= LEAST else []
 
-    for part in (before, after):
-        frames = np.flatnonzero(part)
-        back = np.flatnonzero((relative[frames[1:]] * relative[frames[:-1]]).sum(axis=1) < 0)
+    def check_times(gap: float, most: float = math.inf) -> None:
+        text, lost = uneven(free(gap), interval, floor)
+        faults = [f"give {', '.join(repeated[:_NAMED])} more than once"] if repeated else []
+        faults += [text] if text and lost <= most else []
+        if faults:
+            raise InputError(where, None, "frames numbered as they were filmed, each once", "; ".join(faults))
+
+    for flight in free(0.0):
+        back = np.flatnonzero((flight.places[1:] * flight.places[:-1]).sum(axis=1) < 0)
         if back.size:
-            problem = f"turn by more than 90 deg after {names[frames[back[0]]]}: are the two spheres exchanged?"
+            problem = f"turn by more than 90 deg after {flight.names[back[0]]}: are the two spheres exchanged?"
             raise InputError(where, None, "a uniform motion", problem)
-    free = check_times(explained=True)
-    if repeated:
-        problem = (
-            f"give {', '.join(repeated[:_NAMED])} more than once: are there several films, without a column impact?"
-        )
-        raise InputError(where, None, "each frame once", problem)
     gap = near
     if gap is None:
-        gap = bent_below(free, solids, floor, suspect=rests and apart_still)
-        if gap is None:
+        displaced, gap = near_contact(free(0.0), solids, floor)
+        if not repeated:
+            check_times(REACH * solids)
+        # frames that are lost near contact displace the others inward; a tracker that pushes looks like many lost
+        check_times(0.0, math.inf if displaced <= 0 or repeated else _FEW if gap >= REACH * solids else sys.maxsize)
+        if math.isinf(gap):
             problem = "lie off a straight path the more, the nearer the spheres are: does the tracker bend it?"
             raise InputError(where, None, f"at least {LEAST} frames of a uniform approach", problem)
+        if rests and apart_still and free(REACH * solids):
+            gap = max(gap, REACH * solids)
     near_frames = distance < solids + gap
-    turned_only = [each & near_frames & (near is None) for each in (before, after)]
+    turned_only = [each & near_frames & (near is None) for each in (before, after)]  # if free: contact is hidden there
     if blank := int(((before | after) & near_frames).sum()):
         use = (
-            "are left out"
-            if near is not None
-            else (
-                "count by the direction of their line of centres only: they lie off the straight path of the others, "
-                "as of a tracker that displaces near discs"
-            )
+            "count by the direction of their line of centres only: they lie off the straight path of the others, as of"
         )
+        use = "are left out" if near is not None else f"{use} a tracker that displaces near discs"
         remarks.append(f"{blank} frames in which the gap is below {gap:.3g} m {use}")
     before, after = before & ~near_frames, after & ~near_frames
     check_count()
     time = time - time[first]
-    parts = list(zip((before, after), turned_only))[: 1 if sticks else 2]
-    lines = [_line(time, relative, *each) for each in parts]
+    lines, used = [], [before, after]
+    for k, (part, reach, side) in enumerate([(before, touch, -1), (after, apart, 1)][: 1 if sticks else 2]):
+        for _ in range(_REFITS):
+            line = _line(time, relative, part, used[k] & ~part)
+            used[k] = part | (turned_only[k] & (side * (time - _state(line[0], reach, side)[3]) > 0))
+        lines.append(line)
+    first, last = int(np.flatnonzero(used[0])[-1]) + 1, int(np.flatnonzero(used[1])[0]) - 1 if not sticks else last
     sigma = noise or math.sqrt(sum(line[2] for line in lines) / sum(line[3] for line in lines))
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
     for part, reach, (line, *_) in zip((before, after), (touch, apart), lines):
@@ -310,7 +317,7 @@ def _impact(
         if off[worst] > _STRAY * usual + _ROUNDING * touch:
             problem = f"{off[worst]:.3g} m off its line at {names[frames[worst]]}, others {usual:.2g} m"
             raise InputError(where, None, "positions along straight lines", problem)
-    check_times(explained=False)
+    check_times(gap)
     if sticks:
         end = float(np.median(distance[max(first, time.size - LEAST) :]))
         if apart_still and not (rests and end < (1 + REACH) * solids):
@@ -427,7 +434,7 @@ def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain
     accepted, text = _ACCEPTED[option], with_unit(value)
     written = units.unit_of(text) if isinstance(text, str) else ""
     digits = text.strip().removesuffix(written) if isinstance(text, str) else text
-    unit = re.sub(r"\bfps\b", "Hz", units.spelling(written.replace(" per ", "/").replace("dpi", "px/inch")))
+    unit = re.sub(r"\b(k?)fps\b", r"\1Hz", units.spelling(written.replace(" per ", "/").replace("dpi", "px/inch")))
     unit = re.sub(r"\bframes?/", "1/", unit)
     try:
         size = math.nan if isinstance(digits, bool) else float(digits)
@@ -439,10 +446,10 @@ def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain
     if pixels_per:
         return units.quantity(f"1 {pixels_per[1]}", si, option, accepted) / size
     if unit not in _PIXELS or (isinstance(text, str) and plain is None and not unit):
-        return units.quantity(f"{digits} {per_pixel[1] if per_pixel else unit}", si, option, accepted)
+        return units.quantity(f"{str(digits).strip()} {per_pixel[1] if per_pixel else unit}", si, option, accepted)
     factor = pixel if unit else plain
-    if unit and (option == "scale" or factor is None):
-        raise InputError(option, value, accepted, "is in pixels" + ", and no scale is given" * (option != "scale"))
+    if unit and (option in ("scale", "rate") or factor is None):
+        raise InputError(option, value, accepted, "is in pixels" + ", and no scale is given" * (factor is None))
     return size * (1.0 if factor is None else factor)
 
 
