@@ -21,9 +21,7 @@ def test_twist_alone_is_the_head_on_law(entries: dict[str, object], engine: str)
         planar = collide(scene, speed=speed, angle=0.0, engine=engine)
         for twist in TWISTS:
             spins = np.array([twist, -0.3 * twist])[:, None] * NORMAL
-            found = collide_pair(
-                scene, 3.0 * NORMAL, [speed * NORMAL, 0.0 * NORMAL], spins, engine=engine, ledger=True
-            )
+            found = collide_pair(scene, 3.0 * NORMAL, [speed * NORMAL, 0.0 * NORMAL], spins, engine=engine, ledger=True)
             assert OUTCOMES[int(found.outcome)] == planar.outcome, str(found.reason.values)
             assert bool(found.certified) == planar.certified
             assert float(found.restitution) == pytest.approx(planar.restitution, rel=1e-10)
