@@ -12,7 +12,6 @@ from ..engines.taylor.record import run_with_books
 from ..errors import ComputationError
 from ..model.model import load, select_model
 from ..scene.groups import rate_scales, si_values
-from ..scene.scene import Scene
 from .books import is_open, of_kernel
 from .ends import FAILED, Ends
 from .pairs import Bodies, Pairs, dot, length, spinning, still

@@ -56,12 +56,7 @@ class Ledger:
     """
 
     def __init__(
-        self,
-        model: Model,
-        flow: Program,
-        recurrences: Recurrences,
-        constants: Constants,
-        mode: Mapping[sp.Symbol, int],
+        self, model: Model, flow: Program, recurrences: Recurrences, constants: Constants, mode: Mapping[sp.Symbol, int]
     ) -> None:
         self.model = model
         self.there = not model.structure.reduced

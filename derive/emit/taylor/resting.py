@@ -88,6 +88,11 @@ class Resting:
             *documented(
                 "Coefficient k + 1 of the states.",
                 f"INLINE void rubbing_next({_ARGUMENTS})",
-                ["(void)c; (void)film; (void)shear; (void)sliding; (void)rolling;", "double next = 1.0/(k + 1);", *rates, *self.ledger.coefficients()],
+                [
+                    "(void)c; (void)film; (void)shear; (void)sliding; (void)rolling;",
+                    "double next = 1.0/(k + 1);",
+                    *rates,
+                    *self.ledger.coefficients(),
+                ],
             ),
         ]

@@ -132,7 +132,6 @@ def results(numbers: Iterable[Number], entries: Iterable[Number] = ()) -> tuple[
         Status.NOT_FINITE: "the state is not finite, or energy has grown",
         Status.CHATTER: "not decided: the pair goes in and out of contact again and again",
         Status.TOO_OBLIQUE: "the centrifugal force is too large beside the approach to be resolved",
-        Status.RESTS_IN_FRICTION: "not decided: the pair rests in contact with friction in space",
         Status.WITHIN_ROUNDING: "not decided: the pair separates so slowly that rounding decides",
         Status.ESCAPED: "a pair that was proved to stick has separated: please report it",
     }

@@ -32,7 +32,8 @@ build.is_shipped, build.shipped = there.__contains__, asked
 scene, folder = wd.Scene.load(sys.argv[1]), pathlib.Path(sys.argv[2])
 viscosity = dict(scene.si)["liquid.viscosity"]
 stokes = (scene.stokes or 1.0) * np.linspace(0.5, 2.0, 101)
-(folder / "impacts.csv").write_text("speed [m/s],angle [deg],outcome,restitution,restitution_sd\\n0.6,0,bounce,0.2,0.02\\n")
+rows = ["speed [m/s],angle [deg],outcome,restitution,restitution_sd", "0.6,0,bounce,0.2,0.02", ""]
+(folder / "impacts.csv").write_text(chr(10).join(rows))
 
 
 def questions(angle):

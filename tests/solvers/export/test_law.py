@@ -437,5 +437,6 @@ static vec sum(const pair *p, vec twice)
 
 
 def test_every_failure_of_a_kernel_has_a_message():
-    """Among them pairs in space that rest in contact with friction."""
-    assert {status for status in Status if status > LAST_ANSWER} <= {one.number for one in results(())}
+    """None is of a kernel with derivatives, which alone leaves rest with friction to others."""
+    failures = {status for status in Status if status > LAST_ANSWER} - {Status.RESTS_IN_FRICTION}
+    assert failures <= {one.number for one in results(())}
