@@ -1,9 +1,9 @@
 """Kinks of a law: each a guard, on either side of which the law is smooth.
 
 `Abs`, `Max`, `Min`, `sign` and the conditions of a `Piecewise` have no Taylor series where they change. Each becomes a
-guard k, a named part of the law, and a side, k/|k|, so that |k| is side k. A step or a phase ends where a guard is zero.
-Where a side is asked for elsewhere it is k/sqrt(k^2 + WIDTH^2), which no result can tell from it. Powers,
-roots and logarithms of what may vanish are rounded alike, and what vanishes is a guard.
+guard k, a named part of the law, and a side, k/|k|, so that |k| is side k. Steps and phases end where a guard is zero.
+Where a side is not fixed it is k/sqrt(k^2 + WIDTH^2), which no result can tell from it. Powers, roots and logarithms of
+what may vanish are rounded alike, and what vanishes is a guard.
 """
 
 from collections.abc import Collection, Iterable
@@ -13,11 +13,12 @@ import sympy as sp
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanFunction
 
-from ..physics.laws.base import LawFunction
+from ..physics.laws.base import LawFunction, needed
 from ..physics.scaling import ScalingError
 from ..vocabulary.quantities import normal_velocity
 
 WIDTH = sp.Rational(1, 10**10)
+_SQUARE = sp.Symbol("squared_width", positive=True)  # named: sympy factors no numbers of twenty digits
 _FLAT = (sp.Max, sp.Min, sp.Piecewise, sp.Heaviside)  # may vanish over a range, not only at a point
 
 
@@ -39,7 +40,25 @@ def smooth(function: LawFunction, still: Collection[sp.Symbol]) -> LawFunction:
         smoothing.definitions.append((symbol, smoothing(value)))
         smoothing.written[symbol] = value.xreplace(smoothing.written)
     result = smoothing(function.result)
-    return replace(function, result=result, definitions=tuple(smoothing.definitions), kinks=tuple(smoothing.kinks))
+    definitions = needed([result, *(kink for kink, _ in smoothing.kinks)], smoothing.definitions)[0]
+    return replace(function, result=result, definitions=tuple(definitions), kinks=tuple(smoothing.kinks))
+
+
+def freed(expression: sp.Expr) -> sp.Expr:
+    """An expression with positive common factors, and with them dimensions, in front of its kinks."""
+
+    def front(node: sp.Basic) -> sp.Basic:
+        marks = sp.symbols(f"part:{len(node.args)}", cls=sp.Dummy, positive=True)
+        whole = sp.factor(sp.Add(*(mark * part for mark, part in zip(marks, node.args, strict=True))))
+        factors = [part for part in sp.Mul.make_args(whole) if part.is_positive and not part.has(*marks)]
+        return sp.Mul(*factors) * node.func(*(sp.expand(part / sp.Mul(*factors)) for part in node.args))
+
+    def compared(node: Relational) -> sp.Basic:
+        factors = sp.Mul.make_args(sp.factor(node.lhs - node.rhs))
+        return node.func(sp.Mul(*(-1 if part.is_negative else part for part in factors if not part.is_positive)), 0)
+
+    result = expression.replace(lambda node: isinstance(node, (sp.Abs, sp.Max, sp.Min)), front)  # the inner ones first
+    return result.xreplace({node: compared(node) for node in result.atoms(Relational)})
 
 
 def rounded(expression: sp.Expr) -> sp.Expr:
@@ -56,7 +75,7 @@ class _Smoothing:
 
     def __init__(self, moving: Collection[sp.Symbol]) -> None:
         self.moving = set(moving)
-        self.definitions: list[tuple[sp.Symbol, sp.Expr]] = []
+        self.definitions: list[tuple[sp.Symbol, sp.Expr]] = [(_SQUARE, WIDTH**2)]
         self.written: dict[sp.Basic, sp.Basic] = {}  # named parts as they were written
         self.kinks: list[tuple[sp.Symbol, sp.Symbol]] = []
         self._sides: dict[sp.Expr, sp.Expr] = {}
@@ -101,7 +120,7 @@ class _Smoothing:
             known, rest = -known, -rest
         if rest not in self._sides:
             kink, side = self._named("kink", rest), sp.Symbol(f"side_{len(self._sides) + 1}", real=True)
-            self.definitions.append((side, kink / sp.sqrt(kink**2 + WIDTH**2)))
+            self.definitions.append((side, kink / sp.sqrt(kink**2 + _SQUARE)))
             self._sides[rest] = side
             if self._moves(rest):
                 self.kinks.append((kink, side))
@@ -118,7 +137,7 @@ class _Smoothing:
     def _squared(self, inner: sp.Expr) -> sp.Expr:
         """The rounded square of what may vanish, which is a guard."""
         self._side(inner)
-        return self._named("base", inner) ** 2 + WIDTH**2
+        return self._named("base", inner) ** 2 + _SQUARE
 
     def _step(self, inner: sp.Expr) -> sp.Expr:
         """1 where an expression is positive and 0 where it is negative."""

@@ -15,7 +15,7 @@ from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
 from . import own_events
 from .declarations import Declarations, Declared, Proposed, unfolded
-from .kinks import smooth
+from .kinks import freed, smooth
 from .own_events import OwnEvent
 
 _ALWAYS = (a, x0, mu, v0, m)  # quantities of every scene, in the order in which a scale is sought
@@ -289,6 +289,7 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
     rules = {s: value for s, value in to_groups().items() if s not in kept and s.name not in _MOVED}
     for _ in range(3):
         expression = expression.subs(rules, simultaneous=True)
+    expression = freed(expression)
     terms = sp.Add.make_args(expression)  # kept as written if no quantity remains to cancel
     by_term = sp.Add(*(sp.simplify(term) if dimensional(term) else term for term in terms))
     return cancelled(label, by_term, expression)

@@ -99,6 +99,9 @@ def dimension_of(
             return top and prod((bottom**-count for bottom, count in below), start=top)
         if isinstance(node, sp.Abs):
             return walk(node.args[0])
+        if isinstance(node, sp.sign):
+            walk(node.args[0])
+            return ONE
         if isinstance(node, sp.Piecewise):
             for relation in node.atoms(Relational):
                 _common(relation, relation.args)

@@ -109,7 +109,8 @@ def slope_program(
     slopes = {argument: chain.by(each.result, argument) for argument in each.arguments}
     for symbol, expression in chain.named:
         program.define(symbol, expression)
-    forms = {argument: (slope, sp.factor(slope)) for argument, slope in slopes.items()}
+    rounds = any(value.is_Number for _, value in kept)  # a kink's width: sympy factors such expressions for minutes
+    forms = {argument: (slope,) if rounds else (slope, sp.factor(slope)) for argument, slope in slopes.items()}
     results = {argument: shortest(program, each, _by(argument)) for argument, each in forms.items()}
     return value, result, program, results
 
