@@ -16,6 +16,7 @@ EMITTED = "a name in emitted functions"
 _GENERATED = Path(__file__).resolve().parents[2] / "generated"  # as text: it is not imported here
 _MACROS = {"asm", "errno", "far", "linux", "near", "typeof", "unix"}  # of compilers and C's headers
 _ARGUMENTS = {"after", "c", "guard", "of", "s", "splat", "v", "vec", "y"}  # of C functions in which own names stand
+_GUARDS = {f"{word}_{k}" for word in ("kink", "side") for k in range(1, 100)}  # parts of laws that have kinks
 
 
 @cache
@@ -23,7 +24,7 @@ def taken() -> dict[str, str]:
     """Every such name, and what it is."""
     c_words = {word.strip(",") for word in (*reserved_words, *reserved_words_c99, *reserved["C++17"])}
     functions = {name for name in known_functions_C99.values() if isinstance(name, str)}
-    result = dict.fromkeys(_names("*.py") | _ARGUMENTS, EMITTED)
+    result = dict.fromkeys(_names("*.py") | _ARGUMENTS | _GUARDS, EMITTED)
     result |= dict.fromkeys(_names("laws/*.py"), "an argument of laws")
     result |= dict.fromkeys(functions | {"fabs", "if_else", "pi", "result"}, "a name that laws are emitted with")
     result |= dict.fromkeys(c_words | _MACROS, "a word of C")

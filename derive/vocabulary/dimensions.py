@@ -11,12 +11,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
 from types import MappingProxyType
+from typing import TypeAlias
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-Power = Fraction | sp.Expr
+Power: TypeAlias = Fraction | sp.Expr
 
 
 @dataclass(frozen=True)

@@ -128,9 +128,10 @@ def test_the_angle_turned_and_the_time_are_states():
     ("second", "waits"),
     [
         ('guard=d - x, where="opening"', "before_first - 1/2"),
-        ('guard=3*(d - x)*u**2/d, where="opening"', "before_first - 1/2"),
+        ('guard=3*(d - x)*m/(x*d), where="opening"', "before_first - 1/2"),
         ('guard=d - x, where="closing"', ""),
         ('guard=x - d, where="opening"', ""),
+        ('guard=(d - x)*u, where="opening"', ""),
         ('guard=d - 2*x, where="opening"', ""),
     ],
 )

@@ -237,29 +237,26 @@ def test_a_law_of_too_many_events_is_not_exported(snaps):
 TURNS = '''"""The collision ends when the doublet has turned far enough, or after a time."""
 from wetdoublet.derive.user import *
 
-largest = quantity("largest_turn", default="100", meaning="angle at which it ends, rad")
-latest = quantity("latest", unit="s", default="1000 s", meaning="time at which it ends")
-event("far enough", guard=largest - beta, ends="stick")
-event("in time", guard=latest - t, ends="stick")
+last = quantity("last", unit="{}", default=1000.0, meaning="angle or time at which it ends")
+event("at last", guard=last - {}, ends="stick")
 '''
 
 
-def test_guards_of_angle_and_time(tmp_path: Path):
+@pytest.mark.parametrize(("unit", "watched"), [("1", "beta"), ("s", "t")])
+def test_guards_of_angle_and_time(tmp_path: Path, unit: str, watched: str):
     """An end at an angle, or at a time: where the library's own trajectory is then, by every engine."""
     path = tmp_path / "turns.py"
-    path.write_text(TURNS)
+    path.write_text(TURNS.format(unit, watched))
     impact = {"stokes": 0.02, "angle": math.radians(75)}
     library = collide(Scene.load("granulation"), **impact, trajectory=True, engine="cvodes", rtol=1e-12).trajectory
-    times, angles = np.asarray(library.time), np.asarray(library.rotation)
-    place = int(0.6 * times.size)
+    place = int(0.6 * library.time.size)
+    end = float((library.rotation if watched == "beta" else library.time)[place])
+    own = Scene.load("granulation", model=path).with_entries({"custom.last": end})
     for engine in ("taylor", "rosenbrock", "cvodes"):
-        for entry, word in (("largest_turn", "far enough"), ("latest", "in time")):
-            value = {"largest_turn": float(angles[place]), "latest": float(times[place])}[entry]
-            own = Scene.load("granulation", model=path).with_entries({f"custom.{entry}": value})
-            found = collide(own, **impact, engine=engine)
-            assert found.engine == engine
-            assert (found.events[-1].kind, found.outcome) == (word, "stick")
-            assert found.events[-1].time == pytest.approx(times[place], rel=1e-7)
+        found = collide(own, **impact, engine=engine)
+        assert found.engine == engine
+        assert (found.events[-1].kind, found.outcome) == ("at last", "stick")
+        assert found.events[-1].time == pytest.approx(float(library.time[place]), rel=1e-7)
 
 
 TWO = '''"""Two events at one gap."""
