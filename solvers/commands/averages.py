@@ -23,9 +23,7 @@ def command(
     wrt: list[str] | None,
     request: options.EntriesRequest,
     rtol: options.Rtol,
-    output: Annotated[
-        Path | None, partial(check_file, label="", suffixes=(".nc", ".csv", ".foam", ".py"), replaced=True)
-    ],
+    output: Annotated[Path | None, partial(check_file, label="", suffixes=(".nc", ".csv"), replaced=True)],
 ) -> None:
     """Sticking probability and mean restitution of SCENE over all impact angles and speeds, for each pair of radii.
 
@@ -44,14 +42,12 @@ def command(
         --films RULE: How film and roughness change with the radii: fixed, or proportional to their sum [fixed].
         --tolerance E: Absolute error of the quadrature, 1e-9..1e-2 [1e-6].
         --wrt NAME,...: Entries by which the means are differentiated, such as liquid.viscosity.
-        -o FILE (output): Write NetCDF (.nc), a table (.csv), a dictionary of OpenFOAM (.foam) or a module for PySDM
-            (.py); the same command continues an interrupted run.
+        -o FILE (output): Write NetCDF (.nc) or a table (.csv); the same command continues an interrupted run.
     """  # noqa: D301 # click wants the character itself
     scene = request.scene_without_impact("has no influence on averages")
 
     from ..averages.averages import collision_averages
     from ..averages.dataset import table, to_csv
-    from ..averages.hosts import to_openfoam, to_pysdm
     from ..many.regime_map import write
     from .resumable import resumable
 
@@ -59,9 +55,8 @@ def command(
     with resumable(output, "pairs", cheaper="a larger --tolerance or fewer --radii take less") as (journal, progress):
         data = collision_averages(scene, progress=progress, journal=journal, **chosen)
         if output is not None and journal is not None:
-            as_text = {".csv": to_csv, ".foam": to_openfoam, ".py": to_pysdm}.get(output.suffix.lower())
-            if as_text is not None:
-                files.write(output, as_text(data))
+            if output.suffix.lower() == ".csv":
+                files.write(output, to_csv(data))
             else:
                 write(data, output)
             journal.remove()
