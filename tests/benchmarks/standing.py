@@ -165,7 +165,8 @@ def ball() -> list[list[str]]:
     after = [each - falls for each in TIMES]
     rows = [["exact", *(f"{0.8 * 9.81 * falls * each - 9.81 / 2 * each**2:.6f}" for each in after)]]
     for plugin, most in SEARCHES:
-        cells, options = [], {"transition": jump, "max_event_iter": most}
+        cells = []
+        options: dict[str, Any] = {"transition": jump, "max_event_iter": most}
         for end in TIMES:
             try:
                 final = ca.integrator("ball", plugin, dae, 0, [end], options)(x0=[1, 0], p=0.8)["xf"]
@@ -179,7 +180,7 @@ def ball() -> list[list[str]]:
 def counted(plugin: str, zeros: Callable[[ca.SX], tuple[ca.SX, ca.SX]]) -> str:
     """How often each of two events occurs by CasADi, as y falls from 1 to -1; both are at y = 0."""
     x, t, index = ca.SX.sym("x", 3), ca.SX.sym("t"), ca.SX.sym("index")
-    dae = {"x": x, "t": t, "ode": ca.vertcat(-1, 0, 0), "zero": ca.vertcat(*zeros(x[0]))}
+    dae: dict[str, Any] = {"x": x, "t": t, "ode": ca.vertcat(-1, 0, 0), "zero": ca.vertcat(*zeros(x[0]))}
     given = {"index": index, "t": t, "x": x, "post_x": ca.vertcat(x[0], x[1] + (index == 0), x[2] + (index == 1))}
     jump = ca.Function("transition", given, ["index", "t", "x", "z", "p", "u"], ["post_x", "post_z"])
     final = ca.integrator("counts", plugin, dae, 0, [2], {"transition": jump})(x0=[1, 0, 0])["xf"]
