@@ -13,6 +13,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "force.h"
@@ -77,6 +78,8 @@ class PairWet : public Pair {
 public:
     explicit PairWet(LAMMPS *lmp) : Pair(lmp)
     {
+        if (domain->box_exist == 0)    // the fix below keeps numbers of atoms, for which LAMMPS has no place yet
+            error->all(FLERR, "pair_style " STYLE " stands after create_box, read_data or read_restart");
         single_enable = no_virial_fdotr_compute = beyond_contact = nondefault_history_transfer = 1;
         restartinfo = 0;    // a restart file has the histories; the script says pair_style and pair_coeff again
         single_extra = 1;

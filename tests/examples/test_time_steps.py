@@ -192,6 +192,20 @@ found.append(follow(100))
 """
 
 
+def test_a_pair_style_before_the_box_is_refused(lammps_python: str, tmp_path: Path):
+    """It keeps numbers of atoms, for which LAMMPS has no place before there is a box."""
+    folder = written(Scene.load("granulation"), tmp_path / "granulation")
+    script = """
+folder = Path(sys.argv[1])
+host = started(built(folder, folder.name))
+try:
+    host.command("pair_style wet/granulation 1e-4")
+except Exception as error:
+    print(json.dumps(str(error)))
+"""
+    assert "stands after create_box" in in_lammps(lammps_python, script, str(folder))
+
+
 def test_a_world_of_yade_is_saved_with_its_contacts(tmp_path: Path):
     """From the saved world and its contacts the collision ends with the same bits; without these it has no end."""
     program = shutil.which("yade")

@@ -73,6 +73,7 @@ BAD = [
     ("sensitivity granulation --of restitution,restitution", "--of", 'has "restitution" twice', "every name once"),
     ("boundary granulation --angle 40 --wrt bridge.volume,bridge.volume", "--wrt", "twice", "every name once"),
     ("averages granulation --wrt ,", "--wrt", "names nothing", "names, separated by commas"),
+    ("averages granulation -o averages.py", "-o", "unsupported suffix", ".nc, .csv"),
     ("scenes --new powder --hold stokes", "--new", "given together with --hold", "--new NAME alone"),
     ("collide granulation --angle 90deg", "--angle", '"90deg"', "< 90 deg"),
     ("collide granulation --angle -5deg", "--angle", '"-5deg"', ">= 0 deg"),
