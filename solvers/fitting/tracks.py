@@ -125,7 +125,7 @@ def tracks(
         noise: standard deviation of a tracked coordinate, in the unit of the columns, or with its own, as "0.2 px";
             None: from the scatter about the straight paths.
         near: frames of a smaller gap between the spheres are left out; in m or with a unit, as "0.1 mm", "8 px". None:
-            those that lie off the straight path of the others. 0: none.
+            of those off the straight path of the others the direction alone counts. 0: all count.
 
     `rate`, `scale`, `noise` and `near` may be quantities of pint.
 
