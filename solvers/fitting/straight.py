@@ -35,7 +35,7 @@ class Flight:
 
     def part(self, which: np.ndarray) -> "Flight":
         """The frames of a mask."""
-        return Flight(self.time[which], self.places[which], [self.names[k] for k in np.flatnonzero(which)])
+        return Flight(self.time[which], self.places[which], [self.names[k] for k in np.flatnonzero(which).tolist()])
 
     def residuals(self, values: np.ndarray) -> np.ndarray:
         """Of a straight line in time through values (n, ...)."""
@@ -49,7 +49,7 @@ class Flight:
         return np.array([[x, y], [-y, x]]) / (math.hypot(x, y) or 1.0)
 
     def gaps(self, solids: float) -> np.ndarray:
-        return np.linalg.norm(self.places, axis=1) - solids
+        return np.asarray(np.linalg.norm(self.places, axis=1) - solids)
 
 
 def _noise(paths: Sequence[Flight], floor: float) -> tuple[float, int]:
@@ -104,8 +104,9 @@ def _odd(off: np.ndarray, sigma: float, freedom: int) -> bool:
 
 
 def uneven(paths: Sequence[Flight], interval: float, floor: float) -> tuple[str, float]:
-    """What is wrong with the times of the paths, in words, and at how many places frames are lost (or how many, where
-    steps are not clear of the noise); infinite if these do not explain it.
+    """What is wrong with the times of the paths, in words, and at how many places frames are lost.
+
+    Where steps are not clear of the noise every frame counts; infinite if lost frames do not explain it.
 
     Arguments:
         interval: time between two frames.
@@ -121,7 +122,7 @@ def uneven(paths: Sequence[Flight], interval: float, floor: float) -> tuple[str,
         if lost.any() or (_odd(raw, sigma, freedom) and scatter > _UNEVEN * step):
             most, explained = max(most, scatter / sigma), explained and clear
         total += np.count_nonzero(lost) if step > _CLEAR * sigma else float(np.abs(lost).sum())
-        for k in np.flatnonzero(lost):
+        for k in np.flatnonzero(lost).tolist():
             where.append(f"{f'{lost[k]:.0f} lost' if lost[k] > 0 else 'the same picture again'} after {path.names[k]}")
     text = f"scatter {most:.2g} times as much along the motion as across it: "
     if most and explained:

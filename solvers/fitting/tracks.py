@@ -125,7 +125,7 @@ def tracks(
         noise: standard deviation of a tracked coordinate, in the unit of the columns, or with its own, as "0.2 px";
             None: from the scatter about the straight paths.
         near: frames of a smaller gap between the spheres are left out; in m or with a unit, as "0.1 mm", "8 px". None:
-            those that lie off the straight path of the others. 0: none.
+            of those off the straight path of the others the direction alone counts. 0: all count.
 
     `rate`, `scale`, `noise` and `near` may be quantities of pint.
 
@@ -152,8 +152,12 @@ def tracks(
     columns, lines = columns_of(film, "tracks")
     known = _named(columns)
     for name in [each for each in ("x1", "y1", "x2", "y2") if each not in known]:
-        names = ", ".join(column.name for column in columns)
-        raise InputError("tracks", names, "columns x1, y1, x2, y2, and frame or time", f"has no {name}")
+        raise InputError(
+            "tracks",
+            ", ".join(each.name for each in columns),
+            "columns x1, y1, x2, y2, and frame or time",
+            f"has no {name}",
+        )
     pixel = None if scale is None else _size(scale, "m", "scale", plain=None)
     per_frame = None if rate is None or "time" in known else 1 / _size(rate, "1/s", "rate")
     coordinates = [_numbers(known[name], lines, "m", pixel, "scale", gaps=True) for name in ("x1", "y1", "x2", "y2")]
@@ -297,7 +301,7 @@ def _impact(
     before, after = before & ~near_frames, after & ~near_frames
     check_count()
     time = time - time[first]
-    lines, used = [], [before, after]
+    lines, used = list[tuple[np.ndarray, np.ndarray, float, int]](), [before, after]
     for k, (part, reach, side) in enumerate([(before, touch, -1), (after, apart, 1)][: 1 if sticks else 2]):
         for _ in range(_REFITS):
             line = _line(time, relative, part, used[k] & ~part)
@@ -306,13 +310,13 @@ def _impact(
     first, last = int(np.flatnonzero(used[0])[-1]) + 1, int(np.flatnonzero(used[1])[0]) - 1 if not sticks else last
     sigma = noise or math.sqrt(sum(line[2] for line in lines) / sum(line[3] for line in lines))
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
-    for part, reach, (line, *_) in zip((before, after), (touch, apart), lines):
-        passing = abs(line[0, 0] * line[1, 1] - line[0, 1] * line[1, 0]) / np.linalg.norm(line[1])
+    for part, reach, (course, *_) in zip((before, after), (touch, apart), lines):
+        passing = abs(course[0, 0] * course[1, 1] - course[0, 1] * course[1, 0]) / np.linalg.norm(course[1])
         if passing >= reach:
             problem = f"pass each other at {passing:.4g} m, beyond {reach:.4g} m: is the scale or the diameter off?"
             raise InputError(where, None, within, problem)
         frames = np.flatnonzero(part)
-        off = np.linalg.norm(relative[part] - line[0] - time[part, None] * line[1], axis=1)
+        off = np.linalg.norm(relative[part] - course[0] - time[part, None] * course[1], axis=1)
         worst, usual = int(np.argmax(off)), max(float(np.median(off)), noise or 0.0)
         if off[worst] > _STRAY * usual + _ROUNDING * touch:
             problem = f"{off[worst]:.3g} m off its line at {names[frames[worst]]}, others {usual:.2g} m"
