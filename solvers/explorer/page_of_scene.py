@@ -170,7 +170,7 @@ def _of_scene(scene: Scene, modules: dict[str, bytes]) -> dict[str, Any]:
     from .knobs import knobs
     from .module import limits, module
 
-    ledger = scene.particles.friction is None  # a kernel with a ledger leaves rest with friction to CasADi
+    ledger = scene.particles.friction is None  # the page shows no losses by friction
     law = source(scene, ledger=ledger)
     layout = structures(law.header)
     given = dict(scene.given)
