@@ -25,6 +25,11 @@ RUNS = {
     "fit.json": ("fit", "pendulum", "impacts.csv", "--free", "liquid.film_thickness", "--json"),
     "table.h": ("table", "granulation", "--over", "stokes=0.1:0.2,angle=0:20", "--error", "1e-2", "-o", "table.h"),
 }
+for preset in ("glass-beads-water", "lactose-pvp", "pellet-coating", "granulation-dry-bridge", "pendulum"):
+    RUNS[f"map-{preset}.csv"] = (
+        "map", preset, "--stokes", "log:0.1:10:20", "--angle", "0:60:20", "-o", f"map-{preset}.csv"
+    )  # fmt: skip
+    RUNS[f"fit-{preset}.json"] = ("fit", preset, "impacts.csv", "--free", "liquid.viscosity", "--json")
 
 
 def answers(folder: Path, path: str) -> dict[str, bytes]:

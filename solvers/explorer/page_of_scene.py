@@ -172,7 +172,7 @@ def law_of(scene: Scene) -> tuple[LawSource, str, list[str]]:
 
 
 def _has_ledger(scene: Scene) -> bool:
-    """False with friction: a kernel with a ledger leaves rest with friction to CasADi."""
+    """False with friction, whose loss the page does not show."""
     return scene.particles.friction is None
 
 

@@ -128,7 +128,7 @@ KINDS: dict[str, Replay] = {
     "ledger in space": lambda impacts, _: _in_space(impacts, ledger=True),
 }
 IN_SPACE = ("in space", "ledger in space")
-SPATIAL = ("film alone", "granulation", "attraction and bridge", "pair with bridge", "film cavitating")
+SPATIAL = ("film alone", "granulation", "attraction and bridge", "pair with bridge", "film cavitating", "friction of a pair")
 LAWS_IN = ("plain", "ledger and trajectory", "forwards", "backwards")
 
 

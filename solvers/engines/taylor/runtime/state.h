@@ -36,7 +36,7 @@ static inline vec size_of(const vec *all, int stride, int state)
     const vec *x = all + state*stride;
     if (state < FIRST_VECTOR || state >= MODEL_STATES)
         return vec_abs(x[0]);
-    return vec_sqrt(x[0]*x[0] + x[stride]*x[stride] + x[2*stride]*x[2*stride]);
+    return vec_abs(vec_sqrt(x[0]*x[0] + x[stride]*x[stride] + x[2*stride]*x[2*stride])); /* a NaN may have a sign */
 }
 #else
 #define EACH_SIZE(state) for (int state = 0; state < STATES; state++)
