@@ -214,14 +214,11 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
         return model
     marks = tuple(each.mark for each in present)
     forms = {each.name: each.in_structure(model.structure) for each in present}
-    guards = _in_order(present, forms)
-    watched = groups_of(events, model.structure)
-    rates: dict[sp.Symbol, sp.Expr] = dict.fromkeys(marks, sp.Integer(0))
-    if q.angle_turned in watched:
-        rates[q.angle_turned] = model["turning_rate"][q.beta.name]
-    if q.time_passed in watched:
-        rates[q.time_passed] = sp.Integer(1)
-    same = {state: state for state in rates}
+    still, same = dict.fromkeys(marks, sp.Integer(0)), {mark: mark for mark in marks}
+    guards, watched = _in_order(present, forms), groups_of(events, model.structure)
+    clocks = {q.angle_turned: model["turning_rate"][q.beta.name]} if q.angle_turned in watched else {}
+    clocks |= {q.time_passed: sp.Integer(1)} if q.time_passed in watched else {}
+    rates, same = still | clocks, same | {state: state for state in clocks}
     more: dict[str, Mapping[sp.Symbol, sp.Expr]] = {
         "right_hand_side": rates, "resting_rates": rates, "rebound": same, "rigid_rotation": same, "rubbed": same,
         "start": {state: sp.Integer(state in marks) for state in rates},
