@@ -218,13 +218,10 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     for each in present:
         guard, jump, released = each.in_structure(model.structure)
         forms[each.name] = rounded(guard), {state: rounded(value) for state, value in jump.items()}, rounded(released)
-    guards = _in_order(present, forms)
-    watched = groups_of(events, model.structure)
-    rates: dict[sp.Symbol, sp.Expr] = dict.fromkeys(marks, sp.Integer(0))
-    if q.angle_turned in watched:
-        rates[q.angle_turned] = model["turning_rate"][q.beta.name]
-    if q.time_passed in watched:
-        rates[q.time_passed] = sp.Integer(1)
+    guards, watched = _in_order(present, forms), groups_of(events, model.structure)
+    clocks = {q.angle_turned: model["turning_rate"][q.beta.name]} if q.angle_turned in watched else {}
+    clocks |= {q.time_passed: sp.Integer(1)} if q.time_passed in watched else {}
+    rates = {**dict.fromkeys(marks, sp.Integer(0)), **clocks}
     same = {state: state for state in rates}
     more: dict[str, Mapping[sp.Symbol, sp.Expr]] = {
         "right_hand_side": rates, "resting_rates": rates, "rebound": same, "rigid_rotation": same, "rubbed": same,

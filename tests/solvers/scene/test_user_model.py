@@ -30,6 +30,17 @@ def test_a_law_is_less_than_thirty_lines():
     assert len(LAW.splitlines()) < 30
 
 
+def test_emitted_files_name_the_file_to_change(mine: Path):
+    """Their first line says which model file they come from, and not the library's derivation."""
+    source = Path(json.loads((mine / "manifest.json").read_text())["origin"]).name
+    for path in (path for path in mine.rglob("*.py") if path.name != "model.py"):
+        first = path.read_text().partition("\n")[0]
+        assert (
+            first
+            == f"# Emitted by wetdoublet from {source}. Do not edit: change {source} and run `wetdoublet generate`."
+        )
+
+
 def test_the_law_runs_through_the_commands(mine: Path, tmp_path: Path):
     """collide, map, boundary, sensitivity and scenes take the model from the command line."""
     one = run("collide", "granulation", "--model", str(mine), "--set", "custom.yield_stress=2 kPa", "--json")
