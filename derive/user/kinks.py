@@ -45,7 +45,7 @@ def smooth(function: LawFunction, still: Collection[sp.Symbol]) -> LawFunction:
 
 
 def freed(expression: sp.Expr) -> sp.Expr:
-    """An expression with positive common factors, and with them dimensions, in front of its kinks."""
+    """An expression with positive common factors, and with them dimensions, in front of its kinks and powers."""
 
     def front(node: sp.Basic) -> sp.Basic:
         marks = sp.symbols(f"part:{len(node.args)}", cls=sp.Dummy, positive=True)
@@ -57,7 +57,13 @@ def freed(expression: sp.Expr) -> sp.Expr:
         factors = sp.Mul.make_args(sp.factor(node.lhs - node.rhs))
         return node.func(sp.Mul(*(-1 if part.is_negative else part for part in factors if not part.is_positive)), 0)
 
-    result = expression.replace(lambda node: isinstance(node, (sp.Abs, sp.Max, sp.Min)), front)  # the inner ones first
+    def powered(node: sp.Pow) -> sp.Basic:
+        parts, exponent = sp.Mul.make_args(sp.factor_terms(node.base)), node.exp
+        whole = sp.Mul(*(part for part in parts if not part.is_positive))
+        return sp.Mul(*(part**exponent for part in parts if part.is_positive)) * whole**exponent
+
+    result = expression.replace(lambda node: isinstance(node, sp.Pow) and not node.exp.is_Integer, powered)
+    result = result.replace(lambda node: isinstance(node, (sp.Abs, sp.Max, sp.Min)), front)  # the inner ones first
     return result.xreplace({node: compared(node) for node in result.atoms(Relational)})
 
 

@@ -53,7 +53,8 @@ class _Grammar:
         power = self.random.choice(["2", "0.5", "1.5", "own", "3", "0.7"])
         return self.random.choice([
             f"({one} + {other})", f"({one})*({other})", f"({one})**{power}",
-            f"Abs({signed})", f"Abs({signed})**{power}", f"Max({signed}, {self.number()})", f"Max({signed}, 0)", f"Max({signed}, 0)**{power}",
+            f"Abs({signed})", f"Abs({signed})**{power}", f"Max({signed}, {self.number()})",
+            f"Max({signed}, 0)", f"Max({signed}, 0)**{power}",
             f"Min(Abs({signed}), {self.number()})", f"exp(-({one}))", f"sqrt(({signed})**2 + own)",
             f"Piecewise(({one}, {self.condition()}), ({other}, True))", f"tanh({one})", f"1/(1 + {one})",
         ])  # fmt: skip

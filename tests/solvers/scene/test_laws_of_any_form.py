@@ -57,7 +57,7 @@ def test_an_arm_with_a_quantity(tmp_path: Path):
 
 
 def test_a_power_law_turns(tmp_path: Path):
-    """With the index 1 it is the library's film; below, the limit of laws that are rounded at smaller and smaller speeds."""
+    """With the index 1 it is the library's film; below, the limit of laws rounded at smaller and smaller speeds."""
     newtonian = scene(tmp_path, POWER.format("Abs(u)"), "granulation-dry-bridge", custom__flow_index="1")
     for stokes in (0.02, 0.1):
         own, library = (
