@@ -1,26 +1,51 @@
 """The kernels that come compiled with the package: those that the questions on its presets ask for.
 
-As a program this module compiles them; the package's build runs it.
+As a program this module compiles those that `shipped.json` lists; the package's build runs it, and so without CasADi.
+`python -m wetdoublet.solvers.engines.ship --list` writes the list anew.
 """
 
+import json
+from dataclasses import asdict
 from pathlib import Path
 
 from ..host.compiler import CannotCompile, library
 from ..host.cores import usable_cores
 from ..host.user_cache import digest_of
-from ..scene.scene import Scene
-from ..scene.scenefile import PRESETS
-from .kernels import needed
+from ..model.key import ModelKey
 from .machine import SETS, InstructionSet, here
-from .settings import RTOL
 from .taylor.shipped import compilation, name_of
 from .taylor.source import Variant
 
+LIST = Path(__file__).with_name("shipped.json")
+
+
+def asked() -> tuple[Variant, ...]:
+    """The variants that questions on the presets ask for, for the lanes of this machine."""
+    from ..scene.scene import Scene
+    from ..scene.scenefile import PRESETS
+    from .kernels import needed
+    from .settings import RTOL
+
+    every = (need for name in PRESETS for need in needed(Scene.load(name), [RTOL], derivatives=True))
+    return tuple(dict.fromkeys(variant for _, _, variant in every))
+
 
 def variants() -> tuple[Variant, ...]:
-    """The variants that are shipped, for the lanes of this machine."""
-    asked = (need for name in PRESETS for need in needed(Scene.load(name), [RTOL], derivatives=True))
-    return tuple(dict.fromkeys(variant for _, _, variant in asked))
+    """The variants that the list has, for the lanes of this machine."""
+    rows = json.loads(LIST.read_text(encoding="utf-8"))
+    return tuple(Variant(ModelKey(row.pop("structure"), tuple(row.pop("laws").items())), **row) for row in rows)
+
+
+def write_list() -> None:
+    """Write `shipped.json` from the questions."""
+    rows = []
+    for variant in asked():
+        options = asdict(variant)
+        del options["choice"], options["lanes"]
+        options = {name: value for name, value in options.items() if value}
+        rows.append({"structure": variant.choice.structure, "laws": dict(variant.choice.laws), **options})
+    text = ",\n".join(f"  {json.dumps(row)}" for row in rows)
+    LIST.write_text(f"[\n{text}\n]\n", encoding="utf-8")
 
 
 def _compile(folder: Path, sets: list[InstructionSet], structure: str | None, only_values: bool) -> None:
@@ -48,11 +73,17 @@ if __name__ == "__main__":
 
     known = {each.name: each for family in SETS.values() for each in family}
     parser = argparse.ArgumentParser(description="Compile the kernels that come with the package.")
-    parser.add_argument("folder", type=Path)
+    parser.add_argument("folder", type=Path, nargs="?")
     parser.add_argument("sets", nargs="*", help=f"instruction sets [this machine's]: {', '.join(known)}")
     parser.add_argument("--structure", help="of this structure only")
     parser.add_argument("--only-values", action="store_true", help="none with derivatives, which take twice as long")
+    parser.add_argument("--list", action="store_true", help="write the list of kernels instead")
     arguments = parser.parse_args()
+    if arguments.list:
+        write_list()
+        parser.exit()
+    if arguments.folder is None:
+        parser.error("a folder is missing")
     if unknown := set(arguments.sets) - set(known):
         parser.error(f"no such instruction set: {', '.join(sorted(unknown))}; accepted: {', '.join(known)}")
     try:

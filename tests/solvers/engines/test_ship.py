@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from wetdoublet.solvers.engines import ship
 from wetdoublet.solvers.scene.scenefile import PRESETS
 
 ASKED = """
@@ -64,6 +65,11 @@ for angle in (0.0, 0.5):
         if engine != "taylor":
             print(f"question {number} at {angle} rad: {engine} answered")
 """
+
+
+def test_the_list_is_what_the_questions_ask_for() -> None:
+    """The committed list of kernels, from which the package is built without CasADi, is that of today's questions."""
+    assert ship.variants() == ship.asked()
 
 
 @pytest.mark.slow
