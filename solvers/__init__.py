@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from .sensitivity.uncertainty import band
     from .sensitivity.variance import sobol_indices
     from .space.collide_pair import collide_pair
-    from .tables.table import Table, table
 
 _NAMES = {
     "averages.averages": "collision_averages",
@@ -76,17 +75,16 @@ _NAMES = {
     "sensitivity.uncertainty": "band",
     "sensitivity.variance": "sobol_indices",
     "space.collide_pair": "collide_pair",
-    "tables.table": "Table table",
 }
 _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()}
 
 __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
     "Design", "Explorer", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap", "Scene",
-    "Sensitivities", "Table", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
+    "Sensitivities", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
     "collide", "collide_many", "collide_pair", "collision_averages", "compare_models", "compile_kernels", "critical",
     "design", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove",
-    "prove_boundary", "prove_map", "regime_map", "sensitivities", "sobol_indices", "table", "tracks",
+    "prove_boundary", "prove_map", "regime_map", "sensitivities", "sobol_indices", "tracks",
     "trajectory_sensitivities",
 ]  # fmt: skip
 

@@ -21,7 +21,7 @@ ORDER = (
     "solvers.model", "solvers.certificates", "solvers.engines", "solvers.collision", "solvers.many",
     "solvers.proofs", "solvers.space", "solvers.changes", "solvers.boundaries", "solvers.sensitivity",
     "solvers.averages", "solvers.fitting", "solvers.planning", "solvers.verify", "solvers.export",
-    "solvers.explorer", "solvers.tables", "solvers.paper", "solvers.bindings", "solvers.commands", "solvers",
+    "solvers.explorer", "solvers.paper", "solvers.bindings", "solvers.commands", "solvers",
     "solvers.package", "solvers.__main__",
 )  # fmt: skip
 

@@ -12,7 +12,6 @@ GROUPS = {
     "Explorer": ("explore", "Explorer"),
     "Averages": ("collision_averages",),
     "Boundaries": ("boundary", "Boundaries", "atlas", "Atlas"),
-    "Tables": ("table", "Table"),
     "Sensitivities and uncertainty": (
         "sensitivities",
         "Sensitivities",

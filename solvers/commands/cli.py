@@ -17,7 +17,7 @@ from ..host.interrupts import INTERRUPTED, handled
 from ..host.locks import sweep_temporary
 
 COMMANDS = (
-    "scenes", "collide", "sensitivity", "map", "boundary", "critical", "averages", "table", "reproduce", "generate",
+    "scenes", "collide", "sensitivity", "map", "boundary", "critical", "averages", "reproduce", "generate",
     "diff", "export", "explore", "verify", "bench", "prove", "tracks", "check", "fit", "design", "compile", "cite",
 )  # fmt: skip
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""

@@ -16,7 +16,7 @@ from . import options, texts
 from .signature import as_command, passed
 
 _SUFFIX = ".zarr"
-_CHEAPER = "fewer cells or a looser --rtol take less, and a table of `wetdoublet table` answers faster"
+_CHEAPER = "fewer cells or a looser --rtol take less"
 
 
 def _file(path: str) -> Path:
