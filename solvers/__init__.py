@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .explorer.page_of_scene import Explorer, explore
-    from .fitting.compare import compare_models
     from .fitting.examine import check_data
     from .fitting.fit import fit, log_likelihood
     from .fitting.result import Fit
@@ -37,9 +36,7 @@ if TYPE_CHECKING:
     from .sensitivity.pair_gradients import pair_gradients
     from .sensitivity.result import Sensitivities
     from .sensitivity.sensitivities import sensitivities
-    from .sensitivity.trajectory import trajectory_sensitivities
     from .sensitivity.uncertainty import band
-    from .sensitivity.variance import sobol_indices
     from .space.collide_pair import collide_pair
 
 _NAMES = {
@@ -50,7 +47,6 @@ _NAMES = {
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
     "explorer.page_of_scene": "Explorer explore",
-    "fitting.compare": "compare_models",
     "fitting.examine": "check_data",
     "fitting.fit": "fit log_likelihood",
     "fitting.result": "Fit",
@@ -71,9 +67,7 @@ _NAMES = {
     "sensitivity.pair_gradients": "pair_gradients",
     "sensitivity.result": "Sensitivities",
     "sensitivity.sensitivities": "sensitivities",
-    "sensitivity.trajectory": "trajectory_sensitivities",
     "sensitivity.uncertainty": "band",
-    "sensitivity.variance": "sobol_indices",
     "space.collide_pair": "collide_pair",
 }
 _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()}
@@ -82,10 +76,9 @@ __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
     "Design", "Explorer", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap", "Scene",
     "Sensitivities", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
-    "collide", "collide_many", "collide_pair", "collision_averages", "compare_models", "compile_kernels", "critical",
+    "collide", "collide_many", "collide_pair", "collision_averages", "compile_kernels", "critical",
     "design", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove",
-    "prove_boundary", "prove_map", "regime_map", "sensitivities", "sobol_indices", "tracks",
-    "trajectory_sensitivities",
+    "prove_boundary", "prove_map", "regime_map", "sensitivities", "tracks",
 ]  # fmt: skip
 
 if not TYPE_CHECKING:  # so that type checkers know the names above and no others

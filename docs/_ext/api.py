@@ -17,13 +17,11 @@ GROUPS = {
         "Sensitivities",
         "gradients_many",
         "pair_gradients",
-        "trajectory_sensitivities",
         "boundary_sensitivities",
         "BoundarySensitivities",
         "band",
-        "sobol_indices",
     ),
-    "Fits": ("fit", "Fit", "compare_models", "log_likelihood", "design", "Design"),
+    "Fits": ("fit", "Fit", "log_likelihood", "design", "Design"),
     "Errors and warnings": ("WetDoubletError", "InputError", "ComputationError", "CheckFailed", "ModelWarning"),
 }
 MODEL_WRITERS = ("quantity", "let", "law")

@@ -9,7 +9,7 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
-from wetdoublet.solvers import ComputationError, InputError, collide_many, regime_map, sobol_indices
+from wetdoublet.solvers import ComputationError, InputError, collide_many, regime_map
 from wetdoublet.solvers.many.stream import chunks
 
 from ...helpers.command import run
@@ -85,15 +85,6 @@ def test_stored_collisions_are_the_collisions(tmp_path, cluster):
         expected = collide_many("granulation", **request)
         same(collide_many("granulation", **request, store=tmp_path / "many.zarr"), expected)
         same(collide_many("granulation", **request, client=cluster), expected)
-
-
-def test_sobol_indices_of_a_cluster(tmp_path, cluster):
-    """A global study has the same indices and intervals, and keeps its collisions."""
-    pytest.importorskip("SALib")
-    box = {"impact.angle": ("60 deg", "66 deg"), "liquid.viscosity": ("1.9 Pa s", "2.1 Pa s")}
-    found = sobol_indices("granulation", box, samples=16, client=cluster, store=tmp_path / "sobol.zarr")
-    xr.testing.assert_identical(found, sobol_indices("granulation", box, samples=16))
-    assert xr.open_zarr(tmp_path / "sobol.zarr").sizes == {"collision": 64}
 
 
 def test_an_interrupted_store_is_continued(tmp_path, serial):
