@@ -26,7 +26,9 @@ ORDER = (
 )  # fmt: skip
 
 
-MADE = "mine.py example.py law.h MODEL.py NAME.py model.py model.h settings.h layout.h granulation.h"  # by users, builds
+MADE = (
+    "mine.py example.py law.h MODEL.py NAME.py model.py model.h settings.h layout.h granulation.h"  # by users, builds
+)
 
 
 @cache

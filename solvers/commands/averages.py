@@ -10,6 +10,7 @@ from ..host import files
 from ..host.outputs import check_file
 from ..scene.schema import FIELDS
 from . import options, texts
+from .bar import Bar
 from .signature import as_command, passed
 
 
@@ -51,20 +52,16 @@ def command(
     from ..averages.dataset import to_csv
     from ..averages.hosts import to_openfoam, to_pysdm
     from ..many.regime_map import write
-    from .resumable import resumable
 
     chosen = passed(speeds=speeds, radii=radii, films=films, tolerance=tolerance, rtol=rtol, wrt=wrt)
-    with resumable(output, "pairs", cheaper="a larger --tolerance or fewer --radii take less") as (journal, progress):
-        data = collision_averages(scene, progress=progress, journal=journal, **chosen)
-        if output is not None and journal is not None:
-            as_text = {".csv": to_csv, ".foam": to_openfoam, ".py": to_pysdm}.get(output.suffix.lower())
-            if as_text is not None:
-                files.write(output, as_text(data))
-            else:
-                write(data, output)
-            journal.remove()
+    with Bar("pairs", "a larger --tolerance or fewer --radii take less") as progress:
+        data = collision_averages(scene, progress=progress, resume=output, **chosen)
     if output is None:
         click.echo(to_csv(data), nl=False)
+    elif as_text := {".csv": to_csv, ".foam": to_openfoam, ".py": to_pysdm}.get(output.suffix.lower()):
+        files.write(output, as_text(data))
+    else:
+        write(data, output)
     reasons = [str(reason) for reason in data["reason"].values.ravel() if reason]
     if reasons:
         click.echo(f"{len(reasons)} of {data['reason'].size} pairs failed; the first: {reasons[0]}", err=True)
