@@ -309,8 +309,10 @@ def kept(
             raise
         with held():
             content = io.BytesIO()
-            texts = {name: values.astype(str) for name, values in columns.items() if values.dtype.kind == "O"}
-            np.savez_compressed(content, **{**columns, **texts, ".done": done})
+            plain: dict[str, Any] = {
+                name: values.astype(str) if values.dtype.kind == "O" else values for name, values in columns.items()
+            }
+            np.savez_compressed(content, **plain, **{".done": done})
             write(file, content.getbuffer())
         rest = f"{count} of {done.size} {unit} are kept in {file}; the same command computes the rest"
         raise KeyboardInterrupt(f"interrupted: {rest}") from None

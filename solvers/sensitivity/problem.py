@@ -111,7 +111,8 @@ class Problem:
                 phase=str(path.steps[-1].phase),
                 advice="try another --rtol, or the other --engine",
             ) from None
-        which = [SCALES.index(scale) if (scale := DIFFERENTIATED[name].scale) else None for name in of]
+        scaled = [DIFFERENTIATED[name].scale for name in of]
+        which = [SCALES.index(name) if name else None for name in scaled]
         scale = np.array([1.0 if k is None else scales[k] for k in which])
         slope = np.array([np.zeros(ds.shape[1]) if k is None else ds[k] for k in which])
         return Slopes(z * scale, dz @ dp * scale[:, None] + z[:, None] * slope)
