@@ -312,7 +312,7 @@ def kept(
             plain: dict[str, Any] = {
                 name: values.astype(str) if values.dtype.kind == "O" else values for name, values in columns.items()
             }
-            np.savez_compressed(content, **plain, **{".done": done})
+            np.savez_compressed(content, **plain | {".done": done})
             write(file, content.getbuffer())
         rest = f"{count} of {done.size} {unit} are kept in {file}; the same command computes the rest"
         raise KeyboardInterrupt(f"interrupted: {rest}") from None
