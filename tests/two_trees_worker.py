@@ -31,7 +31,6 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "model.film": ("finite", "finite", "infinite", "cavitating", "constant-volume"),
     "model.glass": ("literal", "film-corrected"),
     "model.tangential": ("immersed", "film"),
-    "model.arm": ("midgap", "surface"),
     "pendulum.law": ("exact", "small-angle"),
     "partner": ("", "", "sphere", "wall"),
     "attraction": ("", "", "van der Waals"),
@@ -256,7 +255,7 @@ def space(out: Out) -> None:
     for number, model in enumerate(models(MODELS)):
         if model["preset"] == "pendulum" or (model["friction"] and model["partner"] == "wall"):
             continue
-        planar = model | {"model.arm": "midgap", "spins": ""}
+        planar = model | {"spins": ""}
         for name, scene, stokes, _ in scenes(out, number, planar, 1 if QUICK else 3):
             random, speed = np.random.default_rng(number), scene.speed_of(1.0) * stokes[:, None, None]
             particles = 1 if model["partner"] == "wall" else 2

@@ -49,7 +49,6 @@ BRIDGED, ALONE = "granulation", "granulation-dry-bridge"
 KINDS: dict[str, tuple[str, dict[str, float | str]]] = {
     "bridge": (BRIDGED, {}),
     "constant bridge, shear to the film's edge": (BRIDGED, {"bridge.law": "constant", "model.tangential": "film"}),
-    "bridge, surface arm": (BRIDGED, {"model.arm": "surface"}),
     "attraction": (ALONE, {"attraction.hamaker": HAMAKER}),
     "bridge and attraction": (BRIDGED, {"attraction.hamaker": HAMAKER}),
     "film": (ALONE, {}),

@@ -57,7 +57,6 @@ FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
     "granulation": ("granulation", {}),
     "pendulum": ("pendulum", {}),
     "film alone": ("granulation-dry-bridge", {}),
-    "surface arm": ("granulation", {"model.arm": "surface"}),
     "film tangential": ("granulation", {"model.tangential": "film"}),
     "small angle": ("pendulum", {"pendulum.law": "small-angle"}),
     "corrected glass": ("pendulum", {"model.glass": "film-corrected"}),
@@ -76,7 +75,6 @@ FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
     "spins of a film alone": ("granulation-dry-bridge", SPINS),
     "spin beside a wall": ("granulation", WALL | {"impact.spin": "5000 rad/s"}),
     "friction": ("granulation", RUBS),
-    "friction, surface arm": ("granulation", RUBS | {"model.arm": "surface"}),
     "friction of a pair": ("granulation", PAIR | RUBS | SPINS),
     "friction beside a wall": ("granulation", WALL | RUBS | {"impact.spin": "5000 rad/s"}),
     "friction on strings": ("pendulum", RUBS),
@@ -230,7 +228,7 @@ def _inside(what: list[Any]) -> None:
     for name, *arguments in what:
         if name == "reference":
             for case in REFERENCE:
-                if arguments[0] in (None, case["name"]):
+                if arguments[0] in (None, case["name"]) and case["scene"]["model"]["arm"] == "midgap":
                     collide_reference(case)
         elif name == "enclosed":
             enclose_random(*arguments)

@@ -13,6 +13,7 @@ from wetdoublet.solvers.sensitivity.parameters import known
 from ...helpers.command import run
 from ...helpers.data import DATA
 from ...helpers.independent import integrated
+from ...helpers.own_arm import described
 from ...helpers.reference import sensitivities
 from ...helpers.sensitive import CASES, DRY, GRANULATION, PENDULUM, Case, apart, cancelling, varied
 
@@ -101,7 +102,7 @@ def test_an_independent_model_has_the_same_derivatives() -> None:
 def test_the_condition_number_of_the_reference(separated_reference: dict[str, Any]) -> None:
     """The slope d ln e_n/d ln St is the reference's conditioning of every separating collision (80-bit code)."""
     case = separated_reference
-    scene = Scene.from_dict(case["scene"]).with_impact(**case["impact"])
+    scene = described(case["scene"]).with_impact(**case["impact"])
     found = sensitivities(scene, wrt=["impact.stokes"], rtol=1e-10)
     elasticity = found.elasticity["restitution"]["impact.stokes"]
     # the reference's own differences are good to some 1e-5

@@ -28,6 +28,7 @@ from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, sample
 from wetdoublet.solvers.verify.stress.scipy_engine import ScipyLocator
 from wetdoublet.solvers.verify.stress.verdict import FAST, RTOL, Case, Result
 
+from ...helpers.own_arm import described
 from ...helpers.scanned import scanned
 
 pytestmark = pytest.mark.slow
@@ -245,7 +246,6 @@ def test_strings_that_pull_far_harder_than_the_approach() -> None:
             },
             "liquid": {"viscosity": 5.81449e-05, "film_thickness": 0.00184799, "glass_transition_pressure": 67044200.0},
             "pendulum": {"length": 10.2548, "gravity": 2.76018, "law": "small-angle"},
-            "model": {"arm": "surface"},
         }
     )
     found = collide(scene, stokes=0.000165219, angle=0.175441, engine="rosenbrock")
@@ -311,7 +311,6 @@ def test_what_chatter_takes_is_booked() -> None:
             "liquid": {"viscosity": 5e-3, "film_thickness": 5e-10, "glass_transition_pressure": 5e4},
             "bridge": {"surface_tension": 0.37, "volume": 1.5e-4, "contact_angle": 0.94},
             "pendulum": {"length": 1e-3},
-            "model": {"arm": "surface"},  # with the other it is proved to stick before it moves
         }
     )
     found = collide(scene, stokes=1.7e-6, angle="14 deg")
@@ -357,7 +356,7 @@ def test_ranges_that_laws_leave_are_counted_once(recwarn: pytest.WarningsRecorde
 
 
 def _numbers(case: dict[str, Any]) -> tuple[Any, Any]:
-    scene = Scene.from_dict(case["scene"]).with_impact(stokes=case["impact"]["stokes"], angle=case["impact"]["angle"])
+    scene = described(case["scene"]).with_impact(stokes=case["impact"]["stokes"], angle=case["impact"]["angle"])
     n = nondimensionalise(scene, *scene.need_impact())
     return load(select_model(scene, n.oblique)), n.groups
 
