@@ -175,7 +175,7 @@ class EnergyCertificate(Certificate):
         """Change of the angular momentum over that of the orbital one, at a gap."""
         distance = 4 + self.groups["aspect"] * gap
         more = (self.groups[str(symbol)] for symbol in self.model.extra("arm", "lever"))
-        return abs(1 - 2 * float(self.model.laws.arm.lever(distance, *more)) / distance)
+        return float(abs(1 - 2 * self.model.laws.arm.lever(distance, *more) / distance))
 
     def _rigid(self, y: np.ndarray, gap: float) -> float:
         """Orbital angular momentum of rigid rotation at this gap, with the total angular momentum of `y`."""
