@@ -140,7 +140,7 @@ def by_kernel(kind: str, partner: str, sticks: int, seed: int) -> tuple[int, int
     for count, (_, these) in enumerate(rounds(kind, partner, seed)):
         made = run_kernel(these, RTOL)
         assert made is not None, "there is no kernel here"
-        decided = (made["status"] <= LAST_ANSWER) & (made["outcome"] == 0)  # with the surface arm without a theorem
+        decided = (made["status"] <= LAST_ANSWER) & (made["outcome"] == 0)
         proved = np.flatnonzero(decided & these.oblique)[: sticks - certified]
         done += these.angle.size
         certified += proved.size
