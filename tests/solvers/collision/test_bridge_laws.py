@@ -19,7 +19,6 @@ CRITICAL = {
     "soulie": 4.12,
     "rabinovich": 5.78,
     "lambert": 4.65,
-    "constant": 6.8,
     "mikami": 4.205,
 }
 
