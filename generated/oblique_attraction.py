@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 7336215e05f71ed618fd9cee8f58ddaad304eb1f6e26dae537d61c7331df20d4
+# Equations sha256 647ecb7bfa2a198ca84760187e2ed2cc911ad47f26145ae23a989edd814401af
 """Oblique doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -53,7 +53,7 @@ FUNCTIONS = (
     "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "7336215e05f71ed618fd9cee8f58ddaad304eb1f6e26dae537d61c7331df20d4"
+DIGEST = "647ecb7bfa2a198ca84760187e2ed2cc911ad47f26145ae23a989edd814401af"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

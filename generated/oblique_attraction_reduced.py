@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 9d479958789f6ffff1b7d661d362f1416158cd71c1eb996a87f6d46d3260a0bc
+# Equations sha256 3f1eba34db8f5b26f0b27a50e32e50686f3fbaceaafb72459921ba7899a296c1
 """Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -51,7 +51,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "9d479958789f6ffff1b7d661d362f1416158cd71c1eb996a87f6d46d3260a0bc"
+DIGEST = "3f1eba34db8f5b26f0b27a50e32e50686f3fbaceaafb72459921ba7899a296c1"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 476685cc3a7854977253c175ca6d6fcf74cd4a4a7408bcbc571fb019d7bd495e
+# Equations sha256 5d175eedf8997fe0f3a5bf51fd75879b4f33d2f2d076257267d56eda1990db8b
 """Oblique doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -57,7 +57,7 @@ FUNCTIONS = (
     "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "476685cc3a7854977253c175ca6d6fcf74cd4a4a7408bcbc571fb019d7bd495e"
+DIGEST = "5d175eedf8997fe0f3a5bf51fd75879b4f33d2f2d076257267d56eda1990db8b"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 2912fac0d830ec615c2f7e3016358883b0794d7a3f9ecb984b3e852c1fa5b090
+# Equations sha256 b0d3a45d49a802c6a19da881bf66faea2fa9db752bf54c3fb35a2108f1678b4d
 """Oblique doublet with a liquid bridge and another attraction, spin eliminated through the conserved angular
 momentum.
 
@@ -56,7 +56,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "2912fac0d830ec615c2f7e3016358883b0794d7a3f9ecb984b3e852c1fa5b090"
+DIGEST = "b0d3a45d49a802c6a19da881bf66faea2fa9db752bf54c3fb35a2108f1678b4d"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 25c484a24a6a0fbf82301420e8260e0ce1e8764791cd47e9acfbcd775e9d3ec1
+# Equations sha256 a100df1bc970fe527bdd9f8a323ea7b2a5602318c66dfcd0f8400dfd4ea5aba1
 """Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -53,7 +53,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "25c484a24a6a0fbf82301420e8260e0ce1e8764791cd47e9acfbcd775e9d3ec1"
+DIGEST = "a100df1bc970fe527bdd9f8a323ea7b2a5602318c66dfcd0f8400dfd4ea5aba1"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -154,7 +154,7 @@ def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
 
 def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     """Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the slip
-    energy for either lever arm; energies over m v0^2.
+    energy; energies over m v0^2.
 
     Total operations: 63
     """
@@ -173,7 +173,7 @@ def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     return {
         "slip": slip,
         "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
-        "midgap": rotation_energy_unit*(0.15625 + 1/distance**2)*(fmax(fmin(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)), fmin(orbital_momentum, fmax(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)))) - distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4))**2/2,
+        "slip_energy": rotation_energy_unit*(0.15625 + 1/distance**2)*(fmax(fmin(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)), fmin(orbital_momentum, fmax(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)))) - distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4))**2/2,
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 72bab10ce103c94a1703d05ea2a5a909d9443606586d20b213573e5ee60075f1
+# Equations sha256 c10955cdc862fe4f5d7e20f712ae54c54979df8e88be0be8c7e2dde3e5ecd52b
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -57,7 +57,7 @@ FUNCTIONS = (
     "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "72bab10ce103c94a1703d05ea2a5a909d9443606586d20b213573e5ee60075f1"
+DIGEST = "c10955cdc862fe4f5d7e20f712ae54c54979df8e88be0be8c7e2dde3e5ecd52b"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

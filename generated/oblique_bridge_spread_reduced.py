@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 7cae8a73a04655944682cd8886846d068328a235c08bfcbd5ca7e80585818903
+# Equations sha256 1a3b06f0146b514ad023be84fb375211c7dff97cfa02a1b6fda16d5ec140aa90
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume, spin eliminated through
 the conserved angular momentum.
 
@@ -55,7 +55,7 @@ FUNCTIONS = (
     "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "7cae8a73a04655944682cd8886846d068328a235c08bfcbd5ca7e80585818903"
+DIGEST = "1a3b06f0146b514ad023be84fb375211c7dff97cfa02a1b6fda16d5ec140aa90"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

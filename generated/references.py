@@ -209,7 +209,6 @@ CITED: dict[str, tuple[str, ...]] = {
     "shear immersed": ('oneill1970asymmetrical',),
     "shear film": (),
     "arm midgap": (),
-    "arm surface": ('donahue2012mechanisms',),
     "glass literal": ('donahue2010cradle',),
     "glass film-corrected": ('donahue2010cradle',),
     "bridge mikami": ('mikami1998numerical',),

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .explorer.page_of_scene import Explorer, explore
-    from .fitting.compare import compare_models
     from .fitting.examine import check_data
     from .fitting.fit import fit, log_likelihood
     from .fitting.result import Fit
@@ -40,11 +39,8 @@ if TYPE_CHECKING:
     from .sensitivity.pair_gradients import pair_gradients
     from .sensitivity.result import Sensitivities
     from .sensitivity.sensitivities import sensitivities
-    from .sensitivity.trajectory import trajectory_sensitivities
     from .sensitivity.uncertainty import band
-    from .sensitivity.variance import sobol_indices
     from .space.collide_pair import collide_pair
-    from .tables.table import Table, table
 
 _NAMES = {
     "averages.averages": "collision_averages",
@@ -54,7 +50,6 @@ _NAMES = {
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
     "explorer.page_of_scene": "Explorer explore",
-    "fitting.compare": "compare_models",
     "fitting.examine": "check_data",
     "fitting.fit": "fit log_likelihood",
     "fitting.result": "Fit",
@@ -75,22 +70,18 @@ _NAMES = {
     "sensitivity.pair_gradients": "pair_gradients",
     "sensitivity.result": "Sensitivities",
     "sensitivity.sensitivities": "sensitivities",
-    "sensitivity.trajectory": "trajectory_sensitivities",
     "sensitivity.uncertainty": "band",
-    "sensitivity.variance": "sobol_indices",
     "space.collide_pair": "collide_pair",
-    "tables.table": "Table table",
 }
 _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()}
 
 __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
     "Design", "Explorer", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap", "Scene",
-    "Sensitivities", "Table", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
-    "collide", "collide_many", "collide_pair", "collision_averages", "compare_models", "compile_kernels", "critical",
+    "Sensitivities", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
+    "collide", "collide_many", "collide_pair", "collision_averages", "compile_kernels", "critical",
     "design", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove",
-    "prove_boundary", "prove_map", "regime_map", "sensitivities", "sobol_indices", "table", "tracks",
-    "trajectory_sensitivities",
+    "prove_boundary", "prove_map", "regime_map", "sensitivities", "tracks",
 ]  # fmt: skip
 
 if not TYPE_CHECKING:  # so that type checkers know the names above and no others

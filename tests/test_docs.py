@@ -94,8 +94,6 @@ def test_commands_of_the_pages_are_understood(line):
 @pytest.mark.slow
 def test_every_public_name_has_an_example_that_runs(name):
     """The docstring of each public name has an example, and it gives what it says."""
-    if name == "sobol_indices":
-        pytest.importorskip("SALib")
     value = getattr(solvers, name)
     (example,) = doctest.DocTestFinder(recurse=False).find(value, name, module=import_module(value.__module__))
     assert example.examples, f"{name} has no example"

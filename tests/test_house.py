@@ -21,12 +21,14 @@ ORDER = (
     "solvers.model", "solvers.certificates", "solvers.engines", "solvers.collision", "solvers.many",
     "solvers.proofs", "solvers.space", "solvers.changes", "solvers.boundaries", "solvers.sensitivity",
     "solvers.averages", "solvers.fitting", "solvers.planning", "solvers.verify", "solvers.export",
-    "solvers.explorer", "solvers.tables", "solvers.paper", "solvers.bindings", "solvers.commands", "solvers",
+    "solvers.explorer", "solvers.paper", "solvers.bindings", "solvers.commands", "solvers",
     "solvers.package", "solvers.__main__",
 )  # fmt: skip
 
 
-MADE = "mine.py law.h MODEL.py NAME.py model.py model.h settings.h layout.h granulation.h"  # by users, builds
+MADE = (
+    "mine.py example.py law.h MODEL.py NAME.py model.py model.h settings.h layout.h granulation.h"  # by users, builds
+)
 
 
 @cache

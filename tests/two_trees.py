@@ -9,7 +9,7 @@ own, with caches of its own, through the public interface (`two_trees_worker.py`
 * kernels: `collide_many` and `collide` by the Taylor kernel: bit for bit with -ffp-contract=off, and with the flags
   that ship to 1e-13 times the conditioning, while outcomes, events and reasons are equal;
 * space: `collide_pair` on random vectors, and `collide` where solids chatter until they rest: bit for bit;
-* gradients: `gradients_many`, `sensitivities`, `trajectory_sensitivities`, `band`, `sobol_indices`: bit for bit;
+* gradients: `gradients_many`, `sensitivities`, `band`: bit for bit;
 * boundaries: `boundary`, `boundary_sensitivities`, `atlas`, `regime_map`: bit for bit;
 * commands: exit status, standard output, errors and files of every command but `bench`, which measures time.
 

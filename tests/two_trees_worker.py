@@ -31,7 +31,6 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "model.film": ("finite", "finite", "infinite", "cavitating", "constant-volume"),
     "model.glass": ("literal", "film-corrected"),
     "model.tangential": ("immersed", "film"),
-    "model.arm": ("midgap", "surface"),
     "pendulum.law": ("exact", "small-angle"),
     "partner": ("", "", "sphere", "wall"),
     "attraction": ("", "", "van der Waals"),
@@ -256,7 +255,7 @@ def space(out: Out) -> None:
     for number, model in enumerate(models(MODELS)):
         if model["preset"] == "pendulum" or (model["friction"] and model["partner"] == "wall"):
             continue
-        planar = model | {"model.arm": "midgap", "spins": ""}
+        planar = model | {"spins": ""}
         for name, scene, stokes, _ in scenes(out, number, planar, 1 if QUICK else 3):
             random, speed = np.random.default_rng(number), scene.speed_of(1.0) * stokes[:, None, None]
             particles = 1 if model["partner"] == "wall" else 2
@@ -289,15 +288,10 @@ def gradients(out: Out) -> None:
                     impact = {"stokes": float(stokes[k]), "angle": float(angle[k])}
                     found = answer(wd.sensitivities, scene, of, method=method, engine=engine, **impact)
                     out("sensitivities", f"{name}, {impact}, {method}, {engine}", found, about=about)
-    sigma, wrt = {"liquid.viscosity": "5 %", "impact.angle": "1 deg"}, ("liquid.viscosity", "impact.angle")
+    sigma = {"liquid.viscosity": "5 %", "impact.angle": "1 deg"}
     for preset in PRESETS[:1] if QUICK else PRESETS:
         stokes = np.array([0.8, 1.0, 1.2]) * (wd.Scene.load(preset).stokes or 1.0)
-        out("hessian", preset, answer(wd.sensitivities, preset, of="restitution", wrt=wrt, hessian=True))
-        out("trajectory_sensitivities", preset, answer(wd.trajectory_sensitivities, preset, wrt))
         out("band", preset, answer(wd.band, preset, sigma, "impact.stokes", stokes, samples=16))
-        film = float(dict(wd.Scene.load(preset).si)["liquid.film_thickness"])
-        box = {"liquid.film_thickness": (0.95 * film, 1.05 * film), "particles.dry_restitution": (0.9, 1.0)}
-        out("sobol_indices", preset, answer(wd.sobol_indices, preset, box, samples=16))
 
 
 def boundaries(out: Out) -> None:
@@ -353,7 +347,7 @@ COMMANDS = """
 map pendulum --stokes 0.5:3:6 --angle 20:60:5 --vary liquid.viscosity=20Pa_s:40Pa_s:2 -o more.nc
 boundary granulation --angle 30:60 --plot atlas.png
 boundary granulation --angle 50:60 --json
-sensitivity granulation --hessian --wrt liquid.viscosity,impact.angle
+sensitivity granulation --wrt liquid.viscosity,impact.angle
 diff library mine.py --latex
 diff granulation granulation-dry-bridge --markdown -o diff.md
 generate mine.py --out mine

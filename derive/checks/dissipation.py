@@ -2,27 +2,25 @@
 
 The lever arm of the tangential force determines both its torque on the doublet, F_t (2 arm - r), and the shear's power
 F_t (r omega - 2 arm xi). With F_t ~ omega - xi the power vanishes at xi = omega and at xi = omega r/(2 arm): it is a
-square, and L is conserved, only for arm = r/2. For any other arm the check reports the range in which shear gives
-energy.
+square, and L is conserved, only for arm = r/2.
 """
 
 from collections.abc import Iterable
 from functools import cache
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ..equations.intermediates import BRIDGE_FORCE, ORBITAL_RATE
 from ..equations.invariants import Invariant, invariants
 from ..equations.model import derive
-from ..physics.forces import SHEAR, force_laws
+from ..physics.forces import force_laws
 from ..physics.laws import Law
 from ..physics.laws.base import filled
 from ..physics.mechanics import F_t, S_t, arm, equations_of_motion, sphere_inertia
 from ..physics.scaling import DISTANCE, nondimensional
 from ..physics.structure import FREE, Structure, structures
 from ..vocabulary import quantities as q
-from .base import Check, checks, nonnegative, readable, settled, vanishing
+from .base import Check, checks, nonnegative, readable, vanishing
 
 
 def _taken(term: str) -> sp.Expr:
@@ -68,13 +66,8 @@ def conserved(lever: Law, structure: Structure = FREE) -> tuple[Invariant, ...]:
     return invariants(derive(structure), {"arm": lever})
 
 
-def is_known(lever: Law) -> bool:
-    """True for the paper's leading-order arm, which does not conserve L: dL/dt = -x F_t."""
-    return settled(torque(lever) + q.x * F_t) == 0
-
-
 def angular_momentum(lever: Law) -> Check:
-    """dL/dt for an arm along the emitted equations, for any tangential and bridge law: zero, -x F_t, or a failure."""
+    """dL/dt for an arm along the emitted equations, for any tangential and bridge law: zero, or a failure."""
     name, left = f"angular momentum, {lever.name} arm", []
     expected = torque(lever)
     per_time = q.x0 / (q.v0 * q.m * q.a**2 * q.rate_scale)
@@ -90,54 +83,15 @@ def angular_momentum(lever: Law) -> Check:
         return vanishing(
             name, "dL/dt = 0 without strings, for every tangential and bridge law", left, f"found: {words}"
         )
-    rate = f"dL/dt = {readable(expected)}"
-    if is_known(lever):
-        known = f"{rate}: a known violation of the leading-order arm"
-        return vanishing(name, "dL/dt = -x F_t without strings", left, known, holds=None)
-    return Check(name, "dL/dt = 0 without strings (or -x F_t, the leading-order arm)", False, rate)
-
-
-def shear_range(law: Law, lever: Law) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
-    """The power of the shear for an arm that does not conserve L, where it is negative in xi/omega, its least.
-
-    In SI, at given omega and gap inside the edge; the least is half-way between the ends of the range.
-    """
-    ratio, log_factor = sp.Symbol("ratio", real=True), sp.Symbol("log_factor", positive=True)
-    force = force_laws()[F_t].subs(SHEAR, 1)
-    call = next(node for node in force.atoms(AppliedUndef) if node.func.__name__ == "shear.log_factor")
-    rate = force.xreplace({call: log_factor}) * (q.r * q.omega - 2 * filled(force_laws()[arm], {"arm": lever}) * q.xi)
-    turning = sp.expand(rate.subs(q.xi, ratio * q.omega) / q.omega**2)
-    low, high = sp.roots(sp.Poly(turning, ratio))
-    if low != 1:
-        low, high = high, low
-    least = sp.factor(sp.simplify(turning.subs(ratio, (low + high) / 2))) * q.omega**2
-    logarithm = filled(call, {"shear": law})
-    return sp.factor(rate).subs(log_factor, logarithm), low, sp.expand(high), least.subs(log_factor, logarithm)
-
-
-@cache
-def indefinite_shear(law: Law, lever: Law) -> Check:
-    """The range and the largest rate at which shear gives energy, by name, for an arm that does not conserve L."""
-    rate, low, high, least = shear_range(law, lever)
-    name = f"shear dissipates: {law.name}, {lever.name} arm"
-    statement = f"F_t (r omega - 2 arm xi) has a sign; for this arm it is {readable(rate)}"
-    ends = f"{readable(low)} and {readable(high)}"
-    figure = f"negative for xi/omega between {ends}, at the least {readable(least)} half-way between"
-    if is_known(lever):
-        per_slip = filled(force_laws()[F_t], {"shear": law}).subs(SHEAR, 1).subs(q.xi, 0) / q.omega
-        left = [least + per_slip * q.x**2 * q.omega**2 / (16 * q.a), high - 1 - q.x / (4 * q.a)]
-        return vanishing(name, statement, left, f"{figure}: a known violation of the leading-order arm", holds=None)
-    return Check(name, statement, False, f"{figure}; dL/dt = {readable(torque(lever))}")
+    return Check(name, "dL/dt = 0 without strings", False, f"dL/dt = {readable(expected)}")
 
 
 def arms(levers: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
     """For each arm dL/dt, and for each tangential law with it the sign of the shear's power."""
-    checks = []
+    tangential, found = [*shears], []
     for lever in levers:
-        checks.append(angular_momentum(lever))
-        definite = conserves(lever)
-        checks += [shear_dissipates(law, lever) if definite else indefinite_shear(law, lever) for law in shears]
-    return tuple(checks)
+        found += [angular_momentum(lever), *(shear_dissipates(law, lever) for law in tangential)]
+    return tuple(found)
 
 
 @checks

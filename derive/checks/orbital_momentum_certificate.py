@@ -18,7 +18,6 @@ _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
 _P, _Q = sp.symbols("root_J root_xi", positive=True)
 _EDGE = sp.Symbol("edge", positive=True)  # centre distance over a beyond which no shear acts
 _CLOSER, _BEYOND = sp.symbols("closer beyond", nonnegative=True)
-_REACH = 4  # the rupture distance is below 4 a: 2 V^(1/3) (1 + phi/2) with V <= 1 and phi <= pi/2
 
 
 @check("F_t exchanges momenta", "dJ = -(32/5)(d/(2 lever)) a^2 dxi")
@@ -34,8 +33,8 @@ def exchange() -> Evidence:
 @check("slip energy", "zero where omega = xi at d; exchange where omega = xi changes nothing")
 def stationary() -> Evidence:
     """The slip energy vanishes at omega = xi at d; with J^2/2 (1/r^2 - 1/d^2) it is stationary where omega = xi."""
-    for lever, energy in (("midgap", _midgap()), ("surface", _surface())):
-        yield from (_settled(energy.subs(_P, _FAR * _Q)), _settled(_change(lever, energy).subs(_P, _NEAR * _Q)))
+    energy = _midgap()
+    yield from (_settled(energy.subs(_P, _FAR * _Q)), _settled(_change(energy).subs(_P, _NEAR * _Q)))
 
 
 def _settled(expression: sp.Expr) -> sp.Expr:
@@ -46,21 +45,17 @@ def _midgap() -> sp.Expr:
     return orbital.midgap_slip_energy(_FAR, _P**2, _Q**2)
 
 
-def _surface() -> sp.Expr:
-    return orbital.surface_slip_energy(_FAR, _P**2, _Q**2, orbital.rigid_share(_P**2, _Q**2))
-
-
-def _change(lever: str, energy: sp.Expr) -> sp.Expr:
+def _change(energy: sp.Expr) -> sp.Expr:
     """Change of the margin per dxi by the exchange at the distance `near`."""
     margin = _P**4 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + energy
-    rate = orbital.exchanged(_NEAR, LAWS["arm"][lever]["lever"](_NEAR))
+    rate = orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
     return margin.diff(_Q) / (2 * _Q) - rate * margin.diff(_P) / (2 * _P)
 
 
 @checks
 def midgap_takes() -> Check:
     """Lever arm at mid-gap: d(margin)/dxi = -(32/5)(omega - xi) a^2, so that F_t never increases the margin."""
-    ratio = _settled(_change("midgap", _midgap()) / (_P**2 / _NEAR**2 - _Q**2))
+    ratio = _settled(_change(_midgap()) / (_P**2 / _NEAR**2 - _Q**2))
     ok = ratio.is_number and bool(ratio < 0)
     return Check("exchange takes, midgap", "d(margin) = -c (omega - xi) dxi, dxi ~ omega - xi", ok, f"c = {-ratio}")
 
@@ -69,7 +64,7 @@ def midgap_takes() -> Check:
 def midgap_ends() -> Check:
     """Beyond the edge of the shear: the same exchange, zero once omega = xi at the edge, and positive before."""
     within = orbital.transferable_within_edge(_FAR, _EDGE, _P**2, _Q**2)
-    left = [_change("midgap", within) - _change("midgap", _midgap()), within.subs(_P, _EDGE * _Q)]
+    left = [_change(within) - _change(_midgap()), within.subs(_P, _EDGE * _Q)]
     # on the way to the edge J grows while xi > J/e^2, and each step transfers xi - J/d^2
     to_spin = 1 / orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
     slope = within.diff(_P) / (2 * _P) - to_spin * within.diff(_Q) / (2 * _Q)
@@ -121,26 +116,6 @@ def _clamped(value: sp.Expr) -> sp.Expr:
     )
 
 
-@checks
-def surface_takes() -> Check:
-    """Lever arm at the surface: the same sign at every distance r <= d, for rho between 4 and d, d - rho <= 4.
-
-    r d(margin)/dxi is quadratic in r; omega = xi at r = rho is one root, (rho xi/(dh/dJ)) the other, where h is the
-    slip energy less J^2/(2 d^2). The sign is the dissipative one while dh/dJ < xi rho/r.
-    """
-    rest = _surface() - _P**4 / (2 * _FAR**2)
-    rho = sp.Symbol("rho", positive=True)
-    slope = (rest.diff(_P) / (2 * _P)).subs(_P, rho * _Q) / _Q**2
-    left = sp.together(sp.cancel(rho / _FAR - slope)).subs(_FAR, rho + _REACH / (1 + _CLOSER)).subs(rho, 4 + _BEYOND)
-    top, bottom = sp.fraction(sp.together(left))
-    signed = sp.sign(bottom.subs({_CLOSER: 1, _BEYOND: 1}))
-    ok = no_negative(top * signed) and no_negative(bottom * signed)
-    rate = sp.fraction(_settled(_change("surface", _surface()) * _NEAR))
-    quadratic = sp.degree(rate[0], _NEAR) == 2 and not rate[1].has(_NEAR)
-    figure = f"-dJ/dxi = {orbital.surface_exchange()} a r; d - rho <= {_REACH} a"
-    return Check("exchange takes, surface", "d(margin)/dxi has the sign of -(omega - xi)", ok and quadratic, figure)
-
-
 @check("orbital: as emitted", "slip and slip energies over m v0^2")
 def as_emitted() -> Evidence:
     """The emitted margins are this energy, in units of m v0^2, and the slip."""
@@ -152,9 +127,5 @@ def as_emitted() -> Evidence:
         yield emitted["slip"] - (orbital_momentum / here**2 - turning)
         yield emitted["orbital_energy"] - unit * orbital_momentum**2 / (2 * here**2)
         rigid = sp.cancel(orbital.rigid_momentum(here, orbital_momentum, turning))
-        yield _clamped(emitted["midgap"] / unit) - _clamped(orbital.clamped_slip_energy(here, orbital_momentum, rigid))
-        if "surface" in emitted:
-            energy = orbital.surface_slip_energy(
-                here, orbital_momentum, turning, orbital.rigid_share(orbital_momentum, turning)
-            )
-            yield emitted["surface"] - unit * energy
+        expected = orbital.clamped_slip_energy(here, orbital_momentum, rigid)
+        yield _clamped(emitted["slip_energy"] / unit) - _clamped(expected)

@@ -12,19 +12,16 @@ GROUPS = {
     "Explorer": ("explore", "Explorer"),
     "Averages": ("collision_averages",),
     "Boundaries": ("boundary", "Boundaries", "atlas", "Atlas"),
-    "Tables": ("table", "Table"),
     "Sensitivities and uncertainty": (
         "sensitivities",
         "Sensitivities",
         "gradients_many",
         "pair_gradients",
-        "trajectory_sensitivities",
         "boundary_sensitivities",
         "BoundarySensitivities",
         "band",
-        "sobol_indices",
     ),
-    "Fits": ("fit", "Fit", "compare_models", "log_likelihood", "design", "Design"),
+    "Fits": ("fit", "Fit", "log_likelihood", "design", "Design"),
     "Errors and warnings": ("WetDoubletError", "InputError", "ComputationError", "CheckFailed", "ModelWarning"),
 }
 MODEL_WRITERS = ("quantity", "let", "law")

@@ -152,7 +152,7 @@ def _caption(slot: str) -> str:
         f"`constant-volume` for $V/R^3 = 0.1$ and $x_0/a = {_ASPECT}$. Other laws of the slot in grey.",
         "shear": f"Tangential force over $8 \\pi \\mu a^2 (\\omega - \\xi)$ "
         f"for $x_0/a = {_ASPECT}$. The other law in grey.",
-        "arm": "Lever arm over the sphere radius. The other law in grey.",
+        "arm": "Lever arm over the sphere radius.",
         "glass": r"Pressure on the axis over $3 \mu a v_0/x_0^2$ at $u = -v_0$. The other law in grey.",
         "bridge": r"Attraction over $\pi R \sigma$ for a contact angle of 0, up to the common rupture distance.",
         "strings": r"Horizontal restoring force over the weight of a sphere, for $l/a = 100$. The other law in grey.",

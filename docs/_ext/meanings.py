@@ -85,10 +85,7 @@ CHOICES = {
         "own": "the distance that the authors of the law give; an error where they give none",
     },
     "pendulum.law": {"exact": "strings of length $l$", "small-angle": "forces linear in the swing"},
-    "model.arm": {
-        "midgap": "$r/2$, halfway between the surfaces: conserves angular momentum",
-        "surface": "$2a$, on the surfaces: leading order, loses 0.2 to 1 % of the angular momentum; no stick is proved",
-    },
+    "model.arm": {"midgap": "$r/2$, halfway between the surfaces: conserves angular momentum"},
     "model.tangential": {"immersed": r"$\ln(2a/x)$, until $x = 2a$", "film": r"$\ln(x_0/x)$, inside the film only"},
     "model.glass": {
         "literal": r"$3 \mu a |u|/x^2$ as published; it can be met at initial contact",

@@ -25,8 +25,8 @@ SET_UP = re.compile(
 )
 """What sets up an environment, or measures for minutes, is run by the integration script or by hand."""
 LONG = re.compile(
-    r"wetdoublet (reproduce|bench|verify|design|fit \S+ \S+ .* --plot|boundary \S+ --angle 0:85 )|--stress|--compare"
-    r"|:10000 |--error 1e-"
+    r"wetdoublet (reproduce|bench|verify|design|fit \S+ \S+ .* --plot|boundary \S+ --angle 0:85 )|--stress"
+    r"|:10000 "
 )
 """Commands that take tens of seconds: `tests/test_docs.py` holds their options, tests of their own what they do, and
 cells of the pages compute designs and fits."""

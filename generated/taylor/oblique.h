@@ -321,6 +321,8 @@ static inline vec potential_slope(const constants *c, const vec *y)
 
 #include "shared/angular_momentum_oblique.h"
 
+#include "shared/momentum_share_oblique.h"
+
 #if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)
 #define SPIN_DOWN MIDGAP_ARM
 /* Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays

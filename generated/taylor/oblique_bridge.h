@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 cb1ee1eed30e33b404948f6630632543dd7d9630970d04a988b79a3498b3a893 */
+ * Equations sha256 13b4fe32c6a11cc3ccc28956ab63b503cccccb851151525fbb25da0cc4578506 */
 
 /* Oblique doublet with a liquid bridge.
  *
@@ -95,13 +95,12 @@ typedef struct {
     vec energy_per_spin_squared;
     vec tangential_restitution_factor;
     vec slope_per_distance_by_momentum_squared_over_inertia_ratio_squared;
-    vec rotation_energy_unit;
-    vec orbital_energy_per_orbital_momentum_squared_over_distance_squared;
     vec combination_offset;
     vec angular_momentum_per_combination;
     vec contact;
     vec nearest;
     vec farthest;
+    vec rotation_energy_unit;
     vec part_ratio;
     vec bridge_work_factor;
     vec edge;
@@ -156,14 +155,13 @@ static inline void prepare(constants *c)
     c->tangential_restitution_factor = 1.0/(c->initial_turning*(c->aspect + 4.0));
     c->slope_per_distance_by_momentum_squared_over_inertia_ratio_squared =
         -0.0625*c->aspect*(c->obliquity*c->obliquity);
-    c->rotation_energy_unit = 0.0625*(c->obliquity*c->obliquity);
-    c->orbital_energy_per_orbital_momentum_squared_over_distance_squared = 0.5*c->rotation_energy_unit;
     c->combination_offset = -6.4*c->initial_spin - c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0));
     c->angular_momentum_per_combination = 1.0/(c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0)) +
         6.4*vec_abs(c->initial_spin));
     c->contact = vec_larger(c->elastic_gap, c->rough_gap);
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect*c->rupture_gap + 4.0;
+    c->rotation_energy_unit = 0.0625*(c->obliquity*c->obliquity);
     c->part_ratio = vec_exp(0.041666666666666664*vec_log(vec_larger(vec_larger(splat(0.01), c->elastic_gap),
         c->rough_gap)));
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
@@ -360,49 +358,6 @@ static inline vec potential_slope(const constants *c, const vec *y)
     return slope;
 }
 
-#define BY_ORBITAL_MOMENTUM LIBRARY_LAWS
-enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };
-/* Slip omega - xi at this gap, J^2/(2 r^2), and the slip energy (lever arm at the surface), over m v0^2
- * (derive/equations/certificates/orbital_momentum.py). */
-static inline void orbital_margins(const constants *c, const vec *y, vec *found)
-{
-    (void)c; (void)y;
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec distance_squared = distance*distance;
-    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
-    vec slip = orbital_rate - y[SPIN];
-    vec root_of_spin = vec_sqrt(y[SPIN]);
-    vec root_of_orbital_momentum = vec_sqrt(y[ORBITAL_MOMENTUM]);
-    vec combination = root_of_orbital_momentum + 1.6*root_of_spin;
-    vec rigid_share = root_of_spin/combination;
-    vec orbital_momentum_squared = y[ORBITAL_MOMENTUM]*y[ORBITAL_MOMENTUM];
-    vec orbital_momentum_squared_over_distance_squared = orbital_momentum_squared/distance_squared;
-    vec orbital_energy =
-        c->orbital_energy_per_orbital_momentum_squared_over_distance_squared*orbital_momentum_squared_over_distance_squared;
-    vec combination_squared = combination*combination;
-    vec combination_squared_squared = combination_squared*combination_squared;
-    vec combination_2 = distance + 1.6;
-    vec combination_2_squared = combination_2*combination_2;
-    vec combination_2_squared_squared = combination_2_squared*combination_2_squared;
-    vec distance_squared_over_combination_2_squared_squared = distance_squared/combination_2_squared_squared;
-    vec rigid_share_squared = rigid_share*rigid_share;
-    vec rigid_share_squared_squared = rigid_share_squared*rigid_share_squared;
-    vec rigid_share_squared_by_rigid_share = rigid_share_squared*rigid_share;
-    vec combination_2_squared_by_combination_2 = combination_2_squared*combination_2;
-    vec inverse_combination_2_squared_by_combination_2 = 1.0/combination_2_squared_by_combination_2;
-    vec inverse_combination_2_squared_squared = 1.0/combination_2_squared_squared;
-    vec combination_3 = 0.5*distance_squared_over_combination_2_squared_squared +
-        1.28*rigid_share_squared_squared + 1.0666666666666667*inverse_combination_2_squared_by_combination_2 -
-        1.0666666666666667*rigid_share_squared_by_rigid_share - 1.28*inverse_combination_2_squared_squared;
-    vec combination_squared_squared_by_combination_3 = combination_squared_squared*combination_3;
-    vec combination_4 = 0.5*orbital_momentum_squared_over_distance_squared -
-        combination_squared_squared_by_combination_3;
-    vec surface = c->rotation_energy_unit*combination_4;
-    found[SLIP_RATE] = slip;
-    found[ORBITAL_ENERGY] = orbital_energy;
-    found[SLIP_ENERGY] = surface;
-}
-
 #include "shared/rigid_momentum_oblique.h"
 
 #include "shared/rigid_rotation_oblique.h"
@@ -410,6 +365,8 @@ static inline void orbital_margins(const constants *c, const vec *y, vec *found)
 #include "shared/surface_slip_oblique.h"
 
 #include "shared/angular_momentum_oblique.h"
+
+#include "shared/momentum_share_oblique.h"
 
 #if defined(BRIDGE_FORCE_FALLS)
 #define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
@@ -438,13 +395,13 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 #define ORBITAL_MARGINS LIBRARY_LAWS
 /* Slip omega - xi at this gap, and the slip energy over m v0^2 that shear can still transfer before it (lever
  * arm at mid-gap; derive/equations/certificates/orbital_momentum.py). */
-static inline void transferable(const constants *c, const vec *y, vec *slip_margin, vec *midgap)
+static inline void transferable(const constants *c, const vec *y, vec *slip_margin, vec *slip_energy)
 {
     vec distance = c->aspect*y[GAP] + 4.0;
     vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
     vec slip = orbital_rate - y[SPIN];
     *slip_margin = slip;
-    *midgap = 0.5*c->rotation_energy_unit*(0.15625 +
+    *slip_energy = 0.5*c->rotation_energy_unit*(0.15625 +
         1.0/(distance*distance))*((vec_larger(vec_smaller(splat(0.0), (distance*distance)*(y[ORBITAL_MOMENTUM]
         + 6.4*y[SPIN])/((distance*distance) + 6.4)), vec_smaller(y[ORBITAL_MOMENTUM], vec_larger(splat(0.0),
         (distance*distance)*(y[ORBITAL_MOMENTUM] + 6.4*y[SPIN])/((distance*distance) + 6.4)))) -

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 25c484a24a6a0fbf82301420e8260e0ce1e8764791cd47e9acfbcd775e9d3ec1 */
+ * Equations sha256 a100df1bc970fe527bdd9f8a323ea7b2a5602318c66dfcd0f8400dfd4ea5aba1 */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *
@@ -328,14 +328,14 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 #define ORBITAL_MARGINS LIBRARY_LAWS
 /* Slip omega - xi at this gap, and the slip energy over m v0^2 that shear can still transfer before it (lever
  * arm at mid-gap; derive/equations/certificates/orbital_momentum.py). */
-static inline void transferable(const constants *c, const vec *y, vec *slip_margin, vec *midgap)
+static inline void transferable(const constants *c, const vec *y, vec *slip_margin, vec *slip_energy)
 {
     vec distance = c->aspect*y[GAP] + 4.0;
     vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
     vec spin = 0.15625*c->momentum - 0.15625*y[ORBITAL_MOMENTUM];
     vec slip = orbital_rate - spin;
     *slip_margin = slip;
-    *midgap = 0.5*c->rotation_energy_unit*(0.15625 +
+    *slip_energy = 0.5*c->rotation_energy_unit*(0.15625 +
         1.0/(distance*distance))*((vec_larger(vec_smaller(splat(0.0), (distance*distance)*(y[ORBITAL_MOMENTUM]
         + 6.4*spin)/((distance*distance) + 6.4)), vec_smaller(y[ORBITAL_MOMENTUM], vec_larger(splat(0.0),
         (distance*distance)*(y[ORBITAL_MOMENTUM] + 6.4*spin)/((distance*distance) + 6.4)))) -

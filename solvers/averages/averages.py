@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,10 +14,11 @@ from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_function, check_name, check_names
 from ..host.cores import usable_cores
+from ..host.outputs import check_file
 from ..host.progress import Progress
 from ..host.workers import in_workers
 from ..many.batch import checked_numbers
-from ..many.journal import Journal, checked_journal
+from ..many.blocks import kept
 from ..many.results import fill
 from ..many.scan import software
 from ..model.validity import warn
@@ -54,7 +54,7 @@ def collision_averages(
     rtol: float = RTOL,
     wrt: Sequence[str] | str = (),
     progress: Progress | None = None,
-    journal: str | Path | Journal | None = None,
+    resume: str | Path | None = None,
 ) -> xarray.Dataset:
     """Sticking probability and mean restitution over all collisions of a gas, for each pair of sizes.
 
@@ -80,8 +80,8 @@ def collision_averages(
             alone, at fixed relative speeds.
         progress: called with (pairs done, pairs in all) at the start and after every block; the second may grow where
             most of many pairs are interpolated.
-        journal: file that keeps finished pairs, so that the same call continues after an interrupt; the caller removes
-            it.
+        resume: where an interrupt leaves the finished pairs: in RESUME.KEY.partial, which the same call reads, and
+            removes when it has computed the rest.
 
     Returns:
         Dataset over (radius, partner_radius), over (radius) beside a wall, or without dimensions:
@@ -106,12 +106,12 @@ def collision_averages(
     loaded = Scene.load(scene)
     check_function(progress, "progress")
     request = _checked(loaded, speeds, radii, films, tolerance, rtol, wrt)
-    kept = checked_journal(journal)
+    beside = None if resume is None else check_file(resume, "resume", replaced=True)
     warn(loaded)
-    if kept is not None:
-        kept.set_request(request.identity())
-    with nullcontext() if kept is None else kept.locked():
-        columns = _computed(request, kept, progress)
+    size = int(np.prod(request.shape)) + int(np.prod(request.grid))
+    columns, done = _blank(size, len(request.wrt)), np.zeros(size, bool)
+    with kept(beside, request.identity, columns, done, "pairs"):
+        columns = _computed(request, columns, done, progress)
     return dataset(loaded, request.axes, columns, request.attributes(), request.wrt)
 
 
@@ -164,7 +164,7 @@ class _Request:
         return {"speeds": self.speeds.text, "films": self.films, "tolerance": self.tolerance, "rtol": self.rtol}
 
     def identity(self) -> dict[str, Any]:
-        """Everything that the results depend on, as the journal's request."""
+        """Everything that the results depend on, as JSON values."""
         distribution = None if self.speeds.density is None else self.speeds.density(self.speeds.knots).tolist()
         return {
             **self.attributes(),
@@ -205,13 +205,9 @@ def _checked(
     raise first
 
 
-def _computed(request: _Request, kept: Journal | None, progress: Progress | None) -> Columns:
-    """The columns of all pairs: those of the journal, and the others as they are computed or interpolated."""
+def _computed(request: _Request, columns: Columns, done: np.ndarray, progress: Progress | None) -> Columns:
+    """The columns of all pairs: those that are done, and the others as they are computed or interpolated."""
     size, points = int(np.prod(request.shape)), int(np.prod(request.grid))
-    columns, done = _blank(size + points, len(request.wrt)), np.zeros(size + points, bool)
-    for where, block in kept.read() if kept else ():
-        fill(columns, where, block)
-        done[where] = True
     mirror = np.arange(size + points)
     if request.symmetric:
         mirror = np.concatenate([mirror[:size].reshape(request.shape).T.ravel(), mirror[size:]])
@@ -226,8 +222,6 @@ def _computed(request: _Request, kept: Journal | None, progress: Progress | None
         total = int(np.count_nonzero(done)) + left.size
         tell(total - left.size, total)
         for where, block in _blocks(request, [left[k : k + _BLOCK] for k in range(0, left.size, _BLOCK)]):
-            if kept is not None:
-                kept.add(where, block)
             fill(columns, where, block)
             done[where] = True
             tell(int(np.count_nonzero(done)), total)

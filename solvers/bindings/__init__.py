@@ -1,1 +1,1 @@
-"""The collision law in other people's programs: jax, torch, numba, cffi, and an estimator with `fit` and `predict`."""
+"""The collision law in other people's programs: jax and torch."""

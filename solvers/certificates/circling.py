@@ -6,8 +6,7 @@ value for rigid rotation at e. Both converge algebraically with the number of cy
 limit, but the limit is known: an orbit that touches e, with J_e. If the attraction confines that orbit before rupture,
 the doublet sticks; if not, it separates after finitely many cycles. The remaining radial energy does not change this
 result while it is a small and not growing part of the remaining decrease of the barrier; two states of the trajectory
-test this. With the surface lever arm angular momentum drifts in the film, and the limit with it: by what it drifted
-between the two states, per decrease of the barrier, at most, as the cycles become less deep.
+test this.
 """
 
 from dataclasses import dataclass
@@ -23,7 +22,6 @@ _SHALLOW = 0.1  # largest depth in the film, relative to its thickness, of a sha
 _SMALL = 0.9  # largest ratio of the radial energy to the remaining decrease of the barrier
 _GROWTH = 1.05  # tolerated growth of that ratio between the two states
 _GAPS = 201
-_INSIDE = 1e-6  # relative distance from the edge at which the small tangential force has a direction
 
 
 def limit_of_circling(proof: OrbitalMomentumCertificate, earlier: np.ndarray, y: np.ndarray) -> bool | None:
@@ -35,8 +33,7 @@ def limit_of_circling(proof: OrbitalMomentumCertificate, earlier: np.ndarray, y:
     first, last = _turn(proof, earlier), _turn(proof, y)
     if first is None or last is None or not last.ahead < first.ahead:
         return None
-    drift = abs(last.barrier - first.barrier) / (first.ahead - last.ahead)  # with the surface lever arm
-    if abs(last.barrier) < (proof.margin + drift) * last.ahead:
+    if abs(last.barrier) < proof.margin * last.ahead:
         return None
     small = last.radial < _SMALL * last.ahead and last.radial * first.ahead <= _GROWTH * first.radial * last.ahead
     return last.barrier > 0 if small else None
@@ -56,28 +53,14 @@ def _turn(proof: OrbitalMomentumCertificate, y: np.ndarray) -> _Turn | None:
     model, edge = proof.model, max(proof.edge, 1.0)
     if model.strings or not model.edged or not edge < proof.end:
         return None
-    settled = _settled(proof, np.array([edge, 0.0, *y[2 : len(model.state)]]))
+    there = np.array([edge, 0.0, *y[2 : len(model.state)]])
+    settled = np.array(list(model.values("rigid_rotation", there, proof.p).values()))
     outward = -inward(model, proof.p, np.array([edge]), settled)[0]
     radial = float(y[1]) ** 2 / 2 - _work(proof, y, float(y[0]), edge)
     if not outward > 0 or not 0 <= radial < _SHALLOW * outward * (edge - proof.contact):
         return None
     barrier = _barrier(proof, settled, edge)
     return _Turn(radial, barrier, _barrier(proof, y, edge) - barrier)
-
-
-def _settled(proof: OrbitalMomentumCertificate, y: np.ndarray) -> np.ndarray:
-    """The state of rigid rotation to which the tangential force leads at the gap of `y`.
-
-    The surface lever arm does not keep the angular momentum, but at one gap it changes orbit and spin in proportion.
-    """
-    model, p = proof.model, proof.p
-    if proof.lever != "surface":
-        return np.array(list(model.values("rigid_rotation", y, p).values()))
-    rates = list(model.values("right_hand_side", np.array([y[0] * (1 - _INSIDE), *y[1:]]), p).values())
-    change = np.array([0.0, 0.0, *rates[2:]])
-    slips = [model.values("orbital_margins", at, p)["slip"] for at in (y, y + change)]
-    settled: np.ndarray = y + change * slips[0] / (slips[0] - slips[1])
-    return settled
 
 
 def _work(proof: OrbitalMomentumCertificate, y: np.ndarray, start: float, end: float) -> float:

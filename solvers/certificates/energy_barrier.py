@@ -33,16 +33,15 @@ class Barrier:
 class EnergyCertificate(Certificate):
     """Certificate that the energy is below a barrier of the effective potential at a larger gap.
 
-    For the surface lever arm the angular momentum drifts (dL/dt = -x F_t) and the tangential rate is not sign-definite.
-    The level is then lowered by the largest effect of the drift, and the stick is not a theorem (for equal spheres
-    `OrbitalMomentumCertificate` decides instead).
+    With a lever arm of one's own that is not at mid-gap the angular momentum drifts, and the tangential rate is not
+    sign-definite. The level is then lowered by the largest effect of the drift, and the stick is not a theorem.
     """
 
     watches: str | None = "energy"
 
     def __init__(self, model: Model, p: np.ndarray, rtol: float) -> None:
         super().__init__(model, p, rtol)
-        self.theorem = model.choice.law("arm") != "surface"
+        self.theorem = model.choice.law("arm") in (None, "midgap")
         self.largest = float(sum(model.values(model.escape, model.start(p), p).values()))
         self._approach = Approach(model, p, self.margin)
         start = model.start(p)
@@ -150,9 +149,9 @@ class EnergyCertificate(Certificate):
         return self._conserved if self.theorem else self._searched(tuple(y[2 : len(self.model.state)].tolist()))
 
     def _drift(self, y: np.ndarray, phase: Phase, barrier: float) -> float:
-        """Bound of the energy that a drift of angular momentum can add, over m v0^2 (surface lever arm; else 0).
+        """Bound of the energy that a drift of angular momentum can add, over m v0^2; 0 with the lever arm at mid-gap.
 
-        The lever arm is shorter than r/2 by the fraction x/r, so |dL| = (x/r) |dJ|. J can change by its deviation from
+        |dL| = |1 - 2 lever/r| |dJ|. J can change by its deviation from
         rigid rotation and, as the gap varies, by the change of its rigid value; with friction by this deviation
         again at each rebound that reverses it. Energy and barrier change by omega dL each, where |omega| is taken as
         the larger of the present one and that of rigid rotation.
@@ -168,9 +167,15 @@ class EnergyCertificate(Certificate):
         if not phase.resting:
             change += abs(self._rigid(y, barrier) - self._rigid(y, 0.0))
             reach = barrier
-        lost = change * self.groups["aspect"] * reach / (4 + self.groups["aspect"] * reach)
+        lost = change * self._share(reach)
         energy = self._kinetic(self._turning(y, 1.0))  # of J = 1, half of omega/J
         return float(4 * energy * max(abs(orbital_momentum), abs(rigid)) * lost)
+
+    def _share(self, gap: float) -> float:
+        """Change of the angular momentum over that of the orbital one, at a gap."""
+        distance = 4 + self.groups["aspect"] * gap
+        more = (self.groups[str(symbol)] for symbol in self.model.extra("arm", "lever"))
+        return float(abs(1 - 2 * self.model.laws.arm.lever(distance, *more) / distance))
 
     def _rigid(self, y: np.ndarray, gap: float) -> float:
         """Orbital angular momentum of rigid rotation at this gap, with the total angular momentum of `y`."""

@@ -11,6 +11,7 @@ from ..host import files
 from ..host.outputs import check_file
 from ..scene.schema import FIELDS
 from . import options, texts
+from .bar import Bar
 from .signature import as_command, passed
 
 
@@ -49,19 +50,16 @@ def command(
     from ..averages.averages import collision_averages
     from ..averages.dataset import table, to_csv
     from ..many.regime_map import write
-    from .resumable import resumable
 
     chosen = passed(speeds=speeds, radii=radii, films=films, tolerance=tolerance, rtol=rtol, wrt=wrt)
-    with resumable(output, "pairs", cheaper="a larger --tolerance or fewer --radii take less") as (journal, progress):
-        data = collision_averages(scene, progress=progress, journal=journal, **chosen)
-        if output is not None and journal is not None:
-            if output.suffix.lower() == ".csv":
-                files.write(output, to_csv(data))
-            else:
-                write(data, output)
-            journal.remove()
+    with Bar("pairs", "a larger --tolerance or fewer --radii take less") as progress:
+        data = collision_averages(scene, progress=progress, resume=output, **chosen)
     if output is None:
         click.echo(table(data) if sys.stdout.isatty() else to_csv(data), nl=False)
+    elif output.suffix.lower() == ".csv":
+        files.write(output, to_csv(data))
+    else:
+        write(data, output)
     reasons = [str(reason) for reason in data["reason"].values.ravel() if reason]
     if reasons:
         click.echo(f"{len(reasons)} of {data['reason'].size} pairs failed; the first: {reasons[0]}", err=True)

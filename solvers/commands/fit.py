@@ -20,7 +20,6 @@ def command(
     free: list[str] | None,
     own: tuple[str, ...],
     prior: options.Priors,
-    over: list[str] | None,
     predict: options.Picture,
     write: Annotated[Path | None, partial(check_file, label="", suffixes=(".toml",))],
     report: options.Folder,
@@ -47,14 +46,11 @@ def command(
             the standard deviations in the data.
         --own NAME: A free entry of which each scene has a value of its own, or NAME=LABEL,LABEL,... with a label for
             each scene, of which equal ones share; repeatable.
-        --compare NAMES (over): Also fit every other bridge.law, model.film or model.glass, and compare them by AIC and
-            cross-validation.
         --predict FILE.png: Draw the probability of sticking around the impacts, with the uncertainty of the estimates;
             of several scenes FILE-1.png, FILE-2.png, ...
         --write FILE.toml: Write the fitted scene, intervals as comments; of several FILE-1.toml, FILE-2.toml, ...
         --report DIR: Write report.md, report.html and their picture.
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
-    from ..fitting.compare import check_choices, compare_models
     from ..fitting.fit import fit
     from ..host.pictures import plot
 
@@ -64,21 +60,13 @@ def command(
     if any(data is None for _, data in measured):
         raise InputError("DATA.csv", None, "a CSV file with a row for each impact")
     scenes, tables = [request.scene(remark=True) for request, _ in measured], [data for _, data in measured]
-    if over is not None and len(scenes) > 1:
-        raise InputError("--compare", ",".join(over), "one scene with --compare", "is given for several scenes")
-    choices = None if over is None else check_choices(scenes[0], over)
     chosen = passed(prior=prior or None, rtol=rtol)
     groups = {
         name: labels.split(",") if labels else labels for name, _, labels in (each.partition("=") for each in own)
     }
     with Bar("evaluations", "fewer free entries or rows take less", factor=3.0) as progress:
         fitted = fit(scenes, tables, free, own=groups, progress=progress, **chosen)
-    text, record = str(fitted), fitted.to_dict()
-    if choices is not None:
-        with Bar("models", "fewer free entries, rows or choices take less") as progress:
-            comparison = compare_models(scenes[0], tables[0], free, over=choices, progress=progress, **chosen)
-        text, record = f"{text}\n\n{comparison}", record | {"comparison": comparison.to_dict()}
-    output.put(text, record)
+    output.put(str(fitted), fitted.to_dict())
     if fitted.rows.contradicted and (output.as_json or output.file is not None):
         click.echo(fitted.remarks[0], err=True)  # a table on standard output says so itself
     if predict is not None:

@@ -13,23 +13,24 @@ from ..scene.ranges import MOST, MOST_STORED, check_cells
 from ..scene.schema import FIELDS
 from ..scene.user_model import fields
 from . import options, texts
+from .bar import Bar
 from .signature import as_command, passed
 
 _SUFFIX = ".zarr"
-_CHEAPER = "fewer cells or a looser --rtol take less, and a table of `wetdoublet table` answers faster"
+_CHEAPER = "fewer cells or a looser --rtol take less"
 
 
 def _file(path: str) -> Path:
     """The file; a Zarr store is a folder, and not every folder is one."""
     if Path(path).suffix.lower() == _SUFFIX:
-        from ..many.store import check_store
+        from ..many.blocks import check_store
 
         return check_store(path, "")
     return check_file(path, "", (".nc", ".csv", _SUFFIX), replaced=True)
 
 
 def _scheduler(address: str) -> Any:
-    from ..many.cluster import check_scheduler
+    from ..many.blocks import check_scheduler
 
     return check_scheduler(address, "")
 
@@ -63,8 +64,8 @@ def command(
         --relative-speed RANGE: Magnitudes of the relative velocity instead.
         --angle RANGE: Impact angles, as 0:85:40 (degrees) or 0:1.5 rad:40.
         --vary NAME=RANGE: Another dimension, as liquid.viscosity="1:4 Pa s:3"; repeatable.
-        -o FILE (output): Write NetCDF (.nc), a table (.csv), or Zarr chunk by chunk (.zarr); an interrupted run is
-            continued.
+        -o FILE (output): Write NetCDF (.nc), a table (.csv), or Zarr block by block (.zarr); the same command
+            computes what an interrupted one has not.
         --scheduler ADDRESS: Compute on a Dask cluster: tcp://HOST:PORT, the scheduler's .json file, local, or
             local:WORKERS.
         --plot FILE.png: Draw a picture: .png, .pdf or .svg.
@@ -80,25 +81,23 @@ def command(
         raise InputError("--angle", None, "LO:HI:N in degrees")
 
     from ..many.batch import checked_vary
-    from ..many.cluster import connected
+    from ..many.blocks import connected
     from ..many.csv_map import write_csv
     from ..many.regime_map import regime_map, write
     from ..many.text_map import failures, table
-    from .resumable import resumable
 
     checked_vary(scene, varied, "--vary")
     with (
-        resumable(output, "collisions", stored, _CHEAPER) as (journal, progress),
+        Bar("collisions", _CHEAPER) as progress,
         connected(scheduler, "--scheduler") if scheduler is not None else nullcontext() as client,
     ):
         data = regime_map(
             scene, **axes, vary=varied, **passed(rtol=rtol, engine=engine), progress=progress,
-            slow=lambda left: progress.note(f"the last {left} are slow ones"), journal=journal, client=client,
-            store=output if stored else None,
+            slow=lambda left: progress.note(f"the last {left} are slow ones"), client=client,
+            store=output if stored else None, resume=None if stored else output,
         )  # fmt: skip
-        if output is not None and journal is not None and not stored:
-            (write_csv if output.suffix.lower() == ".csv" else write)(data, output)
-            journal.remove()
+    if output is not None and not stored:
+        (write_csv if output.suffix.lower() == ".csv" else write)(data, output)
     if plot is not None:
         from ..boundaries.on_map import map_curves
         from ..host.files import save

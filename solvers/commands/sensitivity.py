@@ -26,8 +26,6 @@ def command(
     method: str | None,
     uncertainty: options.Uncertainty,
     over: str | None,
-    over_time: bool,
-    hessian: bool,
     request: options.VariedRequest,
     rtol: options.Rtol,
     engine: options.Engine,
@@ -39,7 +37,6 @@ def command(
     Examples:
       wetdoublet sensitivity granulation --of restitution,contact_time --plot tornado.png
       wetdoublet sensitivity granulation --uncertainty liquid.viscosity="5 %" --over angle=40:80:17 --plot band.png
-      wetdoublet sensitivity granulation --wrt liquid.viscosity,impact.speed --over-time --plot trajectory.png
 
     Options:
         --of NAMES: Results, as restitution,contact_time,energy.capillary [restitution].
@@ -47,8 +44,6 @@ def command(
         --method M: forward or adjoint [forward].
         --over NAME=RANGE: With --uncertainty: the band over stokes, speed or angle, as stokes=log:0.01:0.5:30 or
             angle=20:80:25.
-        --over-time: Derivatives of the whole trajectory; --plot draws them.
-        --hessian: Second derivatives as well.
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..sensitivity.parameters import check_wrt
     from ..sensitivity.results import check_quantities
@@ -59,25 +54,17 @@ def command(
         check_method(method)
     if of is not None:
         check_quantities(of)
-    if hessian and engine in ("cvodes", "taylor"):
-        raise InputError("--engine", engine, "rosenbrock with --hessian", "has no second derivatives")
     if engine == "taylor" and method not in (None, "forward"):
         raise InputError("--method", method, "forward with --engine taylor", "is not the kernel's")
     scene = request.scene()
-    if over is not None or over_time:
-        unused: dict[str, Any] = {"--hessian": hessian, "--method": method}
-        unused |= {"--over": over, "--of": of, "--uncertainty": uncertainty} if over_time else {}
-        unused |= {} if over_time else {"--wrt": wrt, "--engine": engine}
+    if over is not None:
+        unused: dict[str, str | list[str] | None] = {"--method": method, "--wrt": wrt, "--engine": engine}
         for option, value in unused.items():
             if value:
-                accepted = f"no {option} with {'--over-time' if over_time else '--over'}"
-                text = ",".join(value) if isinstance(value, list) else value if isinstance(value, str) else "given"
-                raise InputError(option, text, accepted, "is not for this")
+                text = ",".join(value) if isinstance(value, list) else value
+                raise InputError(option, text, f"no {option} with --over", "is not for this")
         shared = passed(rtol=rtol, hold=request.hold)
-        if over is None:
-            data, table = _trajectory(scene, None if wrt is None else check_wrt(scene, wrt), engine=engine, **shared)
-        else:
-            data, table = _band(scene, over, uncertainty, of or ["restitution"], shared)
+        data, table = _band(scene, over, uncertainty, of or ["restitution"], shared)
         output.put(table, _plain(data.to_dict()) if output.as_json else None)
         if output.picture is not None:
             data.wetdoublet.plot(output.picture)
@@ -88,27 +75,12 @@ def command(
     if names is not None:
         names = tuple(dict.fromkeys((*names, *deviation)))
     chosen = passed(of=of, method=method, rtol=rtol, engine=engine, hold=request.hold)
-    gradients = sensitivities(scene, wrt=names, hessian=hessian, **chosen)
+    gradients = sensitivities(scene, wrt=names, **chosen)
     spread = first_order(gradients, deviation) if deviation else {}
     record = gradients.to_dict() | ({"standard_deviation": spread} if deviation else {})
     output.put(str(gradients) + ("\n" + spoken(gradients, spread) if deviation else ""), record)
     if output.picture is not None:
         gradients.plot(output.picture)
-
-
-def _trajectory(scene: Scene, wrt: Sequence[str] | None, **chosen: Any) -> tuple[xarray.Dataset, str]:
-    """Sensitivities over time, and a table of how the events move."""
-    from ..sensitivity.trajectory import trajectory_sensitivities
-
-    data = trajectory_sensitivities(scene, wrt, **chosen)
-    parameters = [str(name) for name in data.parameter.values]
-    width = max(map(len, parameters))
-    lines = [f"{data.attrs['outcome']}: how the time of each event moves, p dt/dp in s"]
-    for k, event in enumerate(data.event.values):
-        lines += ["", f"{event} at {float(data.event_time[k]):.6g} s"]
-        moved = data.d_event_time.values[k] * data.reference.values
-        lines += [f"  {name:<{width}}  {move:>12.5g}" for name, move in zip(parameters, moved, strict=True)]
-    return data, "\n".join(lines)
 
 
 def _band(

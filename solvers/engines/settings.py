@@ -3,7 +3,6 @@
 import math
 from dataclasses import dataclass
 
-from ..errors import InputError
 from ..host.arguments import check_name
 from ..scene.schema import Field, Range
 
@@ -74,11 +73,3 @@ def check_rtol(rtol: object, label: str = "rtol") -> float:
 def check_engine(engine: object, label: str = "engine") -> str | None:
     """Return the engine, None for the default; InputError naming `label` if it is unknown."""
     return None if engine is None else check_name(engine, ENGINES, label)
-
-
-def check_plugin(engine: object, label: str = "engine") -> str | None:
-    """Return the engine as `check_engine` does, only for engines that CasADi can differentiate."""
-    plugin = check_engine(engine, label)
-    if plugin is not None and plugin not in CASADI_ENGINES:
-        raise InputError(label, plugin, ", ".join(CASADI_ENGINES), "has no derivatives of this kind")
-    return plugin

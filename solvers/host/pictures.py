@@ -20,9 +20,7 @@ if TYPE_CHECKING:
 
 _HOMES = {  # a variable that only one kind of result has -> what draws it
     "first_order": "sensitivity.plots.draw_band",
-    "d_event_time": "sensitivity.plots.draw_trajectory",
     "rotation_released": "verify.plot.draw_budget",
-    "total_within": "sensitivity.plots.draw_indices",
     "engine": "sensitivity.plots.draw_gradients",
     "probability": "fitting.plot.draw_prediction",
     "outcome": "many.plot_map.draw",
@@ -35,8 +33,7 @@ def plot(data: Any, path: str | Path | None = None) -> Any:
     """Draw a Dataset that this package has made, read back from a file or not.
 
     Arguments:
-        data: of `collide_many`, `regime_map`, `band`, `gradients_many`, `trajectory_sensitivities`, `sobol_indices`,
-            `Fit.predict` or `restitution_budget`.
+        data: of `collide_many`, `regime_map`, `band`, `gradients_many`, `Fit.predict` or `restitution_budget`.
         path: file to write (.png, .pdf or .svg); None only draws.
 
     Returns:

@@ -7,12 +7,11 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from ..engines.settings import RTOL, check_engine, check_rtol
-from ..errors import InputError
 from ..scene.scene import Scene
 from .batch import check_outputs, checked_columns
+from .blocks import into_memory
 from .results import RESULTS
 from .scan import Scan, laid_out
-from .stream import check_places, into_memory, into_store
 
 if TYPE_CHECKING:
     import xarray
@@ -30,8 +29,6 @@ def collide_many(
     rtol: float = RTOL,
     engine: str | None = None,
     of: Sequence[str] = ("outcome", "restitution"),
-    client: Any = None,
-    store: str | FilePath | None = None,
 ) -> xarray.Dataset:
     """Many collisions of one scene.
 
@@ -49,10 +46,6 @@ def collide_many(
             "energy.capillary" (the ledger is then integrated too, which takes longer), and validity (flags of where the
             model leaves its range, with the results that these need). For contact_time, rotation and until the kernel
             integrates the whole trajectory, otherwise only what e_n depends on: e_n may differ within its tolerance.
-        client: a `dask.distributed.Client` whose workers compute, or as text a scheduler's address, its file, "local"
-            or "local:N" (N processes here, started and ended by this call). The result is the same.
-        store: a Zarr store to write the results to, chunk by chunk (`many.zarr`). The same call continues after an
-            interrupt. The Dataset that is returned reads from it.
 
     Numbers, arrays of any shape, quantities with units and DataArrays are broadcast against each other as numpy does,
     DataArrays by the names of their dimensions; plain arrays beside these go with the last dimensions.
@@ -74,16 +67,11 @@ def collide_many(
         >>> laws.restitution.shape
         (2,)
     """
-    names, file = check_outputs(of, RESULTS), check_places(client, store)
-    rtol, engine = check_rtol(rtol), check_engine(engine)
+    names, rtol, engine = check_outputs(of, RESULTS), check_rtol(rtol), check_engine(engine)
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     loaded, arrays, held = checked_columns(scene, impact, vary, hold, most=None, texts=True)
     arguments = {**{f"impact.{name}": values for name, values in impact.items()}, **(vary or {})}
     dims, shape, columns, beside = laid_out(arrays, arguments)
     scan = Scan(loaded, dims, shape, columns, rtol, engine, names, held, beside)
     scan.check()
-    if file is None:
-        return into_memory(scan, client)
-    if not scan.size:
-        raise InputError("store", str(file), "at least one collision to write", "would be empty")
-    return into_store(scan, file, client)
+    return into_memory(scan)

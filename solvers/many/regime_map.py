@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Hashable, Mapping, Sequence
-from contextlib import nullcontext
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +16,7 @@ from ..errors import InputError
 from ..formatting.labelled import Column
 from ..host import files
 from ..host.arguments import check_function
+from ..host.outputs import check_file
 from ..host.progress import Progress
 from ..scene.groups import formulas
 from ..scene.ranges import MOST, MOST_STORED, most_collisions
@@ -24,12 +24,11 @@ from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from ..scene.user_model import Package
 from .batch import Batch, check_outputs, checked_columns
+from .blocks import check_scheduler, check_store, into_memory, into_store
 from .columns import quantities_and_impacts
 from .compute import Slow
-from .journal import Journal, checked_journal
 from .results import QUANTITIES, VALIDITY
 from .scan import LABELS, Scan
-from .stream import check_places, into_memory, into_store
 
 if TYPE_CHECKING:
     import xarray
@@ -95,10 +94,10 @@ def regime_map(
     engine: str | None = None,
     of: Sequence[str] = (*QUANTITIES, VALIDITY),
     progress: Progress | None = None,
-    journal: str | Path | Journal | None = None,
     slow: Slow | None = None,
     client: Any = None,
     store: str | Path | None = None,
+    resume: str | Path | None = None,
 ) -> xarray.Dataset:
     """Outcomes over a grid.
 
@@ -114,13 +113,13 @@ def regime_map(
         of: results as for `collide_many`; by default restitution, tangential_restitution, rotation, contact_time,
             smallest_gap and validity (flags of where the model leaves its range).
         progress: called with (collisions done, collisions in all) after every block.
-        journal: file that keeps finished collisions, so that the same call continues after an interrupt; the caller
-            removes it.
         slow: called with the number of collisions left to slower engines, once the kernel has done all others.
         client: a `dask.distributed.Client` whose workers compute the map, or as text a scheduler's address, its file,
             "local" or "local:N" (N processes here, started and ended by this call). The result is the same.
-        store: a Zarr store to write chunk by chunk (`map.zarr`); memory does not grow with the map. The same call
-            continues after an interrupt. The Dataset that is returned reads from it.
+        store: a Zarr store to write block by block (`map.zarr`); memory does not grow with the map. Whatever ends this
+            call, the same one computes what is missing. The Dataset that is returned reads from it.
+        resume: without a store, where an interrupt leaves what is finished: in RESUME.KEY.partial, which the same call
+            reads, and removes when it has computed the rest.
 
     Returns:
         Dataset over (angle, the one of these three, what varies): outcome (int8: 0 stick, 1 stick-rotate-separate,
@@ -140,20 +139,20 @@ def regime_map(
     check_function(progress, "progress")
     check_function(slow, "slow")
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
-    file = check_places(client, store)
+    if client is not None:
+        check_scheduler(client, "client")
+    file = None if store is None else check_store(store, "store")
+    beside = None if resume is None else check_file(resume, "resume", replaced=True)
     loaded, arrays, held = checked_columns(scene, impact, vary, hold)
     axes = _axes(arrays, MOST if file is None else MOST_STORED)
-    rtol, engine, names, blocks = check_rtol(rtol), check_engine(engine), check_outputs(of), checked_journal(journal)
+    rtol, engine, names = check_rtol(rtol), check_engine(engine), check_outputs(of)
     dims = tuple(name.partition(".")[2] if name in MEETING else name for name in axes)
     columns = {name: ((dim,), axis) for dim, (name, axis) in zip(dims, axes.items(), strict=True)}
     grid = Grid(loaded, dims, tuple(axis.size for axis in axes.values()), columns, rtol, engine, names, held)
     grid.check()
     if file is not None:
-        return into_store(grid, file, client, progress, blocks)
-    if blocks is not None:
-        blocks.set_request(grid.identity())
-    with nullcontext() if blocks is None else blocks.locked():
-        return into_memory(grid, client, blocks, progress, slow)
+        return into_store(grid, file, client, progress)
+    return into_memory(grid, client, progress, slow, beside)
 
 
 def _axes(columns: Mapping[str, np.ndarray], most: int) -> dict[str, np.ndarray]:

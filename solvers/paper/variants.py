@@ -9,14 +9,12 @@ BRIDGED, DRY, PENDULUM = "granulation", "granulation-dry-bridge", "pendulum"
 AS_PRINTED = "preset"
 
 _SHARED: dict[str, dict[str, Any]] = {
-    "arm surface": {"model.arm": "surface"},
     "log film": {"model.tangential": "film"},
     "glass film-corrected": {"model.glass": "film-corrected"},
 }
 BRIDGE_VARIANTS: Mapping[str, dict[str, Any]] = {
     AS_PRINTED: {},
     **_SHARED,
-    "arm surface, log film": {**_SHARED["arm surface"], **_SHARED["log film"]},
     "mikami-log10": {"bridge.law": "mikami-log10"},
 }
 STRING_VARIANTS: Mapping[str, dict[str, Any]] = {
@@ -34,7 +32,6 @@ def variant(preset: str, changes: Mapping[str, Any]) -> Scene:
     return Scene.load(preset).with_entries(changes)
 
 
-_ARM = {"midgap": "lever arm at mid-gap", "surface": "lever arm of one radius"}
 _TANGENTIAL = {"immersed": "cut off at the particle radius", "film": "cut off at the film's edge"}
 _GLASS = {"literal": "", "film-corrected": " above that at the rim"}
 
@@ -42,7 +39,7 @@ _GLASS = {"literal": "", "film-corrected": " above that at the rim"}
 def described(scene: Scene) -> str:
     """The choices that the paper leaves open: lever arm, lubrication, glass criterion; bridge law or strings."""
     model = scene.model
-    text = f"{_ARM[model.arm]}, tangential lubrication {_TANGENTIAL[model.tangential]}, glass transition where the "
+    text = f"lever arm at mid-gap, tangential lubrication {_TANGENTIAL[model.tangential]}, glass transition where the "
     text += f"film pressure on the axis{_GLASS[model.glass]} reaches p_gt"
     if scene.bridge is not None:
         text += f"; {scene.bridge.law}"

@@ -46,6 +46,9 @@ LEAST_ANGLE = 1e-200  # rad; an impact at a smaller one is head-on: its rotation
 WETTING_ANGLE = Range("from 0 deg to 90 deg", 0.0, math.pi / 2, low_open=False, high_open=False)
 
 
+_IN_MODEL_FILES = {"model.arm surface": "is a law of a model file (--model FILE.py), see docs/reference/models.md"}
+
+
 @dataclass(frozen=True)
 class Field:
     """One entry: a quantity (with `unit`), a plain number (without), a choice (with `choices`) or a `flag`.
@@ -116,7 +119,8 @@ class Field:
             return "true"
         if self.choices:
             if not isinstance(raw, str) or raw not in self.choices:
-                raise InputError(label, raw, self.accepts, "is not known" + did_you_mean(raw, self.choices))
+                known = "is not known" + did_you_mean(raw, self.choices)
+                raise InputError(label, raw, self.accepts, _IN_MODEL_FILES.get(f"{self.name} {raw}", known))
             return raw
         if isinstance(raw, str) and raw.strip() in self.words:
             return raw.strip()
@@ -219,7 +223,7 @@ FIELDS: dict[str, Field] = _table(
     Field("pendulum.length", "a string length", '"0.5 m"', unit="m", required=True, gives="string_length"),
     Field("pendulum.gravity", "an acceleration", '"9.81 m/s^2"', unit="m/s^2", default=9.81),
     Field("pendulum.law", "a law", "exact", choices=("exact", "small-angle")),
-    Field("model.arm", "an arm", "midgap", choices=("midgap", "surface")),
+    Field("model.arm", "an arm", "midgap", choices=("midgap",)),
     Field("model.tangential", "a logarithm", "immersed", choices=("immersed", "film")),
     Field("model.glass", "a criterion", "literal", choices=("literal", "film-corrected")),
     Field("model.contact_friction", "what has friction", "solid", choices=("solid", "all")),

@@ -159,7 +159,7 @@ def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float,
     outcome = OUTCOMES[answer["outcome"]]
     if answer["status"] > LAST_ANSWER or outcome != path.outcome or along.run.near[0, 1] == CHATTERS:
         return None
-    return Slopes(along.value[:, 0], along.first[:, 0], None)
+    return Slopes(along.value[:, 0], along.first[:, 0])
 
 
 def _steep(angle: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""CasADi functions of a trajectory's first and second derivatives, forward and adjoint, cached by course."""
+"""CasADi functions of a trajectory's derivatives, forward and adjoint, cached by course."""
 
 import numpy as np
 from casadi import DM, MX, Function, densify, jtimes
@@ -9,8 +9,8 @@ from ..host.interrupts import check
 from ..host.thread_caches import own_cache
 from .trajectory_expression import TrajectoryExpression
 
-# Largest landing step relative to its phase. The error of a first derivative is the square of the step times the
-# amplification, near a saddle one over the distance; the error of a second derivative is linear in the step.
+# Largest landing step relative to its phase, and that after durations are corrected. The error of a derivative is the
+# square of the step times the amplification, near a saddle one over the distance.
 LANDED, LANDED_WELL = 3e-7, 1e-10
 # The same in x0/v0, for long phases: what creeps to its event changes by as much in a step however long it took.
 _LONG, _ROUNDED = 1e-5, 1e-13
@@ -47,20 +47,6 @@ def first_derivatives(expression: TrajectoryExpression, count: int, adjoint: boo
     with quiet():
         slopes = densify(jtimes(z, p, seeds, adjoint))
         return Function("adjoint" if adjoint else "forward", [p, durations, seeds], [z, shifts, slopes])
-
-
-@own_cache(256)
-def curvature(expression: TrajectoryExpression, count: int) -> Function:
-    """Function (groups, durations, weights, directions: groups x count) -> weighted sum's Hessian times directions.
-
-    Forward over adjoint. Rosenbrock only: CasADi's CVODES has no second derivatives of this kind.
-    """
-    p, durations, z, _ = _symbols(expression)
-    weights, seeds = MX.sym("weights", z.numel()), MX.sym("seeds", p.numel(), count)
-    with quiet():
-        gradient = jtimes(z, p, weights, True)
-        bent = densify(jtimes(gradient, p, seeds))
-        return Function("curvature", [p, durations, weights, seeds], [bent])
 
 
 def _symbols(expression: TrajectoryExpression) -> tuple[MX, MX, MX, MX]:

@@ -1,8 +1,8 @@
-"""First and second derivatives of a trajectory along as few directions in its groups as needed."""
+"""Derivatives of a trajectory along as few directions in its groups as needed."""
 
 import numpy as np
 
-from .derivatives import LANDED, LANDED_WELL, curvature, evaluate, first_derivatives, lands, settled
+from .derivatives import LANDED, LANDED_WELL, evaluate, first_derivatives, lands, settled
 from .trajectory_expression import Course, TrajectoryExpression
 
 Active = list[bool]
@@ -22,8 +22,8 @@ def differentiated(
     active: Active,
     method: str,
     amplified: bool,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Durations at which this engine meets the events, the quantities, and their derivatives in the groups.
+) -> tuple[np.ndarray, np.ndarray]:
+    """The quantities, and their derivatives in the groups.
 
     Arguments:
         dp: directions (groups, n); the derivatives are valid along these, with `adjoint` along all.
@@ -39,7 +39,7 @@ def differentiated(
     if not lands(shifts, durations[landed(course)], LANDED):
         durations = settled(whole, p, durations, landed(course), LANDED_WELL)
         z, _, dz = _once(whole, p, durations, dp, active, method)
-    return durations, z, dz
+    return z, dz
 
 
 def _once(
@@ -79,19 +79,3 @@ def inverse(seeds: np.ndarray) -> np.ndarray:
     columns = np.linalg.norm(sized, axis=0)
     columns[columns == 0] = 1.0
     return np.asarray(np.linalg.pinv(sized / columns) / columns[:, None] / rows)
-
-
-def second_derivatives(
-    whole: TrajectoryExpression, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, along: np.ndarray, active: Active
-) -> np.ndarray:
-    """Second derivatives of the quantities between directions `dp` (groups, n) and `along` (groups, m): (q, n, m)."""
-    along = along * np.array(active)[:, None]
-    seeds = spanning(p, along, active)
-    back = inverse(seeds) @ along
-    columns = []
-    for weights in np.eye(len(whole.of)):
-        product = np.zeros((p.size, seeds.shape[1]))
-        if seeds.shape[1]:
-            [product] = evaluate(curvature(whole, seeds.shape[1]), p, durations, weights, seeds)
-        columns.append(dp.T @ product @ back)
-    return np.array(columns)

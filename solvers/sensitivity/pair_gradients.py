@@ -199,7 +199,7 @@ def _of_one_pair(request: _Request, pair: Pairs, rtol: float) -> tuple[int, tupl
     durations = np.array([step.duration for step in path.steps])
     dp = dp * np.array(active)[:, None]
     try:
-        _, end, by_p = differentiated(expression, course, p, durations, dp, active, "forward", amplifies(near))
+        end, by_p = differentiated(expression, course, p, durations, dp, active, "forward", amplifies(near))
     except IntegrationFailed as failure:
         raise ComputationError(
             f"rosenbrock could not differentiate the trajectory ({failure})", advice="try another rtol"

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from casadi import SX, Function, densify, hessian, jacobian, substitute, vertcat
+from casadi import SX, Function, densify, jacobian, substitute, vertcat
 
 from ...generated import scaling
 from ..errors import InputError
@@ -107,12 +107,10 @@ class ParameterMap:
     Arguments:
         values: (ref,) -> groups, then the scales of length, time, rate and energy.
         slopes: (ref,) -> their derivatives in theta, and dp/dtheta.
-        bends: (ref, weights of groups and scales) -> Hessian of the weighted sum in theta.
     """
 
     values: Function
     slopes: Function
-    bends: Function
 
 
 @own_cache(128)
@@ -143,17 +141,11 @@ def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> 
     scales = [length, length / speed, numbers["rate_scale"], known_values["reduced_mass"] * speed**2]
     column = densify(vertcat(*(SX(numbers[name]) for name in groups), *scales))
 
-    def function(name: str, inputs: list[SX], *outputs: SX) -> Function:
+    def function(name: str, *outputs: SX) -> Function:
         here = substitute(list(outputs), [theta], [SX.zeros(len(wrt))])
-        return Function(name, [reference, *inputs], [densify(each) for each in here])
+        return Function(name, [reference], [densify(each) for each in here])
 
-    weights = SX.sym("weights", column.numel())
-    weighted = (weights.T @ column)[0]
-    return ParameterMap(
-        function("values", [], column),
-        function("slopes", [], jacobian(column, theta), vertcat(*units)),
-        function("bends", [weights], hessian(weighted, theta)[0]),
-    )
+    return ParameterMap(function("values", column), function("slopes", jacobian(column, theta), vertcat(*units)))
 
 
 def _impact(base: Mapping[str, SX], ways: Ways) -> dict[str, SX]:

@@ -1,4 +1,4 @@
-"""Figures of derivatives over impacts or time, of bands, of Sobol indices, and of critical speeds."""
+"""Figures of derivatives over impacts, of bands, and of critical speeds."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..collision.text import prefix
 from ..formatting.style import NOTE, broken, picture, title
 from ..many.results import QUANTITIES
 from ..scene.held import AXIS_LABELS
@@ -19,10 +18,6 @@ if TYPE_CHECKING:
 
 _PANELS = 4
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
-_BARS = (("first", "first order", "#2a6f97", -0.2), ("total", "total", "#c1554a", 0.2))
-_SHOWN = {"gap": "m", "normal_velocity": "m/s", "rotation_rate": "rad/s", "spin": "rad/s"}  # and their units
-_CURVES = 5  # parameters in a panel of a trajectory
-_EVENT: Any = {"color": "#999999", "linewidth": 0.7, "linestyle": ":"}
 
 
 @picture
@@ -85,65 +80,6 @@ def draw_band(data: xarray.Dataset) -> Figure:
     title(figure, f"{of.replace('_', ' ')} with {data.attrs['uncertainty']} uncertain")
     axis.spines[["top", "right"]].set_visible(False)
     axis.legend()
-    return figure
-
-
-@picture
-def draw_trajectory(data: xarray.Dataset) -> Figure:
-    """A row for each variable that is not zero: on the left its course, on the right p dy/dp of the parameters p.
-
-    The strongest five parameters of a row are drawn; dotted lines are events.
-    """
-    names = [name for name in _SHOWN if np.any(data[name].values)]
-    figure = Figure(figsize=(9.6, 1.0 + 1.9 * len(names)), layout="constrained")
-    axes = figure.subplots(len(names), 2, sharex=True, squeeze=False)
-    parameters = [str(name) for name in data["parameter"].values]
-    factor, letter = prefix(float(data["time"].values[-1]))
-    time = data["time"].values / factor
-    strongest: dict[str, str] = {}
-    for (left, right), name in zip(axes, names, strict=True):
-        scale, shown_unit = prefix(float(np.abs(data[name].values).max())) if name == "gap" else (1.0, "")
-        left.plot(time, data[name].values / scale, color="#202020", linewidth=1.4)
-        left.set_ylabel(f"{name.replace('_', ' ')} ({shown_unit.replace('u', 'µ')}{_SHOWN[name]})")
-        change = data[f"d_{name}"].values * data["reference"].values / scale
-        largest = np.abs(change).max(axis=0)
-        if "impact.speed" in parameters and "impact.stokes" in parameters:
-            largest[parameters.index("impact.stokes")] = 0.0  # it moves everything as the speed does
-        for k in np.argsort(-largest)[:_CURVES]:
-            parameter = parameters[k]
-            if largest[k] > 0:
-                colour = strongest.setdefault(parameter, _COLOURS[len(strongest) % _CURVES])
-                style = "-" if list(strongest).index(parameter) < _CURVES else "--"
-                right.plot(time, change[:, k], color=colour, linestyle=style, linewidth=1.2, label=parameter)
-        right.legend(fontsize=6.5, frameon=False)
-        for axis in (left, right):
-            axis.spines[["top", "right"]].set_visible(False)
-            for event in np.unique(data["event_time"].values):
-                axis.axvline(event / factor, **_EVENT)
-    axes[0][0].set_title("trajectory", fontsize=10)
-    axes[0][1].set_title("p dy/dp at fixed time", fontsize=10)
-    for axis in axes[-1]:
-        axis.set_xlabel(f"time ({letter.replace('u', 'µ')}s)")
-    figure.suptitle(f"Sensitivities of the trajectory, {data.attrs['outcome']}", fontsize=11)
-    return figure
-
-
-@picture
-def draw_indices(data: xarray.Dataset) -> Figure:
-    """First-order and total indices with their 95 % intervals, the largest on top."""
-    order = np.argsort(data["total"].values)
-    figure = Figure(figsize=(6.4, 1.4 + 0.5 * order.size), layout="constrained")
-    axes = figure.add_subplot()
-    for name, label, colour, shift in _BARS:
-        values, within = data[name].values[order], data[f"{name}_within"].values[order]
-        axes.barh(np.arange(order.size) - shift, values, 0.36, xerr=within, color=colour, label=label,
-                  error_kw={"linewidth": 0.9})  # fmt: skip
-    axes.set_yticks(range(order.size), data["parameter"].values[order])
-    axes.set_xlabel("part of the variance")
-    of = str(data.attrs["of"]).replace("_", " ")
-    axes.set_title(f"Sobol indices of the {of}, {data.attrs['collisions']} collisions", fontsize=10)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(frameon=False, fontsize=8, loc="lower right")
     return figure
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -16,9 +15,8 @@ from ..model.model import load, select_model, slip_restitution
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from . import boundary_distance as nearness
-from .derivatives import LANDED_WELL, settled
-from .directions import differentiated, landed, second_derivatives
-from .parameters import RELATIVE, SCALES, Kind, ParameterMap, kind_of, parameter_map, references
+from .directions import differentiated
+from .parameters import RELATIVE, SCALES, Kind, kind_of, parameter_map, references
 from .result import Near
 from .results import DIFFERENTIATED
 from .trajectory_expression import course_of, influential, trajectory_expression
@@ -29,17 +27,13 @@ SHARPEST = 1e-13
 _TILT = 1e-8  # rad: its square is rounding, and states are scaled by it, so that steps follow the tangential motion
 _SHARPEST_CVODES = 3e-12  # smallest tolerance of CVODES with sensitivities; below it some integrations fail
 
-Along = np.ndarray | Literal["all"] | None
-"""Directions (n, m) in the parameters, SI, of the requested second derivatives."""
-
 
 @dataclass(frozen=True)
 class Slopes:
-    """Derivatives of quantities in theta, SI: y (q,), dy/dtheta (q, n), optional d2y along directions (q, n, m)."""
+    """Quantities and their derivatives in theta, SI: y (q,), dy/dtheta (q, n)."""
 
     value: np.ndarray
     first: np.ndarray
-    second: np.ndarray | None
 
 
 @dataclass(frozen=True)
@@ -87,14 +81,7 @@ class Problem:
         return path.separated or name == "energy.initial"
 
     def slopes(
-        self,
-        path: EventSequence,
-        of: tuple[str, ...],
-        method: str,
-        plugin: str,
-        rtol: float,
-        along: Along = None,
-        near: Near | None = None,
+        self, path: EventSequence, of: tuple[str, ...], method: str, plugin: str, rtol: float, near: Near | None = None
     ) -> Slopes:
         """Derivatives of the quantities of a located trajectory; ComputationError if the engine fails."""
         full = "energy.tangential_lubrication" in of
@@ -116,26 +103,19 @@ class Problem:
         active = influential(course, self.n.groups)
         dp, ds = slopes[:size] * np.array(active)[:, None], slopes[size:]
         durations = np.array([step.duration for step in path.steps])
-        second = None
         try:
-            # second derivatives of the groups need the gradient in every group
-            how = method if along is None else "adjoint"
-            durations, z, dz = differentiated(expression, course, p, durations, dp, active, how, amplifies(near))
-            if along is not None:
-                seed_directions = np.eye(len(self.wrt)) if isinstance(along, str) else along / self.units()[:, None]
-                durations = settled(expression, p, durations, landed(course), LANDED_WELL)
-                second = second_derivatives(expression, p, durations, dp, dp @ seed_directions, active)
+            z, dz = differentiated(expression, course, p, durations, dp, active, method, amplifies(near))
         except IntegrationFailed as failure:
             raise ComputationError(
                 f"{plugin} could not differentiate the trajectory ({failure})",
                 phase=str(path.steps[-1].phase),
                 advice="try another --rtol, or the other --engine",
             ) from None
-        units = _Units(of, scales, ds)
-        first = dz @ dp
-        if second is not None:
-            second = units.second(mapping, self.reference, z, dz * np.array(active), first, second, seed_directions)
-        return Slopes(z * units.scale, first * units.scale[:, None] + z[:, None] * units.slope, second)
+        scaled = [DIFFERENTIATED[name].scale for name in of]
+        which = [SCALES.index(name) if name else None for name in scaled]
+        scale = np.array([1.0 if k is None else scales[k] for k in which])
+        slope = np.array([np.zeros(ds.shape[1]) if k is None else ds[k] for k in which])
+        return Slopes(z * scale, dz @ dp * scale[:, None] + z[:, None] * slope)
 
     def units(self) -> np.ndarray:
         """dp/dtheta of the parameters."""
@@ -165,34 +145,3 @@ def sharpened(rtol: float, near: Near | None, path: EventSequence) -> float:
 def amplifies(near: Near | None) -> bool:
     """True if a boundary is so near that the trajectory amplifies errors."""
     return near is not None and near.distance < NEAR
-
-
-class _Units:
-    """SI scales of quantities, with their derivatives in the parameters."""
-
-    def __init__(self, of: tuple[str, ...], scales: np.ndarray, slopes: np.ndarray) -> None:
-        self.where = [SCALES.index(scale) if (scale := DIFFERENTIATED[name].scale) else None for name in of]
-        self.scale = np.array([1.0 if k is None else scales[k] for k in self.where])
-        none = np.zeros(slopes.shape[1])
-        self.slope = np.array([none if k is None else slopes[k] for k in self.where])
-
-    def second(
-        self,
-        mapping: ParameterMap,
-        reference: np.ndarray,
-        z: np.ndarray,
-        dz: np.ndarray,
-        first: np.ndarray,
-        second: np.ndarray,
-        seed_directions: np.ndarray,
-    ) -> np.ndarray:
-        """Second derivatives in theta, from those of the trajectory in its groups and those of groups and scales."""
-        rows = []
-        for k in range(z.size):
-            weights = np.concatenate([dz[k] * self.scale[k], np.zeros(len(SCALES))])
-            if (at := self.where[k]) is not None:
-                weights[dz.shape[1] + at] = z[k]
-            crossed = np.outer(first[k], self.slope[k])
-            map_curvature = np.asarray(mapping.bends(reference, weights).full())
-            rows.append(second[k] * self.scale[k] + (crossed + crossed.T + map_curvature) @ seed_directions)
-        return np.array(rows)

@@ -52,8 +52,6 @@ class Sensitivities(Drawn):
         value: each quantity's value.
         gradient: quantity -> parameter -> dy/dp, all others held.
         elasticity: quantity -> parameter -> d ln y/d ln p; None where y or p is zero.
-        hessian: quantity -> parameter -> parameter -> d2y/dp dq, if requested.
-        hessian_times: quantity -> parameter -> the Hessian times the requested vector.
         outcome: outcome of the collision.
         reference: values of the parameters.
         near: the nearest boundary found from the trajectory, None if there is none.
@@ -78,8 +76,6 @@ class Sensitivities(Drawn):
     hold: str
     rtol: float
     near: Near | None = None
-    hessian: Mapping[str, Mapping[str, Row]] | None = None
-    hessian_times: Mapping[str, Row] | None = None
     scene: Scene = field(repr=False, compare=False)
 
     @property
@@ -93,12 +89,6 @@ class Sensitivities(Drawn):
             "gradient": {name: dict(row) for name, row in self.gradient.items()},
             "elasticity": {name: dict(row) for name, row in self.elasticity.items()},
         }
-        if self.hessian is not None:
-            result["hessian"] = {
-                name: {one: dict(row) for one, row in rows.items()} for name, rows in self.hessian.items()
-            }
-        if self.hessian_times is not None:
-            result["hessian_times"] = {name: dict(row) for name, row in self.hessian_times.items()}
         near = self.near and {"boundary": self.near.boundary, "distance": self.near.distance, "of": self.near.of}
         return result | {
             "outcome": self.outcome,
@@ -148,17 +138,12 @@ class Sensitivities(Drawn):
             "gradient": (("quantity", "parameter"), array(self.gradient)),
             "elasticity": (("quantity", "parameter"), array(self.elasticity)),
         }
-        if self.hessian is not None:
-            hessian = np.stack([array(rows) for rows in self.hessian.values()])
-            variables["hessian"] = (("quantity", "parameter", "with_respect_to"), hessian)
         coordinates: dict[str, Any] = {
             "quantity": list(self.value),
             "parameter": list(self.parameters),
             "units": ("quantity", [DIFFERENTIATED[name].unit for name in self.value]),
             "reference": ("parameter", list(self.reference.values())),
         }
-        if self.hessian is not None:
-            coordinates["with_respect_to"] = list(self.parameters)
         attributes = {"outcome": self.outcome, "method": self.method, "engine": self.engine, "hold": self.hold}
         return xr.Dataset(variables, coordinates, attributes)
 
@@ -188,7 +173,7 @@ class Sensitivities(Drawn):
             notes.append("~0: contributions cancel but for rounding")
         notes += [f"nearest: {self.near}"] if self.near else []
         notes += [*_STICK_NOTES] if self.outcome == STICK else []
-        return "\n\n".join([*blocks, *self._second_derivatives(), "\n".join(notes)])
+        return "\n\n".join([*blocks, "\n".join(notes)])
 
     def _block(self, names: list[str]) -> str:
         largest = {p: max((abs(self.elasticity[y][p] or 0.0) for y in names), default=0.0) for p in self.parameters}
@@ -199,20 +184,6 @@ class Sensitivities(Drawn):
         title = "elasticities d ln y/d ln p (* dy/dp where y or p is zero)"
         lines = numbers_aligned([head, units, *rows])
         return "\n".join([*lines[:2], "", title, *lines[2:]])
-
-    def _second_derivatives(self) -> list[str]:
-        """Tables of second derivatives, one per quantity, and of the Hessian times a vector, if requested."""
-        names, tables = self.parameters, []
-        for y, rows in (self.hessian or {}).items():
-            for k in range(0, len(names), _SHOWN):
-                some = names[k : k + _SHOWN]
-                cells = [["", *some], *([p, *(_number(rows[p][q], "1") for q in some)] for p in names)]
-                tables.append("\n".join([f"d2y/dp dq of y = {y} (SI units, rad)", *numbers_aligned(cells)]))
-        if self.hessian_times is not None:
-            of = list(self.hessian_times)
-            cells = [["", *of], *([p, *(_number(self.hessian_times[y][p], "1") for y in of)] for p in names)]
-            tables.append("\n".join(["Hessian times the vector (SI units, rad)", *numbers_aligned(cells)]))
-        return tables
 
     def _cell(self, y: str, p: str) -> str:
         elasticity, gradient = self.elasticity[y][p], self.gradient[y][p]

@@ -9,19 +9,17 @@ import numpy as np
 from ..engines.casadi.locate import EventSequence
 from ..engines.choice import casadi_gradient_engine, gradient_engine
 from ..engines.settings import check_engine, check_rtol
-from ..errors import ComputationError, InputError, did_you_mean
-from ..host.arguments import check_mapping, check_name
+from ..errors import ComputationError, InputError
+from ..host.arguments import check_name
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
-from ..scene.schema import ANY, Field
 from . import by_kernel as kernel
 from .parameters import SIDEWAYS, check_wrt
-from .problem import Along, Problem, Slopes
+from .problem import Problem, Slopes
 from .result import Near, Sensitivities
 from .results import DIFFERENTIATED, SPENT, check_quantities, computed
 
 METHODS = ("forward", "adjoint")
-_PART = Field("hessian", "a number (SI)", "1.0", ANY)
 
 
 def check_method(method: object, label: str = "method") -> str:
@@ -42,7 +40,6 @@ def sensitivities(
     engine: str | None = None,
     relative_speed: float | str | None = None,
     hold: str | None = None,
-    hessian: bool | Mapping[str, float] = False,
 ) -> Sensitivities:
     """Exact derivatives of a collision's results, through its events.
 
@@ -58,8 +55,6 @@ def sensitivities(
             accurate than cvodes.
         hold: quantity held when another parameter varies, the impact's "speed", "stokes" number or "relative_speed";
             None for the relative speed where the scene gives that, else the speed.
-        hessian: compute second derivatives as well (rosenbrock only); a mapping of parameters to numbers (SI) requests
-            only the Hessian times that vector, at the cost of one direction.
 
     Returns:
         Sensitivities: value, gradient and elasticity by name.
@@ -78,42 +73,31 @@ def sensitivities(
     rtol, requested = check_rtol(rtol), check_engine(engine)
     if requested == "taylor" and method != "forward":
         raise InputError("method", method, "forward with engine taylor", "is not the kernel's")
-    if hessian is not False and requested not in (None, "rosenbrock"):
-        raise InputError("engine", requested, "rosenbrock", "has no second derivatives")
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     held = held_quantity(loaded, hold)
     names = check_wrt(loaded, wrt)
-    along = _along(hessian, names)
     v0, angle_ = loaded.need_impact()
     problem = Problem.of(loaded, v0, angle_, names, held)
     path, near = problem.located(rtol)
     todo = tuple(name for name in computed(of) if problem.defined(name, path))
     odd = np.array([DIFFERENTIATED[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
-    tilts = bool(todo and sideways.any() and (odd.any() or along is not None)) and not problem.n.oblique
-    plugin, free = casadi_gradient_engine(requested), requested is None and method == "forward" and along is None
+    tilts = bool(todo and sideways.any() and odd.any()) and not problem.n.oblique
+    plugin, free = casadi_gradient_engine(requested), requested is None and method == "forward"
     if free:
         plugin = gradient_engine(loaded, of, kernel.KNOWN, {problem.n.oblique, problem.n.oblique or tilts})
     run = _Run(todo, method, rtol, near, free)
-    slopes, plugin = run.slopes(problem, path, plugin, None if tilts else along) if todo else (None, plugin)
+    slopes, plugin = run.slopes(problem, path, plugin) if todo else (None, plugin)
     if tilts and slopes is not None:
-        tilted, plugin = run.slopes(*problem.tilted(), plugin, None if along is None else "all")
-        second = tilted.second
-        if second is not None:
-            second = np.where(odd[:, None, None] ^ sideways[:, None] ^ sideways, 0.0, second)
-            second = second if isinstance(along, str) else second @ along
-        slopes = Slopes(slopes.value, np.where(odd[:, None] & sideways, tilted.first, slopes.first), second)
+        tilted, plugin = run.slopes(*problem.tilted(), plugin)
+        slopes = Slopes(slopes.value, np.where(odd[:, None] & sideways, tilted.first, slopes.first))
     rows = {name: _combined(name, todo, slopes, len(names)) for name in of}
     values = {name: row[0] for name, row in rows.items()}
     reference = {name: problem.value_of(name) for name in names}
     return Sensitivities(
         value=values,
         gradient={name: _row(names, row[1]) for name, row in rows.items()},
-        elasticity={name: _elasticities(name, reference, *row[:2]) for name, row in rows.items()},
-        hessian={name: _matrix(names, row[2]) for name, row in rows.items()} if isinstance(along, str) else None,
-        hessian_times={name: _row(names, None if row[2] is None else row[2][:, 0]) for name, row in rows.items()}
-        if isinstance(along, np.ndarray)
-        else None,
+        elasticity={name: _elasticities(name, reference, *row) for name, row in rows.items()},
         reference=reference,
         outcome=path.outcome,
         method=method,
@@ -135,51 +119,34 @@ class _Run:
     near: Near | None
     free: bool
 
-    def slopes(self, problem: Problem, path: EventSequence, plugin: str, along: Along) -> tuple[Slopes, str]:
+    def slopes(self, problem: Problem, path: EventSequence, plugin: str) -> tuple[Slopes, str]:
         """Derivatives by the parameters, SI, and the engine that computed them."""
         refused = plugin == "taylor"
         slopes = kernel.one(problem, path, self.of, self.rtol, self.near) if refused else None
         if slopes is None:
             plugin = casadi_gradient_engine() if refused else plugin
             try:
-                slopes = problem.slopes(path, self.of, self.method, plugin, self.rtol, along, self.near)
+                slopes = problem.slopes(path, self.of, self.method, plugin, self.rtol, self.near)
             except ComputationError:  # CasADi's trajectory misses a located event; the kernel's may not
                 if refused or not self.free:
                     raise
                 slopes, plugin = kernel.one(problem, path, self.of, self.rtol, self.near), "taylor"
                 if slopes is None:
                     raise
-        units, second = problem.units(), slopes.second
-        if second is not None:
-            second = second / np.outer(units, units if isinstance(along, str) else np.ones(second.shape[2]))
-        return Slopes(slopes.value, slopes.first / units, second), plugin
+        return Slopes(slopes.value, slopes.first / problem.units()), plugin
 
 
-def _along(hessian: bool | Mapping[str, float], names: tuple[str, ...]) -> Along:
-    if isinstance(hessian, bool):
-        return "all" if hessian else None
-    for name in check_mapping(hessian, "hessian", "True, False or numbers by parameter"):
-        if name not in names:
-            problem = "is not among the parameters" + did_you_mean(name, names)
-            raise InputError("hessian", name, ", ".join(names), problem)
-    return np.array([[_PART.number(hessian.get(name, 0.0), label=f"hessian of {name}")] for name in names])
-
-
-Combined = tuple[float | None, np.ndarray | None, np.ndarray | None]
-
-
-def _combined(name: str, todo: tuple[str, ...], slopes: Slopes | None, size: int) -> Combined:
-    """Value, gradient (n,) and second derivatives (n, m) of a quantity, from the computed ones."""
+def _combined(
+    name: str, todo: tuple[str, ...], slopes: Slopes | None, size: int
+) -> tuple[float | None, np.ndarray | None]:
+    """Value and gradient (n,) of a quantity, from the computed ones."""
     parts = _parts(name)
     if slopes is None or any(part not in todo for part in parts):
         if name == "restitution":  # the restitution of a stick
-            return 0.0, np.zeros(size), np.zeros((size, size))
-        return None, None, None
+            return 0.0, np.zeros(size)
+        return None, None
     weights = np.array([parts.get(one, 0.0) for one in todo])
-    second = None
-    if slopes.second is not None:
-        second = np.einsum("k,kij->ij", weights, slopes.second)
-    return float(weights @ slopes.value) + 0.0, weights @ slopes.first, second
+    return float(weights @ slopes.value) + 0.0, weights @ slopes.first
 
 
 def _parts(name: str) -> dict[str, float]:
@@ -191,10 +158,6 @@ def _parts(name: str) -> dict[str, float]:
 
 def _row(names: tuple[str, ...], row: np.ndarray | None) -> dict[str, float | None]:
     return {name: None if row is None else float(row[k]) + 0.0 for k, name in enumerate(names)}
-
-
-def _matrix(names: tuple[str, ...], matrix: np.ndarray | None) -> dict[str, dict[str, float | None]]:
-    return {one: _row(names, None if matrix is None else matrix[k]) for k, one in enumerate(names)}
 
 
 def _elasticities(

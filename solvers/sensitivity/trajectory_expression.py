@@ -1,7 +1,7 @@
 """A located trajectory as one CasADi expression: phases over constant durations, landings on events, and jumps.
 
 A landing is a correction of the state onto the event's surface. At the located durations it is almost zero, but its
-first and second derivatives are those of the saltation, so that CasADi can differentiate the whole trajectory.
+derivative is the saltation, so that CasADi can differentiate the whole trajectory.
 """
 
 from dataclasses import dataclass

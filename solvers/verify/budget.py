@@ -134,7 +134,7 @@ def _spun(spins: tuple[float, float], a: float) -> float:
 
 
 def ceiling(one: Collision) -> float:
-    """Upper limit of e_n^2 if only the bridge dissipates energy; NaN for the surface lever arm and with strings."""
+    """Upper limit of e_n^2 if only the bridge dissipates energy; NaN for a lever arm of one's own and with strings."""
     scene = one.scene
     if one.energy is None or scene.pendulum is not None or scene.model.arm != "midgap":
         return math.nan

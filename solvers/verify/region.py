@@ -88,7 +88,7 @@ def argument(scene: Scene, data: xarray.Dataset) -> Iterator[Finding]:
         statement = "e_n^2 <= 1 + [E_rot(0) - L^2/(2 I(x_f)) - W_c]/(m v0^2/2): the largest of left less right"
         yield bounded("e_n^2: ceiling", statement, worst, RESIDUAL * float(energy.max()), where)
     else:
-        why = "with strings or the surface arm there is no closed form"
+        why = "with strings or an arm of one's own there is no closed form"
         yield note("e_n^2: ceiling", "e_n^2 <= its closed-form ceiling", why)
     yield _region(scene, data)
 

@@ -14,7 +14,7 @@ from ..scene.scenefile import OF_THE_PAPER
 from .audit import stick_audit
 from .backward import backward
 from .closed import closed_forms
-from .conserved import conserved, surface_arm
+from .conserved import conserved
 from .identities import symbolic
 from .order import convergence
 from .region import argument, beside_cvodes, grid
@@ -75,7 +75,6 @@ def numeric(
     sample = collisions(scene, angles, extent)
     checks: dict[str, Callable[[], Iterator[Finding]]] = {
         "conservation": lambda: conserved(sample),
-        "surface arm": lambda: surface_arm(sample),
         "forward-back": lambda: backward(sample),
         "closed forms": lambda: closed_forms(scene, head_on),
         "convergence": lambda: convergence(sample, extent.tolerances),

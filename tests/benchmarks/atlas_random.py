@@ -56,7 +56,6 @@ def _scene(random: np.random.Generator) -> Scene:
     }
     changes["particles.dry_restitution"] = float(random.uniform(0.2, 1.0))
     changes |= {
-        "model.arm": str(random.choice(["midgap", "midgap", "midgap", "surface"])),
         "model.tangential": str(random.choice(["immersed", "film"])),
         "model.glass": str(random.choice(["literal", "film-corrected"])),
         "model.film": str(random.choice(["finite", "finite", *FILM_LAWS])),

@@ -156,22 +156,6 @@ def _calls(scene: Scene, speed: np.ndarray, angle: np.ndarray) -> Iterator[tuple
         tensors = [torch.tensor(each, dtype=torch.float64, requires_grad=True) for each in (speed, angle, 2.0)]
         yield "torch", lambda: by_torch(*(each.detach() for each in tensors[:2]))
         yield "gradient, torch", lambda: by_torch(*tensors[:2], {mu: tensors[2]}).sum().backward()
-    if find_spec("numba"):
-        from wetdoublet.solvers.bindings.numba import law as for_numba
-
-        compiled = for_numba(scene)
-        given, found = np.zeros(speed.size, compiled.impact), np.zeros(speed.size, compiled.collision)
-        given["speed"], given["angle"] = speed, angle
-        yield "numba, collide_many", lambda: compiled.collide_many(compiled.material, given, 1e-9, found)
-    if find_spec("cffi"):
-        from wetdoublet.solvers.bindings.cffi import law as for_cffi
-
-        ffi, library = for_cffi(scene)
-        material = ffi.new("law_material *", library.law_default_material())
-        rows = ffi.new("law_impact[]", [{"speed": v, "angle": a} for v, a in zip(speed, angle)])
-        results = ffi.new("law_collision[]", speed.size)
-        many = library.law_collide_many
-        yield "cffi, collide_many", lambda: many(material, rows, speed.size, 1e-9, 0, results)
 
 
 def _cpu(run: Callable[[], Any], seconds: float = 0.3) -> float:

@@ -131,7 +131,7 @@ def scenes(count: int, seed: int, of: int) -> Iterator[tuple[Model, dict[str, ob
     every = drawn(min(of, count), seed)
     for k, model in enumerate(every):
         draw, left = np.random.default_rng((seed, 3, k)), count // len(every) + (k < count % len(every))
-        kept = model if model.partner == "wall" else replace(model, arm="midgap")
+        kept = model
         while left:
             described = tables(kept, numbers(kept, draw))
             scene = Scene.from_dict(described)

@@ -49,7 +49,6 @@ BRIDGED, ALONE = "granulation", "granulation-dry-bridge"
 KINDS: dict[str, tuple[str, dict[str, float | str]]] = {
     "bridge": (BRIDGED, {}),
     "constant bridge, shear to the film's edge": (BRIDGED, {"bridge.law": "constant", "model.tangential": "film"}),
-    "bridge, surface arm": (BRIDGED, {"model.arm": "surface"}),
     "attraction": (ALONE, {"attraction.hamaker": HAMAKER}),
     "bridge and attraction": (BRIDGED, {"attraction.hamaker": HAMAKER}),
     "film": (ALONE, {}),
@@ -141,7 +140,7 @@ def by_kernel(kind: str, partner: str, sticks: int, seed: int) -> tuple[int, int
     for count, (_, these) in enumerate(rounds(kind, partner, seed)):
         made = run_kernel(these, RTOL)
         assert made is not None, "there is no kernel here"
-        decided = (made["status"] <= LAST_ANSWER) & (made["outcome"] == 0)  # with the surface arm without a theorem
+        decided = (made["status"] <= LAST_ANSWER) & (made["outcome"] == 0)
         proved = np.flatnonzero(decided & these.oblique)[: sticks - certified]
         done += these.angle.size
         certified += proved.size

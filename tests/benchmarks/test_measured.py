@@ -10,6 +10,7 @@ from wetdoublet.solvers.engines.taylor.call import variant_for_many
 from wetdoublet.solvers.engines.taylor.source import source
 from wetdoublet.solvers.formatting.markdown import table
 
+from ..helpers.own_arm import described
 from .measured import gradient_work, lines, near, sharp
 from .measured import reference as references
 from .measured.answers import Impact
@@ -40,7 +41,7 @@ def test_reference_values_equal_the_independent_ones(reference: dict[str, Any]) 
     """What errors are measured against agrees with the 80-bit Taylor series to 1e-11, and knows its own error."""
     pytest.importorskip("scipy")
     impact = reference["impact"]
-    scene = Scene.from_dict(reference["scene"])
+    scene = described(reference["scene"])
     asked = scene.with_impact(stokes=impact["stokes"], angle=impact["angle"])
     found = references.reference(scene, Impact(float(impact["stokes"]), asked.need_impact()[1]))
     expected = reference["results"]

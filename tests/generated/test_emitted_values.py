@@ -181,7 +181,7 @@ def test_group(group: sp.Symbol):
 
 CHOICES = [
     {"arm": "midgap", "shear": "immersed", "bridge": "mikami", "strings": "exact", "glass": "literal"},
-    {"arm": "surface", "shear": "film", "bridge": "rabinovich", "strings": "small-angle", "glass": "film-corrected"},
+    {"arm": "midgap", "shear": "film", "bridge": "rabinovich", "strings": "small-angle", "glass": "film-corrected"},
 ]
 
 

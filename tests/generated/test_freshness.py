@@ -39,12 +39,12 @@ def test_committed_folder_is_fresh():
 @pytest.mark.slow
 def test_an_edit_is_shown(copy: Path):
     """An edited file is named, with a diff of the lines that differ and of no other file."""
-    path = copy / "laws" / "arm_surface.py"
-    path.write_text(path.read_text().replace("return 2", "return 3"))
+    path = copy / "laws" / "arm_midgap.py"
+    path.write_text(path.read_text().replace("return distance/2", "return distance/3"))
     lines = check(copy)
-    assert lines[0] == "differs: laws/arm_surface.py"
-    assert "-    return 3" in lines
-    assert "+    return 2" in lines
+    assert lines[0] == "differs: laws/arm_midgap.py"
+    assert "-    return distance/3" in lines
+    assert "+    return distance/2" in lines
     assert sum(line.startswith(("differs", "missing", "extra")) for line in lines) == 1
 
 

@@ -24,7 +24,6 @@ class Model:
     film: str
     tangential: str
     glass: str
-    arm: str
     rupture: str
     attracted: bool
     elastic: bool
@@ -45,7 +44,6 @@ def models(count: int, seed: int) -> list[Model]:
                 film=film,
                 tangential=str(draw.choice(("immersed", "film"), p=(0.6, 0.4))) if rim else "immersed",
                 glass=str(draw.choice(("literal", "film-corrected"), p=(0.7, 0.3))) if rim else "literal",
-                arm=str(draw.choice(("midgap", "surface"), p=(0.85, 0.15))),
                 rupture=str(draw.choice(("common", "own"), p=(0.8, 0.2))) if law in ("mikami", "willett") else "common",
                 attracted=bool(draw.random() < 0.3),
                 elastic=bool(draw.random() < 0.5),
@@ -119,7 +117,6 @@ def tables(model: Model, entries: dict[str, float]) -> dict[str, Any]:
     """The tables of a scene, as `Scene.from_dict` takes them."""
     found: dict[str, Any] = {}
     choices: dict[str, Any] = {
-        "model.arm": model.arm,
         "model.film": model.film,
         "model.glass": model.glass,
         "model.tangential": model.tangential,

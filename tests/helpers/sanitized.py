@@ -57,7 +57,6 @@ FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
     "granulation": ("granulation", {}),
     "pendulum": ("pendulum", {}),
     "film alone": ("granulation-dry-bridge", {}),
-    "surface arm": ("granulation", {"model.arm": "surface"}),
     "film tangential": ("granulation", {"model.tangential": "film"}),
     "small angle": ("pendulum", {"pendulum.law": "small-angle"}),
     "corrected glass": ("pendulum", {"model.glass": "film-corrected"}),
@@ -76,7 +75,6 @@ FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
     "spins of a film alone": ("granulation-dry-bridge", SPINS),
     "spin beside a wall": ("granulation", WALL | {"impact.spin": "5000 rad/s"}),
     "friction": ("granulation", RUBS),
-    "friction, surface arm": ("granulation", RUBS | {"model.arm": "surface"}),
     "friction of a pair": ("granulation", PAIR | RUBS | SPINS),
     "friction beside a wall": ("granulation", WALL | RUBS | {"impact.spin": "5000 rad/s"}),
     "friction on strings": ("pendulum", RUBS),
@@ -128,7 +126,9 @@ KINDS: dict[str, Replay] = {
     "ledger in space": lambda impacts, _: _in_space(impacts, ledger=True),
 }
 IN_SPACE = ("in space", "ledger in space")
-SPATIAL = ("film alone", "granulation", "attraction and bridge", "pair with bridge", "film cavitating", "friction of a pair")
+SPATIAL = (
+    "film alone", "granulation", "attraction and bridge", "pair with bridge", "film cavitating", "friction of a pair",
+)  # fmt: skip
 LAWS_IN = ("plain", "ledger and trajectory", "forwards", "backwards")
 
 
@@ -230,7 +230,7 @@ def _inside(what: list[Any]) -> None:
     for name, *arguments in what:
         if name == "reference":
             for case in REFERENCE:
-                if arguments[0] in (None, case["name"]):
+                if arguments[0] in (None, case["name"]) and case["scene"]["model"]["arm"] == "midgap":
                     collide_reference(case)
         elif name == "enclosed":
             enclose_random(*arguments)

@@ -1,4 +1,4 @@
-"""Twelve collisions through every kind of event, and derivatives by extrapolated differences of accurate values."""
+"""Eleven collisions through every kind of event, and derivatives by extrapolated differences of accurate values."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -58,7 +58,6 @@ CASES = (
         HARD | {"particles.roughness": "0.6 um", "particles.youngs_modulus": "7e4 GPa"}
         | {"bridge.law": "lambert", "bridge.contact_angle": "20 deg"},
     ),
-    Case("surface arm", GRANULATION, 0.045, "55 deg", ("turned", "film edge", "rupture"), {"model.arm": "surface"}),
     Case("no bridge, turned", DRY, 0.05, "45 deg", ("turned", "rupture"), {"model.tangential": "film"}),
     Case("no bridge, glass", DRY, 0.3, "45 deg", ("glass", "rupture"), {"model.glass": "film-corrected"}),
     Case("strings", PENDULUM, 1.0, "60 deg", ("turned", "rupture")),

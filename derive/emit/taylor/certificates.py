@@ -88,7 +88,7 @@ class Margins:
             "(lever arm at mid-gap; derive/equations/certificates/orbital_momentum.py)."
         )
         margins = self.model["orbital_margins"]
-        lines = self._function("transferable", doc, {key: margins[key] for key in ("slip", "midgap")})
+        lines = self._function("transferable", doc, {key: margins[key] for key in ("slip", "slip_energy")})
         return ["#define ORBITAL_MARGINS LIBRARY_LAWS", *lines, ""]
 
     def approach(self) -> list[str]:

@@ -6,9 +6,12 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from ...equations import friction
+from ...equations.intermediates import LEVER
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import slot_calls
+from ...physics.partners.bodies import CENTRES
+from ...physics.scaling import DISTANCE
 from ...user.own_events import OwnEvent
 from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
 from ..provenance import Own, describe, header, model_digest
@@ -289,16 +292,6 @@ class Header:
             lines += ["#define POTENTIAL 1"]
             for key in ("energy", "slope"):
                 lines += self._scalar(f"potential_{key}", key, "effective_potential")
-        if "orbital_margins" in model and "surface" in model["orbital_margins"].by_name:
-            lines.append("#define BY_ORBITAL_MOMENTUM LIBRARY_LAWS")
-            lines.append("enum { SLIP_RATE, ORBITAL_ENERGY, SLIP_ENERGY, ORBITAL };")
-            places = {"slip": "SLIP_RATE", "orbital_energy": "ORBITAL_ENERGY", "surface": "SLIP_ENERGY"}
-            doc = (
-                "Slip omega - xi at this gap, J^2/(2 r^2), and the slip energy (lever arm at the surface), over m v0^2 "
-                "(derive/equations/certificates/orbital_momentum.py)."
-            )
-            targets = {key: f"found[{place}]" for key, place in places.items()}
-            lines += self._vector("orbital_margins", "found", targets, doc)
         if shape.partner == "space":
             head = "static inline void held_response(const constants *c, const vec *y, vec film, vec shear, vec *found)"
             held = {key: f"found[HELD_{key.upper()}]" for key in model["held_response"].by_name}
@@ -316,6 +309,10 @@ class Header:
             lines += self._scalar("surface_slip")
         if "arm" in model.slots and not shape.strings:
             lines += self._scalar("angular_momentum")
+            doc = "Change of the angular momentum over that of the orbital one: none with the lever arm at mid-gap."
+            head = "static inline vec momentum_share(const constants *c, const vec *y)"
+            share = 1 - (CENTRES if shape.partner else 2) * LEVER / DISTANCE
+            lines += self._valued([("share", share)], head, {"share": "return"}, doc)
         prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
         margins = Margins(model, self.constants, prepared)
         lines += margins.lines()

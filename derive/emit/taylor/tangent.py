@@ -201,7 +201,7 @@ class Tangent(LinearFlow):
         return lines
 
     def _friction(self, states: dict[str, str]) -> list[str]:
-        """The impulses of a rebound, and the state after one, in a direction; for either lever arm of the library."""
+        """The impulses of a rebound, and the state after one, in a direction; for the library's lever arm."""
         impulses = {"sticking": "found[STICKING]", "most": "found[MOST]"}
         jumps = (
             ("dry_slip", "vec *found", impulses, "Derivatives of the impulses of a rebound.", ()),

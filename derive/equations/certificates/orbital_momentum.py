@@ -18,8 +18,6 @@ potential of the attractions (in the functions below distances are over a):
 4. If no shear acts beyond a distance e < d, J stops growing at J_e, where omega = xi at e, and the slip energy that
    remains at d in that state is never transferred: it is subtracted in 3. If J is beyond J_e, nothing is transferred
    (`transferable_within_edge`).
-5. Lever arm at the surface: the exchange conserves sqrt(J) + (8/5) sqrt(xi) a along states of rigid rotation, which
-   replaces L, where J and xi have one sign, positive after a reflection. The slip energy counts where xi > omega at d.
 
 With the lever arm at mid-gap, G + slip energy is the energy above the least one with this L at d.
 """
@@ -37,7 +35,6 @@ from ..intermediates import SLIP
 from . import attraction
 from .pendulum import Functions
 
-RIGID = sp.Symbol("rigid_share", nonnegative=True)  # 1/(rho/a + surface_exchange), with omega = xi at the distance rho
 UNIT = sp.Symbol("rotation_energy_unit", positive=True)  # m a^2 Omega^2 over m v0^2
 
 
@@ -56,11 +53,6 @@ def spheres_inertia() -> sp.Expr:
 def exchanged(distance: sp.Expr, lever: sp.Expr) -> sp.Expr:
     """-dJ/dxi of the exchange by shear: dJ = -d F_t, (half the spheres' inertia) dxi = lever F_t."""
     return spheres_inertia() * distance / (2 * lever)
-
-
-def surface_exchange() -> sp.Expr:
-    """-dJ/dxi over the distance, for the lever arm at the surface."""
-    return exchanged(sp.Integer(1), sp.Integer(2))
 
 
 def midgap_slip_energy(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
@@ -94,48 +86,23 @@ def transferable_within_edge(distance: sp.Expr, edge: sp.Expr, momentum: sp.Expr
     return midgap_slip_energy(distance, momentum, turning) - midgap_slip_energy(distance, rigid, rigid / edge**2)
 
 
-def _potential(share: sp.Expr) -> sp.Expr:
-    """Antiderivative of rho/(rho + s)^5, in share = 1/(rho + s), with s = `surface_exchange()`."""
-    return -(share**3) / 3 + surface_exchange() * share**4 / 4
-
-
-def rigid_share(momentum: sp.Expr, turning: sp.Expr) -> sp.Expr:
-    """1/(rho + s) over 1/a, with rho^2 = J/xi and s = `surface_exchange()`."""
-    return sp.sqrt(turning) / (sp.sqrt(momentum) + surface_exchange() * sp.sqrt(turning))
-
-
-def surface_slip_energy(distance: sp.Expr, momentum: sp.Expr, turning: sp.Expr, share: sp.Expr) -> sp.Expr:
-    """Slip energy over m a^2 Omega^2 for the lever arm at the surface.
-
-    It is J^2/(2 d^2) minus what remains of it once omega = xi at d.
-    """
-    conserved = (sp.sqrt(momentum) + surface_exchange() * sp.sqrt(turning)) ** 4
-    there = 1 / (distance + surface_exchange())
-    return momentum**2 / (2 * distance**2) - conserved * (
-        distance**2 * there**4 / 2 + 2 * surface_exchange() * (_potential(share) - _potential(there))
-    )
-
-
-def definitions(structure: Structure) -> tuple[Definition, ...]:
+def definitions(_structure: Structure) -> tuple[Definition, ...]:
     """Named intermediates of the margins, in order."""
-    unit = (UNIT, nondimensional(a**2 * rate_scale**2 / v0**2))
-    return (unit,) if structure.reduced else (unit, (RIGID, rigid_share(orbital_momentum, spin)))
+    return ((UNIT, nondimensional(a**2 * rate_scale**2 / v0**2)),)
 
 
-def functions(structure: Structure) -> Functions:
+def functions(_structure: Structure) -> Functions:
     """The function `orbital_margins` of a state, evaluated at gaps ahead of the doublet.
 
-    `midgap` is the energy that can be transferred; so is `surface` where xi > omega >= 0, which a reflection permits.
+    `slip_energy` is the energy that can be transferred.
     """
     doc = (
         "Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the "
-        "slip energy for either lever arm; energies over m v0^2."
+        "slip energy; energies over m v0^2."
     )
     result = {
         "slip": SLIP,
         "orbital_energy": UNIT * orbital_momentum**2 / (2 * DISTANCE**2),
-        "midgap": UNIT * transferable(DISTANCE, orbital_momentum, spin),
+        "slip_energy": UNIT * transferable(DISTANCE, orbital_momentum, spin),
     }
-    if not structure.reduced:
-        result["surface"] = UNIT * surface_slip_energy(DISTANCE, orbital_momentum, spin, RIGID)
     yield "orbital_margins", doc, result

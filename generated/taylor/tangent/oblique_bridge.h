@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 cb1ee1eed30e33b404948f6630632543dd7d9630970d04a988b79a3498b3a893 */
+ * Equations sha256 13b4fe32c6a11cc3ccc28956ab63b503cccccb851151525fbb25da0cc4578506 */
 
 /* Tangent of oblique_bridge.h: derivatives of the states by the groups.
  *

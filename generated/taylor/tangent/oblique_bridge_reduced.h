@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 25c484a24a6a0fbf82301420e8260e0ce1e8764791cd47e9acfbcd775e9d3ec1 */
+ * Equations sha256 a100df1bc970fe527bdd9f8a323ea7b2a5602318c66dfcd0f8400dfd4ea5aba1 */
 
 /* Tangent of oblique_bridge_reduced.h: derivatives of the states by the groups.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 6ef5ae5d15c1f31eccf68fa7535e00fb5b79fe274ff68373a3da6ac741aee032 */
+ * Equations sha256 46118bb2dc6284791f81f98bd8d94fd9c262addfee5c79d3f7874b0e8dd047ad */
 
 /* Tangent of oblique_bridge_strings.h: derivatives of the states by the groups.
  *

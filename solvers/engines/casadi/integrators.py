@@ -278,7 +278,7 @@ def landing(flow: Flow, watch: WatchedEvents, event: str) -> Function:
     """One second-order Taylor step of a flow onto an event's surface: (y, parameters) -> (y*, dt, g(y*)).
 
     dt = -g/g' - g'' g^2/(2 g'^3), y* = y + f dt + f' dt^2/2. At a located event the step is nearly zero, but its
-    derivative is the saltation; the second-order terms make the Hessian correct as well.
+    derivative is the saltation; with the second-order terms its error is the square of the step.
     """
     parts, model = expressions(flow), flow.model
     motion, level = SX.sym("motion"), SX.sym("level")

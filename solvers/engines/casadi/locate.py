@@ -192,7 +192,7 @@ class EventLocator:
         phases, proof = len(self.path.steps), self.proof
         if phases < CHATTER_PHASES or phases % _NOW_AND_THEN or self.model.strings:
             return False
-        if not (isinstance(proof, OrbitalMomentumCertificate) and (proof.holds(self.y) or proof.settles(self.y))):
+        if not (isinstance(proof, OrbitalMomentumCertificate) and proof.holds(self.y)):
             return False
         self._next(PhaseRun(self.phase, 0.0, None, ()))
         self.path.certified = proof.theorem

@@ -93,7 +93,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "WITH_LEDGER": int(variant.ledger),
         "WITH_TRAJECTORY": int(variant.trajectory),
         "WITH_LIMIT": int(variant.limit),
-        "SURFACE_ARM": int(slots.get("arm") == "surface"),
+        "DRIFTS": int(slots.get("arm", "midgap") != "midgap"),  # the angular momentum
         "SHOWN": SHOWN_IN_SPACE if variant.space else SHOWN,
         "RESULTS": 1 if variant.backward else MORE_RESULTS + (SHOWN_IN_SPACE if variant.space else SHOWN),
         "MOST_STEPS": MOST_STEPS,

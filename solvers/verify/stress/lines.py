@@ -65,7 +65,6 @@ def _model(random: np.random.Generator) -> Model:
     if preset == "granulation":
         model["bridge.law"] = one_of(*BRIDGE_LAWS)
     model["partner"] = one_of("", "", "", "sphere", "wall")
-    model["model.arm"] = "midgap" if model["partner"] else one_of("midgap", "midgap", "midgap", "surface")
     model["attraction"] = one_of("", "", "van der Waals")
     return model | {"model.film": one_of("finite", *FILM_LAWS)}
 

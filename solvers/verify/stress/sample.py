@@ -67,7 +67,6 @@ def _models(count: int, seed: int) -> Iterator[lines.Model]:
             "friction": "" if point[8] < 0.5 else "solid" if point[8] < 0.8 else "all",
             "attraction": "yes" if point[9] < 0.25 else "",
             "film": film,
-            "arm": "midgap" if point[2] < 0.8 else "surface",
             "tangential": "immersed" if point[3] < 0.7 or not rim else "film",
             "glass": "literal" if point[4] < 0.7 or not rim else "film-corrected",
             "rupture": "own" if bridge in OWN_RUPTURE and point[10] < 0.2 else "common",
@@ -108,7 +107,7 @@ def _scene(name: str, model: lines.Model, point: Sequence[float]) -> Scene:
         reach = 2 * a * volume ** (1 / 3) * (1 + wetting / 2) if model["bridge"] else film
         entries |= {"pendulum.length": (4 * a + reach / 2) * length, "pendulum.gravity": gravity}
         entries["pendulum.law"] = model["strings"]
-    entries |= {f"model.{name}": model[name] for name in ("arm", "film", "tangential", "glass")}
+    entries |= {f"model.{name}": model[name] for name in ("film", "tangential", "glass")}
     entries["impact.stokes"] = log(1e-6, 1e4)
     steep, angle, close = even(0, 1) < 0.75, even(0.0, 1.0), log(0.01, 90.0)
     degrees = 89.99 * angle if steep else 90.0 - close
@@ -154,7 +153,6 @@ def _beside_boundaries(count: int) -> Iterator[Case]:
         ("granulation", {}),
         ("pendulum", {}),
         ("granulation", {"bridge.law": "willett"}),
-        ("granulation", {"model.arm": "surface"}),
         ("granulation", {"bridge.law": "constant"}),
         ("granulation-dry-bridge", {}),
         ("pendulum", {"model.glass": "film-corrected", "pendulum.law": "small-angle"}),

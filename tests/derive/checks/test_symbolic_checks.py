@@ -6,12 +6,9 @@ pytestmark = pytest.mark.slow
 
 
 def test_every_symbolic_check_holds(healthy):
-    """All checks hold of the derivation, but for notes: what the surface arm violates, and where no proof exists."""
+    """All checks hold of the derivation, but for notes, where no proof exists."""
     assert [check for check in healthy.values() if check.ok is False] == []
     assert {name for name, check in healthy.items() if check.ok is None} == {
-        "angular momentum, surface arm",
-        *(f"shear dissipates: {law}, surface arm" for law in ("immersed", "film")),
-        *(f"certificate: oblique_{partner}, surface arm" for partner in ("bridge", "strings")),
         *(f"certificate: oblique{more}" for more in ("", "_bridge_strings")),
         "film's rim: infinite",
     }
@@ -20,8 +17,8 @@ def test_every_symbolic_check_holds(healthy):
 
 def test_checks_of_a_scenes_laws_are_those_laws_alone(healthy, checked):
     """With laws chosen, each check of a law is of the one chosen; each name stands once, and none is new."""
-    names = [check.name for check in checked["surface arm, film shear"]]
+    names = [check.name for check in checked["film shear"]]
     assert len(set(names)) == len(names)
     assert set(names) < healthy.keys()
     left_out = healthy.keys() - set(names)
-    assert left_out == {name for name in healthy if "midgap arm" in name or "immersed" in name}
+    assert left_out == {name for name in healthy if "immersed" in name}

@@ -1,20 +1,22 @@
 """Invariants are found from the rates, what they eliminate is eliminated, and signs and certificates follow."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import sympy as sp
 from wetdoublet.derive.checks.admission import certificate
 from wetdoublet.derive.checks.base import nonnegative
-from wetdoublet.derive.checks.dissipation import shear_range
 from wetdoublet.derive.checks.restitution import ceiling
 from wetdoublet.derive.equations.invariants import NoInvariantError, conserved_momentum, invariants
 from wetdoublet.derive.physics.laws import LAWS
 from wetdoublet.derive.physics.structure import Structure
 from wetdoublet.derive.vocabulary import quantities as q
 
-MIDGAP, SURFACE = ({"arm": LAWS["arm"][name]} for name in ("midgap", "surface"))
+MIDGAP = {"arm": LAWS["arm"]["midgap"]}
+_LEVER = replace(LAWS["arm"]["midgap"].functions[0], result=sp.Integer(2))  # the radius, over a
+SURFACE = {"arm": replace(LAWS["arm"]["midgap"], name="surface", functions=(_LEVER,))}
 DEFAULT = {"film": "finite", "shear": "immersed", "bridge": "mikami", "strings": "exact"}
 FILLED = {slot: LAWS[slot][name] for slot, name in DEFAULT.items()}
 
@@ -91,20 +93,6 @@ def test_signs_are_proved_refuted_or_left_open():
     assert nonnegative(2 + sp.sin(7 * s) + sp.cos(5 * s) * s, s, edge).proved is None
 
 
-def test_the_surface_arms_range_is_that_of_its_power():
-    """Numerically, F_t (r omega - 4 a xi) is negative strictly between the stated ends and nowhere below the least."""
-    rate, low, high, least = shear_range(LAWS["shear"]["immersed"], LAWS["arm"]["surface"])
-    values = {q.a: 50e-6, q.mu: 2.0, q.x: 8e-6, q.omega: 1300.0}
-    power = sp.lambdify(q.xi, rate.subs(values))
-    ends = [float(end.subs(values)) for end in (low, high)]
-    assert ends == pytest.approx([1.0, 1 + 8e-6 / (4 * 50e-6)])
-    ratios = np.linspace(ends[0] - 0.05, ends[1] + 0.05, 2001)
-    found = power(ratios * 1300.0)
-    inside = (ratios > ends[0]) & (ratios < ends[1])
-    assert (found[inside] < 0).all() and (found[~inside] >= 0).all()
-    assert found.min() == pytest.approx(float(least.subs(values)), rel=1e-4)  # a parabola on steps of 1/4000 of it
-
-
 def test_the_ceiling_is_the_least_energy_found_by_search():
     """The closed-form ceiling agrees with a search over omega_f for the least rotational energy at this L."""
     m, a, x0, xf, v0, theta, spin = 5.2e-9, 50e-6, 8e-6, 46e-6, 0.5, math.radians(75), -7000.0
@@ -127,7 +115,7 @@ def test_certificates_are_admitted_where_their_premises_hold():
     assert proved.admitted and any("angular momentum" in text for text in proved.held)
     surface = certificate(bridge, SURFACE)
     assert not surface.admitted
-    assert "L not conserved" in surface.describe() and "D_t indefinite" in surface.describe()
+    assert "L not conserved" in surface.describe()
     assert "no barrier" in certificate(Structure(oblique=True, bridge=False, strings=False)).describe()
     assert "torque" in certificate(Structure(oblique=True, bridge=True, strings=True)).describe()
     assert certificate(Structure(oblique=False, bridge=False, strings=True)).admitted

@@ -221,9 +221,9 @@ def test_pairs_between_others_have_the_averages_of_their_own_collisions(toleranc
 
 
 def test_an_interrupted_matrix_goes_on(tmp_path: Path) -> None:
-    """Finished pairs are read from the journal and not computed again; the result is that of workers on all cores."""
+    """Finished pairs are kept and not computed again; the result is that of workers on all cores."""
     radii = np.geomspace(60e-6, 120e-6, 11)
-    journal, seen = tmp_path / "journal", list[int]()
+    resume, seen = tmp_path / "averages.nc", list[int]()
 
     def interrupt(done: int, total: int) -> None:
         assert total == 66
@@ -231,14 +231,14 @@ def test_an_interrupted_matrix_goes_on(tmp_path: Path) -> None:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        collision_averages("granulation", speeds=2.0, radii=radii, tolerance=1e-2, progress=interrupt, journal=journal)
+        collision_averages("granulation", speeds=2.0, radii=radii, tolerance=1e-2, progress=interrupt, resume=resume)
     found = collision_averages(
         "granulation",
         speeds=2.0,
         radii=radii,
         tolerance=1e-2,
         progress=lambda done, _: seen.append(done),
-        journal=journal,
+        resume=resume,
     )
     assert seen == [32, 64, 66]
     assert found.identical(collision_averages("granulation", speeds=2.0, radii=radii, tolerance=1e-2))

@@ -10,6 +10,7 @@ from wetdoublet.solvers import Boundaries, InputError, Scene, boundary, collide,
 from wetdoublet.solvers.boundaries.trace import trace
 
 from ...helpers.command import run
+from ...helpers.own_arm import surface
 
 pytestmark = pytest.mark.slow
 
@@ -167,7 +168,7 @@ def test_rosenbrock_traces_the_same_boundaries() -> None:
 )
 def test_critical_centrifugal_number(arm: str, expected: tuple[float, ...]) -> None:
     """Ce* on S/SRS at 30, 45, 60, 75 deg, as the independent prototype has it for both arms."""
-    scene = Scene.load("granulation").with_entries({"model.arm": arm})
+    scene = surface("granulation") if arm == "surface" else Scene.load("granulation")
     found = boundary(scene, angle=np.radians([30, 45, 60, 75]))
     for line, number in zip(found.changes, expected, strict=True):
         assert (line[0].before, line[0].after) == OUTCOMES[:2]
@@ -195,18 +196,13 @@ def test_critical_centrifugal_number_scales() -> None:
 
 @pytest.mark.parametrize(
     ("law", "expected"),
-    [("willett", 3.95), ("willett-simple", 4.70), ("soulie", 4.12), ("rabinovich", 5.78), ("lambert", 4.65),
-     ("constant", 6.8)],
+    [("willett", 3.95), ("willett-simple", 4.70), ("soulie", 4.12), ("rabinovich", 5.78), ("lambert", 4.65)],
 )  # fmt: skip
 def test_other_bridges(law: str, expected: float) -> None:
-    """Ce* at 45 deg, surface arm, other bridge laws, by the prototype; `constant` has its barrier at x_f."""
-    scene = Scene.load("granulation").with_entries({"bridge.law": law, "model.arm": "surface"})
+    """Ce* at 45 deg, surface arm, other bridge laws, by the prototype."""
+    scene = surface("granulation").with_entries({"bridge.law": law})
     found = boundary(scene, angle=math.pi / 4)
-    # as printed: half a unit of the last digit
-    assert found.changes[0][0].centrifugal == pytest.approx(expected, abs=0.05 if law == "constant" else 0.0055)
-    if law == "constant":  # a doublet that L's drift leaves circling beyond the film is not decided: midgap instead
-        scene = scene.with_entries({"model.arm": "midgap"})
-        found = boundary(scene, angle=math.pi / 4)
+    assert found.changes[0][0].centrifugal == pytest.approx(expected, abs=0.0055)  # half a unit of the last digit
     holds_on_both_sides(scene, found)
 
 

@@ -26,13 +26,8 @@ def trajectory(scene: Scene) -> EventLocator:
 
 @pytest.mark.parametrize(
     "changes",
-    [
-        {},
-        {"model.arm": "surface"},
-        {"attraction.hamaker": 1e-18},
-        {"partner.radius": "300 um", "partner.density": 2500},
-    ],
-    ids=["bridge", "surface arm", "attraction", "pair"],
+    [{}, {"attraction.hamaker": 1e-18}, {"partner.radius": "300 um", "partner.density": 2500}],
+    ids=["bridge", "attraction", "pair"],
 )
 def test_a_reflection_changes_nothing(changes: dict[str, Any]) -> None:
     """Along the line of centres the sense of a spin is arbitrary: outcomes, times and proofs of both are the same."""
@@ -61,7 +56,7 @@ def test_spins_that_throw_the_doublet_apart_are_not_held() -> None:
     assert min(float(each[2]) for each in states) < 0
 
 
-@pytest.mark.parametrize(("kind", "partner"), [("bridge", ""), ("bridge, surface arm", ""), ("film", "pair")])
+@pytest.mark.parametrize(("kind", "partner"), [("bridge", ""), ("film", "pair")])
 def test_no_certificate_holds_what_separates(kind: str, partner: str) -> None:
     """A small sample of the audit: at no event of a trajectory that separates is any certificate satisfied."""
     found = by_casadi(kind, partner, 6, 7)

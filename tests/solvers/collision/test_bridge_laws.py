@@ -9,6 +9,7 @@ import pytest
 from wetdoublet.solvers import InputError, ModelWarning, Scene, boundary, collide_many
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 
+from ...helpers.own_arm import surface
 from ...helpers.reference import collide
 
 # an independent prototype's Ce* at 45 deg with the surface arm, granulation
@@ -18,7 +19,6 @@ CRITICAL = {
     "soulie": 4.12,
     "rabinovich": 5.78,
     "lambert": 4.65,
-    "constant": 6.8,
     "mikami": 4.205,
 }
 
@@ -26,7 +26,7 @@ CRITICAL = {
 @pytest.mark.parametrize(("law", "critical"), CRITICAL.items())
 def test_critical_centrifugal_number(law, critical):
     """At 45 deg a doublet sticks 1 % below the listed Ce* and rotates and separates 1 % above it."""
-    scene = Scene.load("granulation").with_entries({"bridge.law": law, "model.arm": "surface"})
+    scene = surface("granulation").with_entries({"bridge.law": law})
     at = collide(scene, stokes=0.05, angle="45 deg", ledger=False)  # Ce goes with the square of St
     outcomes = []
     for part in (0.99, 1.01):
@@ -40,8 +40,7 @@ def test_critical_centrifugal_number(law, critical):
 @pytest.mark.slow
 def test_traced_critical_number():
     """The traced boundary of the paper's law is there as well, to the digits that are listed."""
-    scene = Scene.load("granulation").with_entries({"model.arm": "surface"})
-    first = boundary(scene, angle=math.radians(45), stokes=(0.03, 0.08)).changes[0][0]
+    first = boundary(surface("granulation"), angle=math.radians(45), stokes=(0.03, 0.08)).changes[0][0]
     assert first.centrifugal == pytest.approx(4.205, abs=5e-4)
 
 

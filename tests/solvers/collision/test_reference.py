@@ -3,7 +3,9 @@
 from typing import Any
 
 import pytest
-from wetdoublet.solvers import Collision, Scene, collide
+from wetdoublet.solvers import Collision, collide
+
+from ...helpers.own_arm import described
 
 RTOL = 1e-10
 TOLERANCE = 1e-7  # what both engines owe at RTOL
@@ -14,7 +16,7 @@ QUANTITIES = (
 
 
 def _collide(reference: dict[str, Any], engine: str) -> Collision:
-    scene = Scene.from_dict(reference["scene"])
+    scene = described(reference["scene"])
     return collide(
         scene, stokes=reference["impact"]["stokes"], angle=reference["impact"]["angle"], rtol=RTOL, engine=engine
     )
@@ -54,7 +56,7 @@ def test_reference_collisions(reference: dict[str, Any], engine: str) -> None:
 def test_rtol_is_honoured(separated_reference: dict[str, Any]) -> None:
     """CVODES' error in e_n falls with the tolerance, and at 1e-12 is below 1e-9 times the conditioning."""
     expected, impact = separated_reference["results"], separated_reference["impact"]
-    scene = Scene.from_dict(separated_reference["scene"])
+    scene = described(separated_reference["scene"])
     errors = []
     for rtol in (1e-5, 1e-12):
         found = collide(scene, stokes=impact["stokes"], angle=impact["angle"], rtol=rtol, ledger=False, engine="cvodes")
@@ -66,7 +68,7 @@ def test_rtol_is_honoured(separated_reference: dict[str, Any]) -> None:
 def test_ledger_off_leaves_the_collision_alone(reference: dict[str, Any]) -> None:
     """Without the ledger the reduced equations are integrated: same answer, energy and drift null."""
     impact = reference["impact"]
-    scene = Scene.from_dict(reference["scene"])
+    scene = described(reference["scene"])
     asked = {"stokes": impact["stokes"], "angle": impact["angle"], "rtol": RTOL, "engine": "cvodes"}
     full, lean = collide(scene, **asked), collide(scene, **asked, ledger=False)
     assert lean.energy is None

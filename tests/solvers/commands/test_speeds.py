@@ -32,9 +32,8 @@ SHOWN: dict[str, tuple[str, ...]] = {
     "averages": ("--tolerance", "1e-2"),
     "check": (),
     "fit": ("--free", "liquid.viscosity"),
-    "table": ("--over", "stokes=0.2:0.21,angle=10:12", "--error", "1e-2", "--attack", "100"),
 }
-DRAWN = {"collide", "sensitivity", "sensitivity band", "map", "boundary", "critical", "fit", "table"}
+DRAWN = {"collide", "sensitivity", "sensitivity band", "map", "boundary", "critical", "fit"}
 SILENT = {  # why the others show no speed
     "prove": "names in SI and Stokes numbers", "reproduce": "the paper's figures are over Stokes numbers and angles",
     "verify": "residuals of laws", "bench": "CPU times and errors", "export": "functions, whose headers name arguments",
@@ -91,8 +90,8 @@ def test_output_says_which_speed(name: str, scene: Path, tmp_path: Path) -> None
     words = [command, scene, *([scene.parent / "data.csv"] if command in ("fit", "check") else []), *SHOWN[name]]
     picture = tmp_path / "picture.svg"
     words += ["--plot", picture] if name in DRAWN else []
-    file = tmp_path / ("law.nc" if command == "table" else "table.csv")
-    words += ["-o", file] if command in ("table", "map") else []
+    file = tmp_path / "table.csv"
+    words += ["-o", file] if command == "map" else []
     with mpl.rc_context({"svg.fonttype": "none"}):
         done = run(*words)
     assert done.exit_code == 0, done.stderr

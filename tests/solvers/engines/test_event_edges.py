@@ -160,7 +160,7 @@ def test_the_first_of_two_gaps_within_a_step(engine: str) -> None:
             },
             "bridge": {"surface_tension": 0.0416485, "volume": 0.801985, "contact_angle": 1.08938},
             "pendulum": {"length": 0.00227479, "gravity": 0.513628, "law": "small-angle"},
-            "model": {"arm": "surface", "film": "cavitating", "glass": "film-corrected"},
+            "model": {"film": "cavitating", "glass": "film-corrected"},
             "impact": {"stokes": 396.157, "angle": 0.999148},
         }
     )  # fmt: skip

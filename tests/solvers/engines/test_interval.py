@@ -17,6 +17,8 @@ from wetdoublet.solvers.host.compiler import compiler, library
 from wetdoublet.solvers.host.user_cache import loaded
 from wetdoublet.solvers.model.model import select_model
 
+from ...helpers.own_arm import surface
+
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 
 HARNESS = """
@@ -257,10 +259,12 @@ def test_a_compiler_that_ignores_rounding_is_refused() -> None:
     assert engine(key, False, 0).library.interval_start() == 1
 
 
-@pytest.mark.parametrize("changes", [{"model.film": "cavitating"}, {"model.arm": "surface"}])
-def test_laws_without_an_enclosure_are_refused(changes: dict[str, str]) -> None:
-    """A film that cavitates and the surface arm are not provable here, with a reason."""
-    scene = Scene.load("granulation").with_entries(changes).with_impact(stokes=0.1, angle=0.5)
+@pytest.mark.parametrize("name", ["cavitating film", "surface arm"])
+def test_laws_without_an_enclosure_are_refused(name: str) -> None:
+    """A film that cavitates and the surface arm of a model file are not provable here, with a reason."""
+    plain = Scene.load("granulation")
+    scene = surface(plain) if name == "surface arm" else plain.with_entries({"model.film": "cavitating"})
+    scene = scene.with_impact(stokes=0.1, angle=0.5)
     proof = prove(scene)
     assert proof.outcome is None
     assert proof.reason

@@ -213,12 +213,7 @@ def test_the_radius_beside_a_wall_counts_twice() -> None:
 
 @pytest.mark.parametrize(
     ("changes", "reason"),
-    [
-        ({"partner.radius": "200 um", "partner.mass": "8e-5 g", "model.arm": "surface"}, "mid-gap"),
-        ({"model.arm": "surface"}, "mid-gap"),
-        ({"particles.friction": 0.2}, "friction"),
-        ({"model.film": "constant-volume"}, "follows the bridge's volume"),
-    ],
+    [({"particles.friction": 0.2}, "friction"), ({"model.film": "constant-volume"}, "follows the bridge's volume")],
 )
 def test_refusals_name_what_is_not_enclosed(changes: dict[str, object], reason: str) -> None:
     """The reason is what of the structure has no enclosure."""

@@ -309,7 +309,6 @@ def test_in_cpp_and_plain_doubles(folder: Path, tmp_path: Path):
     [
         (Scene.load("pendulum"), "pendulum hold the spheres in one plane"),
         (WALL.with_entries({"particles.friction": 0.3}), "particles.friction couples the directions along a wall"),
-        (GRANULATION.with_entries({"model.arm": "surface"}), "model.arm does not conserve the angular momentum"),
     ],
 )
 def test_the_header_says_why_there_is_none(scene: Scene, why: str):

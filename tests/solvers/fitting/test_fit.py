@@ -128,14 +128,6 @@ law = "willett"
     assert band.max() >= ends.max() - 1e-9
 
 
-def test_choices_to_compare_are_checked_first():
-    """A wrong name in --compare is named before the data are read."""
-    found = run("fit", "granulation", "none.csv", "--free", VISCOSITY, "--compare", "bridge.lw")
-    assert found.exit_code == 2
-    assert found.stderr.startswith("--compare: ")
-    assert "did you mean bridge.law?" in found.stderr
-
-
 def test_command(tmp_path):
     """The command prints the JSON of INTERFACE, with null for an open end; all sticks tell bounds alone."""
     data = tmp_path / "sticks.csv"

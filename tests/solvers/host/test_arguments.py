@@ -77,9 +77,7 @@ FUNCTIONS = {
     "sensitivities": {},
     "gradients_many": {},
     "boundary_sensitivities": {},
-    "trajectory_sensitivities": {},
     "band": {"uncertainty": {"liquid.viscosity": "5 %"}, "over": "impact.stokes", "values": [0.02]},
-    "sobol_indices": {"ranges": {"liquid.viscosity": (1.0, 2.0)}},
 }
 ARGUMENTS = [(name, each) for name in FUNCTIONS for each in inspect.signature(getattr(public, name)).parameters]
 FINE = [("progress", "a class"), ("slow", "a class")]  # what happens to be right

@@ -9,7 +9,7 @@ from contextlib import redirect_stderr
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import collide_many, collision_averages, design, fit, table
+from wetdoublet.solvers import collide_many, collision_averages, design, fit
 from wetdoublet.solvers.commands.bar import AtWork, Bar
 from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.host.progress import Estimated, duration, forecast
@@ -170,12 +170,6 @@ class TestEstimated:
         pytest.param(lambda tell: design("granulation", "liquid.viscosity", WINDOW, 2, progress=tell), id="design"),
         pytest.param(
             lambda tell: collision_averages("granulation", speeds="1 m/s", tolerance=1e-3, progress=tell), id="averages"
-        ),
-        pytest.param(
-            lambda tell: table(
-                "granulation", over={"stokes": (0.15, 0.2), "angle": (0.3, 0.4)}, error=1e-3, attack=2000, progress=tell
-            ),
-            id="table",
         ),
     ],
 )

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-import xarray as xr
 from wetdoublet.solvers.host import files
 
 from ...helpers.command import run
@@ -60,6 +59,8 @@ def test_what_a_path_is_stays(tmp_path: Path):
 
 COMMANDS = {
     "out.txt": ["collide", "granulation", "-o"],
+    "map.nc": [*MAP, "-o"],
+    "map.csv": [*MAP, "-o"],
     "out.json": ["collide", "granulation", "--json", "-o"],
     "flight.png": ["collide", "granulation", "--plot"],
     "code": ["export", "granulation", "--to", "casadi", "--out"],
@@ -73,25 +74,3 @@ def test_no_room_for_what_a_command_writes(name: str, full: Path):
     assert (done.exit_code, len(done.stderr.splitlines())) == (1, 1)
     assert re.match(rf"{full / name}\S*: {NO_ROOM}; accepted: a file that can be written", done.stderr)
     assert {path.name for path in full.rglob("*")} - {"code"} == {"old.txt", "filling"}
-
-
-def test_no_room_for_a_map(tmp_path: Path):
-    """Its collisions are kept, the line says where; with room again the same command writes what it would have."""
-    with small_disk(tmp_path / "disk", 1 << 17) as disk:
-        fill(disk, leaving=1 << 14)
-        done = run(*MAP, "-o", disk / "map.nc")
-        kept = f"9 of 9 collisions are kept in {disk / 'map.nc.partial'}; the same command computes nothing again"
-        assert done.stderr == f"{disk / 'map.nc'}: {NO_ROOM} ({kept}); accepted: a file that can be written\n"
-        assert (done.exit_code, {path.name for path in disk.iterdir()}) == (1, {"filling", "map.nc.partial"})
-        (disk / "filling").unlink()
-        assert run(*MAP, "-o", disk / "map.nc").exit_code == run(*MAP, "-o", tmp_path / "map.nc").exit_code == 0
-        with xr.open_dataset(disk / "map.nc") as found, xr.open_dataset(tmp_path / "map.nc") as expected:
-            xr.testing.assert_identical(found.load(), expected.load())
-        assert {path.name for path in disk.iterdir()} == {"map.nc"}
-
-
-def test_no_room_for_a_journal(full: Path):
-    """A map whose collisions cannot be kept ends at once, and leaves nothing half-written."""
-    done = run(*MAP, "-o", full / "map.nc")
-    assert (done.exit_code, done.stderr.partition(";")[0]) == (1, f"{full / 'map.nc.partial'}: {NO_ROOM}")
-    assert {path.name for path in full.iterdir()} == {"old.txt", "filling"}

@@ -108,7 +108,7 @@ def test_file_round_trip(data, tmp_path):
     [
         ({"stokes": [0.1, 0.1]}, "impact.stokes"),
         ({"stokes": np.linspace(0.1, 0.2, 4000), "angle": np.linspace(0, 1, 5000)}, "impact.angle"),
-        ({"vary": {"model.arm": "surface"}}, "vary"),
+        ({"vary": {"model.film": "finite"}}, "vary"),
         ({"of": ["e_n"]}, "of"),
     ],
 )

@@ -17,6 +17,7 @@ from wetdoublet.solvers.host.user_cache import loaded
 from wetdoublet.solvers.model.model import select_model
 
 from ...helpers.data import COLLISIONS
+from ...helpers.own_arm import described
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
@@ -161,7 +162,7 @@ def test_reference_collisions_lie_in_their_enclosures() -> None:
     """Outcome and restitution of an independent implementation of high precision, wherever there is a proof."""
     proved = 0
     for case in COLLISIONS:
-        proof = prove(Scene.from_dict(case["scene"]), **case["impact"])
+        proof = prove(described(case["scene"]), **case["impact"])
         if proof.outcome is not None:
             proved += 1
             assert proof.outcome == case["results"]["outcome"]

@@ -65,7 +65,8 @@ def test_positive_quantities(name):
         ),
         ({"particles.viscosity": "2 Pa s"}, "particles.viscosity", "did you mean liquid.viscosity?"),
         ({"liqid.viscosity": "2 Pa s"}, "liqid", "did you mean liquid?"),
-        ({"model.arm": "mid"}, "model.arm", "one of midgap, surface"),
+        ({"model.arm": "mid"}, "model.arm", "one of midgap"),
+        ({"model.arm": "surface"}, "model.arm", "docs/reference/models.md"),
         ({"model.glass": 3}, "model.glass", "one of literal, film-corrected"),
     ],
 )

@@ -18,7 +18,6 @@ pytestmark = pytest.mark.slow
 # scene, its changes, degrees, Stokes numbers about the one change that is looked at
 LINES = {
     "saddle": ("granulation", {}, 55, (0.02, 0.07)),
-    "saddle, surface arm": ("granulation", HARD | {"model.arm": "surface"}, 45, (0.03, 0.09)),
     "graze": ("granulation", {}, 45, (0.08, 0.2)),
     "graze, head-on": ("granulation", {}, 0, (0.08, 0.2)),
     "rim, turned": ("pendulum", {}, 45, (0.9, 1.25)),
@@ -43,7 +42,7 @@ TURNS_TWICE = {  # it turns, falls back, turns again, and leaves the film with t
     "impact": {"angle": 1.45188141, "spin": -33444.5068, "partner_spin": 18766.634},
     "partner": {"radius": 0.000177232893, "mass": 4.89652134e-08},
     "bridge": {"surface_tension": 0.000733545652, "volume": 0.000382948768},
-    "model": {"arm": "surface", "tangential": "film"},
+    "model": {"tangential": "film"},
 }  # fmt: skip
 NAMES = ("liquid.film_thickness", "liquid.viscosity", "particles.reduced_radius")
 _STEP = 2e-3

@@ -1,96 +1,20 @@
-"""What is made of sensitivities: trajectories, bands of uncertainty, Sobol indices, pictures, what a gradient costs."""
+"""What is made of sensitivities: bands of uncertainty, pictures, what a gradient costs."""
 
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray as xr
-from wetdoublet.solvers import (
-    ComputationError,
-    InputError,
-    Scene,
-    band,
-    collide,
-    sobol_indices,
-    trajectory_sensitivities,
-)
+from wetdoublet.solvers import InputError, Scene, band, collide
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.schema import FIELDS
 from wetdoublet.solvers.sensitivity import uncertainty
 from wetdoublet.solvers.sensitivity.uncertainty import deviations, first_order
 
 from ...helpers.reference import sensitivities
-from ...helpers.sensitive import CASES, GRANULATION, varied
+from ...helpers.sensitive import CASES, GRANULATION
 
 GLASS = CASES[0].scene
 WRT = ("liquid.viscosity", "impact.angle", "bridge.volume")
-
-
-@pytest.fixture(scope="module")
-def trajectory() -> xr.Dataset:
-    return trajectory_sensitivities(GLASS, WRT, rtol=1e-10)
-
-
-def test_the_end_of_a_trajectory_is_the_collision(trajectory: xr.Dataset) -> None:
-    """At rupture: dt_f/dp of the event, and du/dp at fixed time plus the acceleration times dt_f/dp is v0 de_n/dp."""
-    found = sensitivities(GLASS, ["restitution", "contact_time", "rotation", "final_spin"], WRT, rtol=1e-10)
-    late = trajectory.isel(time=slice(-8, None))
-    rate = {name: float(np.gradient(late[name].values, late.time.values, edge_order=2)[-1]) for name in
-            ("normal_velocity", "rotation", "spin", "gap")}  # fmt: skip
-    for name in WRT:
-        move = float(trajectory.d_event_time.sel(event="rupture", parameter=name))
-        assert move == pytest.approx(found.gradient["contact_time"][name], rel=1e-8)
-        for of, value, scale in (
-            ("normal_velocity", "restitution", GLASS.speed),
-            ("rotation", "rotation", 1.0),
-            ("spin", "final_spin", 1.0),
-        ):
-            slope = float(trajectory[f"d_{of}"].sel(parameter=name)[-1]) + rate[of] * move
-            expected = float(found.gradient[value][name] or 0.0) * float(scale or 0)
-            # differences of the last samples, which crowd towards the end, give the acceleration to 1e-4
-            assert slope == pytest.approx(expected, rel=1e-4, abs=1e-4 * abs(rate[of] * move))
-
-
-def test_along_a_trajectory(trajectory: xr.Dataset) -> None:
-    """dy(t)/dp at fixed t in each phase is what trajectories at two neighbouring parameters show at the same time."""
-    from scipy.interpolate import make_interp_spline
-
-    name, h = "liquid.viscosity", 1e-3
-    p = float(GLASS.entries[name])
-    up, down = (trajectory_sensitivities(varied(GLASS, name, p * (1 + sign * h)), [name]) for sign in (1, -1))
-    for phase in dict.fromkeys(trajectory.phase.values):
-        inside = np.flatnonzero(trajectory.phase.values == phase)[
-            12:-12
-        ]  # away from where one trajectory is a phase ahead
-        time = trajectory.time.values[inside]
-        for of in ("gap", "normal_velocity", "spin"):
-            high, low = (
-                make_interp_spline(one.time.values[here], one[of].values[here], k=5)(time)
-                for one in (up, down)
-                for here in [one.phase.values == phase]
-            )
-            slope = trajectory[f"d_{of}"].sel(parameter=name).values[inside] * p
-            # h^2 of the third derivative, some 1e-5; the spline is better
-            assert slope == pytest.approx((high - low) / (2 * h), abs=5e-5 * np.abs(slope).max())
-
-
-def test_saltation_at_the_rebound(trajectory: xr.Dataset) -> None:
-    """du/dp jumps where u jumps: from the state before and after, and the move of the event's time, in closed form.
-
-    At fixed t, du+ = -e_dry (du- + a- dt) - a+ dt with dt the move of the event and a the accelerations.
-    """
-    edge = int(np.flatnonzero(trajectory.phase.values[1:] != trajectory.phase.values[:-1])[0])
-    before, after = trajectory.isel(time=edge), trajectory.isel(time=edge + 1)
-    assert float(after.normal_velocity) == pytest.approx(-0.99 * float(before.normal_velocity), rel=1e-9)
-    u, t = trajectory.normal_velocity.values, trajectory.time.values
-    a_before = np.gradient(u[edge - 6 : edge + 1], t[edge - 6 : edge + 1], edge_order=2)[-1]
-    a_after = np.gradient(u[edge + 1 : edge + 8], t[edge + 1 : edge + 8], edge_order=2)[0]
-    for name in WRT:
-        move = float(trajectory.d_event_time.sel(event="glass", parameter=name))
-        du_before, du_after = (float(one.d_normal_velocity.sel(parameter=name)) for one in (before, after))
-        expected = -0.99 * (du_before + a_before * move) - a_after * move
-        assert du_after == pytest.approx(expected, rel=1e-3, abs=1e-3 * abs(a_after * move))  # accelerations: 1e-4
 
 
 def test_first_order_standard_deviation() -> None:
@@ -152,23 +76,6 @@ def test_the_table_tells_nothing_from_little() -> None:
     assert 0 < abs(found.elasticity["restitution"]["liquid.viscosity"]) < 1e-15
     lines = {line.split()[0]: line.split()[-1] for line in str(found).splitlines() if line.startswith(("p", "l"))}
     assert (lines["particles.roughness"], lines["liquid.viscosity"]) == ("none", "~0")
-
-
-def test_sobol_indices() -> None:
-    """Of a box in which one parameter matters and one has no influence: index about one, and exactly none."""
-    pytest.importorskip("SALib")
-    ranges = {"impact.angle": ("60 deg", "66 deg"), "particles.dry_restitution": (0.9, 1.0)}
-    found = sobol_indices(GRANULATION, ranges, samples=16)
-    assert float(found["total"].sel(parameter="particles.dry_restitution")) == pytest.approx(0.0, abs=1e-12)
-    assert float(found["total"].sel(parameter="impact.angle")) == pytest.approx(1.0, abs=0.5)  # 16 base samples
-    assert found.attrs["collisions"] == 64
-
-
-def test_without_salib(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One line says what to install."""
-    monkeypatch.setitem(sys.modules, "SALib.sample.sobol", None)
-    with pytest.raises(ComputationError, match=r"SALib; in the clone run pip install '\.\[global\]'"):
-        sobol_indices(GRANULATION, {"impact.angle": ("60 deg", "66 deg")}, samples=2)
 
 
 def test_the_scene_given_stays_as_it_is() -> None:

@@ -15,6 +15,7 @@ from wetdoublet.solvers.space.ends import Ends, gains_energy
 from wetdoublet.solvers.space.pairs import Pairs, checked
 
 from ...helpers.in_space import collided
+from ...helpers.own_arm import surface
 from ...helpers.random_in_space import arrivals as any_arrivals
 from ...helpers.random_in_space import differences, quantities, request
 from ...helpers.two_bodies import bodies_of
@@ -409,7 +410,6 @@ def test_velocities_and_spins_carry_units():
         (GRANULATION, [0, 0, 1], np.ones((2, 3)), None, "spins"),
         ("pendulum", [0, 0, 1], np.ones((2, 3)), np.ones((2, 3)), "pendulum"),
         (ROUGH.with_entries({"partner.wall": True}), [0, 0, 1], np.ones((1, 3)), np.ones((1, 3)), "particles.friction"),
-        (GRANULATION.with_entries({"model.arm": "surface"}), [0, 0, 1], np.ones((2, 3)), np.ones((2, 3)), "model.arm"),
     ],
 )
 def test_bad_input_is_named(scene, normal, velocities, spins, field):
@@ -417,6 +417,12 @@ def test_bad_input_is_named(scene, normal, velocities, spins, field):
     with pytest.raises(InputError) as caught:
         collide_pair(scene, normal, velocities, spins)
     assert caught.value.field == field
+
+
+def test_an_arm_with_which_angular_momentum_drifts_is_refused():
+    """A pair in space keeps its angular momentum; with the surface arm of a model file it would not."""
+    with pytest.raises(InputError, match="^model.arm: "):
+        collide_pair(surface("granulation"), [0, 0, 1], np.ones((2, 3)), np.ones((2, 3)))
 
 
 def test_what_is_a_rotation_is_one_threshold():

@@ -29,6 +29,7 @@ from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, sample
 from wetdoublet.solvers.verify.stress.scipy_engine import ScipyLocator
 from wetdoublet.solvers.verify.stress.verdict import FAST, RTOL, Case, Result
 
+from ...helpers.own_arm import described
 from ...helpers.scanned import scanned
 
 pytestmark = pytest.mark.slow
@@ -252,7 +253,6 @@ def test_strings_that_pull_far_harder_than_the_approach() -> None:
             },
             "liquid": {"viscosity": 5.81449e-05, "film_thickness": 0.00184799, "glass_transition_pressure": 67044200.0},
             "pendulum": {"length": 10.2548, "gravity": 2.76018, "law": "small-angle"},
-            "model": {"arm": "surface"},
         }
     )
     found = collide(scene, stokes=0.000165219, angle=0.175441, engine="rosenbrock")
@@ -312,13 +312,13 @@ def test_no_tolerance_is_tried_twice() -> None:
 
 def test_what_chatter_takes_is_booked() -> None:
     """A rebound at rest at initial contact leaves no energy behind: the ledger closes, in the dry contact's entry."""
-    scene = Scene.from_dict(
+    scene = described(
         {
             "particles": {"reduced_radius": 8e-6, "density": 900.0, "roughness": 3e-12, "dry_restitution": 0.7},
             "liquid": {"viscosity": 5e-3, "film_thickness": 5e-10, "glass_transition_pressure": 5e4},
             "bridge": {"surface_tension": 0.37, "volume": 1.5e-4, "contact_angle": 0.94},
             "pendulum": {"length": 1e-3},
-            "model": {"arm": "surface"},  # with the other it is proved to stick before it moves
+            "model": {"arm": "surface"},  # with the library's it is proved to stick before it moves
         }
     )
     found = collide(scene, stokes=1.7e-6, angle="14 deg")
@@ -364,7 +364,7 @@ def test_ranges_that_laws_leave_are_counted_once(recwarn: pytest.WarningsRecorde
 
 
 def _numbers(case: dict[str, Any]) -> tuple[Any, Any]:
-    scene = Scene.from_dict(case["scene"]).with_impact(stokes=case["impact"]["stokes"], angle=case["impact"]["angle"])
+    scene = described(case["scene"]).with_impact(stokes=case["impact"]["stokes"], angle=case["impact"]["angle"])
     n = nondimensionalise(scene, *scene.need_impact())
     return load(select_model(scene, n.oblique)), n.groups
 

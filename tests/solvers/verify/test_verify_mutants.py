@@ -230,10 +230,3 @@ def test_a_budget_with_a_failed_point_still_has_its_findings() -> None:
     assert failures(found.values()) == ["e_n^2 - 1: completed"]
     assert found["e_n^2 - 1: identity"].ok
     assert np.isnan(data["excess"].values[0, 1])
-
-
-def test_a_torque_that_is_off_is_found() -> None:
-    """Surface arm: a drift of L that is not the integral of -x F_t fails by name."""
-    collisions = sample.collisions(SCENE.with_entries({"model.arm": "surface"}), extent=FEW)
-    off = conserved.surface_arm(collisions, lambda trajectory: conserved.torque(trajectory) * (1 + 1e-4))
-    assert failures(off) == ["dL = -int x F_t dt"]

@@ -232,7 +232,7 @@ static mask held_at_rest(const constants *c, const vec *y, double tolerance)
     rigid_rotation(c, y, rigid);
     for (int state = ORBITAL_MOMENTUM; state < MODEL_STATES; state++)
         slip[state] = y[state] - rigid[state];
-    momentum += (SURFACE_ARM ? 2.0 : 1.0)*vec_sqrt(stored_energy(c, slip)/stored_energy(c, there));
+    momentum += (DRIFTS ? 2.0 : 1.0)*vec_sqrt(stored_energy(c, slip)/stored_energy(c, there));
 #endif
     there[ORBITAL_MOMENTUM] = splat(0.0);
     vec still = inward_force(c, there);
@@ -283,7 +283,7 @@ static mask tumbles(const constants *c, const vec *y, const barrier *b, double t
 }
 #endif
 
-#define WELLS (TURNS && PROOF_BY_ENERGY && !SURFACE_ARM && !SPACE)
+#define WELLS (TURNS && PROOF_BY_ENERGY && !DRIFTS && !SPACE)
 #if WELLS
 /* Lanes in which the effective potential rises, up to some gap ahead, by more than the energy above it. Where a minimum
  * and the maximum after it nearly merge, the barrier is too low for the error of the energies, but not for that of its

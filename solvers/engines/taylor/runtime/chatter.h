@@ -75,32 +75,18 @@ static void works_ahead(const constants *c, const vec *y, vec low, vec high, vec
 }
 
 #if ORBITAL_MARGINS
-/* Slip omega - xi at a gap, and the slip energy that shear can transfer before it. */
-static inline void slip_margins(const constants *c, const vec *there, vec *slip, vec *energy)
-{
-#if SURFACE_ARM
-    vec margins[ORBITAL];
-    orbital_margins(c, there, margins);
-    *slip = margins[SLIP_RATE];
-    *energy = margins[SLIP_ENERGY];
-#else
-    transferable(c, there, slip, energy);
-#endif
-}
-
 /* Energy that shear can still take from the spin to the orbit before a gap; beyond the edge of the shear, only until
- * omega = xi at the edge. With the lever arm at the surface this last is no theorem. */
-static vec exchanged(const constants *c, const vec *there, vec slip, vec energy, vec edge)
+ * omega = xi at the edge. */
+static vec exchanged(const constants *c, const vec *there, vec energy, vec edge)
 {
-    vec possible = SURFACE_ARM ? only(slip < 0.0, energy) : energy;
 #if STRINGS
     (void)c; (void)there; (void)edge;
-    return possible;
+    return energy;
 #else
     mask beyond = there[GAP] > edge;
     if (!bits(beyond))
-        return possible;
-    vec at_edge[STATES], left, rigid;
+        return energy;
+    vec at_edge[STATES], slip, left, rigid;
     memcpy(at_edge, there, sizeof at_edge);
     at_edge[GAP] = edge;
     rigid = rigid_momentum(c, at_edge);
@@ -111,9 +97,9 @@ static vec exchanged(const constants *c, const vec *there, vec slip, vec energy,
 #endif
     at_edge[GAP] = there[GAP];
     at_edge[ORBITAL_MOMENTUM] = rigid;
-    slip_margins(c, at_edge, &slip, &left);
+    transferable(c, at_edge, &slip, &left);
     mask past = choose(rigid < 0.0, -there[ORBITAL_MOMENTUM], there[ORBITAL_MOMENTUM]) >= vec_abs(rigid);
-    return choose(beyond, choose(past, splat(0.0), energy - left), possible);
+    return choose(beyond, choose(past, splat(0.0), energy - left), energy);
 #endif
 }
 
@@ -122,18 +108,8 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
 {
     vec from[STATES], slip, energy, inward = splat(0.0), attraction = inward, low = y[GAP], edge = tangential_edge(c);
     memcpy(from, y, sizeof from);
-#if SURFACE_ARM
-    vec sense = choose(y[ORBITAL_MOMENTUM] < 0.0, splat(-1.0), splat(1.0)); /* the bound is for positive momenta */
-    from[ORBITAL_MOMENTUM] *= sense;
-    from[SPIN] *= sense;
-#endif
     mask candidates = low < end, held = splat_mask(0);
-    vec u = from[NORMAL_VELOCITY], distance = 4.0 + c->aspect*low;
-#if SURFACE_ARM && !STRINGS
-    slip_margins(c, from, &slip, &energy);
-    vec spins = 16.0*(from[ORBITAL_MOMENTUM]/(distance*distance) - slip);
-    candidates &= (spins >= 0.0) & (spins <= from[ORBITAL_MOMENTUM]);
-#endif
+    vec u = from[NORMAL_VELOCITY];
     for (int k = 1; k <= AHEAD; k++) {
         double part = (double)k/(int)AHEAD;
         vec high = y[GAP] + (end - y[GAP])*(part*part*part), pull, still; /* denser at small distances */
@@ -143,10 +119,9 @@ static mask held_at_top(const constants *c, const vec *y, vec end, double tolera
         vec there[STATES];
         memcpy(there, from, sizeof there);
         there[GAP] = low = high;
-        slip_margins(c, there, &slip, &energy);
-        vec gained = exchanged(c, there, slip, energy, edge);
+        transferable(c, there, &slip, &energy);
+        vec gained = exchanged(c, there, energy, edge), distance = 4.0 + c->aspect*high;
         slip = vec_abs(slip);
-        distance = 4.0 + c->aspect*high;
         vec size = vec_abs(from[ORBITAL_MOMENTUM]) + slip*distance*distance;
         vec rotational = c->obliquity*c->obliquity*(1.0/16.0)*size*only(gained > 0.0, slip);
         vec error = u*u + vec_abs(u) + 2.0*vec_abs(attraction) + vec_abs(inward) + rotational;

@@ -18,7 +18,7 @@
 typedef struct {
     vec near_gap, near_height; /* the first maximum not exceeded by any beyond it, and the next such maximum */
     vec far_gap, far_height;   /* heights include the work against attractions; -infinity if there is none */
-#if SURFACE_ARM
+#if DRIFTS
     vec near_work, far_work; /* the part of the heights that does not depend on the rotation */
 #endif
     vec largest;               /* energy at initial contact */
@@ -157,13 +157,13 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
     mask hidden = NOT(b->near_height > b->far_height);
     b->near_gap = choose(hidden, b->far_gap, b->near_gap);
     b->near_height = choose(hidden, b->far_height, b->near_height);
-#if SURFACE_ARM
+#if DRIFTS
     b->near_work = b->near_height - energy_at(c, y, b->near_gap);
     b->far_work = b->far_height - energy_at(c, y, b->far_gap);
 #endif
 }
 
-#if !SURFACE_ARM
+#if !DRIFTS
 /* The height of the barrier ahead of a gap; -infinity if there is none. */
 static inline vec height_ahead(const vec *y, const barrier *b)
 {
@@ -189,33 +189,7 @@ static inline vec work_done(const constants *c, const vec *y, const barrier *b)
 #endif
 }
 
-#if SURFACE_ARM && BY_ORBITAL_MOMENTUM && ATTRACTS
-/* Orbital-momentum certificate for a gap ahead, for the lever arm at the surface, which does not conserve angular
- * momentum (derive/equations/certificates/orbital_momentum.py).
- */
-static inline mask out_of_reach(const constants *c, const vec *y, const barrier *b, vec gap, vec work, double tolerance)
-{
-    vec here[ORBITAL], there[ORBITAL], beyond[STATES], sense = choose(y[ORBITAL_MOMENTUM] < 0.0, splat(-1.0), splat(1.0));
-    memcpy(beyond, y, sizeof beyond); /* reflected: the bound is for positive momenta */
-    beyond[ORBITAL_MOMENTUM] *= sense;
-    beyond[SPIN] *= sense;
-    orbital_margins(c, beyond, here);
-    beyond[GAP] = gap;
-    orbital_margins(c, beyond, there);
-    vec needed = 0.5*y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY] + work_done(c, y, b) - work + here[ORBITAL_ENERGY] - there[ORBITAL_ENERGY]
-                 + only(there[SLIP_RATE] < 0.0, there[SLIP_ENERGY]);
-    vec margin = SAFETY*tolerance*(b->largest + vec_abs(work)); /* infinite without a barrier: test false */
-    mask covered = (beyond[SPIN] >= 0.0) & (beyond[ORBITAL_MOMENTUM] >= 16.0*beyond[SPIN]);
-    return (gap > y[GAP]) & covered & (needed < -margin);
-}
-
-static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
-{
-    (void)rests;
-    return out_of_reach(c, y, b, b->near_gap, b->near_work, tolerance)
-           | out_of_reach(c, y, b, b->far_gap, b->far_work, tolerance);
-}
-#elif SURFACE_ARM && ATTRACTS
+#if DRIFTS && ATTRACTS
 /* The orbital momentum of rigid rotation at a gap. */
 static inline vec rigid_at(const constants *c, const vec *y, vec gap)
 {
@@ -237,8 +211,9 @@ static inline mask below(const constants *c, const vec *y, const barrier *b, vec
     deviation *= (1.0 + c->contact_tangential_restitution)/(1.0 - c->contact_tangential_restitution);
 #endif
     vec change = deviation + only(NOT(rests), risen);
-    vec lost = change*c->aspect*reach/(4.0 + c->aspect*reach);
     memset(one, 0, sizeof one);
+    one[GAP] = reach;
+    vec lost = change*vec_abs(momentum_share(c, one));
     one[GAP] = y[GAP];
     one[ORBITAL_MOMENTUM] = splat(1.0);
     vec drift = 4.0*stored_energy(c, one)*vec_larger(vec_abs(y[ORBITAL_MOMENTUM]), vec_abs(rigid))*lost;
@@ -251,7 +226,7 @@ static inline mask below_barrier(const constants *c, const vec *y, const barrier
     return below(c, y, b, b->near_gap, b->near_work, rests, tolerance)
            | below(c, y, b, b->far_gap, b->far_work, rests, tolerance);
 }
-#elif !SURFACE_ARM
+#elif !DRIFTS
 /* Lanes whose mechanical energy is below the barrier ahead by more than its error. */
 static inline mask below_barrier(const constants *c, const vec *y, const barrier *b, mask rests, double tolerance)
 {

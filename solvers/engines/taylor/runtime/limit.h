@@ -34,7 +34,7 @@ static inline int goes_on_stuck(queue *q, int certified)
         return 0;
     if (!q->contact->stuck) {
         q->contact->stuck = 1;
-        q->contact->certified = certified && !SURFACE_ARM;
+        q->contact->certified = certified && !DRIFTS;
     }
     return 1;
 }

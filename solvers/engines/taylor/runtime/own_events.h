@@ -23,7 +23,7 @@ static inline mask own_watched(const vec *y, int which, mask closing, vec film)
     return wanted;
 }
 
-#if defined(POTENTIAL) && (!SURFACE_ARM || WALL || !OBLIQUE)
+#if defined(POTENTIAL) && (!DRIFTS || WALL || !OBLIQUE)
 #define OWN_PROOFS 1
 enum { OWN_PARTS = 24 }; /* of the film, and as many beyond it, within which the potential is bounded by its parts at their ends */
 
@@ -121,7 +121,7 @@ static mask held_beside_events(const constants *c, const vec *y, mask candidates
     memset(first, 0, sizeof first);
     start(c, first);
     find_barriers(c, y, contact_gap(c), end, &b);
-#if SURFACE_ARM
+#if DRIFTS
     return splat_mask(0);
 #else
     vec height = height_ahead(y, &b), energy = whole_energy(c, y);

@@ -140,7 +140,7 @@ static inline double quantity(const queue *q, int k, long index)
 
 static void put(queue *q, long index, int status, int outcome, int certified)
 {
-    certified = certified && !SURFACE_ARM; /* angular momentum drifts, so this is no certificate */
+    certified = certified && !DRIFTS; /* angular momentum drifts, so this is no certificate */
     answer *a = &q->answers[index];
     a->status = status;
     a->outcome = outcome;

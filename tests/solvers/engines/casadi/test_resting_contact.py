@@ -16,9 +16,7 @@ from wetdoublet.solvers.model.model import load, select_model
 from ....helpers.independent import Spheres, integrated
 
 
-@pytest.mark.parametrize(
-    ("entries", "criterion"), [({"model.arm": "surface"}, "elastic"), ({"particles.roughness": "4 um"}, "rough")]
-)
+@pytest.mark.parametrize(("entries", "criterion"), [({}, "elastic"), ({"particles.roughness": "4 um"}, "rough")])
 def test_chatter_rests(entries: dict[str, object], criterion: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """A stick that is not proved and continued is pulled onto the solids, chatters, and comes to rest at their gap."""
     monkeypatch.setattr(locate, "STRETCHES", 4)

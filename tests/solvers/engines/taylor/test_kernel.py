@@ -16,13 +16,14 @@ from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.results import QUANTITIES
 
+from ....helpers.own_arm import described
+
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
 EVERYTHING = tuple(QUANTITIES)
 RANGES = {"granulation": (0.005, 0.5), "pendulum": (0.3, 10.0), "granulation-dry-bridge": (0.005, 0.5)}
 VARIANTS: list[tuple[str, dict[str, Any]]] = [
     *((preset, {}) for preset in RANGES),
     ("granulation", {"bridge.law": "rabinovich", "bridge.contact_angle": 0.3}),
-    ("granulation", {"model.arm": "surface"}),
     ("pendulum", {"model.tangential": "film", "pendulum.law": "small-angle", "model.glass": "film-corrected"}),
 ]
 
@@ -63,7 +64,7 @@ def test_reference_collisions(reference: dict[str, Any]):
     """The independent 80-bit reference, to its error and ours: 1e-13 times the conditioning, with some steps' worth."""
     expected = reference["results"]
     found = collide(
-        Scene.from_dict(reference["scene"]),
+        described(reference["scene"]),
         stokes=reference["impact"]["stokes"],
         angle=reference["impact"]["angle"],
         rtol=1e-13,

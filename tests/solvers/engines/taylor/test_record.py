@@ -15,6 +15,7 @@ from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
 
 from ....helpers.data import COLLISIONS as REFERENCE
+from ....helpers.own_arm import described, surface
 
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
 RTOL = 1e-9
@@ -80,7 +81,7 @@ def test_angular_momentum_is_seen_to_be_kept():
 
 def test_the_surface_arm_drifts():
     """The arm that does not conserve L is seen to drift, by as much as in the reference."""
-    scene = Scene.load("granulation").with_entries({"model.arm": "surface"})
+    scene = surface("granulation")
     mine, other = (
         collide(scene, stokes=0.045, angle="55 deg", engine=engine, rtol=rtol, trajectory=True)
         for engine, rtol in (("taylor", RTOL), ("rosenbrock", 1e-11))
@@ -94,7 +95,7 @@ def test_the_surface_arm_drifts():
 def test_reference_energies(case: dict[str, Any]):
     """Energies of the independent 80-bit reference, for the scenes whose kernels are compiled here."""
     expected = case["results"]
-    found = collide(Scene.from_dict(case["scene"]), **case["impact"], engine="taylor", trajectory=True, rtol=RTOL)
+    found = collide(described(case["scene"]), **case["impact"], engine="taylor", trajectory=True, rtol=RTOL)
     assert found.engine == "taylor"
     assert found.energy is not None
     bound = found.steps * RTOL * expected["energy"]["initial"]

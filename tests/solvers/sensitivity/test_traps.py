@@ -1,128 +1,27 @@
-"""Second derivatives, and the traps of differentiating through CasADi's integrators, each kept shut."""
+"""The traps of differentiating through CasADi's integrators, each kept shut."""
 
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 import pytest
-from casadi import Function, jtimes, vertcat
-from wetdoublet.solvers import InputError, Scene, collide, sensitivities
+from casadi import Function, vertcat
+from wetdoublet.solvers import Scene, collide, sensitivities
 from wetdoublet.solvers.engines.casadi import integrators
 from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance_for
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import SX, load, select_model
-from wetdoublet.solvers.model.phases import Flow, Region, event_table, expressions
+from wetdoublet.solvers.model.phases import Flow, Region, expressions
 from wetdoublet.solvers.sensitivity import derivatives
 from wetdoublet.solvers.sensitivity import trajectory_expression as graph
 from wetdoublet.solvers.sensitivity.derivatives import evaluate
 from wetdoublet.solvers.sensitivity.problem import Problem
 
-from ...helpers.sensitive import CASES, DRY, GRANULATION, PENDULUM, differences, varied
+from ...helpers.sensitive import CASES, DRY, GRANULATION, differences
 
 pytestmark = pytest.mark.slow
 
 GLASS = CASES[0].scene
 WRT = ("liquid.glass_transition_pressure", "bridge.volume", "liquid.film_thickness", "impact.angle")
-
-
-def logarithmic(found: Any, of: str) -> np.ndarray:
-    """p_i p_j d2y/dp_i dp_j: of order one, whatever the units."""
-    p = np.array(list(found.reference.values()))
-    hessian = np.array([list(row.values()) for row in found.hessian[of].values()], dtype=float)
-    return np.asarray(hessian * np.outer(p, p))
-
-
-def by_differences(scene: Scene, of: str, names: tuple[str, ...], step: float = 2e-3) -> np.ndarray:
-    """The same from central differences of gradients, extrapolated once: an error of fourth order in the step."""
-    at = {name: float(scene.entries[name]) for name in names}
-
-    def gradient(name: str, part: float) -> np.ndarray:
-        changed = varied(scene, name, at[name] * (1 + part))
-        row = sensitivities(changed, [of], names, method="adjoint", rtol=1e-12).gradient[of]
-        return np.array([at[one] * float(row[one] or 0.0) for one in names])
-
-    columns = []
-    for name in names:
-        coarse, fine = ((gradient(name, h) - gradient(name, -h)) / (2 * h) for h in (step, step / 2))
-        columns.append((4 * fine - coarse) / 3)
-    return np.array(columns).T
-
-
-@pytest.mark.parametrize("of", ["restitution", "contact_time"])
-def test_hessian_is_that_of_differences(of: str) -> None:
-    """Second derivatives through a glass event, film edge and rupture, in parameters of 1e-5 m and 1e7 Pa alike.
-
-    The differences are good to 1e-8 of the largest; derivatives in SI, not in parts of each parameter, failed here.
-    """
-    scene = GLASS.with_impact(speed=GLASS.speed)
-    found = logarithmic(sensitivities(scene, [of], WRT, hessian=True, rtol=1e-11), of)
-    expected = by_differences(scene, of, WRT)
-    assert found == pytest.approx(expected, abs=1e-7 * np.abs(expected).max())
-    assert found == pytest.approx(found.T, abs=1e-12 * np.abs(found).max())
-
-
-def test_hessian_of_a_turned_pendulum_collision() -> None:
-    """As above where the doublet turns by itself, with strings."""
-    scene = PENDULUM.with_impact(stokes=1.0, angle="60 deg")
-    scene, names = scene.with_impact(speed=scene.speed), ("pendulum.length", "impact.angle")
-    found = logarithmic(sensitivities(scene, wrt=names, hessian=True, rtol=1e-11), "restitution")
-    expected = by_differences(scene, "restitution", names)
-    assert found == pytest.approx(expected, abs=1e-7 * np.abs(expected).max())
-
-
-def test_hessian_times_a_vector() -> None:
-    """One direction gives what the whole matrix gives times it, and both show; no parameter's name is refused."""
-    vector = {"bridge.volume": 0.1, "impact.angle": 0.5}
-    found = sensitivities(GLASS, ["contact_time"], WRT, hessian=True)
-    along = sensitivities(GLASS, ["contact_time"], WRT, hessian=vector)
-    whole, times = found.hessian, along.hessian_times
-    assert whole is not None
-    assert times is not None
-    for name in WRT:
-        row = whole["contact_time"][name]
-        expected = sum(float(row[one] or 0.0) * part for one, part in vector.items())
-        assert times["contact_time"][name] == pytest.approx(expected, rel=1e-9)
-        shown = [line.split()[1:] for line in str(found).splitlines() if line.startswith(f"{name} ")]
-        assert [float(cell) for cells in shown[1:] for cell in cells] == pytest.approx(list(row.values()), rel=1e-5)
-        assert f"{times['contact_time'][name]:.6g}" in str(along)
-    with pytest.raises(InputError, match="hessian"):
-        sensitivities(GLASS, wrt=WRT, hessian={"bridge.volum": 1.0})
-
-
-def test_cvodes_has_no_second_derivatives() -> None:
-    """It is refused by name instead of returning what CasADi's CVODES makes of it."""
-    with pytest.raises(InputError, match="engine.*rosenbrock.*|rosenbrock"):
-        sensitivities(GLASS, hessian=True, engine="cvodes")
-
-
-# ---- the landing step
-
-
-@lru_cache(maxsize=64)
-def first_order(flow: Flow, watch: Any, event: str) -> Function:
-    """A landing by the first-order Taylor step: y + f dt with dt = -g/g'."""
-    parts, motion, level = expressions(flow), SX.sym("motion"), SX.sym("level")
-    g = {each.name: each.function for each in event_table(flow, watch, motion, level)}[event]
-    y = parts.variables
-    dt = -g / jtimes(g, y, parts.rates)
-    inputs = [y, vertcat(flow.model.parameters, motion, level)]
-    return Function("land", inputs, [y + parts.rates * dt, dt, g])
-
-
-def test_the_first_order_landing_is_not_enough(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With it the gradient is right and the Hessian wrong by a part of order one: why there is a second-order term."""
-    right = sensitivities(GLASS, wrt=WRT, hessian=True, rtol=1e-10)
-    monkeypatch.setattr(graph, "landing", first_order)
-    for cached in (graph.trajectory_expression, graph.ending, derivatives.first_derivatives, derivatives.curvature):
-        cached.cache_clear()
-    wrong = sensitivities(GLASS, wrt=WRT, hessian=True, rtol=1e-10)
-    for cached in (graph.trajectory_expression, graph.ending, derivatives.first_derivatives, derivatives.curvature):
-        cached.cache_clear()
-    for name in WRT:
-        expected = right.elasticity["restitution"][name]
-        assert wrong.elasticity["restitution"][name] == pytest.approx(expected, rel=1e-8, abs=1e-9)
-    one, other = (logarithmic(found, "restitution") for found in (right, wrong))
-    assert np.abs(one - other).max() > 0.1 * np.abs(one).max()
 
 
 # ---- events that are true where a phase starts

@@ -1,18 +1,18 @@
-"""Requests in chunks: Zarr stores that continue, and a real Dask cluster, one of whose workers is killed."""
+"""Maps in blocks: what a killed client or worker leaves is finished, and only what is missing is computed."""
 
 import os
-import shutil
 import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
 import xarray as xr
-from wetdoublet.solvers import ComputationError, InputError, collide_many, regime_map, sobol_indices
-from wetdoublet.solvers.many.stream import chunks
+from wetdoublet.solvers import ComputationError, InputError, Scene, regime_map
+from wetdoublet.solvers.many.blocks import blocks
 
-from ...helpers.command import run
+from ...helpers.command import PATIENCE, run
 
 pytest.importorskip("zarr")
 distributed = pytest.importorskip("distributed")
@@ -47,9 +47,9 @@ def same(one, other):
 
 @pytest.mark.parametrize("shape", [(1,), (100_003,), (300, 7), (5, 4000, 3, 2), (10_000, 10_000)])
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
-def test_chunks_cover_a_request_once(shape, engine):
-    """Every collision is in one chunk, and no chunk is larger than the kernel takes in one call."""
-    cut = chunks(shape, engine)
+def test_blocks_cover_a_map_once(shape, engine):
+    """Every collision is in one block, and no block is larger than the kernel takes in one call."""
+    cut = blocks(shape, engine)
     extents = [[part.stop - part.start for part in at] for at in cut]
     assert sum(map(np.prod, extents)) == np.prod(shape)
     assert max(map(np.prod, extents)) <= 65536
@@ -71,33 +71,8 @@ def test_a_stored_map_is_the_map(tmp_path, serial):
     assert [path.name for path in tmp_path.iterdir()] == ["map.zarr"]
 
 
-def test_stored_collisions_are_the_collisions(tmp_path, cluster):
-    """Arrays of any shape, labels, times and varying laws are stored as they are returned."""
-    angle = xr.DataArray([0.0, 0.9, 1.2, 1.4], dims="row", coords={"lot": ("row", ["a", "b", "c", "d"])})
-    day = np.array(["2020-01-01", "2020-02-01"], "M8[ns]")
-    stokes = xr.DataArray([0.02, 0.2], dims="day", coords={"day": day})
-    requests = (
-        {"stokes": stokes, "angle": angle, "of": ["reversal", "validity", "capillary"]},
-        {"stokes": 0.02, "angle": [1.3, 1.2], "vary": {"bridge.law": ["mikami", "willett"]}},
-        {"stokes": np.full((2, 3), 0.02), "angle": 1.3, "vary": {"liquid.viscosity": [1.0, 1e-30, 2.0]}},
-    )
-    for request in requests:
-        expected = collide_many("granulation", **request)
-        same(collide_many("granulation", **request, store=tmp_path / "many.zarr"), expected)
-        same(collide_many("granulation", **request, client=cluster), expected)
-
-
-def test_sobol_indices_of_a_cluster(tmp_path, cluster):
-    """A global study has the same indices and intervals, and keeps its collisions."""
-    pytest.importorskip("SALib")
-    box = {"impact.angle": ("60 deg", "66 deg"), "liquid.viscosity": ("1.9 Pa s", "2.1 Pa s")}
-    found = sobol_indices("granulation", box, samples=16, client=cluster, store=tmp_path / "sobol.zarr")
-    xr.testing.assert_identical(found, sobol_indices("granulation", box, samples=16))
-    assert xr.open_zarr(tmp_path / "sobol.zarr").sizes == {"collision": 64}
-
-
 def test_an_interrupted_store_is_continued(tmp_path, serial):
-    """Finished chunks are kept, the store has no name before it is complete, and the next run computes the rest."""
+    """Finished blocks are kept, the store has no name before it is complete, and the next run computes the rest."""
     path, seen = tmp_path / "map.zarr", []
 
     def until_some_are_done(done, total):
@@ -111,57 +86,148 @@ def test_an_interrupted_store_is_continued(tmp_path, serial):
     again = []
     found = regime_map("granulation", **GRID, store=path, progress=lambda done, _total: again.append(done))
     assert again[0] == seen[-1] > 0
-    assert len(seen) + len(again) == len(chunks((120, 125), "taylor")) + 2
+    assert len(seen) + len(again) == len(blocks((120, 125), "taylor")) + 2
     same(found, serial)
     assert [each.name for each in tmp_path.iterdir()] == ["map.zarr"]
 
 
-@pytest.mark.parametrize("damage", ["zarr.json", "outcome/zarr.json", "outcome"])
-def test_a_damaged_unfinished_store_is_named(tmp_path, damage):
-    """What is not as it was written is not continued; the error says which folder it is, and what to do."""
+def interrupted_after(blocks):
+    """A progress that interrupts when so many blocks are finished."""
+    left = iter(range(blocks + 1))
 
-    def interrupt(done, _total):
+    def progress(_done, _total):
+        if next(left) == blocks:
+            raise KeyboardInterrupt
+
+    return progress
+
+
+def test_a_damaged_unfinished_store(tmp_path, serial):
+    """A block whose outcomes are damaged is computed again; without its description all is; no bit gets through."""
+    draw, counts = np.random.default_rng(1), []
+    for damaged in ("outcome/c/0/0", "zarr.json"):
+        with pytest.raises(KeyboardInterrupt):
+            regime_map("granulation", **GRID, store=tmp_path / "map.zarr", progress=interrupted_after(4))
+        (file, *_) = next(tmp_path.glob("*.unfinished")).glob(damaged)
+        content = bytearray(file.read_bytes())
+        content[draw.integers(len(content)) if damaged != "zarr.json" else 0] ^= 1 << draw.integers(8)
+        file.write_bytes(content)
+        counts.append([])
+        found = regime_map(
+            "granulation", **GRID, store=tmp_path / "map.zarr", progress=lambda done, _: counts[-1].append(done)
+        )
+        same(found, serial)
+    sizes = [np.prod([part.stop - part.start for part in at]) for at in blocks((120, 125), "taylor")]
+    assert [each[0] for each in counts] == [sum(sizes[1:4]), 0]
+
+
+KILLED = """
+import os, signal, sys
+import numpy as np
+from wetdoublet.solvers import regime_map
+from wetdoublet.solvers.many import blocks
+
+plain, left = blocks._write, iter(range(4))
+
+def killing(*block):
+    plain(*block)
+    if next(left) == 3:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+blocks._write = killing
+axes = {"stokes": np.geomspace(0.005, 0.5, 125), "angle": np.linspace(0, 1.5, 120)}
+regime_map("granulation", **axes, store="map.zarr")
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are sent as on POSIX")
+def test_a_killed_client_loses_nothing_that_was_written(tmp_path, serial):
+    """Killed outright behind its fourth block: the second call computes the others and no more, to the same bits."""
+    done = subprocess.run([sys.executable, "-c", KILLED], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == -signal.SIGKILL, done.stderr
+    (place,) = tmp_path.iterdir()
+    assert place.name.startswith("map.zarr.")
+    seen, sizes = [], [np.prod([part.stop - part.start for part in at]) for at in blocks((120, 125), "taylor")]
+    found = regime_map("granulation", **GRID, store=tmp_path / "map.zarr", progress=lambda done, _: seen.append(done))
+    assert seen == [sum(sizes[: 4 + k]) for k in range(len(sizes) - 3)]
+    same(found, serial)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are sent as on POSIX")
+@pytest.mark.slow
+def test_a_killed_command_goes_on(tmp_path):
+    """`map --scheduler` killed in mid-run with its workers, and given again: the map that one run makes."""
+    line = ["map", "granulation", "--stokes", "log:0.005:0.5:300", "--angle", "0:85:300", "--scheduler", "local:2"]
+    command = [sys.executable, "-m", "wetdoublet.solvers", *line, "-o", "map.zarr"]
+    first = subprocess.Popen(command, cwd=tmp_path, stdout=-3, stderr=-3, start_new_session=True)
+    deadline = time.monotonic() + PATIENCE
+    while first.poll() is None and not any(tmp_path.glob("*.unfinished/outcome/c/*/*")):
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    if first.poll() is None:
+        os.killpg(first.pid, signal.SIGKILL)
+    first.wait()
+    written = len([*tmp_path.glob("*.unfinished/outcome/c/*/*")])
+    second = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (second.returncode, second.stderr) == (0, "")
+    found = xr.open_zarr(tmp_path / "map.zarr")
+    same(found, regime_map("granulation", stokes=found.stokes.values, angle=found.angle.values))
+    assert written > 0
+
+
+# ---- in memory
+
+
+def test_an_interrupted_map_in_memory_is_continued(tmp_path):
+    """What an interrupt finds finished is read by the same call, which computes the rest and removes it."""
+    grid = {"stokes": np.geomspace(0.005, 0.5, 8), "angle": np.linspace(0, 1.5, 8), "engine": "rosenbrock"}
+    seen = []
+
+    def until_something_is_done(done, total):
+        seen.append((done, total))
         if done:
             raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
-        regime_map("granulation", **GRID, store=tmp_path / "map.zarr", progress=interrupt)
-    (place,) = tmp_path.glob("*.unfinished")
-    if damage == "outcome":
-        shutil.rmtree(place / damage)
-    else:
-        os.truncate(place / damage, 20)
-    with pytest.raises(ComputationError, match=r"unfinished is damaged \(.*remove it and compute again"):
-        regime_map("granulation", **GRID, store=tmp_path / "map.zarr")
+    with pytest.raises(KeyboardInterrupt, match=r"interrupted: \d+ of 64 collisions are kept in .*partial; the same"):
+        regime_map("granulation", **grid, resume=tmp_path / "map.nc", progress=until_something_is_done)
+    kept = seen[-1][0]
+    assert 0 < kept < 64
+    (file,) = tmp_path.iterdir()
+    seen.clear()
+    whole = regime_map("granulation", **grid, resume=tmp_path / "map.nc", progress=lambda *counts: seen.append(counts))
+    assert (seen[0], seen[-1]) == ((kept, 64), (64, 64))
+    xr.testing.assert_identical(whole, regime_map("granulation", **grid))
+    assert not file.exists()
 
 
-def test_flipped_bits_in_an_unfinished_store(tmp_path, serial):
-    """A damaged chunk is computed again; a damaged description is named; no bit gets into the result."""
-    stop = iter([False] * 4)
+def test_another_request_never_uses_what_is_kept(tmp_path):
+    """Scene, axes, tolerance, engine and quantities are part of what it is kept under; a damaged file is nothing."""
+    grid = {"stokes": np.geomspace(0.02, 0.1, 60), "angle": 1.0}
 
-    def interrupt(_done, _total):
-        if next(stop, True):
-            raise KeyboardInterrupt
+    def begins(scene="granulation", **changes):
+        seen = []
 
-    with pytest.raises(KeyboardInterrupt):
-        regime_map("granulation", **GRID, store=tmp_path / "map.zarr", progress=interrupt)
-    (place,) = tmp_path.glob("*.unfinished")
-    draw = np.random.default_rng(1)
-    files = sorted(file for file in place.rglob("*") if file.is_file())
-    flipped = []
-    for file in draw.choice(files, 12, replace=False):
-        content = bytearray(file.read_bytes())
-        kept, at = bytes(content), draw.integers(len(content))
-        content[at] ^= 1 << draw.integers(8)
-        file.write_bytes(content)
-        if file.name in ("zarr.json", "token"):
-            with pytest.raises(ComputationError, match="is damaged"):
-                regime_map("granulation", **GRID, store=tmp_path / "map.zarr", progress=lambda *_: None)
-            file.write_bytes(kept)
-        else:
-            flipped.append(file)
-    assert flipped
-    same(regime_map("granulation", **GRID, store=tmp_path / "map.zarr"), serial)
+        def stop(done, _total):
+            seen.append(done)
+            if len(seen) > 1 or done:
+                raise KeyboardInterrupt
+
+        with pytest.raises(KeyboardInterrupt):
+            regime_map(scene, **{**grid, **changes}, resume=tmp_path / "map.nc", progress=stop)
+        return seen[0]
+
+    assert (begins(), begins()) == (0, 60)
+    other = Scene.load("granulation").with_entries({"liquid.viscosity": 3.0})
+    assert begins(other) == 0
+    for changes in ({"stokes": [0.02, 0.2]}, {"angle": 1.1}, {"rtol": 1e-8}, {"engine": "cvodes"}, {"of": ()}):
+        assert begins(**changes) == 0, changes
+    assert begins() == 60
+    for file in tmp_path.iterdir():
+        os.truncate(file, 200)
+    assert begins() == 0
+
+
+# ---- interrupts and clusters
 
 
 INTERRUPTED = """
@@ -194,7 +260,7 @@ def test_an_interrupt_while_zarr_writes(tmp_path):
 LOCAL = """
 import signal, socket
 from contextlib import suppress
-from wetdoublet.solvers.many.cluster import connected
+from wetdoublet.solvers.many.blocks import connected
 
 usual = socket.socket()
 with suppress(OSError):  # whoever has it
@@ -227,8 +293,8 @@ def test_a_lost_worker_is_survived(tmp_path, serial, cluster):
     same(regime_map("granulation", **GRID, client=cluster), serial)
 
 
-def test_a_worker_of_another_arithmetic_is_refused(serial, cluster):
-    """Other compiler flags on one worker: the other computes all. On both, each its own: an error says so."""
+def test_workers_of_two_arithmetics_are_refused(serial, cluster):
+    """Other compiler flags on one worker would be other last digits: an error names both. All alike compute."""
 
     def flags(value):
         import os
@@ -237,14 +303,15 @@ def test_a_worker_of_another_arithmetic_is_refused(serial, cluster):
 
     cluster.wait_for_workers(2)
     one, other = cluster.run(os.getpid)
+    usual = os.environ.get("WETDOUBLET_CFLAGS", "")
     try:
-        cluster.run(flags, "-DONE", workers=[one])
-        same(regime_map("granulation", **GRID, client=cluster), serial)
-        cluster.run(flags, "-DOTHER", workers=[other])
-        with pytest.raises(ComputationError, match="workers differ: .* its WETDOUBLET_CFLAGS is -DO.*, not -DO"):
+        cluster.run(flags, f"{usual} -DALIKE", workers=[one])
+        with pytest.raises(ComputationError, match="workers differ: .* its WETDOUBLET_CFLAGS is "):
             regime_map("granulation", **GRID, client=cluster)
+        cluster.run(flags, f"{usual} -DALIKE", workers=[other])
+        same(regime_map("granulation", **GRID, client=cluster), serial)
     finally:
-        cluster.run(flags, os.environ["WETDOUBLET_CFLAGS"])
+        cluster.run(flags, usual)
 
 
 def test_an_unreachable_scheduler_is_bad_input(tmp_path):
@@ -260,7 +327,7 @@ def test_an_unreachable_scheduler_is_bad_input(tmp_path):
             (
                 "-o",
                 str(tmp_path / "else.zarr"),
-                "exists and is no map or batch of wetdoublet: it is not overwritten",
+                "exists and is no map of wetdoublet: it is not overwritten",
                 "a name ending in .zarr",
             ),
         ):
@@ -272,13 +339,13 @@ def test_an_unreachable_scheduler_is_bad_input(tmp_path):
             assert problem in line
             assert accepted in line.partition("accepted: ")[2]
     with pytest.raises(InputError, match="^client: "):
-        collide_many("granulation", client=3)
+        regime_map("granulation", client=3)
     assert {path.name for path in tmp_path.iterdir()} == {"else.json", "else.zarr"}
 
 
 SCRIPT = """
-from wetdoublet.solvers import collide_many
-collide_many("granulation", angle=[1.0], engine="rosenbrock", client="local:1")
+from wetdoublet.solvers import regime_map
+regime_map("granulation", angle=[1.0], engine="rosenbrock", client="local:1")
 """
 
 
@@ -295,4 +362,4 @@ def test_a_closed_client_is_bad_input(cluster):
     with distributed.Client(cluster.scheduler.address) as closed:
         pass
     with pytest.raises(InputError, match="^client: .* is closed; accepted: a client that is open"):
-        collide_many("granulation", client=closed)
+        regime_map("granulation", client=closed)
