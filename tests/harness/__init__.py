@@ -1,1 +1,1 @@
-"""What properties of collisions are tested with: structures that cover each other's choices, random scenes, references."""
+"""Properties of collisions, tried on random scenes of structures that together have every pair of choices."""

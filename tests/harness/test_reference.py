@@ -7,13 +7,12 @@ from hypothesis import strategies as st
 from wetdoublet.solvers import Scene, collide_pair
 
 from ..helpers.flow import Unfinished
-from ..helpers.in_space import planar_arrival
+from ..helpers.in_space import Spatial, planar_arrival
 from ..helpers.phases import Chatter
 from ..helpers.random_in_space import arrivals, direction, request
 from ..helpers.random_spinning import impact_of
 from ..helpers.spinning import PARTNER, SPIN, TURNING, Planar, U
 from ..helpers.two_bodies import bodies_of
-from ..helpers.in_space import Spatial
 from .conditioning import Conditioned
 from .scenes import PAIRS_IN_SPACE, scenes
 from .settings import examples
